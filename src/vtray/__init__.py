@@ -1,0 +1,50 @@
+"""vtray: an exact and fast ray tracer for spheres and planes.
+
+    import vtray
+
+    scene = vtray.load("scene.json")
+    image = vtray.render(scene)
+    image.save("scene.png")
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from vtray.errors import OutputError, RenderError, SceneError, VtrayError
+from vtray.scene import Camera, Color, Direction, Light, Plane, Scene, Sphere, Vector
+from vtray.scene_file import load, loads
+
+if TYPE_CHECKING:
+    from vtray.image import Image
+    from vtray.renderer import render
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "Camera",
+    "Color",
+    "Direction",
+    "Image",
+    "Light",
+    "OutputError",
+    "Plane",
+    "RenderError",
+    "Scene",
+    "SceneError",
+    "Sphere",
+    "Vector",
+    "VtrayError",
+    "load",
+    "loads",
+    "render",
+]
+
+# The compiler is loaded when the first picture is rendered, not before.
+_LAZY = {"Image": "vtray.image", "render": "vtray.renderer"}
+
+
+def __getattr__(name: str) -> object:
+    if name in _LAZY:
+        return getattr(import_module(_LAZY[name]), name)
+    message = f"module 'vtray' has no attribute {name!r}"
+    raise AttributeError(message)

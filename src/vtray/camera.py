@@ -1,0 +1,68 @@
+"""The camera: its axes, and the ray through a pixel."""
+
+import math
+from typing import NamedTuple
+
+from vtray.compiled import device
+from vtray.vector import Vec, add, dot, scale, sub
+
+
+class CameraFrame(NamedTuple):
+    """A camera as kernels see it; the origin is the centre of the image plane.
+
+    Attributes
+    ----------
+    eye
+        Where the rays start: ``-focus * forward``.
+    right, down, forward
+        The unit axes x', y', z' of the camera.
+    focus
+        The distance from the eye to the image plane.
+    pixel_width, pixel_height
+        The size of one pixel in the image plane.
+    width, height
+        The size of the image in pixels.
+    """
+
+    eye: Vec
+    right: Vec
+    down: Vec
+    forward: Vec
+    focus: float
+    pixel_width: float
+    pixel_height: float
+    width: int
+    height: int
+
+
+def camera_axes(forward: Vec) -> tuple[Vec, Vec]:
+    """Return the axes right and down for a camera that looks along the unit vector `forward`.
+
+    They are (1, 0, 0) and (0, 1, 0), turned by the smallest rotation that takes (0, 0, 1) to
+    `forward`; for (0, 0, -1) by 180 degrees about (0, 1, 0).
+
+    References
+    ----------
+    Rodrigues' rotation formula, with ``1 / (1 + z)`` written as ``(1 - z) / (x*x + y*y)`` in the
+    back half, where ``1 + z`` would lose digits.
+    """
+    x, y, z = forward
+    if z >= 0.0:
+        turn = 1.0 / (1.0 + z)
+        return (1.0 - x * x * turn, -x * y * turn, -x), (-x * y * turn, 1.0 - y * y * turn, -y)
+    side = math.hypot(x, y)
+    if side == 0.0:
+        return (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
+    a, b, turn = x / side, y / side, 1.0 - z
+    return (1.0 - a * a * turn, -a * b * turn, -x), (-a * b * turn, 1.0 - b * b * turn, -y)
+
+
+@device
+def camera_ray(camera: CameraFrame, column: int, row: int) -> Vec:
+    """Return the unit direction of the ray from the eye through a pixel."""
+    across = (column - camera.width / 2) * camera.pixel_width
+    below = (row - camera.height / 2) * camera.pixel_height
+    pixel = add(scale(across, camera.right), scale(below, camera.down))
+    ray = sub(pixel, camera.eye)
+    length = math.sqrt(dot(ray, ray))
+    return ray[0] / length, ray[1] / length, ray[2] / length

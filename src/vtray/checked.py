@@ -1,0 +1,56 @@
+"""The metaclass that checks objects made in code as a file is checked."""
+
+import math
+from typing import Any
+
+import msgspec
+
+
+class Checked(msgspec.StructMeta):
+    """Makes construction in code run the checks that decoding a file runs.
+
+    Decoding does not go through ``__call__``, so it pays nothing for this.
+    """
+
+    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401
+        """Bind the arguments, check them, and make the object."""
+        values = _bind(cls, args, kwargs)
+        if all(map(_is_plain, values.values())):
+            try:
+                return msgspec.convert(values, cls)
+            except msgspec.ValidationError:
+                pass  # the slow way also takes tuples and arrays, and names what is wrong
+        from vtray.scene_check import construct
+
+        return construct(cls, values)
+
+
+def _bind(cls: type, args: tuple[object, ...], kwargs: dict[str, object]) -> dict[str, object]:
+    """Name the positional arguments, and raise TypeError as a call does."""
+    names: tuple[str, ...] = cls.__struct_fields__  # type: ignore[attr-defined]
+    if len(args) > len(names):
+        message = f"{cls.__name__}() takes {len(names)} arguments, got {len(args)}"
+        raise TypeError(message)
+    values = dict(zip(names, args, strict=False))
+    for name, value in kwargs.items():
+        if name in values or name not in names:
+            problem = "given twice" if name in values else "unknown"
+            message = f"{cls.__name__}() argument {name!r} is {problem}"
+            raise TypeError(message)
+        values[name] = value
+    missing = [name for name in names if name not in values]
+    if missing:
+        message = f"{cls.__name__}() lacks the arguments {', '.join(missing)}"
+        raise TypeError(message)
+    return values
+
+
+def _is_plain(value: object) -> bool:
+    """Whether msgspec alone can check the value: finite, and no dictionary in it."""
+    if isinstance(value, float):
+        return math.isfinite(value)
+    if isinstance(value, (list, tuple)):
+        if all(issubclass(kind, msgspec.Struct) for kind in set(map(type, value))):
+            return True
+        return all(isinstance(item, (int, float)) and math.isfinite(item) for item in value)
+    return isinstance(value, (int, str, msgspec.Struct))

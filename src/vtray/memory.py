@@ -1,0 +1,44 @@
+"""How much memory there is, and how much is used."""
+
+import sys
+
+from vtray.errors import RenderError
+
+BYTES_PER_PIXEL = 3 * 8 + 3 + 4
+"""Film, pixels, and the copy that the image encoder makes."""
+
+ALWAYS_FITS = 2**26
+"""Images below this many bytes are not looked at: asking takes longer than they do."""
+
+
+def check_memory(width: int, height: int) -> None:
+    """Raise RenderError if an image of this size cannot be held in memory."""
+    needed = width * height * BYTES_PER_PIXEL
+    if needed < ALWAYS_FITS:
+        return
+    import psutil
+
+    available = psutil.virtual_memory().available
+    if needed > available:
+        message = (
+            f"camera.size: an image of {width} x {height} pixels needs {in_gigabytes(needed)} of "
+            f"memory, {in_gigabytes(available)} is available; choose a smaller size"
+        )
+        raise RenderError(message)
+
+
+def in_gigabytes(size: int) -> str:
+    """Return a number of bytes as people read it."""
+    return f"{size / 1e9:,.1f} GB"
+
+
+def peak_memory() -> int:
+    """Return the most memory that this process has used so far, in bytes."""
+    if sys.platform == "win32":
+        import psutil
+
+        return int(psutil.Process().memory_info().peak_wset)
+    import resource
+
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak if sys.platform == "darwin" else peak * 1024

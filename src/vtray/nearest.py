@@ -1,0 +1,89 @@
+"""The nearest hit of each ray of a packet."""
+
+import math
+
+from vtray.camera import CameraFrame
+from vtray.compiled import device
+from vtray.packet import DIRECTION, DISTANCE, FORWARD, NO_PRIMITIVE, PRIMITIVE, Packet, load
+from vtray.plane import intersect_plane
+from vtray.rounding import ROUNDING
+from vtray.scene_arrays import Planes, SceneArrays, Spheres
+from vtray.sphere import intersect_sphere
+from vtray.vector import Vec, dot
+
+
+@device
+def sphere_distance(
+    eye_from_center: Vec, direction: Vec, radius: float, forward: float, focus: float
+) -> float:
+    """Return the distance to the first point of a sphere in front of the image plane, or inf."""
+    near, far = intersect_sphere(eye_from_center, direction, radius)
+    if near * forward - focus > ROUNDING * (near + focus):
+        return near
+    if far * forward - focus > ROUNDING * (far + focus):
+        return far
+    return math.inf
+
+
+@device
+def plane_distance(
+    height: float, descent: float, forward: float, focus: float, magnitude: float
+) -> float:
+    """Return the distance to a plane if the hit is in front of the image plane, otherwise inf.
+
+    A small `descent` magnifies the error of the distance, so the bound is divided by it; that also
+    ends the plane where, towards its horizon, rounding would decide what is hit.
+    """
+    distance = intersect_plane(height, descent)
+    depth = distance * forward - focus
+    seen = depth * abs(descent) > ROUNDING * (magnitude + focus + distance)
+    return distance if seen else math.inf
+
+
+@device
+def clear_hits(packet: Packet, lanes: int) -> None:
+    """Start with no hit in any lane."""
+    for lane in range(lanes):
+        packet[DISTANCE + lane] = math.inf
+        packet[PRIMITIVE + lane] = NO_PRIMITIVE
+
+
+@device
+def nearest_sphere(
+    packet: Packet, lanes: int, camera: CameraFrame, spheres: Spheres, sphere: int
+) -> None:
+    """Let a sphere take the lanes in which it is nearer than the hit so far."""
+    from_center = (
+        camera.eye[0] - spheres.x[sphere],
+        camera.eye[1] - spheres.y[sphere],
+        camera.eye[2] - spheres.z[sphere],
+    )
+    radius = spheres.radius[sphere]
+    for lane in range(lanes):
+        direction = load(packet, DIRECTION, lane)
+        forward = packet[FORWARD + lane]
+        distance = sphere_distance(from_center, direction, radius, forward, camera.focus)
+        _take_nearer(packet, lane, distance, sphere)
+
+
+@device
+def nearest_plane(
+    packet: Packet, lanes: int, camera: CameraFrame, planes: Planes, plane: int, primitive: int
+) -> None:
+    """Let a plane take the lanes in which it is nearer than the hit so far."""
+    normal = (planes.x[plane], planes.y[plane], planes.z[plane])
+    height = planes.height[plane]
+    magnitude = planes.magnitude[plane]
+    for lane in range(lanes):
+        descent = dot(load(packet, DIRECTION, lane), normal)
+        forward = packet[FORWARD + lane]
+        distance = plane_distance(height, descent, forward, camera.focus, magnitude)
+        _take_nearer(packet, lane, distance, primitive)
+
+
+@device
+def _take_nearer(packet: Packet, lane: int, distance: float, primitive: int) -> None:
+    """Keep the nearer of two hits; of two at the same distance, the earlier one."""
+    nearer = distance < packet[DISTANCE + lane]
+    packet[DISTANCE + lane] = distance if nearer else packet[DISTANCE + lane]
+    packet[PRIMITIVE + lane] = primitive if nearer else packet[PRIMITIVE + lane]

@@ -1,0 +1,133 @@
+"""One pixel, traced plainly: every object tested, nothing left out, nothing in packets.
+
+The fast path must give the same to the last bit. This is also what ``vtray --pixel`` shows.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.camera import camera_ray
+from vtray.compiled import device, kernel
+from vtray.interaction import Interaction, interact
+from vtray.nearest import plane_distance, sphere_distance
+from vtray.occlusion import light_side, plane_side, sphere_shadows
+from vtray.plane import plane_blocks
+from vtray.rounding import ROUNDING
+from vtray.scene_arrays import SceneArrays
+from vtray.shading import lambert_cosine
+from vtray.vector import Vec, add, dot, scale, sub
+
+NOTHING = -1
+"""In place of a primitive: nothing is hit, nothing blocks."""
+
+
+class TracedPixel(NamedTuple):
+    """How a pixel got its value, lengths in units of the arrays.
+
+    Attributes
+    ----------
+    direction
+        The camera ray's unit direction.
+    distance
+        From the eye to the hit, ``inf`` if there is none.
+    primitive
+        What is hit, or ``NOTHING``.
+    interaction
+        Where it is hit; without meaning if nothing is.
+    value
+        Linear red, green and blue.
+    """
+
+    direction: Vec
+    distance: float
+    primitive: int
+    interaction: Interaction
+    value: Vec
+
+
+@kernel
+def trace_pixel(
+    scene: SceneArrays,
+    column: int,
+    row: int,
+    cosines: NDArray[np.float64],
+    blockers: NDArray[np.int64],
+) -> TracedPixel:
+    """Trace one pixel.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    column, row
+        The pixel, from the left and from the top.
+    cosines
+        Out: for each light the cosine at the hit, 0 for a light below the horizon.
+    blockers
+        Out: for each light the first primitive between hit and light, or ``NOTHING``.
+    """
+    direction = camera_ray(scene.camera, column, row)
+    distance, primitive = _nearest_hit(scene, direction)
+    value = (0.0, 0.0, 0.0)
+    found = Interaction(scene.camera.eye, direction, 0.0)
+    if primitive == NOTHING:
+        return TracedPixel(direction, distance, primitive, found, value)
+    found = interact(scene, direction, distance, primitive)
+    materials, lights = scene.materials, scene.lights
+    color = (materials.red[primitive], materials.green[primitive], materials.blue[primitive])
+    for light in range(lights.x.shape[0]):
+        to_light = sub((lights.x[light], lights.y[light], lights.z[light]), found.point)
+        reach = ROUNDING * (found.magnitude + lights.magnitude[light])
+        cosines[light] = lambert_cosine(found.normal, to_light, reach)
+        blockers[light] = _first_blocker(scene, found, light)
+        if blockers[light] == NOTHING:
+            strength = cosines[light] * materials.lambert[primitive] * lights.intensity[light]
+            value = add(value, scale(strength, color))
+    return TracedPixel(direction, distance, primitive, found, value)
+
+
+@device
+def _nearest_hit(scene: SceneArrays, direction: Vec) -> tuple[float, int]:
+    """Return distance and primitive of a camera ray's nearest hit."""
+    camera, spheres, planes = scene.camera, scene.spheres, scene.planes
+    forward = dot(direction, camera.forward)
+    nearest = math.inf
+    primitive = NOTHING
+    for k in range(spheres.x.shape[0]):
+        from_center = sub(camera.eye, (spheres.x[k], spheres.y[k], spheres.z[k]))
+        radius = spheres.radius[k]
+        distance = sphere_distance(from_center, direction, radius, forward, camera.focus)
+        if distance < nearest:
+            nearest, primitive = distance, k
+    for k in range(planes.x.shape[0]):
+        descent = dot(direction, (planes.x[k], planes.y[k], planes.z[k]))
+        height, magnitude = planes.height[k], planes.magnitude[k]
+        distance = plane_distance(height, descent, forward, camera.focus, magnitude)
+        if distance < nearest:
+            nearest, primitive = distance, spheres.x.shape[0] + k
+    return nearest, primitive
+
+
+@device
+def _first_blocker(scene: SceneArrays, start: Interaction, light: int) -> int:
+    """Return the first primitive between a point and a light, or ``NOTHING``."""
+    lights, spheres, planes = scene.lights, scene.spheres, scene.planes
+    place = (lights.x[light], lights.y[light], lights.z[light])
+    light_depth = lights.depth[light]
+    depth = dot(start.point, scene.camera.forward)
+    for k in range(spheres.x.shape[0]):
+        center = (spheres.x[k], spheres.y[k], spheres.z[k])
+        reach = ROUNDING * (start.magnitude + spheres.magnitude[k])
+        if sphere_shadows(
+            start.point, depth, place, light_depth, center, spheres.radius[k], reach
+        ):
+            return k
+    for k in range(planes.x.shape[0]):
+        reach = ROUNDING * (start.magnitude + planes.magnitude[k])
+        side = plane_side(planes, k, start.point)
+        if plane_blocks(side, light_side(planes, k, lights, light), depth, light_depth, reach):
+            return spheres.x.shape[0] + k
+    return NOTHING

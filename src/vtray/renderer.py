@@ -1,0 +1,140 @@
+"""From a scene to its picture: the steps in their order."""
+
+import os
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray import compiled
+from vtray.exposure import check_brightness, develop
+from vtray.image import Image
+from vtray.integrator import new_workspace, trace_tile
+from vtray.memory import check_memory
+from vtray.packet import new_packet
+from vtray.pool import run_tasks
+from vtray.scene import Scene
+from vtray.scene_arrays import SceneArrays, pack
+from vtray.stopwatch import Stopwatch
+from vtray.tiles import TILE, Tile, split_into_tiles
+
+Film = NDArray[np.float64]
+Progress = Callable[[int, int], None]
+
+
+def render(
+    scene: Scene, threads: int | None = None, progress: Progress | None = None, *, tile: int = TILE
+) -> Image:
+    """Render a scene.
+
+    The picture depends on the scene alone: not on threads, tiles or the machine.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    threads
+        How many threads to use, at least 1; None for all cores.
+    progress
+        Called from time to time with the number of tiles done and the number of all.
+    tile
+        Side of a tile in pixels.
+
+    Returns
+    -------
+    Image
+        The picture.
+
+    Raises
+    ------
+    SceneError
+        The scene holds something that no scene may hold.
+    RenderError
+        The image does not fit into memory, or its light is too bright for a double.
+    ValueError
+        `threads` or `tile` is not an integer of at least 1.
+    KeyboardInterrupt
+        After Ctrl-C; all threads have ended by then.
+    """
+    threads = _count("threads", threads if threads is not None else available_cores())
+    tile = _count("tile", tile)
+    check_memory(*scene.camera.size)
+    check_brightness(scene.lights)
+    clock = Stopwatch()
+    arrays = pack(scene).arrays
+    clock.lap("pack")
+    compile_kernels(arrays)
+    clock.lap("compile")
+    film, peak, rays = _trace(arrays, threads, tile, progress)
+    clock.lap("trace")
+    pixels = _develop(film, peak, threads)
+    clock.lap("develop")
+    return Image(film, pixels, {**clock.seconds, "rays": rays})
+
+
+def available_cores() -> int:
+    """Return how many cores this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def compile_kernels(scene: SceneArrays) -> None:
+    """Compile what is needed to render a scene, or load it from disk."""
+
+    def empty_run() -> None:
+        film = np.zeros((0, 0, 3))
+        stop = np.zeros(1, np.bool_)
+        trace_tile(scene, 0, 0, 0, 0, film, new_packet(), new_workspace(scene), stop)
+        develop(film, 0.0, np.zeros((0, 0, 3), np.uint8))
+
+    try:
+        empty_run()
+    except Exception:  # noqa: BLE001 - a damaged cache file can raise anything
+        compiled.forget()
+        empty_run()
+
+
+def _trace(
+    scene: SceneArrays, threads: int, tile: int, progress: Progress | None
+) -> tuple[Film, float, int]:
+    """Return the film, its largest channel, and how many rays were cast."""
+    camera = scene.camera
+    film = np.zeros((camera.height, camera.width, 3))
+    stop = np.zeros(1, np.bool_)
+    results: list[tuple[float, int]] = []
+
+    def new_worker() -> Callable[[Tile], None]:
+        packet, work = new_packet(), new_workspace(scene)
+
+        def trace(tile: Tile) -> None:
+            results.append(trace_tile(scene, *tile, film, packet, work, stop))
+
+        return trace
+
+    def hurry() -> None:
+        stop[0] = True
+
+    tiles = split_into_tiles(camera.width, camera.height, tile)
+    run_tasks(tiles, new_worker, threads, stop=hurry, progress=progress)
+    return film, max(peak for peak, _ in results), sum(rays for _, rays in results)
+
+
+def _develop(film: Film, peak: float, threads: int) -> NDArray[np.uint8]:
+    """Return the exposed pixels of a film."""
+    pixels = np.empty(film.shape, np.uint8)
+
+    def develop_rows(top: int) -> None:
+        rows = slice(top, top + TILE)
+        develop(film[rows], peak, pixels[rows])
+
+    run_tasks(range(0, len(film), TILE), lambda: develop_rows, threads)
+    return pixels
+
+
+def _count(name: str, value: int) -> int:
+    """Return an argument that must be an integer of at least 1."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 1:
+        message = f"{name}: expected an integer ≥ 1, got {value!r}"
+        raise ValueError(message)
+    return int(value)

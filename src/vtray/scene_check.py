@@ -1,0 +1,235 @@
+"""Finds out, slowly and in full, what is wrong with a scene and where.
+
+The fast way to a scene is msgspec alone. Only when something is amiss do these walk through
+the values beside the types of `vtray.scene`, whose annotations hold every rule and every
+word: `FileChecker` through the tree of a file, `construct` through values given in code.
+"""
+
+import math
+import typing
+from collections.abc import Callable
+from typing import Any
+
+import msgspec
+
+from vtray.errors import SceneError
+from vtray.json_tree import CLEAN, Members, Tree, Written
+from vtray.scene_words import expected, join, nearest, quoted, show, struct_kinds, tag_field, tags
+
+# A type as an annotation says it: a class, a union, an Annotated, list[...] or tuple[...].
+Kind = Any
+
+
+class FileChecker:
+    """Walks through a scene file in its order and stops at the first problem.
+
+    Parameters
+    ----------
+    line_of : callable
+        Gives the line, counted from 1, of an offset in the file.
+
+    Attributes
+    ----------
+    unknown : list of str
+        One line for each key that the format does not know.
+    """
+
+    def __init__(self, line_of: Callable[[int], int]) -> None:
+        self.line_of = line_of
+        self.unknown: list[str] = []
+
+    def check(self, found: Tree, kind: Kind, place: str = "") -> Any:  # noqa: ANN401
+        """Convert a value to a kind; raise SceneError where that cannot be done."""
+        if found is CLEAN:
+            return None
+        structs = struct_kinds(kind)
+        if structs and isinstance(found, Members):
+            return self._struct(found, structs, place)
+        plain = plain_kind(kind)
+        if typing.get_origin(plain) in (list, tuple) and type(found) is list:
+            return self._array(found, kind, place)
+        if structs or not isinstance(found, Written):
+            raise wrong(place, kind, show(found))
+        self._check_range(found, place)
+        return _convert_leaf(found, kind, place)
+
+    def _struct(self, found: Members, structs: tuple[type, ...], place: str) -> Any:  # noqa: ANN401
+        self._check_repeated(found, place)
+        cls = structs[0] if not tags(structs) else _by_tag(found, structs, place)
+        hints = hints_of(cls)
+        known = [*hints, *tag_field(cls)]
+        values = {}
+        for key, _, value in found:
+            where = join(place, key)
+            if key in hints:
+                values[key] = self.check(value, hints[key], where)
+            elif key not in known:
+                text = f"unknown key, ignored; the nearest known key is {nearest(key, known)}"
+                self.unknown.append(f"{where}: {text}")
+                self._check_ignored(value, where)
+        for key in hints:
+            if key not in values:
+                raise _missing(join(place, key), hints[key], key, found, known)
+        # Only these have rules about several fields; others may hold parts that were not read.
+        return _make(cls, values, place, show(found)) if hasattr(cls, "__post_init__") else values
+
+    def _array(self, found: list[Tree], kind: Kind, place: str) -> Any:  # noqa: ANN401
+        plain = plain_kind(kind)
+        kinds = typing.get_args(plain)
+        if typing.get_origin(plain) is list:
+            kinds *= len(found)
+        elif len(found) != len(kinds):
+            raise wrong(place, kind, show(found))
+        pairs = enumerate(zip(found, kinds, strict=True))
+        return [self.check(item, item_kind, f"{place}[{i}]") for i, (item, item_kind) in pairs]
+
+    def _check_repeated(self, found: Members, place: str) -> None:
+        first: dict[str, int] = {}
+        for key, offset, _ in found:
+            if key in first:
+                one, two = self.line_of(first[key]), self.line_of(offset)
+                lines = f"line {one}" if one == two else f"lines {one} and {two}"
+                problem = f"given twice, on {lines}; expected each key once"
+                raise SceneError(f"{join(place, key)}: {problem}")
+            first[key] = offset
+
+    def _check_ignored(self, found: Tree, place: str) -> None:
+        """Check what holds also for values that nobody reads."""
+        if isinstance(found, Members):
+            self._check_repeated(found, place)
+            for key, _, value in found:
+                self._check_ignored(value, join(place, key))
+        elif isinstance(found, list):
+            for index, value in enumerate(found):
+                self._check_ignored(value, f"{place}[{index}]")
+        elif isinstance(found, Written):
+            self._check_range(found, place)
+
+    def _check_range(self, found: Written, place: str) -> None:
+        if found[:1] in b"-0123456789" and math.isinf(float(found)):
+            words = "a number within the range of a double, up to about 1.8e308"
+            raise SceneError(f"{place}: expected {words}, got {show(found)}")
+
+
+def construct(cls: type, values: dict[str, object], place: str = "") -> Any:  # noqa: ANN401
+    """Make an object of a scene from values given in code.
+
+    Parameters
+    ----------
+    cls : type
+        One of the types of `vtray.scene`.
+    values : dict
+        A value for each field.
+    place : str
+        Where the object belongs, for messages; the name of the type by default.
+
+    Raises
+    ------
+    SceneError
+        If a value is not right.
+    """
+    place = place or cls.__name__
+    hints = hints_of(cls)
+    made = {name: _from_code(values[name], hints[name], f"{place}.{name}") for name in hints}
+    got = ", ".join(show(value) for value in made.values())
+    return _make(cls, made, place, f"({got})")
+
+
+def _from_code(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401
+    """Convert one value given in code: also tuples and what NumPy makes."""
+    # NumPy is not imported here; its arrays and scalars turn into Python's with tolist.
+    if hasattr(found, "tolist"):
+        found = found.tolist()
+    structs = struct_kinds(kind)
+    if structs:
+        return _struct_from_code(found, structs, kind, place)
+    plain = plain_kind(kind)
+    if typing.get_origin(plain) not in (list, tuple):
+        if isinstance(found, float) and not math.isfinite(found):
+            raise SceneError(f"{place}: expected a finite number, got {found!r}")
+        return _convert_leaf(found, kind, place)
+    kinds = typing.get_args(plain)
+    if not isinstance(found, (list, tuple)):
+        raise wrong(place, kind, show(found), in_code=True)
+    if typing.get_origin(plain) is list:
+        kinds *= len(found)
+    elif len(found) != len(kinds):
+        raise wrong(place, kind, show(found), in_code=True)
+    pairs = enumerate(zip(found, kinds, strict=True))
+    return [_from_code(item, item_kind, f"{place}[{i}]") for i, (item, item_kind) in pairs]
+
+
+def _struct_from_code(found: Any, structs: tuple[type, ...], kind: Kind, place: str) -> Any:  # noqa: ANN401
+    """Take an object as it is, or make a vector, direction or colour of three numbers."""
+    if isinstance(found, structs):
+        return found
+    names = tuple(hints_of(structs[0]))
+    if isinstance(found, msgspec.Struct) and found.__struct_fields__ == names:
+        found = msgspec.structs.astuple(found)
+    if len(structs) == 1 and isinstance(found, (list, tuple)) and len(found) == len(names) == 3:  # noqa: PLR2004
+        if not any(map(struct_kinds, hints_of(structs[0]).values())):
+            return construct(structs[0], dict(zip(names, found, strict=True)), place)
+    raise wrong(place, kind, show(found), in_code=True)
+
+
+def hints_of(cls: type) -> dict[str, Kind]:
+    """Give the annotations of a Struct's fields, in their order."""
+    return typing.get_type_hints(cls, include_extras=True)
+
+
+def plain_kind(kind: Kind) -> Kind:
+    """Give the type inside an Annotated."""
+    return typing.get_args(kind)[0] if typing.get_origin(kind) is typing.Annotated else kind
+
+
+def wrong(place: str, kind: Kind, got: str, *, in_code: bool = False) -> SceneError:
+    """Give the error for a value that is not of its kind."""
+    message = f"expected {expected(kind, in_code=in_code)}, got {got}"
+    return SceneError(f"{place}: {message}" if place else message)
+
+
+def _missing(place: str, kind: Kind, key: str, found: Members, known: list[str]) -> SceneError:
+    """Give the error for a key that is not there, with the one that may be meant for it."""
+    import difflib
+
+    strange = [member.key for member in found if member.key not in known]
+    close = difflib.get_close_matches(key, strange, n=1)
+    hint = f" (is {quoted(close[0])} meant for it?)" if close else ""
+    return SceneError(f"{place}: missing; expected {expected(kind)}{hint}")
+
+
+def _by_tag(found: Members, structs: tuple[type, ...], place: str) -> type:
+    """Choose the type that an object names."""
+    (field,) = tag_field(structs[0])
+    by_tag = dict(zip(tags(structs), structs, strict=True))
+    words = " or ".join(map(quoted, by_tag))
+    where = join(place, field)
+    written = next((member.value for member in found if member.key == field), None)
+    if written is None:
+        raise SceneError(f"{where}: missing; expected {words}")
+    try:
+        tag = msgspec.json.decode(written, type=str) if isinstance(written, Written) else ""
+    except msgspec.ValidationError:
+        tag = ""
+    if tag in by_tag:
+        return by_tag[tag]
+    close = nearest(tag, list(by_tag), cutoff=0.6)
+    hint = f"; did you mean {close}?" if close else ""
+    raise SceneError(f"{where}: expected {words}, got {show(written)}{hint}")
+
+
+def _convert_leaf(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401
+    try:
+        if isinstance(found, Written):
+            return msgspec.json.decode(found, type=kind)
+        return msgspec.convert(found, kind)
+    except (msgspec.MsgspecError, OverflowError):
+        raise wrong(place, kind, show(found)) from None
+
+
+def _make(cls: type, values: dict[str, Any], place: str, got: str) -> Any:  # noqa: ANN401
+    """Make an object whose fields are right; what is left is in its __post_init__."""
+    try:
+        return msgspec.convert(values, cls)
+    except msgspec.ValidationError as error:
+        raise SceneError(f"{place}: expected {error}, got {got}") from None

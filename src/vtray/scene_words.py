@@ -1,0 +1,101 @@
+"""The words for places, values and expectations in the messages about scenes."""
+
+import re
+import types
+import typing
+from collections.abc import Iterable
+from typing import Any
+
+import msgspec
+
+from vtray.json_tree import Members, Written, short
+
+_PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
+_UNIONS = (types.UnionType, typing.Union)
+_SHOWN_ITEMS = 4
+_SHOWN_DEPTH = 2
+
+
+def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
+    """Say what a kind of value is, to follow the word "expected"."""
+    if typing.get_origin(kind) is typing.Annotated:
+        return str(kind.__metadata__[-1].description)
+    structs = struct_kinds(kind)
+    if not structs:
+        return "a list" if in_code else "an array"
+    if in_code:
+        names = " or ".join(cls.__name__ for cls in structs)
+        triple = len(structs) == 1 and len(_fields(structs[0])) == 3  # noqa: PLR2004
+        return f"{names} or three numbers" if triple else names
+    if tags(structs):
+        (field,) = tag_field(structs[0])
+        return f"an object with {quoted(field)}: {' or '.join(map(quoted, tags(structs)))}"
+    *most, last = _fields(structs[0])
+    return f"an object with the keys {', '.join(most)} and {last}"
+
+
+def struct_kinds(kind: Any) -> tuple[type, ...]:  # noqa: ANN401
+    """Give the Structs that a kind allows; empty if it is none of Structs."""
+    options = typing.get_args(kind) if typing.get_origin(kind) in _UNIONS else (kind,)
+    return options if all(isinstance(item, msgspec.StructMeta) for item in options) else ()
+
+
+def tags(structs: Iterable[type]) -> list[str]:
+    """Give the tags by which a file tells the Structs apart; empty if it need not."""
+    found = (msgspec.inspect.type_info(cls) for cls in structs)
+    return [str(info.tag) for info in found if getattr(info, "tag", None) is not None]
+
+
+def tag_field(cls: type) -> list[str]:
+    """Give the key that holds the tag of a Struct, in a list; empty if it has none."""
+    field = cls.__struct_config__.tag_field  # type: ignore[attr-defined]
+    return [field] if field else []
+
+
+def _fields(cls: type) -> tuple[str, ...]:
+    names: tuple[str, ...] = cls.__struct_fields__  # type: ignore[attr-defined]
+    return names
+
+
+def nearest(word: str, known: list[str], cutoff: float = 0.0) -> str:
+    """Give the most similar known word in quotes, "" if none is similar enough."""
+    import difflib
+
+    close = difflib.get_close_matches(word, known, n=1, cutoff=cutoff)
+    return quoted(close[0]) if close else ""
+
+
+def quoted(text: str) -> str:
+    """Write a text as JSON does, cut short."""
+    return f'"{short(text)}"'
+
+
+def join(place: str, key: str) -> str:
+    """Append a key to a place such as objects[3]."""
+    if not _PLAIN_KEY.fullmatch(key):
+        return f"{place}[{quoted(key)}]"
+    return f"{place}.{short(key)}" if place else short(key)
+
+
+def show(found: object, depth: int = 0) -> str:
+    """Write a value as JSON does, or as Python does if it was given in code, cut short."""
+    if isinstance(found, Written):
+        return short(found.decode())
+    if isinstance(found, Members):
+        shown = found[:_SHOWN_ITEMS] if depth < _SHOWN_DEPTH else []
+        items = [f"{quoted(key)}: {show(value, depth + 1)}" for key, _, value in shown]
+        return _brackets("{}", items, len(found))
+    if isinstance(found, (list, tuple)):
+        shown = found[:_SHOWN_ITEMS] if depth < _SHOWN_DEPTH else []
+        items = [show(value, depth + 1) for value in shown]
+        return _brackets("[]" if isinstance(found, list) else "()", items, len(found))
+    try:
+        return short(repr(found))
+    except ValueError:
+        return "an integer of thousands of digits"
+
+
+def _brackets(pair: str, items: list[str], count: int) -> str:
+    if count > len(items):
+        items.append("...")
+    return pair[0] + ", ".join(items) + pair[1]

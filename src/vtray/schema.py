@@ -1,0 +1,58 @@
+"""The JSON Schema of the scene file, made from the types of `vtray.scene`.
+
+``python -m vtray.schema`` prints it; ``docs/scene.schema.json`` is that output.
+"""
+
+import inspect
+import json
+import re
+import sys
+from typing import Any
+
+import msgspec
+
+from vtray.scene import Camera, Color, Direction, Light, Plane, Scene, Sphere, Vector
+
+_FIELD = re.compile(r"^(\w+(?:, \w+)*) : .*\n((?:    .+\n?)+)", re.MULTILINE)
+
+
+def scene_schema() -> dict[str, Any]:
+    """Make the JSON Schema of the scene file.
+
+    Returns
+    -------
+    dict
+        A schema of draft 2020-12. It checks all that a schema can; that a key is given only
+        once, for instance, it cannot.
+    """
+    classes = (Scene, Camera, Light, Sphere, Plane, Vector, Direction, Color)
+    (_, parts) = msgspec.json.schema_components(classes, ref_template="#/$defs/{name}")
+    for cls in classes:
+        _describe(parts[cls.__name__], inspect.getdoc(cls) or "")
+    # What Direction.__post_init__ checks.
+    parts["Direction"]["not"] = {
+        "properties": {name: {"const": 0} for name in Direction.__struct_fields__}
+    }
+    scene = parts.pop("Scene")
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        **scene,
+        "title": "vtray scene",
+        "$defs": parts,
+    }
+
+
+def _describe(part: dict[str, Any], doc: str) -> None:
+    """Describe a type and its keys in the words of its docstring."""
+    part["description"] = doc.split("\n\n")[0].replace("\n", " ")
+    for names, text in _FIELD.findall(doc):
+        for name in names.split(", "):
+            key = part["properties"][name]
+            words = key.get("description")
+            text_line = " ".join(text.split())
+            key["description"] = f"{text_line} Expected: {words}." if words else text_line
+
+
+if __name__ == "__main__":
+    json.dump(scene_schema(), sys.stdout, indent=2, ensure_ascii=False)
+    print()

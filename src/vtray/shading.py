@@ -1,0 +1,45 @@
+"""What a light adds to a point: Lambert's cosine law, without fall-off."""
+
+import math
+
+from vtray.compiled import device
+from vtray.packet import BLOCKED, COLOR, LAMBERT, MAGNITUDE, NORMAL, POINT, VALUE, Packet, load, store
+from vtray.rounding import ROUNDING
+from vtray.scene_arrays import Lights
+from vtray.vector import Vec, add, dot, scale, sub
+
+
+@device
+def lambert_cosine(normal: Vec, to_light: Vec, reach: float) -> float:
+    """Return the cosine of the angle between normal and light, 0 for a light below the horizon.
+
+    Parameters
+    ----------
+    normal
+        The surface's unit normal.
+    to_light
+        The light's place minus the point.
+    reach
+        How far rounding may have moved the point: a light no higher than that is on the horizon.
+    """
+    height = dot(normal, to_light)
+    return height / math.sqrt(dot(to_light, to_light)) if height > reach else 0.0
+
+
+@device
+def add_light(packet: Packet, hits: int, lights: Lights, light: int) -> int:
+    """Add a light to the points of a packet that it reaches; return how many face it."""
+    place = (lights.x[light], lights.y[light], lights.z[light])
+    intensity = lights.intensity[light]
+    magnitude = lights.magnitude[light]
+    facing = 0
+    for lane in range(hits):
+        to_light = sub(place, load(packet, POINT, lane))
+        reach = ROUNDING * (packet[MAGNITUDE + lane] + magnitude)
+        cosine = lambert_cosine(load(packet, NORMAL, lane), to_light, reach)
+        facing += 1 if cosine > 0.0 else 0
+        cosine = cosine if packet[BLOCKED + lane] == 0.0 else 0.0
+        strength = cosine * packet[LAMBERT + lane] * intensity
+        added = scale(strength, load(packet, COLOR, lane))
+        store(packet, VALUE, lane, add(load(packet, VALUE, lane), added))
+    return facing

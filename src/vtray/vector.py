@@ -1,0 +1,39 @@
+"""Points and directions as 3-tuples of floats."""
+
+from vtray.compiled import device
+
+Vec = tuple[float, float, float]
+
+
+@device
+def dot(a: Vec, b: Vec) -> float:
+    """Return the scalar product."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@device
+def cross(a: Vec, b: Vec) -> Vec:
+    """Return the vector product."""
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
+
+
+@device
+def add(a: Vec, b: Vec) -> Vec:
+    """Return a + b."""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+@device
+def sub(a: Vec, b: Vec) -> Vec:
+    """Return a - b."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+@device
+def scale(s: float, a: Vec) -> Vec:
+    """Return s * a."""
+    return s * a[0], s * a[1], s * a[2]
