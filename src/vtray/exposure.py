@@ -40,4 +40,6 @@ def develop(film: NDArray[np.float64], peak: float, pixels: NDArray[np.uint8]) -
     bytes_ = pixels.reshape(pixels.size)
     for k in range(linear.size):
         exposed = math.floor((255.0 * linear[k]) / peak) if peak > 0.0 else 0.0
+        # For one peak in seven, 255 * peak / peak rounds to just below 255.
+        exposed = 255.0 if linear[k] == peak > 0.0 else exposed
         bytes_[k] = np.uint8(exposed)

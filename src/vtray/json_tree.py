@@ -11,11 +11,18 @@ from vtray.errors import SceneError
 MAX_DEPTH = 100  # a scene needs 4
 
 _SPACE = re.compile(rb"[ \t\n\r]*")
-_LITERAL = re.compile(
-    rb"(?:true|false|null|-?(?:0|[1-9][0-9]*)(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?)(?![\w.+-])"
-)
+_SCALAR = rb"(?:true|false|null|-?(?:0|[1-9][0-9]*)(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?)"
+_LITERAL = re.compile(_SCALAR + rb"(?![\w.+-])")
 _ESCAPE = rb'\\(?:["\\/bfnrt]|u[0-9a-fA-F]{4})'
 _STRING = re.compile(rb'"(?:[^"\\\x00-\x1f]|' + _ESCAPE + rb")*+")
+# An object like a sphere or a light, with nothing in it that needs a close look.
+_SIMPLE_STRING = rb'"[^"\\\x00-\x1f]*+"'
+_SIMPLE_OBJECT = rb"\{(?: K : V (?:, K : V )*+)?+\}".replace(b"K", _SIMPLE_STRING)
+_FLAT = _SIMPLE_OBJECT.replace(b"V", b"(?:" + _SCALAR + b"|" + _SIMPLE_STRING + b")")
+_NESTED = _SIMPLE_OBJECT.replace(
+    b"V", b"(?:" + _SCALAR + b"|" + _SIMPLE_STRING + b"|" + _FLAT + b")"
+)
+_SIMPLE_ITEM = re.compile(_NESTED.replace(b" ", rb"[ \t\n\r]*+"))
 _LONE_SURROGATE = re.compile(r"[\ud800-\udfff]")
 _WORD = re.compile(r"[\w.+-]+|.", re.DOTALL)
 
@@ -48,8 +55,10 @@ class Member(NamedTuple):
     value: "Tree"
 
 
-class Members(list[Member]):
+class Members(tuple[Member, ...]):
     """An object: its members in the order of the file, repeated keys included."""
+
+    __slots__ = ()
 
 
 class Written(bytes):
@@ -61,7 +70,7 @@ class Clean:
 
 
 CLEAN = Clean()
-Tree: TypeAlias = "Members | list[Tree] | Written | Clean"
+Tree: TypeAlias = "Members | list[Tree] | Written | Clean"  # the values of JSON
 
 
 class JsonTree:
@@ -71,13 +80,15 @@ class JsonTree:
     ----------
     raw : bytes
         The document, valid UTF-8 without a byte-order mark.
-    clean : dict of int to int
-        First and end offset of values that need not be read.
+    clean : dict of int to int, optional
+        First and end offset of values that need not be read. Without it, only the syntax is
+        looked at: simple objects in arrays are passed over quickly, and kept nowhere.
     """
 
-    def __init__(self, raw: bytes, clean: dict[int, int]) -> None:
+    def __init__(self, raw: bytes, clean: dict[int, int] | None = None) -> None:
         self.raw = raw
-        self.clean = clean
+        self.clean = clean or {}
+        self.only_syntax = clean is None
         self.at = 0
 
     def read(self) -> Tree:
@@ -102,18 +113,18 @@ class JsonTree:
         if self.at in self.clean:
             self.at = self.clean[self.at]
             return CLEAN
-        if byte in (b"{", b"["):
+        if byte in {b"{", b"["}:
             if depth == MAX_DEPTH:
-                self._fail(f"at most {MAX_DEPTH} levels of nesting")
+                self._fail(f"at most {MAX_DEPTH} levels of nesting", "nested too deeply")
             self.at += 1
             return self._object(depth + 1) if byte == b"{" else self._array(depth + 1)
         return self._string() if byte == b'"' else self._literal()
 
     def _object(self, depth: int) -> Members:
-        members = Members()
+        members: list[Member] = []
         if self._next() == b"}":
             self.at += 1
-            return members
+            return Members()
         while True:
             if self._next() != b'"':
                 self._fail("a key in double quotes" if members else 'a key in double quotes or "}"')
@@ -124,7 +135,7 @@ class JsonTree:
             self.at += 1
             members.append(Member(key, offset, self._value(depth)))
             if self._ends(b"}"):
-                return members
+                return Members(members)
 
     def _array(self, depth: int) -> "list[Tree]":
         items: list[Tree] = []
@@ -132,9 +143,17 @@ class JsonTree:
             self.at += 1
             return items
         while True:
-            items.append(self._value(depth))
+            items.append(self._item(depth))
             if self._ends(b"]"):
                 return items
+
+    def _item(self, depth: int) -> Tree:
+        if self.only_syntax and self._next() == b"{":
+            match = _SIMPLE_ITEM.match(self.raw, self.at)
+            if match:
+                self.at = match.end()
+                return CLEAN
+        return self._value(depth)
 
     def _ends(self, bracket: bytes) -> bool:
         """Take the comma or the closing bracket after a value."""
@@ -143,7 +162,8 @@ class JsonTree:
             self._fail(f'"," or "{bracket.decode()}"')
         self.at += 1
         if byte == b"," and self._next() == bracket:
-            self._fail("another one after the comma", "JSON has no trailing commas")
+            after = "a key" if bracket == b"}" else "a value"
+            self._fail(f"{after} after the comma", "JSON has no trailing commas")
         return byte == bracket
 
     def _literal(self) -> Written:
@@ -160,11 +180,11 @@ class JsonTree:
         if self.raw[self.at : self.at + 1] != b'"':
             self._fail_in_string()
         self.at += 1
-        written = Written(self.raw[start : self.at])
+        written = self.raw[start : self.at]
         if b"\\u" in written and _LONE_SURROGATE.search(_text(written)):
             self.at = start
             self._fail("a string of whole characters", "half of a surrogate pair stands alone")
-        return written
+        return Written(written)
 
     def _fail_in_string(self) -> NoReturn:
         byte = self.raw[self.at : self.at + 1]
@@ -179,14 +199,18 @@ class JsonTree:
         column = len(self.raw[start : self.at].decode(errors="replace")) + 1
         rest = self.raw[self.at : self.at + 200].decode(errors="ignore")
         word = _WORD.match(rest)
-        got = short(word.group()) if word else "the end of the file"
+        got = _quote(short(word.group())) if word else "the end of the file"
         habits = [text for habit, text in _HABITS if rest.startswith(habit)]
         hint = hint or (habits[0] if habits else "")
         message = f"line {self.line(self.at)}, column {column}: expected {expected}, got {got}"
         raise SceneError(message + (f" ({hint})" if hint else ""))
 
 
-def _text(written: Written) -> str:
+def _quote(text: str) -> str:
+    return f"'{text}'" if '"' in text else f'"{text}"'
+
+
+def _text(written: bytes) -> str:
     """Give the text that a JSON string stands for."""
     if b"\\" not in written:
         return written[1:-1].decode()

@@ -18,9 +18,9 @@ def sphere_distance(
 ) -> float:
     """Return the distance to the first point of a sphere in front of the image plane, or inf."""
     near, far = intersect_sphere(eye_from_center, direction, radius)
-    if near * forward - focus > ROUNDING * (near + focus):
+    if near * forward - focus > ROUNDING * (abs(near) + focus):
         return near
-    if far * forward - focus > ROUNDING * (far + focus):
+    if far * forward - focus > ROUNDING * (abs(far) + focus):
         return far
     return math.inf
 
@@ -36,7 +36,7 @@ def plane_distance(
     """
     distance = intersect_plane(height, descent)
     depth = distance * forward - focus
-    seen = depth * abs(descent) > ROUNDING * (magnitude + focus + distance)
+    seen = depth * abs(descent) > ROUNDING * (magnitude + focus + abs(distance))
     return distance if seen else math.inf
 
 

@@ -4,15 +4,14 @@ The file format, its checks, the words of its error messages and the JSON Schema
 from the annotations in this module.
 """
 
-import contextlib
 import os
-from typing import Annotated
+from pathlib import Path
+from typing import Annotated, BinaryIO
 
 import msgspec
 from msgspec import Meta
 
 from vtray.checked import Checked
-from vtray.errors import SceneError
 
 # The kinds of value. Each description completes "expected ..." in an error message.
 Real = Annotated[float, Meta(description="a finite number")]
@@ -218,25 +217,16 @@ class Scene(msgspec.Struct, metaclass=Checked):
         Raises
         ------
         SceneError
-            If the scene is not valid any more, or the file cannot be written.
+            If the scene is not valid any more.
+        OutputError
+            If the file cannot be written.
         """
+        from vtray.atomic_file import write_whole
+
         self.check()
         data = msgspec.json.format(msgspec.json.encode(self), indent=2) + b"\n"
-        try:
-            _replace_file(os.fspath(path), data)
-        except OSError as error:
-            message = f"{os.fspath(path)}: cannot be written: {error.strerror or error}"
-            raise SceneError(message) from error
 
-
-def _replace_file(path: str, data: bytes) -> None:
-    """Write a file under another name in the same folder, then give it its name."""
-    temporary = f"{path}.{os.urandom(6).hex()}.tmp"
-    try:
-        with open(temporary, "xb") as file:
+        def write(file: BinaryIO) -> None:
             file.write(data)
-        os.replace(temporary, path)
-    except BaseException:
-        with contextlib.suppress(OSError):
-            os.unlink(temporary)
-        raise
+
+        write_whole(Path(path), write)

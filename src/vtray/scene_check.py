@@ -5,6 +5,7 @@ the values beside the types of `vtray.scene`, whose annotations hold every rule 
 word: `FileChecker` through the tree of a file, `construct` through values given in code.
 """
 
+import functools
 import math
 import typing
 from collections.abc import Callable
@@ -14,7 +15,17 @@ import msgspec
 
 from vtray.errors import SceneError
 from vtray.json_tree import CLEAN, Members, Tree, Written
-from vtray.scene_words import expected, join, nearest, quoted, show, struct_kinds, tag_field, tags
+from vtray.scene_words import (
+    Struct,
+    expected,
+    join,
+    nearest,
+    quoted,
+    show,
+    struct_kinds,
+    tag_field,
+    tags,
+)
 
 # A type as an annotation says it: a class, a union, an Annotated, list[...] or tuple[...].
 Kind = Any
@@ -45,15 +56,14 @@ class FileChecker:
         structs = struct_kinds(kind)
         if structs and isinstance(found, Members):
             return self._struct(found, structs, place)
-        plain = plain_kind(kind)
-        if typing.get_origin(plain) in (list, tuple) and type(found) is list:
+        if origin_of(kind) in (list, tuple) and type(found) is list:
             return self._array(found, kind, place)
         if structs or not isinstance(found, Written):
             raise wrong(place, kind, show(found))
         self._check_range(found, place)
         return _convert_leaf(found, kind, place)
 
-    def _struct(self, found: Members, structs: tuple[type, ...], place: str) -> Any:  # noqa: ANN401
+    def _struct(self, found: Members, structs: tuple[Struct, ...], place: str) -> Any:  # noqa: ANN401
         self._check_repeated(found, place)
         cls = structs[0] if not tags(structs) else _by_tag(found, structs, place)
         hints = hints_of(cls)
@@ -71,12 +81,11 @@ class FileChecker:
             if key not in values:
                 raise _missing(join(place, key), hints[key], key, found, known)
         # Only these have rules about several fields; others may hold parts that were not read.
-        return _make(cls, values, place, show(found)) if hasattr(cls, "__post_init__") else values
+        return _make(cls, values, place, found) if hasattr(cls, "__post_init__") else values
 
     def _array(self, found: list[Tree], kind: Kind, place: str) -> Any:  # noqa: ANN401
-        plain = plain_kind(kind)
-        kinds = typing.get_args(plain)
-        if typing.get_origin(plain) is list:
+        kinds = typing.get_args(plain_kind(kind))
+        if origin_of(kind) is list:
             kinds *= len(found)
         elif len(found) != len(kinds):
             raise wrong(place, kind, show(found))
@@ -100,8 +109,8 @@ class FileChecker:
             for key, _, value in found:
                 self._check_ignored(value, join(place, key))
         elif isinstance(found, list):
-            for index, value in enumerate(found):
-                self._check_ignored(value, f"{place}[{index}]")
+            for index, item in enumerate(found):
+                self._check_ignored(item, f"{place}[{index}]")
         elif isinstance(found, Written):
             self._check_range(found, place)
 
@@ -111,7 +120,7 @@ class FileChecker:
             raise SceneError(f"{place}: expected {words}, got {show(found)}")
 
 
-def construct(cls: type, values: dict[str, object], place: str = "") -> Any:  # noqa: ANN401
+def construct(cls: Struct, values: dict[str, object], place: str = "") -> Any:  # noqa: ANN401
     """Make an object of a scene from values given in code.
 
     Parameters
@@ -131,8 +140,7 @@ def construct(cls: type, values: dict[str, object], place: str = "") -> Any:  # 
     place = place or cls.__name__
     hints = hints_of(cls)
     made = {name: _from_code(values[name], hints[name], f"{place}.{name}") for name in hints}
-    got = ", ".join(show(value) for value in made.values())
-    return _make(cls, made, place, f"({got})")
+    return _make(cls, made, place, tuple(made.values()))
 
 
 def _from_code(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401
@@ -143,15 +151,15 @@ def _from_code(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401
     structs = struct_kinds(kind)
     if structs:
         return _struct_from_code(found, structs, kind, place)
-    plain = plain_kind(kind)
-    if typing.get_origin(plain) not in (list, tuple):
+    origin = origin_of(kind)
+    if origin not in (list, tuple):
         if isinstance(found, float) and not math.isfinite(found):
             raise SceneError(f"{place}: expected a finite number, got {found!r}")
         return _convert_leaf(found, kind, place)
-    kinds = typing.get_args(plain)
+    kinds = typing.get_args(plain_kind(kind))
     if not isinstance(found, (list, tuple)):
         raise wrong(place, kind, show(found), in_code=True)
-    if typing.get_origin(plain) is list:
+    if origin is list:
         kinds *= len(found)
     elif len(found) != len(kinds):
         raise wrong(place, kind, show(found), in_code=True)
@@ -159,27 +167,38 @@ def _from_code(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401
     return [_from_code(item, item_kind, f"{place}[{i}]") for i, (item, item_kind) in pairs]
 
 
-def _struct_from_code(found: Any, structs: tuple[type, ...], kind: Kind, place: str) -> Any:  # noqa: ANN401
+def _struct_from_code(found: Any, structs: tuple[Struct, ...], kind: Kind, place: str) -> Any:  # noqa: ANN401
     """Take an object as it is, or make a vector, direction or colour of three numbers."""
     if isinstance(found, structs):
         return found
     names = tuple(hints_of(structs[0]))
     if isinstance(found, msgspec.Struct) and found.__struct_fields__ == names:
         found = msgspec.structs.astuple(found)
-    if len(structs) == 1 and isinstance(found, (list, tuple)) and len(found) == len(names) == 3:  # noqa: PLR2004
-        if not any(map(struct_kinds, hints_of(structs[0]).values())):
-            return construct(structs[0], dict(zip(names, found, strict=True)), place)
+    if isinstance(found, (list, tuple)) and len(found) == len(names) and _is_triple(structs):
+        return construct(structs[0], dict(zip(names, found, strict=True)), place)
     raise wrong(place, kind, show(found), in_code=True)
 
 
-def hints_of(cls: type) -> dict[str, Kind]:
+def _is_triple(structs: tuple[Struct, ...]) -> bool:
+    """Tell whether three numbers can stand for the only type there is."""
+    kinds = hints_of(structs[0]).values()
+    return len(structs) == 1 and len(kinds) == 3 and not any(map(struct_kinds, kinds))  # noqa: PLR2004
+
+
+@functools.cache
+def hints_of(cls: Struct) -> dict[str, Kind]:
     """Give the annotations of a Struct's fields, in their order."""
     return typing.get_type_hints(cls, include_extras=True)
 
 
 def plain_kind(kind: Kind) -> Kind:
     """Give the type inside an Annotated."""
-    return typing.get_args(kind)[0] if typing.get_origin(kind) is typing.Annotated else kind
+    return typing.get_args(kind)[0] if hasattr(kind, "__metadata__") else kind
+
+
+def origin_of(kind: Kind) -> Kind:
+    """Give list or tuple for an array of these, None for a single value."""
+    return typing.get_origin(plain_kind(kind))
 
 
 def wrong(place: str, kind: Kind, got: str, *, in_code: bool = False) -> SceneError:
@@ -198,7 +217,7 @@ def _missing(place: str, kind: Kind, key: str, found: Members, known: list[str])
     return SceneError(f"{place}: missing; expected {expected(kind)}{hint}")
 
 
-def _by_tag(found: Members, structs: tuple[type, ...], place: str) -> type:
+def _by_tag(found: Members, structs: tuple[Struct, ...], place: str) -> Struct:
     """Choose the type that an object names."""
     (field,) = tag_field(structs[0])
     by_tag = dict(zip(tags(structs), structs, strict=True))
@@ -227,9 +246,9 @@ def _convert_leaf(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401
         raise wrong(place, kind, show(found)) from None
 
 
-def _make(cls: type, values: dict[str, Any], place: str, got: str) -> Any:  # noqa: ANN401
+def _make(cls: Struct, values: dict[str, Any], place: str, found: object) -> Any:  # noqa: ANN401
     """Make an object whose fields are right; what is left is in its __post_init__."""
     try:
         return msgspec.convert(values, cls)
     except msgspec.ValidationError as error:
-        raise SceneError(f"{place}: expected {error}, got {got}") from None
+        raise SceneError(f"{place}: expected {error}, got {show(found)}") from None

@@ -4,11 +4,13 @@ import re
 import types
 import typing
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, TypeAlias
 
 import msgspec
 
 from vtray.json_tree import Members, Written, short
+
+Struct: TypeAlias = type[msgspec.Struct]
 
 _PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
 _UNIONS = (types.UnionType, typing.Union)
@@ -18,43 +20,38 @@ _SHOWN_DEPTH = 2
 
 def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
     """Say what a kind of value is, to follow the word "expected"."""
-    if typing.get_origin(kind) is typing.Annotated:
+    if hasattr(kind, "__metadata__"):
         return str(kind.__metadata__[-1].description)
     structs = struct_kinds(kind)
     if not structs:
         return "a list" if in_code else "an array"
     if in_code:
         names = " or ".join(cls.__name__ for cls in structs)
-        triple = len(structs) == 1 and len(_fields(structs[0])) == 3  # noqa: PLR2004
+        triple = len(structs) == 1 and len(structs[0].__struct_fields__) == 3  # noqa: PLR2004
         return f"{names} or three numbers" if triple else names
     if tags(structs):
         (field,) = tag_field(structs[0])
         return f"an object with {quoted(field)}: {' or '.join(map(quoted, tags(structs)))}"
-    *most, last = _fields(structs[0])
+    *most, last = structs[0].__struct_fields__
     return f"an object with the keys {', '.join(most)} and {last}"
 
 
-def struct_kinds(kind: Any) -> tuple[type, ...]:  # noqa: ANN401
+def struct_kinds(kind: Any) -> tuple[Struct, ...]:  # noqa: ANN401
     """Give the Structs that a kind allows; empty if it is none of Structs."""
     options = typing.get_args(kind) if typing.get_origin(kind) in _UNIONS else (kind,)
     return options if all(isinstance(item, msgspec.StructMeta) for item in options) else ()
 
 
-def tags(structs: Iterable[type]) -> list[str]:
+def tags(structs: Iterable[Struct]) -> list[str]:
     """Give the tags by which a file tells the Structs apart; empty if it need not."""
-    found = (msgspec.inspect.type_info(cls) for cls in structs)
-    return [str(info.tag) for info in found if getattr(info, "tag", None) is not None]
+    found = (cls.__struct_config__.tag for cls in structs)
+    return [str(tag) for tag in found if tag is not None]
 
 
-def tag_field(cls: type) -> list[str]:
+def tag_field(cls: Struct) -> list[str]:
     """Give the key that holds the tag of a Struct, in a list; empty if it has none."""
-    field = cls.__struct_config__.tag_field  # type: ignore[attr-defined]
+    field = cls.__struct_config__.tag_field
     return [field] if field else []
-
-
-def _fields(cls: type) -> tuple[str, ...]:
-    names: tuple[str, ...] = cls.__struct_fields__  # type: ignore[attr-defined]
-    return names
 
 
 def nearest(word: str, known: list[str], cutoff: float = 0.0) -> str:
@@ -67,7 +64,8 @@ def nearest(word: str, known: list[str], cutoff: float = 0.0) -> str:
 
 def quoted(text: str) -> str:
     """Write a text as JSON does, cut short."""
-    return f'"{short(text)}"'
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{short(escaped)}"'
 
 
 def join(place: str, key: str) -> str:

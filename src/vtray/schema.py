@@ -44,7 +44,7 @@ def scene_schema() -> dict[str, Any]:
 
 def _describe(part: dict[str, Any], doc: str) -> None:
     """Describe a type and its keys in the words of its docstring."""
-    part["description"] = doc.split("\n\n")[0].replace("\n", " ")
+    part["description"] = doc.partition("\n\n")[0].replace("\n", " ")
     for names, text in _FIELD.findall(doc):
         for name in names.split(", "):
             key = part["properties"][name]
@@ -54,5 +54,6 @@ def _describe(part: dict[str, Any], doc: str) -> None:
 
 
 if __name__ == "__main__":
-    json.dump(scene_schema(), sys.stdout, indent=2, ensure_ascii=False)
-    print()
+    # Always UTF-8, whatever the terminal speaks.
+    text = json.dumps(scene_schema(), indent=2, ensure_ascii=False) + "\n"
+    sys.stdout.buffer.write(text.encode())

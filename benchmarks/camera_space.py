@@ -1,0 +1,100 @@
+"""A scene as other renderers want it: seen from the eye."""
+
+import math
+from typing import NamedTuple
+
+from vtray import Direction, Scene, Sphere, Vector
+from vtray.camera import camera_axes
+from vtray.scene import Object
+from vtray.vector import Vec, dot, scale, sub
+
+
+class Surface(NamedTuple):
+    """An object.
+
+    Attributes
+    ----------
+    center
+        The centre of a sphere, any point of a plane.
+    shape
+        The radius of a sphere, or the unit normal of a plane on the side of the eye.
+    color
+        Reflectance from 0 to 1: the colour times the Lambert coefficient.
+    """
+
+    center: Vec
+    shape: float | Vec
+    color: Vec
+
+
+class View(NamedTuple):
+    """A scene in camera space: the eye at the origin, x to the right, y up, z forward.
+
+    These axes are left-handed, as are those of POV-Ray and Tachyon.
+
+    Attributes
+    ----------
+    width, height
+        Size of the image in pixels.
+    pixel_width, pixel_height
+        Size of a pixel at distance 1 from the eye.
+    lights
+        Where each light is, and its intensity.
+    surfaces
+        The objects.
+    """
+
+    width: int
+    height: int
+    pixel_width: float
+    pixel_height: float
+    lights: list[tuple[Vec, float]]
+    surfaces: list[Surface]
+
+
+def view_from_eye(scene: Scene, brightness: float) -> View:
+    """Turn a scene to where its camera is.
+
+    Parameters
+    ----------
+    scene
+        The scene. All of it must lie before the image plane: other renderers have none.
+    brightness
+        What to multiply all intensities with. Other renderers have no exposure: 255 divided by
+        the largest value of `vtray.Image.linear` makes their pictures as bright as vtray's.
+    """
+    camera = scene.camera
+    forward = _unit(_triple(camera.normal))
+    right, down = camera_axes(forward)
+    eye = sub(_triple(camera.center), scale(camera.focus, forward))
+
+    def turn(vector: Vec) -> Vec:
+        return dot(vector, right), -dot(vector, down), dot(vector, forward)
+
+    def surface(item: Object) -> Surface:
+        center = turn(sub(_triple(item.center), eye))
+        color = scale(item.lambert / 255, (item.color.r, item.color.g, item.color.b))
+        if isinstance(item, Sphere):
+            return Surface(center, item.radius, color)
+        return Surface(center, _towards_eye(turn(_unit(_triple(item.normal))), center), color)
+
+    lights = [
+        (turn(sub(_triple(light.location), eye)), light.intensity * brightness)
+        for light in scene.lights
+    ]
+    pixel_width, pixel_height = (side / camera.focus for side in camera.resolution)
+    surfaces = [surface(item) for item in scene.objects]
+    return View(*camera.size, pixel_width, pixel_height, lights, surfaces)
+
+
+def _towards_eye(normal: Vec, point: Vec) -> Vec:
+    """Return the normal of a plane on the side of the eye, which is at the origin."""
+    return scale(-1.0, normal) if dot(normal, point) > 0 else normal
+
+
+def _triple(vector: Vector | Direction) -> Vec:
+    return vector.x, vector.y, vector.z
+
+
+def _unit(vector: Vec) -> Vec:
+    return scale(1 / math.hypot(*vector), vector)

@@ -1,0 +1,312 @@
+"""Makes the example scenes of this folder, always the same.
+
+    python scenes/make_scenes.py            writes the scene files
+    python scenes/make_scenes.py --render   renders them into docs/images as well
+
+All scenes use the axes of a camera that looks along z: x points right, y points DOWN, z points
+away from the viewer. So a floor has a larger y than what stands on it.
+"""
+
+import argparse
+import json
+import math
+import random
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+import vtray
+from vtray import Camera, Light, Plane, Scene, Sphere
+
+Triple = tuple[float, float, float]
+
+SCENES = Path(__file__).resolve().parent
+IMAGES = SCENES.parent / "docs" / "images"
+GOLDEN_ANGLE = math.pi * (3 - math.sqrt(5))  # Turned by it, no two leaves stand in line.
+DOWN, TOWARDS_VIEWER = (0, 1, 0), (0, 0, -1)
+
+
+# ---- parts that the scenes share -------------------------------------------------------------
+
+
+def camera(center: Triple, normal: Triple, focus: float, width: float) -> Camera:
+    """Return a camera of 800 x 600 pixels whose image plane is `width` wide."""
+    pixel = width / 800
+    return Camera(center, normal, focus, (800, 600), (pixel, pixel))
+
+
+def ball(center: Triple, radius: float, color: Triple) -> Sphere:
+    """Return a sphere that scatters all light of its colour."""
+    return Sphere(center, radius, color, 1)
+
+
+def wall(center: Triple, normal: Triple, color: Triple) -> Plane:
+    """Return a plane that scatters all light of its colour."""
+    return Plane(center, normal, color, 1)
+
+
+def lamp(center: Triple, radius: float, count: int, intensity: float) -> list[Light]:
+    """Return a round lamp: many weak lights spread evenly over a sphere.
+
+    A point light throws hard shadows; many of them side by side throw soft ones.
+    """
+    x, y, z = center
+    return [
+        Light((x + radius * dx, y + radius * dy, z + radius * dz), intensity / count)
+        for dx, dy, dz in sphere_points(count)
+    ]
+
+
+def sphere_points(count: int) -> Iterator[Triple]:
+    """Spread points evenly over the unit sphere, on a spiral from pole to pole."""
+    for index in range(count):
+        height = 1 - (2 * index + 1) / count
+        ring = math.sqrt(1 - height * height)
+        angle = index * GOLDEN_ANGLE
+        yield ring * math.cos(angle), height, ring * math.sin(angle)
+
+
+def blend(colors: list[Triple], place: float) -> Triple:
+    """Return the colour at a place from 0 to 1 along a row of colours."""
+    step = min(max(place, 0), 1) * (len(colors) - 1)
+    first, second = list(pairwise(colors))[min(int(step), len(colors) - 2)]
+    share = step - min(int(step), len(colors) - 2)
+    r, g, b = (round(a + share * (b - a)) for a, b in zip(first, second, strict=True))
+    return r, g, b
+
+
+# ---- the scenes ------------------------------------------------------------------------------
+
+
+def first() -> Scene:
+    """Three balls on a floor under two lights: the scene to start from."""
+    return Scene(
+        camera=Camera((0, -1.3, 0), (0, 0.5, 1), 6, (800, 600), (0.0075, 0.0075)),
+        lights=[Light((-7, -9, -3), 1), Light((4, -7, -8), 0.7)],
+        objects=[
+            Plane((0, 1, 0), (0, -1, 0), (225, 230, 240), 1),
+            Sphere((-2.3, 0, 3), 1, (255, 80, 70), 1),
+            Sphere((0, -0.5, 4.2), 1.5, (255, 205, 60), 1),
+            Sphere((2.2, 0.2, 2.8), 0.8, (60, 150, 255), 1),
+        ],
+    )
+
+
+def room() -> Scene:
+    """Four balls in a room, with soft shadows from a square lamp of 64 lights."""
+    # The image plane is the open front of the room; the fourth wall would be behind it.
+    walls = [
+        wall((0, 1.52, 0), (0, -1, 0), (250, 240, 225)),
+        wall((0, -1.52, 0), (0, 1, 0), (250, 245, 235)),
+        wall((0, 0, 4.2), TOWARDS_VIEWER, (225, 222, 215)),
+        wall((-2.02, 0, 0), (1, 0, 0), (250, 105, 80)),
+        wall((2.02, 0, 0), (-1, 0, 0), (60, 185, 190)),
+    ]
+    balls = [
+        ball((-0.85, 0.72, 2.9), 0.8, (255, 250, 240)),
+        ball((0.85, 0.97, 2.3), 0.55, (255, 200, 60)),
+        ball((-0.3, 1.17, 1.5), 0.35, (85, 140, 255)),
+        ball((1.25, 1.27, 1.3), 0.25, (255, 120, 150)),
+    ]
+    steps = [(2 * step - 7) / 7 for step in range(8)]
+    square = [Light((0.7 * x, -1.2, 1.7 + 0.7 * z), 0.8 / 64) for x in steps for z in steps]
+    fill = lamp((-1.4, -0.3, -3), 0.8, 32, 0.5) + lamp((1.6, 1.2, -3), 0.8, 32, 0.35)
+    return Scene(camera((0, 0, 0), (0, 0, 1), 4.2, 4), square + fill, [*walls, *balls])
+
+
+# Element, then the place in ångströms; 3D conformer of PubChem, compound 2519.
+CAFFEINE = """
+O 0.4700 2.5688 0.0006, O -3.1271 -0.4436 -0.0003, N -0.9686 -1.3125 0.0000,
+N 2.2182 0.1412 -0.0003, N -1.3477 1.0797 -0.0001, N 1.4119 -1.9372 0.0002,
+C 0.8579 0.2592 -0.0008, C 0.3897 -1.0264 -0.0004, C 0.0307 1.4220 -0.0006,
+C -1.9061 -0.2495 -0.0004, C 2.5032 -1.1998 0.0003, C -1.4276 -2.6960 0.0008,
+C 3.1926 1.2061 0.0003, C -2.2969 2.1881 0.0007, H 3.5163 -1.5787 0.0008,
+H -1.0451 -3.1973 -0.8937, H -2.5186 -2.7596 0.0011, H -1.0447 -3.1963 0.8957,
+H 4.1992 0.7801 0.0002, H 3.0468 1.8092 -0.8992, H 3.0466 1.8083 0.9004,
+H -1.8087 3.1651 -0.0003, H -2.9322 2.1027 0.8881, H -2.9346 2.1021 -0.8849
+"""
+# Van der Waals radius in ångströms, and colour.
+ELEMENTS: dict[str, tuple[float, Triple]] = {
+    "H": (1.10, (250, 250, 250)),
+    "C": (1.70, (150, 158, 172)),
+    "N": (1.55, (80, 125, 255)),
+    "O": (1.52, (245, 60, 50)),
+}
+
+
+def molecule() -> Scene:
+    """Caffeine: atoms of the true size, with the colours that chemists use."""
+    atoms = []
+    for atom in CAFFEINE.split(","):
+        element, *place = atom.split()
+        radius, color = ELEMENTS[element]
+        atoms.append(ball(turn_molecule(*map(float, place)), radius, color))
+    backdrop = [wall((0, 0, 14), TOWARDS_VIEWER, (205, 220, 235))]
+    lights = lamp((-12, -14, -14), 2.5, 40, 1) + lamp((3, -1, -28), 2, 24, 0.6)
+    return Scene(camera((0.15, -0.35, -6), (0, 0, 1), 22, 10), lights, [*backdrop, *atoms])
+
+
+def turn_molecule(x: float, y: float, z: float) -> Triple:
+    """Turn the flat molecule so that it shows its thickness."""
+    lean, spin = math.radians(35), math.radians(20)
+    x, y = x * math.cos(spin) - y * math.sin(spin), x * math.sin(spin) + y * math.cos(spin)
+    return x, y * math.cos(lean) - z * math.sin(lean), y * math.sin(lean) + z * math.cos(lean)
+
+
+def spiral() -> Scene:
+    """A flower of 610 balls, placed as a sunflower places its seeds."""
+    petals = [(255, 225, 90), (255, 150, 60), (240, 70, 90), (150, 70, 200), (60, 130, 235)]
+    count, power, size = 610, 0.72, 3.0
+    balls = []
+    for index in range(count):
+        place = (index + 0.5) / count
+        distance, angle = size * place**power, index * GOLDEN_ANGLE
+        # Each ball takes its share of the area around the centre.
+        area = 2 * math.pi * power * size**2 * place ** (2 * power - 1) / count
+        radius = 0.5 * math.sqrt(area)
+        height = 1.3 * (1 - (distance / size) ** 2)
+        center = (distance * math.cos(angle), -radius - height, distance * math.sin(angle))
+        balls.append(ball(center, radius, blend(petals, distance / size)))
+    floor = wall((0, 0, 0), (0, -1, 0), (70, 85, 130))
+    lights = lamp((-5, -10, 0), 1.2, 40, 1) + lamp((4, -8, -9), 1, 24, 0.7)
+    return Scene(camera((0, -3.5, -2.2), (0, 1, 0.75), 10, 5.6), lights, [floor, *balls])
+
+
+class Jar:
+    """A round jar of invisible glass that balls are dropped into."""
+
+    def __init__(self, radius: float, cell: float) -> None:
+        self.radius = radius
+        self.cell = cell  # At least the diameter of the largest ball.
+        self.columns: dict[tuple[int, int], list[tuple[float, float, float, float]]] = {}
+
+    def drop(self, x: float, z: float, radius: float) -> Triple:
+        """Let a ball fall and roll to where it lies still; return its place, height first."""
+        best = (self.landing(x, z, radius), x, z)
+        step = radius / 2
+        while step > radius / 200:
+            tries = [(best[1] + step * dx, best[2] + step * dz) for dx, dz in ROLLS]
+            lowest = min((self.landing(*spot, radius), *spot) for spot in tries)
+            if lowest < best:
+                best = lowest
+            else:
+                step /= 2
+        height, x, z = best
+        column = self.columns.setdefault(self.cell_of(x, z), [])
+        column.append((height + radius, x, z, radius))
+        column.sort(reverse=True)
+        return best
+
+    def landing(self, x: float, z: float, radius: float) -> float:
+        """Return the height at which a ball that falls at a spot first touches something."""
+        if x * x + z * z > (self.radius - radius) ** 2:
+            return math.inf
+        height = radius
+        column_x, column_z = self.cell_of(x, z)
+        for dx in (-1, 0, 1):
+            for dz in (-1, 0, 1):
+                for top, other_x, other_z, other in self.columns.get(
+                    (column_x + dx, column_z + dz), []
+                ):
+                    if top + radius <= height:
+                        break  # This ball and those below it lie too low to matter.
+                    room = (radius + other) ** 2 - (x - other_x) ** 2 - (z - other_z) ** 2
+                    if room > 0:
+                        height = max(height, top - other + math.sqrt(room))
+        return height
+
+    def cell_of(self, x: float, z: float) -> tuple[int, int]:
+        """Return the cell of the ground that a spot is in."""
+        return math.floor(x / self.cell), math.floor(z / self.cell)
+
+
+ROLLS = [(1, 0), (0.7, 0.7), (0, 1), (-0.7, 0.7), (-1, 0), (-0.7, -0.7), (0, -1), (0.7, -0.7)]
+
+
+def packing() -> Scene:
+    """A thousand balls of many sizes, dropped one by one into a jar of invisible glass."""
+    layers = [(60, 90, 220), (40, 180, 200), (120, 215, 110), (255, 215, 70), (250, 95, 80)]
+    chance = random.Random(1)
+    jar = Jar(radius=1.5, cell=0.44)
+    balls = []
+    for _ in range(1000):
+        radius = 0.1 + 0.12 * chance.random() ** 2
+        x, z = (2 * (chance.random() - 0.5) * 0.85 for _ in range(2))
+        height, x, z = jar.drop(x, z, radius)
+        balls.append(ball((x, -height, z), radius, blend(layers, height / 3.8)))
+    table = wall((0, 0, 0), (0, -1, 0), (240, 235, 225))
+    lights = lamp((-5, -10, -6), 1, 40, 1) + lamp((3, -7, -13), 1, 24, 0.7)
+    return Scene(camera((0, -3.9, -4), (0, 0.42, 1), 8, 4.2), lights, [table, *balls])
+
+
+def inside() -> Scene:
+    """Four equal shells, each with a ball, on their way through the image plane.
+
+    Nothing behind the image plane exists: it cuts open the shells that reach behind it, and the
+    light falls in. A lamp of its own lights the shell with the small opening.
+    """
+    shells = [
+        ((-1.4, -1.15, -0.6), (255, 120, 90), (80, 190, 235)),
+        ((1.4, -1.15, 0), (255, 205, 85), (130, 115, 240)),
+        ((-1.4, 1.15, 0.6), (110, 210, 140), (255, 110, 140)),
+        ((1.4, 1.15, 1.2), (95, 165, 250), (255, 190, 70)),
+    ]
+    objects: list[Sphere | Plane] = [wall((0, 0, 2.6), TOWARDS_VIEWER, (235, 235, 240))]
+    for (x, y, z), outer, inner in shells:
+        objects += [ball((x, y, z), 1, outer), ball((x, y + 0.2, z + 0.55), 0.35, inner)]
+    lights = lamp((-5, -6, -11), 1, 40, 1) + lamp((4, 2, -12), 1, 16, 0.5)
+    return Scene(
+        camera((0, 0, 0), (0, 0, 1), 12, 6.4), [*lights, Light((-1.6, 0.7, 0.3), 0.6)], objects
+    )
+
+
+MAKERS: list[Callable[[], Scene]] = [first, room, molecule, spiral, packing, inside]
+
+
+# ---- the files -------------------------------------------------------------------------------
+
+
+def to_text(scene: Scene) -> str:
+    """Return a scene as JSON with one light or object on each line."""
+    data = rounded(msgspec.to_builtins(scene))
+    view = ",\n".join(
+        f"    {json.dumps(key)}: {json.dumps(data['camera'][key])}" for key in data["camera"]
+    )
+    lists = (f'  "{key}": [\n{one_per_line(data[key])}\n  ]' for key in ("lights", "objects"))
+    return ",\n".join([f'{{\n  "camera": {{\n{view}\n  }}', *lists]) + "\n}\n"
+
+
+def one_per_line(items: list[Any]) -> str:
+    """Return the items of a JSON array, each on a line of its own."""
+    return ",\n".join(f"    {json.dumps(item)}" for item in items)
+
+
+def rounded(value: Any) -> Any:
+    """Round the numbers in a JSON value to five decimals, and write 2.0 as 2."""
+    if isinstance(value, dict):
+        return {key: rounded(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [rounded(item) for item in value]
+    if isinstance(value, float):
+        short = round(value, 5)
+        return int(short) if short.is_integer() else short
+    return value
+
+
+def main() -> None:
+    """Write the scene files, and their pictures if asked to."""
+    parser = argparse.ArgumentParser(description="Make the example scenes.")
+    parser.add_argument("--render", action="store_true", help="also render them to docs/images")
+    render = parser.parse_args().render
+    for maker in MAKERS:
+        path = SCENES / f"{maker.__name__}.json"
+        path.write_text(to_text(maker()), encoding="utf-8", newline="\n")
+        if render:
+            vtray.render(vtray.load(path)).save(IMAGES / f"{maker.__name__}.png")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,57 @@
+"""What all tests share."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numba
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, settings
+
+JIT = not numba.config.DISABLE_JIT
+CONFORMANCE = Path(__file__).parents[2] / "shared" / "conformance"
+
+# The same examples on every run, so that a failure is one that the change caused. Without the
+# compiler everything is a hundred times slower: fewer examples then.
+settings.register_profile(
+    "vtray",
+    derandomize=True,
+    deadline=None,
+    max_examples=300 if JIT else 10,
+    suppress_health_check=[HealthCheck.too_slow],
+)
+settings.load_profile("vtray")
+
+compiled_only = pytest.mark.skipif(not JIT, reason="needs the compiler")
+
+
+@pytest.fixture(autouse=True)
+def _numpy_errors() -> Iterator[None]:
+    """Let infinity and NaN pass silently in kernels that run uncompiled, as in compiled ones."""
+    with np.errstate(all="warn" if JIT else "ignore"):
+        yield
+
+
+@pytest.fixture
+def vtray_command() -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Return a function that runs the installed command as a process."""
+
+    def run(*arguments: object, **options: object) -> subprocess.CompletedProcess[str]:
+        command = [Path(sys.executable).with_name("vtray"), *map(str, arguments)]
+        environment = {k: v for k, v in os.environ.items() if k != "NUMBA_DISABLE_JIT"}
+        return subprocess.run(
+            command,
+            **{  # type: ignore[call-overload]
+                "capture_output": True,
+                "text": True,
+                "timeout": 120,
+                "check": False,
+                "env": environment,
+                **options,
+            },
+        )
+
+    return run

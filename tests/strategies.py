@@ -1,0 +1,114 @@
+"""Random scenes, as decoded JSON."""
+
+import math
+from random import Random
+from typing import Any
+
+from hypothesis import strategies as st
+
+Scene = dict[str, Any]
+
+
+def _xyz(x: float, y: float, z: float) -> dict[str, float]:
+    return {"x": x, "y": y, "z": z}
+
+
+def _coordinates(size: float) -> st.SearchStrategy[float]:
+    """Coordinates up to a size, often round ones so that things touch, coincide and line up."""
+    steps = st.integers(-8, 8).map(lambda k: k * size / 8)
+    return steps | st.floats(-size, size, allow_subnormal=False)
+
+
+def places(size: float) -> st.SearchStrategy[dict[str, float]]:
+    """Points in a cube."""
+    return st.builds(_xyz, *[_coordinates(size)] * 3)
+
+
+def directions() -> st.SearchStrategy[dict[str, float]]:
+    """Vectors of any length but zero; often along an axis, or nearly opposite to (0, 0, 1)."""
+    near_back = st.floats(1e-12, 1e-3).map(lambda x: _xyz(x, -x / 3, -1.0))
+    axis = st.sampled_from([_xyz(*v) for v in ((0, 0, 1), (0, 0, -1), (0, -1, 0), (3, 0, 0))])
+    any_way = places(2.0).filter(lambda v: math.hypot(*v.values()) > 1e-9)
+    return axis | any_way | near_back
+
+
+def colors() -> st.SearchStrategy[dict[str, int]]:
+    """Colours."""
+    return st.fixed_dictionaries({c: st.integers(0, 255) for c in "rgb"})
+
+
+@st.composite
+def scenes(draw: st.DrawFn, most_objects: int = 8) -> Scene:
+    """Scenes of all sizes, from 1e-6 to 1e9."""
+    size = draw(st.sampled_from([1.0, 1.0, 1.0, 1e-6, 1e3, 1e9]))
+    focus = size * draw(st.sampled_from([0.01, 0.5, 2.0, 100.0]))
+    width, height = draw(st.integers(1, 24)), draw(st.integers(1, 24))
+    view = size * draw(st.sampled_from([0.2, 1.0, 3.0]))
+    material = {"color": colors(), "lambert": st.floats(0, 1)}
+    radii = st.sampled_from([0.0, 1e-6, 0.1, 0.25, 0.5, 1.0, 3.0, 1e4]).map(lambda r: r * size)
+    sphere = st.fixed_dictionaries(
+        {"type": st.just("sphere"), "center": places(size), "radius": radii, **material}
+    )
+    plane = st.fixed_dictionaries(
+        {"type": st.just("plane"), "center": places(size), "normal": directions(), **material}
+    )
+    light = st.fixed_dictionaries({"location": places(2 * size), "intensity": st.floats(0, 2)})
+    objects = draw(st.lists(sphere | sphere | plane, max_size=most_objects))
+    lights = draw(st.lists(light, max_size=4))
+    center = draw(places(size / 2))
+    if objects and draw(st.booleans()):
+        first = objects[0]
+        beside = first.get("radius", 0.0) * draw(st.sampled_from([0.0, 0.5, 1.0]))
+        location = dict(first["center"], x=first["center"]["x"] + beside)
+        lights.append({"location": location, "intensity": 1.0})  # inside, or on the surface
+        objects.append({**draw(st.sampled_from(objects)), **draw(st.fixed_dictionaries(material))})
+    if objects and draw(st.booleans()):
+        center = objects[-1]["center"]  # the image plane cuts an object in half
+    return {
+        "camera": {
+            "center": center,
+            "normal": draw(directions()),
+            "focus": focus,
+            "size": [width, height],
+            "resolution": [view / width, view / height],
+        },
+        "lights": lights,
+        "objects": objects,
+    }
+
+
+def crowd(seed: int, spheres: int = 200) -> Scene:
+    """Return a scene of many spheres in view, some planes, and lights all around."""
+    random = Random(seed)
+
+    def place(size: float) -> dict[str, float]:
+        return _xyz(*(random.uniform(-size, size) for _ in range(3)))
+
+    def material() -> dict[str, Any]:
+        color = {c: random.randrange(256) for c in "rgb"}
+        return {"color": color, "lambert": random.uniform(0.2, 1)}
+
+    scale = 10.0 ** random.randint(-6, 9)
+    largest = random.choice([0.02, 0.1, 0.4]) * scale
+    return {
+        "camera": {
+            "center": place(scale),
+            "normal": place(1.0),
+            "focus": random.choice([0.3, 2.0]) * scale,
+            "size": [51, 35],
+            "resolution": [0.02 * scale, 0.03 * scale],
+        },
+        "lights": [
+            {"location": place(3 * scale), "intensity": random.random()}
+            for _ in range(random.randint(1, 6))
+        ],
+        "objects": [
+            {"type": "sphere", "center": place(2 * scale), "radius": random.uniform(0, largest)}
+            | material()
+            for _ in range(spheres)
+        ]
+        + [
+            {"type": "plane", "center": place(2 * scale), "normal": place(1.0)} | material()
+            for _ in range(random.randint(0, 4))
+        ],
+    }
