@@ -82,9 +82,10 @@ def view_from_eye(scene: Scene, brightness: float) -> View:
         (turn(sub(_triple(light.location), eye)), light.intensity * brightness)
         for light in scene.lights
     ]
-    pixel_width, pixel_height = (side / camera.focus for side in camera.resolution)
+    (width, height), (pixel_width, pixel_height) = camera.size, camera.resolution
+    pixel = pixel_width / camera.focus, pixel_height / camera.focus
     surfaces = [surface(item) for item in scene.objects]
-    return View(*camera.size, pixel_width, pixel_height, lights, surfaces)
+    return View(int(width), int(height), *pixel, lights, surfaces)
 
 
 def _towards_eye(normal: Vec, point: Vec) -> Vec:

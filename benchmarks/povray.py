@@ -9,6 +9,8 @@ from vtray.vector import Vec
 NAME = "POV-Ray"
 EXECUTABLE = "povray"
 ENDING = ".pov"
+COLUMN = 0
+"""Which of vtray's columns its first one is."""
 # No display, no antialiasing, no progress; linear light in the file, as vtray writes it.
 OPTIONS = ("-D", "-A", "-V", "+FN", "File_Gamma=1")
 

@@ -89,9 +89,7 @@ def _scene(side: int, objects: list[Json], lights: list[Json], width: float) -> 
     return {"camera": camera, "lights": lights, "objects": objects}
 
 
-def _plane(
-    center: tuple[float, ...], normal: tuple[float, ...], color: tuple[int, ...]
-) -> Json:
+def _plane(center: tuple[float, ...], normal: tuple[float, ...], color: tuple[int, ...]) -> Json:
     look = {"color": dict(zip("rgb", color, strict=True)), "lambert": 0.9}
     return {"type": "plane", "center": _xyz(center), "normal": _xyz(normal), **look}
 

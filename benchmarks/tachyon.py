@@ -9,6 +9,8 @@ from vtray.vector import Vec
 NAME = "Tachyon"
 EXECUTABLE = "tachyon"
 ENDING = ".dat"
+COLUMN = 1
+"""Which of vtray's columns its first one is: its rays go through the right edges of pixels."""
 OPTIONS = ("-fullshade", "-aasamples", "0", "-format", "PNG")
 
 
@@ -49,7 +51,7 @@ def export(view: View) -> str:
 
 
 def _camera(view: View) -> list[str]:
-    """Write the camera, turned by one column: Tachyon's first column is vtray's second."""
+    """Write the camera."""
     return [
         "CAMERA",
         f"  ZOOM {1 / (view.height * view.pixel_height)!r}",
@@ -57,7 +59,7 @@ def _camera(view: View) -> list[str]:
         "  ANTIALIASING 0",
         "  RAYDEPTH 1",
         "  CENTER 0.0 0.0 0.0",
-        f"  VIEWDIR {_vector((-view.pixel_width, 0.0, 1.0))}",
+        "  VIEWDIR 0.0 0.0 1.0",
         "  UPDIR 0.0 1.0 0.0",
         "END_CAMERA",
     ]

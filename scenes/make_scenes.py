@@ -49,15 +49,18 @@ def wall(center: Triple, normal: Triple, color: Triple) -> Plane:
 
 
 def lamp(center: Triple, radius: float, count: int, intensity: float) -> list[Light]:
-    """Return a round lamp: many weak lights spread evenly over a sphere.
+    """Return a round lamp: many weak lights spread evenly inside a sphere.
 
     A point light throws hard shadows; many of them side by side throw soft ones.
     """
     x, y, z = center
-    return [
-        Light((x + radius * dx, y + radius * dy, z + radius * dz), intensity / count)
-        for dx, dy, dz in sphere_points(count)
-    ]
+    lights = []
+    for index, (dx, dy, dz) in enumerate(sphere_points(count)):
+        # The cube root fills the sphere evenly, not only its skin.
+        depth = radius * ((index + 0.5) * GOLDEN_ANGLE % 1) ** (1 / 3)
+        place = (x + depth * dx, y + depth * dy, z + depth * dz)
+        lights.append(Light(place, intensity / count))
+    return lights
 
 
 def sphere_points(count: int) -> Iterator[Triple]:
@@ -85,7 +88,7 @@ def first() -> Scene:
     """Three balls on a floor under two lights: the scene to start from."""
     return Scene(
         camera=Camera((0, -1.3, 0), (0, 0.5, 1), 6, (800, 600), (0.0075, 0.0075)),
-        lights=[Light((-7, -9, -3), 1), Light((4, -7, -8), 0.7)],
+        lights=[Light((-7, -13, -3), 1), Light((4, -11, -8), 0.7)],
         objects=[
             Plane((0, 1, 0), (0, -1, 0), (225, 230, 240), 1),
             Sphere((-2.3, 0, 3), 1, (255, 80, 70), 1),
@@ -112,8 +115,8 @@ def room() -> Scene:
         ball((1.25, 1.27, 1.3), 0.25, (255, 120, 150)),
     ]
     steps = [(2 * step - 7) / 7 for step in range(8)]
-    square = [Light((0.7 * x, -1.2, 1.7 + 0.7 * z), 0.8 / 64) for x in steps for z in steps]
-    fill = lamp((-1.4, -0.3, -3), 0.8, 32, 0.5) + lamp((1.6, 1.2, -3), 0.8, 32, 0.35)
+    square = [Light((0.7 * x, -1.05, 1.7 + 0.7 * z), 0.85 / 64) for x in steps for z in steps]
+    fill = lamp((-0.8, -0.2, -5), 1.2, 48, 0.45) + lamp((0.5, 0.7, -2), 0.7, 48, 0.35)
     return Scene(camera((0, 0, 0), (0, 0, 1), 4.2, 4), square + fill, [*walls, *balls])
 
 
@@ -144,8 +147,8 @@ def molecule() -> Scene:
         element, *place = atom.split()
         radius, color = ELEMENTS[element]
         atoms.append(ball(turn_molecule(*map(float, place)), radius, color))
-    backdrop = [wall((0, 0, 14), TOWARDS_VIEWER, (205, 220, 235))]
-    lights = lamp((-12, -14, -14), 2.5, 40, 1) + lamp((3, -1, -28), 2, 24, 0.6)
+    backdrop = [wall((0, 0, 20), TOWARDS_VIEWER, (205, 220, 235))]
+    lights = lamp((-12, -14, -14), 2.5, 40, 1) + lamp((0, -0.3, -28), 1, 24, 0.6)
     return Scene(camera((0.15, -0.35, -6), (0, 0, 1), 22, 10), lights, [*backdrop, *atoms])
 
 
@@ -172,7 +175,7 @@ def spiral() -> Scene:
         balls.append(ball(center, radius, blend(petals, distance / size)))
     floor = wall((0, 0, 0), (0, -1, 0), (70, 85, 130))
     lights = lamp((-5, -10, 0), 1.2, 40, 1) + lamp((4, -8, -9), 1, 24, 0.7)
-    return Scene(camera((0, -3.5, -2.2), (0, 1, 0.75), 10, 5.6), lights, [floor, *balls])
+    return Scene(camera((0, -3.4, -2.6), (0, 1, 0.75), 10, 6.1), lights, [floor, *balls])
 
 
 class Jar:
@@ -238,8 +241,8 @@ def packing() -> Scene:
         height, x, z = jar.drop(x, z, radius)
         balls.append(ball((x, -height, z), radius, blend(layers, height / 3.8)))
     table = wall((0, 0, 0), (0, -1, 0), (240, 235, 225))
-    lights = lamp((-5, -10, -6), 1, 40, 1) + lamp((3, -7, -13), 1, 24, 0.7)
-    return Scene(camera((0, -3.9, -4), (0, 0.42, 1), 8, 4.2), lights, [table, *balls])
+    lights = lamp((-6, -14, -7), 1.2, 48, 1) + lamp((3, -10, -12), 1.2, 32, 0.7)
+    return Scene(camera((0, -3.9, -4.4), (0, 0.48, 1), 9, 4.5), lights, [table, *balls])
 
 
 def inside() -> Scene:
@@ -251,15 +254,15 @@ def inside() -> Scene:
     shells = [
         ((-1.4, -1.15, -0.6), (255, 120, 90), (80, 190, 235)),
         ((1.4, -1.15, 0), (255, 205, 85), (130, 115, 240)),
-        ((-1.4, 1.15, 0.6), (110, 210, 140), (255, 110, 140)),
+        ((-1.4, 1.15, 0.6), (110, 215, 140), (235, 95, 130)),
         ((1.4, 1.15, 1.2), (95, 165, 250), (255, 190, 70)),
     ]
-    objects: list[Sphere | Plane] = [wall((0, 0, 2.6), TOWARDS_VIEWER, (235, 235, 240))]
+    objects: list[Sphere | Plane] = [wall((0, 0, 2.6), TOWARDS_VIEWER, (75, 85, 115))]
     for (x, y, z), outer, inner in shells:
         objects += [ball((x, y, z), 1, outer), ball((x, y + 0.2, z + 0.55), 0.35, inner)]
-    lights = lamp((-5, -6, -11), 1, 40, 1) + lamp((4, 2, -12), 1, 16, 0.5)
+    lights = lamp((-5, -6, -11), 1, 48, 1) + lamp((0, 0, -12), 0.5, 16, 0.4)
     return Scene(
-        camera((0, 0, 0), (0, 0, 1), 12, 6.4), [*lights, Light((-1.6, 0.7, 0.3), 0.6)], objects
+        camera((0, 0, 0), (0, 0, 1), 12, 6.4), [*lights, Light((-1.7, 0.7, 0.4), 0.35)], objects
     )
 
 

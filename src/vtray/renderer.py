@@ -58,6 +58,7 @@ def render(
     """
     threads = _count("threads", threads if threads is not None else available_cores())
     tile = _count("tile", tile)
+    scene.check()
     check_memory(*scene.camera.size)
     check_brightness(scene.lights)
     clock = Stopwatch()

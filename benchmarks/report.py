@@ -1,0 +1,156 @@
+"""The results as Markdown, and the table in the README."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import same_picture
+import vtray_process
+from measure import Spread, Timing, in_seconds
+from peers import PEERS
+from rendering import Row
+
+BEGIN = "<!-- benchmark:begin -->"
+END = "<!-- benchmark:end -->"
+
+
+@dataclass
+class Results:
+    """All that a run has measured.
+
+    Attributes
+    ----------
+    machine
+        Name and value of all that bears on the numbers.
+    repeats
+        How often each process ran.
+    startup
+        What costs the same for every scene.
+    scenes
+        For each scene, by what it is, the times of all renderers.
+    threads
+        For numbers of threads, vtray's times for the first scene.
+    """
+
+    machine: dict[str, str]
+    repeats: int
+    startup: dict[str, Timing] = field(default_factory=dict)
+    scenes: dict[str, list[Row]] = field(default_factory=dict)
+    threads: dict[int, Timing] = field(default_factory=dict)
+
+
+def full_report(results: Results) -> str:
+    """Write everything."""
+    parts = [
+        "# Benchmarks",
+        "Written by `python benchmarks/run.py`; run it again instead of changing this file. "
+        "Seconds are the median of "
+        f"{results.repeats} runs, with the least and the most in brackets.",
+        _table(("", ""), results.machine.items()),
+    ]
+    if results.startup:
+        parts += ["## Start-up", _startup_table(results.startup)]
+    if results.scenes:
+        parts += ["## Scenes", _scene_table(results.scenes), _conditions()]
+    if results.threads:
+        parts += ["## Threads", "The room, with vtray.", _thread_table(results.threads)]
+    return "\n\n".join(parts) + "\n"
+
+
+def summary(results: Results) -> str:
+    """Write the table for the README: seconds of each whole process, and of tracing alone."""
+    programs = [vtray_process.NAME, *(peer.NAME for peer in PEERS)]
+    rows = [
+        (scene, str(threads), *(_brief(timings.get((program, threads))) for program in programs))
+        for scene, found in results.scenes.items()
+        for timings in ({(row.program, row.threads): row.timing for row in found},)
+        for threads in sorted({row.threads for row in found})
+    ]
+    headings = [f"{name} {results.machine.get(name, '')}".strip() for name in programs]
+    return "\n\n".join(
+        [
+            _table(("scene", "threads", *headings), rows),
+            "Seconds of the whole process, and in brackets of tracing rays alone: the median of "
+            f"{results.repeats} runs on {results.machine['processor']} "
+            f"({results.machine['date']}). A time is given only where the picture is vtray's. "
+            "Spreads, options and start-up: [benchmarks/results.md](benchmarks/results.md).",
+        ]
+    )
+
+
+def replace_between_markers(text: str, table: str) -> str:
+    """Put a table where the markers are; a text without markers stays as it is."""
+    start, end = text.find(BEGIN), text.find(END)
+    if start < 0 or end < start:
+        return text
+    return f"{text[: start + len(BEGIN)]}\n{table}\n{text[end:]}"
+
+
+def _startup_table(startup: Mapping[str, Timing]) -> str:
+    rows = [(name, str(timing.whole), str(timing.inner)) for name, timing in startup.items()]
+    return _table(("process", "seconds", "of which compiling, or loading what was compiled"), rows)
+
+
+def _scene_table(scenes: Mapping[str, list[Row]]) -> str:
+    headings = ("scene", "program", "threads", "whole process", "of that tracing", "whole ÷ vtray's", "tracing ÷ vtray's")
+    rows = [
+        (scene, row.program, str(row.threads), *_cells(row, found), row.note)
+        for scene, found in scenes.items()
+        for row in found
+    ]
+    return _table((*headings, "picture − vtray's"), rows)
+
+
+def _cells(row: Row, rows: list[Row]) -> tuple[str, str, str, str]:
+    """Return the times of a row, and these as multiples of vtray's with as many threads."""
+    if row.timing is None:
+        return "-", "-", "-", "-"
+    ours = next(
+        item.timing
+        for item in rows
+        if item.program == vtray_process.NAME and item.threads == row.threads
+    )
+    whole, inner = row.timing.whole, row.timing.inner
+    ratios = (
+        _ratio(whole, ours.whole if ours else None),
+        _ratio(inner, ours.inner if ours else None),
+    )
+    return str(whole), str(inner), *ratios
+
+
+def _ratio(theirs: Spread, ours: Spread | None) -> str:
+    return f"{theirs.median / ours.median:.2g}" if ours else "-"
+
+
+def _thread_table(threads: Mapping[int, Timing]) -> str:
+    one = next(iter(threads.values())).inner.median
+    rows = [
+        (str(count), str(timing.inner), f"{one / timing.inner.median:.2f}")
+        for count, timing in threads.items()
+    ]
+    return _table(("threads", "tracing", "speed-up"), rows)
+
+
+def _conditions() -> str:
+    """Write how the programs were run and what counts as the same picture."""
+    options = "; ".join(f"{peer.NAME} `{' '.join(peer.OPTIONS)}`" for peer in PEERS)
+    return (
+        "Every program casts one ray per pixel, without antialiasing, at matt surfaces, with a "
+        "shadow ray to each light, and writes a PNG; tracing is the time that the program itself "
+        f"reports. Options, besides files, size and threads: {options}. A time counts only if "
+        "the picture, its brightness scaled for the best fit, is vtray's to within a mean "
+        f"difference of {same_picture.MEAN_TOLERANCE:g} of 255, with at most "
+        f"{same_picture.SHARE_TOLERANCE:.0%} of pixels off by more than {same_picture.FAR:g}: "
+        "the programs round differently, and an edge may run through a neighbouring pixel."
+    )
+
+
+def _brief(timing: Timing | None) -> str:
+    if timing is None:
+        return "-"
+    return f"{in_seconds(timing.whole.median)} ({in_seconds(timing.inner.median)})"
+
+
+def _table(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Write a table of Markdown."""
+    lines = [headings, ["---"] * len(headings), *rows]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
