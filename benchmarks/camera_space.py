@@ -90,7 +90,7 @@ def view_from_eye(scene: Scene, brightness: float) -> View:
 
 def _towards_eye(normal: Vec, point: Vec) -> Vec:
     """Return the normal of a plane on the side of the eye, which is at the origin."""
-    return scale(-1.0, normal) if dot(normal, point) > 0 else normal
+    return sub((0.0, 0.0, 0.0), normal) if dot(normal, point) > 0 else normal
 
 
 def _triple(vector: Vector | Direction) -> Vec:

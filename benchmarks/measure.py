@@ -52,7 +52,7 @@ class Spread:
         shown = in_seconds(self.median)
         if len(self.seconds) == 1:
             return shown
-        return f"{shown} ({in_seconds(min(self.seconds))}–{in_seconds(max(self.seconds))})"
+        return f"{shown} ({in_seconds(min(self.seconds))}-{in_seconds(max(self.seconds))})"
 
 
 @dataclass(frozen=True)
@@ -95,5 +95,5 @@ def run_once(job: Job) -> tuple[float, float]:
 
 def in_seconds(value: float) -> str:
     """Write seconds, with three digits where they mean something."""
-    decimals = 2 if value >= 1 else 3 if value >= 0.1 else 4  # noqa: PLR2004
+    decimals = 2 if value >= 1 else 3 if value >= 0.1 else 4
     return f"{value:.{decimals}f}"

@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 from camera_space import Surface, View
+
 from vtray.vector import Vec
 
 NAME = "POV-Ray"
@@ -12,7 +13,7 @@ ENDING = ".pov"
 COLUMN = 0
 """Which of vtray's columns its first one is."""
 # No display, no antialiasing, no progress; linear light in the file, as vtray writes it.
-OPTIONS = ("-D", "-A", "-V", "+FN", "File_Gamma=1")
+OPTIONS: tuple[str, ...] = ("-D", "-A", "-V", "+FN", "File_Gamma=1")
 
 
 def command(scene: Path, picture: Path, threads: int, size: tuple[int, int]) -> list[str]:

@@ -4,13 +4,14 @@ import json
 from pathlib import Path
 from typing import NamedTuple
 
-import vtray
 import vtray_process
 from camera_space import View, view_from_eye
 from measure import Job, Timing, run_interleaved
 from peers import PEERS, Peer, is_installed
 from same_picture import difference, is_same
 from scenes import Json
+
+import vtray
 
 THREADS = (1, 2)
 

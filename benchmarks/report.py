@@ -42,9 +42,11 @@ def full_report(results: Results) -> str:
     """Write everything."""
     parts = [
         "# Benchmarks",
-        "Written by `python benchmarks/run.py`; run it again instead of changing this file. "
-        "Seconds are the median of "
-        f"{results.repeats} runs, with the least and the most in brackets.",
+        (
+            "Written by `python benchmarks/run.py`; run it again instead of changing this file. "
+            f"Seconds are the median of {results.repeats} runs, with the least and the most in "
+            "brackets."
+        ),
         _table(("", ""), results.machine.items()),
     ]
     if results.startup:
@@ -66,15 +68,13 @@ def summary(results: Results) -> str:
         for threads in sorted({row.threads for row in found})
     ]
     headings = [f"{name} {results.machine.get(name, '')}".strip() for name in programs]
-    return "\n\n".join(
-        [
-            _table(("scene", "threads", *headings), rows),
-            "Seconds of the whole process, and in brackets of tracing rays alone: the median of "
-            f"{results.repeats} runs on {results.machine['processor']} "
-            f"({results.machine['date']}). A time is given only where the picture is vtray's. "
-            "Spreads, options and start-up: [benchmarks/results.md](benchmarks/results.md).",
-        ]
+    note = (
+        "Seconds of the whole process, and in brackets of tracing rays alone: the median of "
+        f"{results.repeats} runs on {results.machine['processor']} ({results.machine['date']}). "
+        "A time is given only where the picture is vtray's. "
+        "Spreads, options and start-up: [benchmarks/results.md](benchmarks/results.md)."
     )
+    return _table(("scene", "threads", *headings), rows) + "\n\n" + note
 
 
 def replace_between_markers(text: str, table: str) -> str:
@@ -91,13 +91,21 @@ def _startup_table(startup: Mapping[str, Timing]) -> str:
 
 
 def _scene_table(scenes: Mapping[str, list[Row]]) -> str:
-    headings = ("scene", "program", "threads", "whole process", "of that tracing", "whole ÷ vtray's", "tracing ÷ vtray's")
+    headings = (
+        "scene",
+        "program",
+        "threads",
+        "whole process",
+        "of that tracing",
+        "whole ÷ vtray's",
+        "tracing ÷ vtray's",
+    )
     rows = [
         (scene, row.program, str(row.threads), *_cells(row, found), row.note)
         for scene, found in scenes.items()
         for row in found
     ]
-    return _table((*headings, "picture − vtray's"), rows)
+    return _table((*headings, "picture off by"), rows)
 
 
 def _cells(row: Row, rows: list[Row]) -> tuple[str, str, str, str]:
@@ -118,7 +126,11 @@ def _cells(row: Row, rows: list[Row]) -> tuple[str, str, str, str]:
 
 
 def _ratio(theirs: Spread, ours: Spread | None) -> str:
-    return f"{theirs.median / ours.median:.2g}" if ours else "-"
+    """Write how many times as long the others took; below 1, they were faster."""
+    if ours is None:
+        return "-"
+    ratio = theirs.median / ours.median
+    return f"{ratio:.0f}" if ratio >= 10 else f"{ratio:.2f}"
 
 
 def _thread_table(threads: Mapping[int, Timing]) -> str:
@@ -133,15 +145,17 @@ def _thread_table(threads: Mapping[int, Timing]) -> str:
 def _conditions() -> str:
     """Write how the programs were run and what counts as the same picture."""
     options = "; ".join(f"{peer.NAME} `{' '.join(peer.OPTIONS)}`" for peer in PEERS)
-    return (
-        "Every program casts one ray per pixel, without antialiasing, at matt surfaces, with a "
-        "shadow ray to each light, and writes a PNG; tracing is the time that the program itself "
-        f"reports. Options, besides files, size and threads: {options}. A time counts only if "
-        "the picture, its brightness scaled for the best fit, is vtray's to within a mean "
-        f"difference of {same_picture.MEAN_TOLERANCE:g} of 255, with at most "
-        f"{same_picture.SHARE_TOLERANCE:.0%} of pixels off by more than {same_picture.FAR:g}: "
-        "the programs round differently, and an edge may run through a neighbouring pixel."
-    )
+    mean, share = same_picture.MEAN_TOLERANCE, same_picture.SHARE_TOLERANCE
+    far = f"off by more than {same_picture.FAR:g}"
+    return f"""\
+- Every program casts one ray per pixel at matt surfaces, without antialiasing, and a shadow ray to
+  each light, and writes a PNG. Options, besides files, size and threads: {options}.
+- Tracing is the time that the program itself reports; it leaves out start-up, reading the scene and
+  writing the picture.
+- ÷ says how many times as long as vtray with as many threads; below 1 is faster.
+- How far a picture is off vtray's: the mean over all channels, of 255, and the share of pixels
+  {far}, once its brightness is scaled for the best fit. Programs round differently, and an edge may
+  run through a neighbouring pixel; a time counts up to {mean:g} and {share:.0%}."""
 
 
 def _brief(timing: Timing | None) -> str:

@@ -53,7 +53,7 @@ def measure(folder: Path, parts: list[str], *, quick: bool) -> Results:
         if name in parts:
             _say(description)
             side = min(full_side, QUICK_SIDE) if quick else full_side
-            title = f"{description}, {side}×{side}"
+            title = f"{description}, {side} x {side}"
             results.scenes[title] = time_scene(make(side), folder, repeats)
     if "threads" in parts:
         _say("threads")

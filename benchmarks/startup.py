@@ -32,6 +32,6 @@ def time_startup(folder: Path, repeats: int) -> dict[str, Timing]:
             [*vtray_process.executable(), str(bad), str(picture)],
             status=1,
         ),
-        render(f"a render of one sphere, {SMALL}×{SMALL}"),
+        render(f"a render of one sphere, {SMALL} x {SMALL}"),
     ]
     return run_interleaved(jobs, repeats) | first

@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 from camera_space import Surface, View
+
 from vtray.vector import Vec
 
 NAME = "Tachyon"
@@ -11,7 +12,7 @@ EXECUTABLE = "tachyon"
 ENDING = ".dat"
 COLUMN = 1
 """Which of vtray's columns its first one is: its rays go through the right edges of pixels."""
-OPTIONS = ("-fullshade", "-aasamples", "0", "-format", "PNG")
+OPTIONS: tuple[str, ...] = ("-fullshade", "-aasamples", "0", "-format", "PNG")
 
 
 def command(scene: Path, picture: Path, threads: int, size: tuple[int, int]) -> list[str]:
@@ -29,8 +30,8 @@ def trace_seconds(output: str) -> float:
 
 def version(output: str) -> str:
     """Return the version, from what ``-version`` prints."""
-    found = re.search(r"Version ([0-9.]*[0-9])", output)
-    return found[1] if found else "of unknown version"
+    found = re.search(r"[0-9]+\.[0-9.]*[0-9]", output)
+    return found[0] if found else "of unknown version"
 
 
 VERSION_OPTION = "-version"
@@ -66,7 +67,7 @@ def _camera(view: View) -> list[str]:
 
 
 def _light(place: Vec, power: float) -> str:
-    # A light has a radius only where it is seen itself.
+    # The format demands a radius; it is tiny so that the lamp itself cannot be seen.
     return f"LIGHT CENTER {_vector(place)} RAD 1e-9 COLOR {_vector((power, power, power))}"
 
 

@@ -10,23 +10,23 @@ away from the viewer. So a floor has a larger y than what stands on it.
 import argparse
 import json
 import math
-import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import msgspec
+from PIL import Image as PillowImage
 
 import vtray
-from vtray import Camera, Light, Plane, Scene, Sphere
+from vtray import Camera, Color, Direction, Light, Plane, Scene, Sphere, Vector
 
 Triple = tuple[float, float, float]
 
 SCENES = Path(__file__).resolve().parent
 IMAGES = SCENES.parent / "docs" / "images"
 GOLDEN_ANGLE = math.pi * (3 - math.sqrt(5))  # Turned by it, no two leaves stand in line.
-DOWN, TOWARDS_VIEWER = (0, 1, 0), (0, 0, -1)
+UP, DOWN, TOWARDS_VIEWER = (0, -1, 0), (0, 1, 0), (0, 0, -1)
 
 
 # ---- parts that the scenes share -------------------------------------------------------------
@@ -35,17 +35,22 @@ DOWN, TOWARDS_VIEWER = (0, 1, 0), (0, 0, -1)
 def camera(center: Triple, normal: Triple, focus: float, width: float) -> Camera:
     """Return a camera of 800 x 600 pixels whose image plane is `width` wide."""
     pixel = width / 800
-    return Camera(center, normal, focus, (800, 600), (pixel, pixel))
+    return Camera(Vector(*center), Direction(*normal), focus, (800, 600), (pixel, pixel))
 
 
 def ball(center: Triple, radius: float, color: Triple) -> Sphere:
     """Return a sphere that scatters all light of its colour."""
-    return Sphere(center, radius, color, 1)
+    return Sphere(Vector(*center), radius, Color(*color), 1)
 
 
 def wall(center: Triple, normal: Triple, color: Triple) -> Plane:
     """Return a plane that scatters all light of its colour."""
-    return Plane(center, normal, color, 1)
+    return Plane(Vector(*center), Direction(*normal), Color(*color), 1)
+
+
+def light(place: Triple, intensity: float) -> Light:
+    """Return a point light."""
+    return Light(Vector(*place), intensity)
 
 
 def lamp(center: Triple, radius: float, count: int, intensity: float) -> list[Light]:
@@ -59,7 +64,7 @@ def lamp(center: Triple, radius: float, count: int, intensity: float) -> list[Li
         # The cube root fills the sphere evenly, not only its skin.
         depth = radius * ((index + 0.5) * GOLDEN_ANGLE % 1) ** (1 / 3)
         place = (x + depth * dx, y + depth * dy, z + depth * dz)
-        lights.append(Light(place, intensity / count))
+        lights.append(light(place, intensity / count))
     return lights
 
 
@@ -72,7 +77,7 @@ def sphere_points(count: int) -> Iterator[Triple]:
         yield ring * math.cos(angle), height, ring * math.sin(angle)
 
 
-def blend(colors: list[Triple], place: float) -> Triple:
+def blend(colors: Sequence[Triple], place: float) -> Triple:
     """Return the colour at a place from 0 to 1 along a row of colours."""
     step = min(max(place, 0), 1) * (len(colors) - 1)
     first, second = list(pairwise(colors))[min(int(step), len(colors) - 2)]
@@ -87,13 +92,13 @@ def blend(colors: list[Triple], place: float) -> Triple:
 def first() -> Scene:
     """Three balls on a floor under two lights: the scene to start from."""
     return Scene(
-        camera=Camera((0, -1.3, 0), (0, 0.5, 1), 6, (800, 600), (0.0075, 0.0075)),
-        lights=[Light((-7, -13, -3), 1), Light((4, -11, -8), 0.7)],
+        camera=camera((0, -1.3, 0), (0, 0.5, 1), focus=6, width=6),
+        lights=[light((-7, -13, -3), 1), light((4, -11, -8), 0.7)],
         objects=[
-            Plane((0, 1, 0), (0, -1, 0), (225, 230, 240), 1),
-            Sphere((-2.3, 0, 3), 1, (255, 80, 70), 1),
-            Sphere((0, -0.5, 4.2), 1.5, (255, 205, 60), 1),
-            Sphere((2.2, 0.2, 2.8), 0.8, (60, 150, 255), 1),
+            wall((0, 1, 0), UP, (225, 230, 240)),
+            ball((-2.3, 0, 3), 1, (255, 80, 70)),
+            ball((0, -0.5, 4.2), 1.5, (255, 205, 60)),
+            ball((2.2, 0.2, 2.8), 0.8, (60, 150, 255)),
         ],
     )
 
@@ -102,9 +107,9 @@ def room() -> Scene:
     """Four balls in a room, with soft shadows from a square lamp of 64 lights."""
     # The image plane is the open front of the room; the fourth wall would be behind it.
     walls = [
-        wall((0, 1.52, 0), (0, -1, 0), (250, 240, 225)),
-        wall((0, -1.52, 0), (0, 1, 0), (250, 245, 235)),
-        wall((0, 0, 4.2), TOWARDS_VIEWER, (225, 222, 215)),
+        wall((0, 1.52, 0), UP, (250, 240, 225)),
+        wall((0, -1.52, 0), DOWN, (250, 245, 235)),
+        wall((0, 0, 4.2), TOWARDS_VIEWER, (212, 208, 200)),
         wall((-2.02, 0, 0), (1, 0, 0), (250, 105, 80)),
         wall((2.02, 0, 0), (-1, 0, 0), (60, 185, 190)),
     ]
@@ -115,7 +120,7 @@ def room() -> Scene:
         ball((1.25, 1.27, 1.3), 0.25, (255, 120, 150)),
     ]
     steps = [(2 * step - 7) / 7 for step in range(8)]
-    square = [Light((0.7 * x, -1.05, 1.7 + 0.7 * z), 0.85 / 64) for x in steps for z in steps]
+    square = [light((0.7 * x, -1.05, 1.7 + 0.7 * z), 0.85 / 64) for x in steps for z in steps]
     fill = lamp((-0.8, -0.2, -5), 1.2, 48, 0.45) + lamp((0.5, 0.7, -2), 0.7, 48, 0.35)
     return Scene(camera((0, 0, 0), (0, 0, 1), 4.2, 4), square + fill, [*walls, *balls])
 
@@ -160,7 +165,7 @@ def turn_molecule(x: float, y: float, z: float) -> Triple:
 
 
 def spiral() -> Scene:
-    """A flower of 610 balls, placed as a sunflower places its seeds."""
+    """610 balls in a flower, placed as a sunflower places its seeds."""
     petals = [(255, 225, 90), (255, 150, 60), (240, 70, 90), (150, 70, 200), (60, 130, 235)]
     count, power, size = 610, 0.72, 3.0
     balls = []
@@ -173,7 +178,7 @@ def spiral() -> Scene:
         height = 1.3 * (1 - (distance / size) ** 2)
         center = (distance * math.cos(angle), -radius - height, distance * math.sin(angle))
         balls.append(ball(center, radius, blend(petals, distance / size)))
-    floor = wall((0, 0, 0), (0, -1, 0), (70, 85, 130))
+    floor = wall((0, 0, 0), UP, (70, 85, 130))
     lights = lamp((-5, -10, 0), 1.2, 40, 1) + lamp((4, -8, -9), 1, 24, 0.7)
     return Scene(camera((0, -3.4, -2.6), (0, 1, 0.75), 10, 6.1), lights, [floor, *balls])
 
@@ -182,6 +187,7 @@ class Jar:
     """A round jar of invisible glass that balls are dropped into."""
 
     def __init__(self, radius: float, cell: float) -> None:
+        """Make an empty jar."""
         self.radius = radius
         self.cell = cell  # At least the diameter of the largest ball.
         self.columns: dict[tuple[int, int], list[tuple[float, float, float, float]]] = {}
@@ -230,17 +236,18 @@ ROLLS = [(1, 0), (0.7, 0.7), (0, 1), (-0.7, 0.7), (-1, 0), (-0.7, -0.7), (0, -1)
 
 
 def packing() -> Scene:
-    """A thousand balls of many sizes, dropped one by one into a jar of invisible glass."""
+    """1000 balls of many sizes, dropped one by one into a jar of invisible glass."""
     layers = [(60, 90, 220), (40, 180, 200), (120, 215, 110), (255, 215, 70), (250, 95, 80)]
-    chance = random.Random(1)
     jar = Jar(radius=1.5, cell=0.44)
     balls = []
-    for _ in range(1000):
-        radius = 0.1 + 0.12 * chance.random() ** 2
-        x, z = (2 * (chance.random() - 0.5) * 0.85 for _ in range(2))
+    for index in range(1000):
+        # Multiples of these fractions look random but leave no gaps.
+        size, right, back = (index * step % 1 for step in (0.8191725, 0.6710436, 0.5497005))
+        radius = 0.1 + 0.12 * size**2
+        x, z = 1.7 * (right - 0.5), 1.7 * (back - 0.5)
         height, x, z = jar.drop(x, z, radius)
         balls.append(ball((x, -height, z), radius, blend(layers, height / 3.8)))
-    table = wall((0, 0, 0), (0, -1, 0), (240, 235, 225))
+    table = wall((0, 0, 0), UP, (240, 235, 225))
     lights = lamp((-6, -14, -7), 1.2, 48, 1) + lamp((3, -10, -12), 1.2, 32, 0.7)
     return Scene(camera((0, -3.9, -4.4), (0, 0.48, 1), 9, 4.5), lights, [table, *balls])
 
@@ -262,7 +269,7 @@ def inside() -> Scene:
         objects += [ball((x, y, z), 1, outer), ball((x, y + 0.2, z + 0.55), 0.35, inner)]
     lights = lamp((-5, -6, -11), 1, 48, 1) + lamp((0, 0, -12), 0.5, 16, 0.4)
     return Scene(
-        camera((0, 0, 0), (0, 0, 1), 12, 6.4), [*lights, Light((-1.7, 0.7, 0.4), 0.35)], objects
+        camera((0, 0, 0), (0, 0, 1), 12, 6.4), [*lights, light((-1.7, 0.7, 0.4), 0.35)], objects
     )
 
 
@@ -274,7 +281,7 @@ MAKERS: list[Callable[[], Scene]] = [first, room, molecule, spiral, packing, ins
 
 def to_text(scene: Scene) -> str:
     """Return a scene as JSON with one light or object on each line."""
-    data = rounded(msgspec.to_builtins(scene))
+    data = json.loads(msgspec.json.encode(scene), parse_float=rounded)
     view = ",\n".join(
         f"    {json.dumps(key)}: {json.dumps(data['camera'][key])}" for key in data["camera"]
     )
@@ -287,16 +294,10 @@ def one_per_line(items: list[Any]) -> str:
     return ",\n".join(f"    {json.dumps(item)}" for item in items)
 
 
-def rounded(value: Any) -> Any:
-    """Round the numbers in a JSON value to five decimals, and write 2.0 as 2."""
-    if isinstance(value, dict):
-        return {key: rounded(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [rounded(item) for item in value]
-    if isinstance(value, float):
-        short = round(value, 5)
-        return int(short) if short.is_integer() else short
-    return value
+def rounded(number: str) -> float:
+    """Round a number to five decimals, and turn 2.0 into 2."""
+    short = round(float(number), 5)
+    return int(short) if short.is_integer() else short
 
 
 def main() -> None:
@@ -308,7 +309,10 @@ def main() -> None:
         path = SCENES / f"{maker.__name__}.json"
         path.write_text(to_text(maker()), encoding="utf-8", newline="\n")
         if render:
-            vtray.render(vtray.load(path)).save(IMAGES / f"{maker.__name__}.png")
+            picture = vtray.render(vtray.load(path))
+            # As small as it gets: vtray itself would rather be quick.
+            small = PillowImage.fromarray(picture.pixels)
+            small.save(IMAGES / f"{maker.__name__}.png", optimize=True)
 
 
 if __name__ == "__main__":

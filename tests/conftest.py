@@ -31,7 +31,7 @@ compiled_only = pytest.mark.skipif(not JIT, reason="needs the compiler")
 @pytest.fixture(autouse=True)
 def _numpy_errors() -> Iterator[None]:
     """Let infinity and NaN pass silently in kernels that run uncompiled, as in compiled ones."""
-    with np.errstate(all="warn" if JIT else "ignore"):
+    with np.errstate(**({} if JIT else {"all": "ignore"})):
         yield
 
 
@@ -42,16 +42,7 @@ def vtray_command() -> Callable[..., subprocess.CompletedProcess[str]]:
     def run(*arguments: object, **options: object) -> subprocess.CompletedProcess[str]:
         command = [Path(sys.executable).with_name("vtray"), *map(str, arguments)]
         environment = {k: v for k, v in os.environ.items() if k != "NUMBA_DISABLE_JIT"}
-        return subprocess.run(
-            command,
-            **{  # type: ignore[call-overload]
-                "capture_output": True,
-                "text": True,
-                "timeout": 120,
-                "check": False,
-                "env": environment,
-                **options,
-            },
-        )
+        settings = {"capture_output": True, "text": True, "timeout": 120, "env": environment}
+        return subprocess.run(command, check=False, **{**settings, **options})
 
     return run

@@ -36,12 +36,20 @@ def axes(normal: Array) -> tuple[Array, Array, Array]:
     x, y, z = unit = normal / np.sqrt(dot(normal, normal))
     if z >= 0:
         k = 1 / (1 + z)
-        return np.array([1 - x * x * k, -x * y * k, -x]), np.array([-x * y * k, 1 - y * y * k, -y]), unit
+        return (
+            np.array([1 - x * x * k, -x * y * k, -x]),
+            np.array([-x * y * k, 1 - y * y * k, -y]),
+            unit,
+        )
     side = np.sqrt(x * x + y * y) if unit.dtype == np.longdouble else math.hypot(x, y)
     if side == 0:
         return np.array([-1, 0, 0], unit.dtype), np.array([0, 1, 0], unit.dtype), unit
     a, b, k = x / side, y / side, 1 - z
-    return np.array([1 - a * a * k, -a * b * k, -x]), np.array([-a * b * k, 1 - b * b * k, -y]), unit
+    return (
+        np.array([1 - a * a * k, -a * b * k, -x]),
+        np.array([-a * b * k, 1 - b * b * k, -y]),
+        unit,
+    )
 
 
 def dot(a: Array, b: Array) -> Array:

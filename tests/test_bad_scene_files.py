@@ -4,8 +4,8 @@ import json
 from typing import Any
 
 import pytest
-from scene_text import ABSENT, changed, read, replaced
 
+from scene_text import ABSENT, changed, read, replaced
 from vtray.errors import SceneError
 from vtray.scene import Scene
 from vtray.scene_file import loads

@@ -5,8 +5,8 @@ import json
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scene_text import TEXT, changed, read, replaced
 
+from scene_text import TEXT, changed, read, replaced
 from vtray.errors import SceneError, VtrayError
 from vtray.scene import Scene
 from vtray.scene_file import loads
@@ -55,7 +55,8 @@ BAD_TEXTS: list[tuple[str | bytes, str]] = [
     ),
     (
         replaced('"lambert": 0.5}', '"lambert": 0.5},'),
-        'line 15, column 3: expected a value after the comma, got "]" (JSON has no trailing commas)',
+        'line 15, column 3: expected a value after the comma, got "]"'
+        " (JSON has no trailing commas)",
     ),
     (
         replaced('"focus": 10', '"focus": NaN'),

@@ -4,13 +4,13 @@ import json
 from itertools import product
 
 import numpy as np
-import oracle
 import pytest
-from conftest import CONFORMANCE, JIT, compiled_only
 from hypothesis import given
-from strategies import crowd, scenes
 
+import oracle
 import vtray
+from conftest import CONFORMANCE, JIT, compiled_only
+from strategies import crowd, scenes
 from vtray.plain import NOTHING, trace_pixel
 from vtray.scene_arrays import pack
 
@@ -55,7 +55,9 @@ def test_equals_the_plain_path(seed: int) -> None:
 
 
 @compiled_only
-@pytest.mark.parametrize(("threads", "tile"), [(1, 64), (2, 64), (7, 16), (3, 5), (200, 1), (2, 9999)])
+@pytest.mark.parametrize(
+    ("threads", "tile"), [(1, 64), (2, 64), (7, 16), (3, 5), (200, 1), (2, 9999)]
+)
 def test_is_the_same_for_any_threads_and_tiles(threads: int, tile: int) -> None:
     scene = load(crowd(1))
     expected = vtray.render(scene, threads=1)

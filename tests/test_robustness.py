@@ -4,12 +4,12 @@ import json
 from typing import Any
 
 import numpy as np
-import oracle
 import pytest
+
+import oracle
+import vtray
 from conftest import compiled_only
 from examples import light, plane, scene, sphere, xyz
-
-import vtray
 from vtray.interaction import interact
 from vtray.plain import NOTHING, trace_pixel
 from vtray.rounding import ROUNDING
@@ -26,6 +26,15 @@ HARD = {
     ),
     "floor that meets the horizon in a pixel row": scene(
         [plane((0, 5, 0), (0, -1, 0))], [light(5, -5, 3)], normal=xyz(0.6, 0, 0.8)
+    ),
+    "horizon in a pixel row of a tilted camera": scene(
+        [plane((0, 1, 0), (0, -1, 0))],
+        [light(-6, -9, -6)],
+        center=xyz(0, -2, -4),
+        normal=xyz(0, 0.3, 1),
+        focus=6,
+        size=[40, 400],
+        resolution=[0.01, 0.01],
     ),
     "tilted plane": scene([plane((1, 2, 7), TILTED)], [light(5, 5, 0), light(-7, -20, 3)]),
     "plane through the eye": scene(
@@ -88,6 +97,7 @@ def test_equals_the_truth(name: str) -> None:
     truth = oracle.develop(oracle.render(HARD[name], np.longdouble)).astype(int)
     difference = np.abs(render(HARD[name]).pixels - truth).max(axis=2)
     assert truth.max() == 255
+    assert render(HARD[name]).linear.min() >= 0
     assert np.count_nonzero(difference > 1) <= 2
     assert np.count_nonzero(difference) <= 6
 

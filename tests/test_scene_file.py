@@ -7,8 +7,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from scene_text import TEXT, changed, read, refuse, replaced
 
+from scene_text import TEXT, changed, read, refuse, replaced
 from vtray.errors import SceneError
 from vtray.scene import Color, Direction, Plane, Sphere
 from vtray.scene_file import load, loads

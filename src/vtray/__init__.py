@@ -1,10 +1,10 @@
 """vtray: an exact and fast ray tracer for spheres and planes.
 
-    import vtray
+import vtray
 
-    scene = vtray.load("scene.json")
-    image = vtray.render(scene)
-    image.save("scene.png")
+scene = vtray.load("scene.json")
+image = vtray.render(scene)
+image.save("scene.png")
 """
 
 from importlib import import_module

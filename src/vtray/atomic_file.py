@@ -4,7 +4,7 @@ import contextlib
 import os
 import stat
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import BinaryIO
 
@@ -76,7 +76,7 @@ def _mode(target: Path) -> int:
 
 
 @contextlib.contextmanager
-def _explained(path: Path) -> "contextlib.AbstractContextManager[None]":
+def _explained(path: Path) -> Iterator[None]:
     """Turn an OSError into an OutputError that names the file."""
     try:
         yield

@@ -12,7 +12,7 @@ class Checked(msgspec.StructMeta):
     Decoding does not go through ``__call__``, so it pays nothing for this.
     """
 
-    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401
+    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
         """Bind the arguments, check them, and make the object."""
         values = _bind(cls, args, kwargs)
         if all(map(_is_plain, values.values())):
@@ -22,7 +22,7 @@ class Checked(msgspec.StructMeta):
                 pass  # the slow way also takes tuples and arrays, and names what is wrong
         from vtray.scene_check import construct
 
-        return construct(cls, values)
+        return construct(cls, values)  # type: ignore[arg-type]
 
 
 def _bind(cls: type, args: tuple[object, ...], kwargs: dict[str, object]) -> dict[str, object]:

@@ -1,75 +1,43 @@
 """The command line: reads the arguments, calls the rest, prints, and sets the exit status."""
 
 import argparse
-import os
 import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-from vtray.errors import OutputError, UsageError, VtrayError
+from vtray.command import SUCCESS, Parser, leave, run_command
+from vtray.errors import OutputError
 
 if TYPE_CHECKING:
     from vtray.image import Image
     from vtray.scene import Scene
     from vtray.stopwatch import Stopwatch
 
-SUCCESS = 0
-FAILURE = 1
-INTERRUPTED = 130
-
-USAGE = "usage: vtray [-t THREADS] SCENE OUTPUT (more: vtray --help)"
+HINT = "usage: vtray [-t THREADS] SCENE OUTPUT (more: vtray --help)"
 
 
 def main() -> NoReturn:
-    """Run the command and exit."""
-    status = run(sys.argv[1:])
-    sys.stderr.flush()
-    # Leave at once: taking everything down takes time, and after Ctrl-C a thread may still be
-    # busy in the compiler.
-    os._exit(status)
+    """Run the command ``vtray`` and exit."""
+    leave(run(sys.argv[1:]))
 
 
 def run(arguments: Sequence[str]) -> int:
     """Do what the arguments say; return the exit status."""
-    try:
-        _run(_parse(arguments))
-        sys.stdout.flush()
-    except SystemExit:  # --help and --version have printed what they had to
-        sys.stdout.flush()
-    except KeyboardInterrupt:
-        return INTERRUPTED
-    except BrokenPipeError:
-        return FAILURE
-    except VtrayError as error:
-        return _fail(str(error))
-    except MemoryError:
-        return _fail("out of memory; choose a smaller camera.size")
-    except Exception as error:  # noqa: BLE001 - a user never sees a traceback
-        return _fail(f"this is a bug in vtray, please report it: {error!r}")
-    return SUCCESS
-
-
-class _Parser(argparse.ArgumentParser):
-    """An argument parser whose errors are like all others."""
-
-    def error(self, message: str) -> NoReturn:
-        """Raise UsageError instead of printing and exiting with status 2."""
-        full = f"{message}; {USAGE}"
-        raise UsageError(full)
+    return run_command(lambda: _run(_parse(arguments)), too_large="choose a smaller camera.size")
 
 
 def _parse(arguments: Sequence[str]) -> argparse.Namespace:
     """Return the arguments, checked as far as can be without reading the scene."""
-    parser = _Parser(
+    from vtray import __version__
+
+    parser = Parser(
+        hint=HINT,
         prog="vtray",
         description="Render a scene of spheres and planes to a PNG image.",
         epilog="example: vtray -t 4 scene.json picture.png",
-        allow_abbrev=False,
     )
-    from vtray import __version__
-
     parser.add_argument("scene", metavar="SCENE", type=Path, help="the scene, a JSON file")
     parser.add_argument(
         "output", metavar="OUTPUT", type=Path, nargs="?", help="the image to write, a .png file"
@@ -113,7 +81,7 @@ def _pixel(text: str) -> tuple[int, int]:
     return int(match[1]), int(match[2])
 
 
-def _run(options: argparse.Namespace) -> None:
+def _run(options: argparse.Namespace) -> int:
     """Read the scene, render it, and write the image or explain the pixel."""
     from vtray.stopwatch import Stopwatch
 
@@ -133,6 +101,7 @@ def _run(options: argparse.Namespace) -> None:
     clock.lap("write")
     if options.stats:
         _print_stats(clock, image)
+    return SUCCESS
 
 
 def _check_output(scene: Path, output: Path) -> None:
@@ -196,9 +165,3 @@ def _print_stats(clock: "Stopwatch", image: "Image") -> None:
     lines.append(f"{'rays/second':12}{stats['rays'] / max(stats['trace'], 1e-9):,.0f}")
     lines.append(f"{'peak memory':12}{in_gigabytes(peak_memory())}")
     print("\n".join(lines), file=sys.stderr)
-
-
-def _fail(message: str) -> int:
-    """Print an error on stderr; return the exit status."""
-    print(f"Error: {message}", file=sys.stderr)
-    return FAILURE

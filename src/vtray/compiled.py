@@ -46,12 +46,13 @@ def kernel(function: Function) -> Function:
     if folder is None:
         return device(function)
     # Numba reads this setting when the decorator runs; other users of Numba keep theirs.
-    theirs = numba.config.CACHE_DIR
-    numba.config.CACHE_DIR = str(folder)
+    settings: Any = numba.config
+    theirs = settings.CACHE_DIR
+    settings.CACHE_DIR = str(folder)
     try:
         compiled: Function = numba.njit(function, cache=True, **_OPTIONS)
     finally:
-        numba.config.CACHE_DIR = theirs
+        settings.CACHE_DIR = theirs
     return compiled
 
 

@@ -60,9 +60,10 @@ def _explain_hit(scene: Scene, packed: Packed, traced: TracedPixel) -> list[str]
     place = packed.objects[traced.primitive]
     item = scene.objects[place]
     point = _world(scene, packed, traced.interaction.point)
+    distance = traced.distance * packed.unit
     color = item.color
     return [
-        f"hit          objects[{place}], a {_kind(item)}, {traced.distance * packed.unit:.10g} away",
+        f"hit          objects[{place}], a {_kind(item)}, {distance:.10g} away",
         f"  point      {_vector(point)}",
         f"  normal     {_vector(traced.interaction.normal)}, on the ray's side",
         f"  material   color ({color.r:g}, {color.g:g}, {color.b:g}), lambert {item.lambert:g}",
@@ -92,22 +93,30 @@ def _explain_lights(
         elif blockers[k] != NOTHING:
             place = packed.objects[blockers[k]]
             blocker = scene.objects[place]
-            lines.append(f"  adds       nothing: objects[{place}], a {_kind(blocker)}, is in the way")
+            lines.append(
+                f"  adds       nothing: objects[{place}], a {_kind(blocker)}, is in the way"
+            )
         else:
             strength = cosines[k] * item.lambert * light.intensity
-            added = tuple(strength * channel for channel in (item.color.r, item.color.g, item.color.b))
-            factors = f"cosine {cosines[k]:.6g} x lambert {item.lambert:g} x intensity {light.intensity:g}"
-            lines.append(f"  adds       {_vector(added)} = {factors} x color")
+            added = tuple(
+                strength * channel for channel in (item.color.r, item.color.g, item.color.b)
+            )
+            factors = f"cosine {cosines[k]:.6g} x lambert {item.lambert:g}"
+            factors += f" x intensity {light.intensity:g} x color"
+            lines.append(f"  adds       {_vector(added)} = {factors}")
     return lines
 
 
 def _explain_exposure(image: Image, traced: TracedPixel, column: int, row: int) -> list[str]:
     """Return the lines on the value before and after exposure."""
     peak = float(image.linear.max())
+    exposure = (
+        f"floor(255 x light / {peak:.10g}), {peak:.10g} is the brightest channel of the picture"
+    )
     red, green, blue = (int(channel) for channel in image.pixels[row, column])
     return [
         f"light        {_vector(traced.value)}, the sum over all lights",
-        f"exposure     floor(255 x light / {peak:.10g}), the brightest channel of the picture",
+        f"exposure     {exposure if peak > 0.0 else 'the whole picture is black'}",
         f"value        ({red}, {green}, {blue})",
     ]
 

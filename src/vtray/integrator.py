@@ -11,7 +11,16 @@ from vtray.culling import MARGIN, outside_side
 from vtray.interaction import gather_interactions
 from vtray.nearest import clear_hits, nearest_plane, nearest_sphere
 from vtray.occlusion import Workspace, bound_points, find_blocked, find_sides
-from vtray.packet import BLOCK, DIRECTION, FORWARD, LANES, PIXEL, VALUE, Packet, load, new_packet, store
+from vtray.packet import (
+    BLOCK,
+    DIRECTION,
+    FORWARD,
+    PIXEL,
+    VALUE,
+    Packet,
+    load,
+    store,
+)
 from vtray.scene_arrays import SceneArrays, Spheres
 from vtray.shading import add_light
 from vtray.vector import cross, dot

@@ -21,7 +21,7 @@ def check_memory(width: int, height: int) -> None:
     available = psutil.virtual_memory().available
     if needed > available:
         message = (
-            f"camera.size: an image of {width:.9g} x {height:.9g} pixels needs "
+            f"camera.size: an image of {width} x {height} pixels needs "
             f"{in_gigabytes(needed)} of memory, {in_gigabytes(available)} is available; "
             f"expected a smaller size"
         )
@@ -30,8 +30,7 @@ def check_memory(width: int, height: int) -> None:
 
 def in_gigabytes(size: int) -> str:
     """Return a number of bytes as people read it."""
-    gigabytes = size / 10**9 if size < 10**300 else float("inf")
-    return f"{gigabytes:,.1f} GB" if gigabytes < 1e6 else f"{gigabytes:.3g} GB"
+    return f"{size / 10**9:,.1f} GB"
 
 
 def peak_memory() -> int:

@@ -7,7 +7,7 @@ from vtray.compiled import device
 from vtray.packet import DIRECTION, DISTANCE, FORWARD, NO_PRIMITIVE, PRIMITIVE, Packet, load
 from vtray.plane import intersect_plane
 from vtray.rounding import ROUNDING
-from vtray.scene_arrays import Planes, SceneArrays, Spheres
+from vtray.scene_arrays import Planes, Spheres
 from vtray.sphere import intersect_sphere
 from vtray.vector import Vec, dot
 

@@ -71,7 +71,8 @@ def find_sides(packet: Packet, hits: int, planes: Planes, work: Workspace) -> No
 @device
 def plane_side(planes: Planes, plane: int, point: Vec) -> float:
     """Return the signed distance of a point from a plane."""
-    return dot(point, (planes.x[plane], planes.y[plane], planes.z[plane])) - planes.offset[plane]
+    along: float = dot(point, (planes.x[plane], planes.y[plane], planes.z[plane]))
+    return along - float(planes.offset[plane])
 
 
 @device

@@ -35,7 +35,7 @@ BLOCKED = 22 * LANES
 ROWS = 23
 
 NO_PRIMITIVE = -1.0
-"""In row ``PRIMITIVE``: the ray hits nothing. (All rows are doubles: the lanes stay equally wide.)"""
+"""In row ``PRIMITIVE``: the ray hits nothing. (A double as all rows: lanes stay equally wide.)"""
 
 Packet = NDArray[np.float64]
 

@@ -115,19 +115,18 @@ def _nearest_hit(scene: SceneArrays, direction: Vec) -> tuple[float, int]:
 def _first_blocker(scene: SceneArrays, start: Interaction, light: int) -> int:
     """Return the first primitive between a point and a light, or ``NOTHING``."""
     lights, spheres, planes = scene.lights, scene.spheres, scene.planes
+    sphere_count: int = spheres.x.shape[0]
     place = (lights.x[light], lights.y[light], lights.z[light])
     light_depth = lights.depth[light]
     depth = dot(start.point, scene.camera.forward)
-    for k in range(spheres.x.shape[0]):
+    for k in range(sphere_count):
         center = (spheres.x[k], spheres.y[k], spheres.z[k])
         reach = ROUNDING * (start.magnitude + spheres.magnitude[k])
-        if sphere_shadows(
-            start.point, depth, place, light_depth, center, spheres.radius[k], reach
-        ):
+        if sphere_shadows(start.point, depth, place, light_depth, center, spheres.radius[k], reach):
             return k
     for k in range(planes.x.shape[0]):
         reach = ROUNDING * (start.magnitude + planes.magnitude[k])
         side = plane_side(planes, k, start.point)
         if plane_blocks(side, light_side(planes, k, lights, light), depth, light_depth, reach):
-            return spheres.x.shape[0] + k
+            return sphere_count + k
     return NOTHING

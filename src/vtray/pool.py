@@ -3,9 +3,10 @@
 import threading
 from collections.abc import Callable, Iterable
 from queue import Empty, SimpleQueue
-from typing import TypeVar
+from typing import Generic, TypeVar
 
 Task = TypeVar("Task")
+Progress = Callable[[int, int], None]
 
 POLL_SECONDS = 0.05
 """How often the waiting thread looks at the progress and at Ctrl-C."""
@@ -13,11 +14,11 @@ POLL_SECONDS = 0.05
 
 def run_tasks(
     tasks: Iterable[Task],
-    new_worker: Callable[[], Callable[[Task], None]],
+    new_worker: Callable[[], Callable[[Task], object]],
     threads: int,
     *,
     stop: Callable[[], None] = lambda: None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> None:
     """Run all tasks; the calling thread waits, so that Ctrl-C works.
 
@@ -30,7 +31,7 @@ def run_tasks(
     threads
         How many threads to use at the most.
     stop
-        Called once when the rest is given up, to hurry the tasks that run; from any thread.
+        Called when the rest is given up, to hurry the tasks that run; from any thread.
     progress
         Called from time to time, in the calling thread, with the tasks done and their number.
 
@@ -40,51 +41,72 @@ def run_tasks(
         The first exception of a task, of `progress`, or KeyboardInterrupt; the other tasks are
         given up and the threads have ended by then.
     """
-    queue: SimpleQueue[Task] = SimpleQueue()
-    for task in tasks:
-        queue.put(task)
-    total = queue.qsize()
-    failures: list[BaseException] = []
-
-    def give_up() -> None:
-        while _take(queue) is not None:
-            pass
-        stop()
-
-    finished: SimpleQueue[None] = SimpleQueue()
-
-    def work() -> None:
-        try:
-            worker = new_worker()
-            while (task := _take(queue)) is not None:
-                worker(task)
-                finished.put(None)
-        except BaseException as failure:  # noqa: BLE001 - handed to the calling thread
-            failures.append(failure)
-            give_up()
-
-    pool = [threading.Thread(target=work, daemon=True) for _ in range(min(threads, total))]
+    pool = _Pool(tasks, new_worker, stop)
     try:
-        for thread in pool:
+        pool.start(threads)
+        pool.wait(progress)
+    except BaseException:
+        pool.give_up()
+        pool.wait(None)
+        raise
+    if pool.failures:
+        raise pool.failures[0]
+
+
+class _Pool(Generic[Task]):
+    """The threads, the tasks that wait for them, and what became of the others."""
+
+    def __init__(
+        self,
+        tasks: Iterable[Task],
+        new_worker: Callable[[], Callable[[Task], object]],
+        stop: Callable[[], None],
+    ) -> None:
+        self.failures: list[BaseException] = []
+        self._new_worker = new_worker
+        self._stop = stop
+        self._waiting: SimpleQueue[Task] = SimpleQueue()
+        for task in tasks:
+            self._waiting.put(task)
+        self._total = self._waiting.qsize()
+        self._done: SimpleQueue[None] = SimpleQueue()
+        self._threads: list[threading.Thread] = []
+
+    def start(self, threads: int) -> None:
+        """Start the threads."""
+        for _ in range(min(threads, self._total)):
+            thread = threading.Thread(target=self._work, daemon=True)
             thread.start()
-        for thread in pool:
+            self._threads.append(thread)
+
+    def wait(self, progress: Progress | None) -> None:
+        """Wait until all threads have ended."""
+        for thread in self._threads:
             while thread.is_alive():
                 thread.join(POLL_SECONDS)
                 if progress is not None:
-                    progress(finished.qsize(), total)
-    except BaseException:
-        give_up()
-        for thread in pool:
-            if thread.ident is not None:
-                thread.join()
-        raise
-    if failures:
-        raise failures[0]
+                    progress(self._done.qsize(), self._total)
 
+    def give_up(self) -> None:
+        """Drop the tasks that wait, and hurry those that run."""
+        while self._next() is not None:
+            pass
+        self._stop()
 
-def _take(queue: SimpleQueue[Task]) -> Task | None:
-    """Return the next task, None if there is none left."""
-    try:
-        return queue.get_nowait()
-    except Empty:
-        return None
+    def _next(self) -> Task | None:
+        """Return the next task, None if there is none left."""
+        try:
+            return self._waiting.get_nowait()
+        except Empty:
+            return None
+
+    def _work(self) -> None:
+        """Take tasks until there are none."""
+        try:
+            worker = self._new_worker()
+            while (task := self._next()) is not None:
+                worker(task)
+                self._done.put(None)
+        except BaseException as failure:  # noqa: BLE001 - handed to the calling thread
+            self.failures.append(failure)
+            self.give_up()

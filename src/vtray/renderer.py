@@ -12,14 +12,13 @@ from vtray.image import Image
 from vtray.integrator import new_workspace, trace_tile
 from vtray.memory import check_memory
 from vtray.packet import new_packet
-from vtray.pool import run_tasks
+from vtray.pool import Progress, run_tasks
 from vtray.scene import Scene
 from vtray.scene_arrays import SceneArrays, pack
 from vtray.stopwatch import Stopwatch
 from vtray.tiles import TILE, Tile, split_into_tiles
 
 Film = NDArray[np.float64]
-Progress = Callable[[int, int], None]
 
 
 def render(
@@ -59,7 +58,7 @@ def render(
     threads = _count("threads", threads if threads is not None else available_cores())
     tile = _count("tile", tile)
     scene.check()
-    check_memory(*scene.camera.size)
+    check_memory(*(int(side) for side in scene.camera.size))
     check_brightness(scene.lights)
     clock = Stopwatch()
     arrays = pack(scene).arrays

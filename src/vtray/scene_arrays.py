@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from vtray.camera import CameraFrame, camera_axes
 from vtray.rounding import ROUNDING
-from vtray.scene import Camera, Plane, Scene, Sphere, Vector
+from vtray.scene import Camera, Direction, Plane, Scene, Sphere, Vector
 from vtray.vector import Vec
 
 Floats = NDArray[np.float64]
@@ -115,7 +115,7 @@ def pack(scene: Scene) -> Packed:
     return Packed(arrays, unit, np.array([k for k, _ in kept + planes], np.int64))
 
 
-def unit_vector(vector: Vector) -> Vec:
+def unit_vector(vector: Direction) -> Vec:
     """Return a vector of any length, not all zero, scaled to length 1."""
     # A power of two first: squares of tiny and of huge numbers would be lost.
     exponent = max(_exponent(vector.x), _exponent(vector.y), _exponent(vector.z))
@@ -132,16 +132,17 @@ def _exponent(value: float) -> int:
 def _unit_length(scene: Scene) -> float:
     """Return the power of two just above the largest length of a scene."""
     camera = scene.camera
+    places = [camera.center, *(item.center for item in scene.objects)]
+    places += [light.location for light in scene.lights]
+    coordinates = max(max(abs(p.x), abs(p.y), abs(p.z)) for p in places)
+    radii = (item.radius for item in scene.objects if isinstance(item, Sphere))
     highest = max(
         _exponent(camera.focus),
         _exponent(camera.resolution[0]) + _exponent(camera.size[0]),
         _exponent(camera.resolution[1]) + _exponent(camera.size[1]),
+        _exponent(coordinates),
+        _exponent(max(radii, default=0.0)),
     )
-    places = [camera.center, *(item.center for item in scene.objects)]
-    places += [light.location for light in scene.lights]
-    highest = max(highest, max(_exponent(max(abs(p.x), abs(p.y), abs(p.z))) for p in places))
-    radii = [item.radius for item in scene.objects if isinstance(item, Sphere)]
-    highest = max(highest, _exponent(max(radii, default=0.0)))
     # The unit itself and its inverse must be ordinary doubles.
     return math.ldexp(1.0, min(max(highest, -1000), 1000))
 
@@ -177,12 +178,10 @@ def _in_front(spheres: Spheres, camera: CameraFrame) -> NDArray[np.bool_]:
     return nearest >= -ROUNDING * (spheres.magnitude + camera.focus)
 
 
-def _pack_planes(
-    planes: list[Plane], origin: Floats, unit: float, camera: CameraFrame
-) -> Planes:
+def _pack_planes(planes: list[Plane], origin: Floats, unit: float, camera: CameraFrame) -> Planes:
     """Return the arrays of all planes."""
     points = _points([plane.center for plane in planes], unit) - origin
-    normals = np.array([unit_vector(plane.normal) for plane in planes], float).reshape(-1, 3)
+    normals = np.array([unit_vector(plane.normal) for plane in planes], np.float64).reshape(-1, 3)
     x, y, z = _columns(normals)
     from_eye = points - np.array(camera.eye)
     return Planes(

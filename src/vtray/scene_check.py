@@ -182,7 +182,7 @@ def _struct_from_code(found: Any, structs: tuple[Struct, ...], kind: Kind, place
 def _is_triple(structs: tuple[Struct, ...]) -> bool:
     """Tell whether three numbers can stand for the only type there is."""
     kinds = hints_of(structs[0]).values()
-    return len(structs) == 1 and len(kinds) == 3 and not any(map(struct_kinds, kinds))  # noqa: PLR2004
+    return len(structs) == 1 and len(kinds) == 3 and not any(map(struct_kinds, kinds))
 
 
 @functools.cache

@@ -27,7 +27,7 @@ def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
         return "a list" if in_code else "an array"
     if in_code:
         names = " or ".join(cls.__name__ for cls in structs)
-        triple = len(structs) == 1 and len(structs[0].__struct_fields__) == 3  # noqa: PLR2004
+        triple = len(structs) == 1 and len(structs[0].__struct_fields__) == 3
         return f"{names} or three numbers" if triple else names
     if tags(structs):
         (field,) = tag_field(structs[0])

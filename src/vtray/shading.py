@@ -3,7 +3,18 @@
 import math
 
 from vtray.compiled import device
-from vtray.packet import BLOCKED, COLOR, LAMBERT, MAGNITUDE, NORMAL, POINT, VALUE, Packet, load, store
+from vtray.packet import (
+    BLOCKED,
+    COLOR,
+    LAMBERT,
+    MAGNITUDE,
+    NORMAL,
+    POINT,
+    VALUE,
+    Packet,
+    load,
+    store,
+)
 from vtray.rounding import ROUNDING
 from vtray.scene_arrays import Lights
 from vtray.vector import Vec, add, dot, scale, sub

@@ -3,7 +3,6 @@
 import math
 
 from vtray.compiled import device
-from vtray.rounding import ROUNDING
 from vtray.vector import Vec, add, cross, dot, scale
 
 

@@ -1,0 +1,77 @@
+"""What the commands have in common: arguments, errors and exit status."""
+
+import argparse
+import os
+import sys
+from collections.abc import Callable
+from typing import NoReturn
+
+from vtray.errors import UsageError, VtrayError
+
+SUCCESS = 0
+FAILURE = 1
+INTERRUPTED = 130
+
+
+class Parser(argparse.ArgumentParser):
+    """An argument parser whose errors are like all others.
+
+    Parameters
+    ----------
+    hint
+        A line on how to call the command, for its error messages.
+    """
+
+    def __init__(self, *, hint: str, **options: object) -> None:
+        super().__init__(allow_abbrev=False, **options)  # type: ignore[arg-type]
+        self._hint = hint
+
+    def error(self, message: str) -> NoReturn:
+        """Raise UsageError instead of printing and exiting with status 2."""
+        full = f"{message}; {self._hint}"
+        raise UsageError(full)
+
+
+def run_command(action: Callable[[], int], *, too_large: str) -> int:
+    """Run a command and return its exit status; every failure is one line on stderr.
+
+    Parameters
+    ----------
+    action
+        What the command does; it returns the exit status.
+    too_large
+        What to do when memory runs out.
+    """
+    try:
+        status = action()
+        sys.stdout.flush()
+    except SystemExit:  # --help and --version have printed what they had to
+        sys.stdout.flush()
+        return SUCCESS
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except BrokenPipeError:
+        return FAILURE
+    except VtrayError as error:
+        return _fail(str(error))
+    except MemoryError:
+        return _fail(f"out of memory; {too_large}")
+    except Exception as error:  # noqa: BLE001 - a user never sees a traceback
+        return _fail(f"this is a bug in vtray, please report it: {error!r}")
+    return status
+
+
+def leave(status: int) -> NoReturn:
+    """End the process.
+
+    At once: taking everything down takes time, after Ctrl-C a thread may still be busy in the
+    compiler, and Python would complain about a pipe whose reader has gone.
+    """
+    sys.stderr.flush()
+    os._exit(status)
+
+
+def _fail(message: str) -> int:
+    """Print an error on stderr; return the exit status."""
+    print(f"Error: {message}", file=sys.stderr)
+    return FAILURE

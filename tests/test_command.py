@@ -1,0 +1,170 @@
+"""The installed command as a process: real files, real faults."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+
+import vtray
+from conftest import compiled_only
+from examples import light, one_sphere, plane, scene, sphere
+
+pytestmark = compiled_only
+
+Command = Callable[..., "subprocess.CompletedProcess[str]"]
+
+
+@pytest.fixture
+def scene_file(tmp_path: Path) -> Path:
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps(one_sphere()))
+    return path
+
+
+def read(path: Path) -> np.ndarray:
+    with PillowImage.open(path) as image:
+        assert (image.format, image.mode) == ("PNG", "RGB")
+        return np.asarray(image)
+
+
+@pytest.mark.parametrize("threads", [1, 2, 50])
+def test_renders(vtray_command: Command, scene_file: Path, threads: int) -> None:
+    output = scene_file.with_name("picture.png")
+    done = vtray_command("-t", threads, scene_file, output)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    expected = vtray.render(vtray.load(scene_file)).pixels
+    np.testing.assert_array_equal(read(output), expected)
+
+
+def test_files_are_equal_on_every_run(vtray_command: Command, scene_file: Path) -> None:
+    outputs = [scene_file.with_name(f"{k}.png") for k in range(3)]
+    for k, output in enumerate(outputs):
+        vtray_command("--threads", 1 + k, scene_file, output)
+    assert len({output.read_bytes() for output in outputs}) == 1
+
+
+def test_module_is_the_same_command(scene_file: Path) -> None:
+    output = scene_file.with_name("a.png")
+    done = subprocess.run(
+        [sys.executable, "-m", "vtray", scene_file, output], capture_output=True, check=False
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
+    assert read(output).max() == 255
+
+
+def test_pixel_needs_no_output(vtray_command: Command, scene_file: Path) -> None:
+    done = vtray_command("--pixel", "35,22", scene_file)
+    assert done.returncode == 0
+    assert done.stdout.startswith("pixel        column 35, row 22 of 64 x 48\n")
+    assert done.stderr == ""
+
+
+def test_errors(vtray_command: Command, tmp_path: Path) -> None:
+    (tmp_path / "bad.json").write_text('{"camera": 1}')
+    for arguments in (["missing.json", "a.png"], ["bad.json", "a.png"], ["-t", "0", "b", "c"], []):
+        done = vtray_command(*arguments, cwd=tmp_path)
+        assert done.returncode == 1
+        assert done.stdout == ""
+        assert done.stderr.startswith("Error: ")
+        assert done.stderr.count("\n") == 1
+    assert [item.name for item in tmp_path.iterdir()] == ["bad.json"]
+
+
+def test_closed_stdout_is_no_traceback(scene_file: Path) -> None:
+    command = f"{Path(sys.executable).with_name('vtray')} --pixel 1,1 {scene_file} >&-"
+    done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
+    assert "Traceback" not in done.stderr
+
+
+def test_full_device(vtray_command: Command, scene_file: Path) -> None:
+    if not Path("/dev/full").exists():
+        pytest.skip("there is no /dev/full")
+    done = vtray_command(scene_file, "/dev/full")
+    assert done.returncode == 1
+    assert done.stderr == "Error: /dev/full: cannot be written: no space left on device\n"
+
+
+def test_full_disk(vtray_command: Command, scene_file: Path, tmp_path: Path) -> None:
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", str(disk)]
+    if subprocess.run(mount, capture_output=True, check=False).returncode != 0:
+        pytest.skip("may not mount a small disk")
+    try:
+        (disk / "old.png").write_bytes(b"precious")
+        (disk / "ballast").write_bytes(bytes(40_000))
+        document = scene([sphere((0, 0, 5), 3)], [light(5, -5, 0)], size=[900, 900])
+        document["camera"]["resolution"] = [0.006, 0.006]
+        scene_file.write_text(json.dumps(document))
+        done = vtray_command(scene_file, disk / "old.png")
+        assert done.returncode == 1
+        message = f"Error: {disk}/old.png: cannot be written: no space left on device\n"
+        assert done.stderr == message
+        assert (disk / "old.png").read_bytes() == b"precious"
+        assert sorted(item.name for item in disk.iterdir()) == ["ballast", "old.png"]
+    finally:
+        subprocess.run(["umount", str(disk)], check=True)
+
+
+def test_unwritable_folder(vtray_command: Command, scene_file: Path) -> None:
+    folder = "/proc/self" if os.geteuid() == 0 else str(scene_file.parent / "locked")
+    if os.geteuid() != 0:
+        Path(folder).mkdir(mode=0o500)
+    done = vtray_command(scene_file, f"{folder}/picture.png")
+    assert done.returncode == 1
+    assert done.stderr.startswith(f"Error: {folder}/picture.png: cannot be written: ")
+
+
+def heavy_scene() -> dict:
+    """Return a scene that takes many seconds."""
+    spheres = [sphere((k % 50 - 25, k // 50 - 25, 40), 0.6) for k in range(2500)]
+    lights = [light(k - 50, -50, 0, intensity=0.01) for k in range(100)]
+    return scene([*spheres, plane((0, 0, 60), (0, 0, -1))], lights, size=[2000, 2000])
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_interrupt(scene_file: Path, threads: int) -> None:
+    scene_file.write_text(json.dumps(heavy_scene()))
+    output = scene_file.with_name("picture.png")
+    process = subprocess.Popen(
+        [Path(sys.executable).with_name("vtray"), f"-t{threads}", scene_file, output],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+    time.sleep(1.5)
+    assert process.poll() is None
+    start = time.perf_counter()
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=20)
+    assert time.perf_counter() - start < 0.5
+    assert (process.returncode, out, err) == (130, b"", b"")
+    assert list(scene_file.parent.iterdir()) == [scene_file]
+
+
+def test_killed_process_leaves_the_old_picture(scene_file: Path) -> None:
+    scene_file.write_text(json.dumps(heavy_scene()))
+    output = scene_file.with_name("picture.png")
+    output.write_bytes(b"precious")
+    command = [Path(sys.executable).with_name("vtray"), scene_file, output]
+    process = subprocess.Popen(command)
+    time.sleep(1.0)
+    process.kill()
+    process.wait()
+    assert output.read_bytes() == b"precious"
+
+
+def test_two_at_once_into_one_file(scene_file: Path) -> None:
+    output = scene_file.with_name("picture.png")
+    command = [Path(sys.executable).with_name("vtray"), scene_file, output]
+    processes = [subprocess.Popen(command) for _ in range(4)]
+    assert [process.wait() for process in processes] == [0, 0, 0, 0]
+    assert read(output).max() == 255
+    assert sorted(scene_file.parent.iterdir()) == [output, scene_file]

@@ -1,0 +1,103 @@
+"""Compiled kernels are kept, found again, and replaced when they do not fit."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from conftest import compiled_only
+from examples import one_sphere
+from vtray import compiled
+
+pytestmark = compiled_only
+
+SCRIPT = """
+import sys, json, time
+import vtray
+scene = vtray.loads({document!r})
+image = vtray.render(scene, threads=1)
+assert image.pixels.max() == 255
+print(image.stats["compile"])
+"""
+
+
+def start(package: Path | None, **environment: str) -> "subprocess.Popen[str]":
+    """Start a process that renders a sphere and prints the seconds of compiling."""
+    import json
+
+    script = SCRIPT.format(document=json.dumps(one_sphere()))
+    extra = {"PYTHONPATH": str(package)} if package else {}
+    return subprocess.Popen(
+        [sys.executable, "-c", script],
+        env={**os.environ, **extra, **environment},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def finish(process: "subprocess.Popen[str]") -> float:
+    """Return the seconds of compiling of a process that must succeed in silence."""
+    out, err = process.communicate(timeout=300)
+    assert (process.returncode, err) == (0, "")
+    return float(out)
+
+
+def test_compiled_once_and_found_again_by_two_at_once(tmp_path: Path) -> None:
+    cache = {"VTRAY_CACHE_DIR": str(tmp_path)}
+    both = [start(None, **cache), start(None, **cache)]
+    first = max(finish(process) for process in both)
+    files = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.nbc")}
+    again = finish(start(None, **cache))
+    assert again < first / 5
+    assert files == {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.nbc")}
+
+    # A damaged file is compiled again, not trusted and not a crash.
+    for path in files:
+        path.write_bytes(b"damaged")
+    assert finish(start(None, **cache)) > again * 5
+    assert finish(start(None, **cache)) < first / 5
+
+
+def test_change_in_any_source_is_noticed(tmp_path: Path) -> None:
+    package = tmp_path / "site"
+    shutil.copytree(Path(compiled.__file__).parent, package / "vtray")
+    cache = {"VTRAY_CACHE_DIR": str(tmp_path / "cache")}
+    finish(start(package, **cache))
+    shading = package / "vtray" / "shading.py"
+    times = shading.stat()
+    # The kernel calls this from another module; length and time stay as they were.
+    text = shading.read_text()
+    assert "if height > reach else 0.0" in text
+    shading.write_text(text.replace("if height > reach else 0.0", "if height > 1e300 else 0."))
+    os.utime(shading, ns=(times.st_atime_ns, times.st_mtime_ns))
+    changed = start(package, **cache)
+    _, err = changed.communicate(timeout=300)
+    assert "AssertionError" in err  # the picture is black now
+
+
+@pytest.mark.parametrize("variable", ["VTRAY_CACHE_DIR", "XDG_CACHE_HOME"])
+def test_without_a_writable_home(variable: str, tmp_path: Path) -> None:
+    environment = {"VTRAY_CACHE_DIR": "", "TMPDIR": str(tmp_path), variable: "/proc/nowhere"}
+    script = "from vtray.compiled import cache_folder; print(cache_folder())"
+    done = subprocess.run(
+        [sys.executable, "-c", script],
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    if variable == "VTRAY_CACHE_DIR":  # what was asked for cannot be had: nothing is kept
+        assert done.stdout == "None\n"
+    else:
+        assert done.stdout.startswith(str(tmp_path))
+
+
+def test_folder_is_named_by_all_sources() -> None:
+    folder = compiled.cache_folder()
+    assert folder is not None
+    assert folder.name.startswith("kernels-")
+    assert compiled.is_compiled() == any(folder.rglob("*.nbc"))

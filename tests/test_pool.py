@@ -1,0 +1,79 @@
+"""The pool of threads."""
+
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable
+
+import pytest
+
+from vtray.pool import run_tasks
+
+
+@pytest.mark.parametrize("threads", [1, 2, 9])
+def test_every_task_is_done_once(threads: int) -> None:
+    done: list[int] = []
+    workers: list[int] = []
+
+    def new_worker() -> Callable[[int], None]:
+        workers.append(1)
+        return done.append
+
+    run_tasks(range(100), new_worker, threads)
+    assert sorted(done) == list(range(100))
+    assert len(workers) == threads
+
+
+def test_no_tasks() -> None:
+    run_tasks([], lambda: pytest.fail("no worker is needed"), 3)
+
+
+def test_progress_counts_up_to_all_tasks() -> None:
+    seen: list[tuple[int, int]] = []
+    run_tasks(
+        range(5),
+        lambda: lambda _: time.sleep(0.03),
+        1,
+        progress=lambda *counts: seen.append(counts),
+    )
+    assert seen[-1] == (5, 5)
+    assert seen == sorted(seen)
+
+
+def test_failure_of_a_task_ends_the_others_and_is_raised() -> None:
+    done: list[int] = []
+    stopped: list[bool] = []
+
+    def work(task: int) -> None:
+        if task == 3:
+            raise LookupError("task 3")
+        done.append(task)
+
+    with pytest.raises(LookupError, match="task 3"):
+        run_tasks(range(1000), lambda: work, 1, stop=lambda: stopped.append(True))
+    assert done == [0, 1, 2]
+    assert stopped == [True]
+
+
+def test_failure_of_progress_ends_the_tasks() -> None:
+    stop = threading.Event()
+    before = threading.active_count()
+
+    def progress(done: int, total: int) -> None:
+        raise LookupError
+
+    with pytest.raises(LookupError):
+        run_tasks(range(9), lambda: lambda _: stop.wait(20), 2, stop=stop.set, progress=progress)
+    assert threading.active_count() == before
+
+
+def test_interrupt_ends_the_tasks_at_once() -> None:
+    stop = threading.Event()
+    before = threading.active_count()
+    threading.Timer(0.2, os.kill, [os.getpid(), signal.SIGINT]).start()
+    start = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        run_tasks(range(9), lambda: lambda _: stop.wait(20), 2, stop=stop.set)
+    assert time.perf_counter() - start < 2
+    assert threading.active_count() == before
