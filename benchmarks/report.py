@@ -149,13 +149,15 @@ def _conditions() -> str:
     far = f"off by more than {same_picture.FAR:g}"
     return f"""\
 - Every program casts one ray per pixel at matt surfaces, without antialiasing, and a shadow ray to
-  each light, and writes a PNG. Options, besides files, size and threads: {options}.
+  each light, and writes a PNG.
+- Options, besides files, size and threads: {options}.
 - Tracing is the time that the program itself reports; it leaves out start-up, reading the scene and
   writing the picture.
 - ÷ says how many times as long as vtray with as many threads; below 1 is faster.
 - How far a picture is off vtray's: the mean over all channels, of 255, and the share of pixels
-  {far}, once its brightness is scaled for the best fit. Programs round differently, and an edge may
-  run through a neighbouring pixel; a time counts up to {mean:g} and {share:.0%}."""
+  {far},
+  once its brightness is scaled for the best fit. Programs round differently, and an edge may run
+  through a neighbouring pixel; a time counts up to {mean:g} and {share:.0%}."""
 
 
 def _brief(timing: Timing | None) -> str:

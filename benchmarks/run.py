@@ -30,10 +30,14 @@ def main() -> None:
     options = _parse()
     with tempfile.TemporaryDirectory(prefix="vtray-benchmark-") as folder:
         # Kernels compiled here neither help nor disturb the user's own.
-        os.environ["VTRAY_CACHE_DIR"] = str(Path(folder) / "cache")
+        cache = Path(folder) / "cache"
+        os.environ["VTRAY_CACHE_DIR"] = str(cache)
         results = measure(Path(folder), options.only or list(PARTS), quick=options.quick)
+        versions = len(list(cache.glob("*")))
     report = full_report(results)
     print(report)
+    if versions > 1:
+        sys.exit("Error: vtray's sources changed during the run; nothing is written, run it again")
     if options.quick or options.only:
         return
     RESULTS.write_text(report, encoding="utf-8")

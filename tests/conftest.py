@@ -20,7 +20,7 @@ settings.register_profile(
     "vtray",
     derandomize=True,
     deadline=None,
-    max_examples=300 if JIT else 10,
+    max_examples=300 if JIT else 40,
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("vtray")

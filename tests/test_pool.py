@@ -11,6 +11,12 @@ import pytest
 from vtray.pool import run_tasks
 
 
+def assert_threads(count: int) -> None:
+    """Check that no thread is left but one that has just done its last task."""
+    time.sleep(0.05)
+    assert threading.active_count() == count
+
+
 @pytest.mark.parametrize("threads", [1, 2, 9])
 def test_every_task_is_done_once(threads: int) -> None:
     done: list[int] = []
@@ -65,15 +71,35 @@ def test_failure_of_progress_ends_the_tasks() -> None:
 
     with pytest.raises(LookupError):
         run_tasks(range(9), lambda: lambda _: stop.wait(20), 2, stop=stop.set, progress=progress)
-    assert threading.active_count() == before
+    assert_threads(before)
 
 
 def test_interrupt_ends_the_tasks_at_once() -> None:
     stop = threading.Event()
     before = threading.active_count()
-    threading.Timer(0.2, os.kill, [os.getpid(), signal.SIGINT]).start()
+    timer = threading.Timer(0.2, os.kill, [os.getpid(), signal.SIGINT])
+    timer.start()
     start = time.perf_counter()
     with pytest.raises(KeyboardInterrupt):
         run_tasks(range(9), lambda: lambda _: stop.wait(20), 2, stop=stop.set)
     assert time.perf_counter() - start < 2
-    assert threading.active_count() == before
+    timer.join()
+    assert_threads(before)
+
+
+def test_fewer_threads_than_asked_for_do_the_work_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    start, started = threading.Thread.start, []
+
+    def start_two(thread: threading.Thread) -> None:
+        if len(started) == 2:
+            raise RuntimeError("can't start new thread")
+        started.append(thread)
+        start(thread)
+
+    monkeypatch.setattr(threading.Thread, "start", start_two)
+    done: list[int] = []
+    run_tasks(range(50), lambda: done.append, 10)
+    assert sorted(done) == list(range(50))
+
+    with pytest.raises(RuntimeError, match="can't start"):
+        run_tasks(range(50), lambda: done.append, 10)

@@ -12,7 +12,6 @@ Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 202
 
 import argparse
 import contextlib
-import os
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -20,12 +19,13 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-from vtray.errors import OutputError, UsageError, VtrayError
+from vtray.command import FAILURE, SUCCESS, Parser, leave, run_command
+from vtray.errors import OutputError, VtrayError
 
 if TYPE_CHECKING:
     from vtray.image_file import Pixels
 
-ALIKE, FAILURE, DIFFERENT, INTERRUPTED = 0, 1, 2, 130
+ALIKE, DIFFERENT = SUCCESS, 2
 
 THRESHOLD = 0.01
 """Up to which mean error two pictures count as alike.
@@ -160,55 +160,25 @@ def read_picture(path: Path) -> "Pixels":
 
 
 def main() -> NoReturn:
-    """Run the command and exit."""
-    status = run(sys.argv[1:])
-    sys.stderr.flush()
-    # Leave at once: when the reader of a pipe has gone, Python would complain as it ends.
-    os._exit(status)
+    """Run the command ``vtray-diff`` and exit."""
+    leave(run(sys.argv[1:]))
 
 
 def run(arguments: Sequence[str]) -> int:
     """Do what the arguments say; return the exit status."""
-    try:
-        status = _run(_parse(arguments))
-        sys.stdout.flush()
-    except SystemExit:  # --help and --version have printed what they had to
-        sys.stdout.flush()
-        return ALIKE
-    except KeyboardInterrupt:
-        return INTERRUPTED
-    except BrokenPipeError:
-        return FAILURE
-    except VtrayError as error:
-        status = _fail(str(error))
-    except MemoryError:
-        status = _fail("out of memory; compare smaller images")
-    except OSError as error:
-        status = _fail(f"{error.filename or 'standard output'}: {error.strerror or error}")
-    except Exception as error:  # noqa: BLE001 - a user never sees a traceback
-        status = _fail(f"this is a bug in vtray, please report it: {error!r}")
-    return status
-
-
-class _Parser(argparse.ArgumentParser):
-    """An argument parser whose errors are like all others."""
-
-    def error(self, message: str) -> NoReturn:
-        """Raise UsageError instead of printing and exiting with status 2."""
-        full = f"{message}; {USAGE}"
-        raise UsageError(full)
+    return run_command(lambda: _run(_parse(arguments)), too_large="compare smaller images")
 
 
 def _parse(arguments: Sequence[str]) -> argparse.Namespace:
     """Return the arguments, checked as far as can be without reading the pictures."""
     from vtray import __version__
 
-    parser = _Parser(
+    parser = Parser(
+        hint=USAGE,
         prog="vtray-diff",
         description="Say how different two images look to people.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     parser.add_argument("a", metavar="A.png", type=Path, help="an image")
     parser.add_argument("b", metavar="B.png", type=Path, help="another image of the same size")
@@ -287,12 +257,6 @@ def _write(error_map: "Pixels", output: Path) -> None:
     from vtray.image_file import write_image
 
     write_image(error_map, output)
-
-
-def _fail(message: str) -> int:
-    """Print an error on stderr; return the exit status."""
-    print(f"Error: {message}", file=sys.stderr)
-    return FAILURE
 
 
 def _check_pixels(a: "Pixels", b: "Pixels") -> None:

@@ -70,22 +70,29 @@ class _Pool(Generic[Task]):
             self._waiting.put(task)
         self._total = self._waiting.qsize()
         self._done: SimpleQueue[None] = SimpleQueue()
-        self._threads: list[threading.Thread] = []
+        self._started = 0
+        self._ended: list[bool] = []
+        self._wake = threading.Event()
 
     def start(self, threads: int) -> None:
-        """Start the threads."""
+        """Start the threads, or as many as the system allows."""
         for _ in range(min(threads, self._total)):
-            thread = threading.Thread(target=self._work, daemon=True)
-            thread.start()
-            self._threads.append(thread)
+            try:
+                threading.Thread(target=self._work, daemon=True).start()
+            except RuntimeError:
+                if self._started == 0:
+                    raise
+                break
+            self._started += 1
 
     def wait(self, progress: Progress | None) -> None:
         """Wait until all threads have ended."""
-        for thread in self._threads:
-            while thread.is_alive():
-                thread.join(POLL_SECONDS)
-                if progress is not None:
-                    progress(self._done.qsize(), self._total)
+        # Not by Thread.join: interrupted by Ctrl-C, it takes a thread that runs for ended (3.11).
+        while len(self._ended) < self._started:
+            self._wake.wait(POLL_SECONDS)
+            self._wake.clear()
+            if progress is not None:
+                progress(self._done.qsize(), self._total)
 
     def give_up(self) -> None:
         """Drop the tasks that wait, and hurry those that run."""
@@ -110,3 +117,6 @@ class _Pool(Generic[Task]):
         except BaseException as failure:  # noqa: BLE001 - handed to the calling thread
             self.failures.append(failure)
             self.give_up()
+        finally:
+            self._ended.append(True)
+            self._wake.set()

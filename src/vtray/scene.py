@@ -5,13 +5,17 @@ from the annotations in this module.
 """
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, BinaryIO
+from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
 
 import msgspec
 from msgspec import Meta
 
 from vtray.checked import Checked
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 # The kinds of value. Each description completes "expected ..." in an error message.
 Real = Annotated[float, Meta(description="a finite number")]
@@ -107,6 +111,17 @@ class Camera(msgspec.Struct, metaclass=Checked, frozen=True, gc=False):
     size: SizePair
     resolution: PositivePair
 
+    if TYPE_CHECKING:  # what code may give, beside what the attributes hold
+
+        def __init__(
+            self,
+            center: "Vector | Triple",
+            normal: "Direction | Vector | Triple",
+            focus: float,
+            size: tuple[int, int],
+            resolution: tuple[float, float],
+        ) -> None: ...
+
     def __post_init__(self) -> None:
         """Hold the size as integers, also where it was written as 256.0."""
         width, height = self.size
@@ -126,6 +141,10 @@ class Light(msgspec.Struct, metaclass=Checked, frozen=True, gc=False):
 
     location: Vector
     intensity: NonNegative
+
+    if TYPE_CHECKING:
+
+        def __init__(self, location: "Vector | Triple", intensity: float) -> None: ...
 
 
 class Sphere(
@@ -150,6 +169,12 @@ class Sphere(
     color: Color
     lambert: Fraction
 
+    if TYPE_CHECKING:
+
+        def __init__(
+            self, center: "Vector | Triple", radius: float, color: "Color | Triple", lambert: float
+        ) -> None: ...
+
 
 class Plane(
     msgspec.Struct, metaclass=Checked, frozen=True, gc=False, tag_field="type", tag="plane"
@@ -173,8 +198,21 @@ class Plane(
     color: Color
     lambert: Fraction
 
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            center: "Vector | Triple",
+            normal: "Direction | Vector | Triple",
+            color: "Color | Triple",
+            lambert: float,
+        ) -> None: ...
+
 
 Object = Sphere | Plane
+
+if TYPE_CHECKING:
+    Triple = Sequence[float] | NDArray[Any]
 
 
 class Scene(msgspec.Struct, metaclass=Checked):

@@ -1,0 +1,50 @@
+PYTHON ?= python3
+BIN := .venv/bin
+
+.DEFAULT_GOAL := help
+.PHONY: help run test coverage memtest lint format schema scenes bench check clean
+
+help: ## list what can be made
+	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+
+.venv/ready: pyproject.toml
+	$(PYTHON) -m venv .venv
+	$(BIN)/pip install --quiet --editable '.[dev]'
+	touch $@
+
+run: .venv/ready ## render an example scene to room.png
+	$(BIN)/vtray --threads 2 --stats scenes/room.json room.png
+
+test: .venv/ready ## run all tests, kernels compiled
+	$(BIN)/pytest
+
+coverage: .venv/ready ## run the tests without the compiler, and see that they reach 95 % of lines
+	NUMBA_DISABLE_JIT=1 $(BIN)/coverage run -m pytest -q
+	$(BIN)/coverage report
+
+memtest: .venv/ready ## see that memory stays within bounds
+	$(BIN)/pytest tests/test_memory.py
+
+lint: .venv/ready ## check style, types, and what imports what
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+format: .venv/ready ## bring the sources into shape
+	$(BIN)/ruff format
+	$(BIN)/ruff check --fix
+
+schema: .venv/ready ## write docs/scene.schema.json
+	$(BIN)/python -m vtray.schema > docs/scene.schema.json
+
+scenes: .venv/ready ## make the example scenes and their pictures again
+	$(BIN)/python scenes/make_scenes.py --render
+
+bench: .venv/ready ## measure, and write benchmarks/results.md and the table in README.md
+	$(BIN)/python benchmarks/run.py
+
+check: lint test coverage ## all that must pass before a change lands
+
+clean: ## remove what was made
+	rm -rf .venv build dist .coverage .hypothesis .pytest_cache .mypy_cache .ruff_cache

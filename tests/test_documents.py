@@ -1,0 +1,84 @@
+"""What the documents say is so."""
+
+import json
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import compiled_only
+
+import vtray
+
+ROOT = Path(__file__).parents[1]
+README = (ROOT / "README.md").read_text()
+DOCUMENTS = [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")]
+
+
+def blocks(kind: str) -> dict[str, str]:
+    """Return the code blocks of the README behind a comment `kind: name`, by name."""
+    pattern = rf"<!-- {kind}: (.*) -->\n```\w*\n((?:.*\n)*?)```"
+    return dict(re.findall(pattern, README))
+
+
+@compiled_only
+@pytest.mark.parametrize(("name", "code"), blocks("example").items())
+def test_examples_run(name: str, code: str, tmp_path: Path) -> None:
+    (tmp_path / "scenes").symlink_to(ROOT / "scenes")
+    command = [sys.executable, "-W", "error", "-c", code]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    pictures = list(tmp_path.glob("*.png"))
+    assert len(pictures) == 1, name
+    for made in tmp_path.glob("*.json"):
+        vtray.load(made)
+
+
+@compiled_only
+@pytest.mark.parametrize(("command", "output"), blocks("output").items())
+def test_outputs_are_what_the_commands_print(command: str, output: str) -> None:
+    program, *arguments = shlex.split(command)
+    run = [str(Path(sys.executable).with_name(program)), *arguments]
+    done = subprocess.run(run, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.stdout == output
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_blocks_are_found() -> None:
+    assert list(blocks("command")) == ["run", "test"]
+    assert list(blocks("example")) == ["file", "code"]
+    assert len(blocks("output")) == 1
+    assert README.index("<!-- benchmark:begin -->") < README.index("<!-- benchmark:end -->")
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+def test_links_lead_somewhere(document: Path) -> None:
+    for link in re.findall(r"\]\(([^)#\s]+)", document.read_text()):
+        if "://" not in link:
+            assert (document.parent / link).exists(), link
+
+
+def test_options_of_the_command_are_in_the_readme() -> None:
+    command = [str(Path(sys.executable).with_name("vtray")), "--help"]
+    text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    options = set(re.findall(r"--[a-z]+", text))
+    assert len(options) >= 6
+    assert options <= set(re.findall(r"--[a-z]+", README))
+
+
+def test_format_table_names_all_keys() -> None:
+    schema = json.loads((ROOT / "docs" / "scene.schema.json").read_text())
+    keys = set(schema["properties"])
+    for part in schema["$defs"].values():
+        keys |= set(part["properties"])
+    table = README[README.index("## The scene file") : README.index("## The rules")]
+    words = set(re.findall(r"\w+", table))
+    assert keys <= words
+
+
+def test_architecture_names_all_modules() -> None:
+    text = (ROOT / "docs" / "architecture.md").read_text()
+    for module in (ROOT / "src" / "vtray").glob("[a-z]*.py"):
+        assert f"`{module.stem}`" in text, module.stem

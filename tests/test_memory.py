@@ -1,0 +1,64 @@
+"""Memory stays within bounds."""
+
+import json
+import subprocess
+import sys
+
+from conftest import compiled_only
+from examples import light, one_sphere, plane, scene, sphere
+
+from vtray.memory import in_gigabytes
+
+pytestmark = compiled_only
+
+
+def run(script: str, *arguments: str) -> list[int]:
+    """Run a script in a new process, and return the integers that it prints."""
+    command = [sys.executable, "-W", "error", "-c", script, *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.stderr == ""
+    return [int(word) for word in done.stdout.split()]
+
+
+def test_large_image_takes_at_most_twice_its_film(tmp_path) -> None:
+    size, path = 4096, tmp_path / "scene.json"
+    document = scene(
+        [sphere((0, 0, 5), 3), plane((0, 5, 0), (0, -1, 0.2))],
+        [light(5, -5, 0)],
+        size=[size, size],
+        resolution=[0.002, 0.002],
+    )
+    path.write_text(json.dumps(document))
+    script = """
+import sys, vtray
+from vtray.memory import peak_memory
+vtray.render(vtray.load(sys.argv[1]), threads=2).save(sys.argv[2])
+print(peak_memory())
+"""
+    (peak,) = run(script, str(path), str(tmp_path / "picture.png"))
+    film = size * size * 3 * 8
+    assert film < peak < 2 * film
+
+
+def test_thousand_renders_leak_nothing() -> None:
+    document = one_sphere()
+    script = """
+import gc, sys, threading
+import psutil, vtray
+scene = vtray.loads(sys.argv[1])
+process = psutil.Process()
+for k in range(1001):
+    vtray.render(scene, threads=2)
+    if k % 500 == 0:
+        gc.collect()
+        print(process.memory_info().rss, process.num_fds(), threading.active_count())
+"""
+    numbers = run(script, json.dumps(document))
+    (_, early, late) = (numbers[k : k + 3] for k in range(0, 9, 3))
+    assert late[0] - early[0] < 2_000_000  # a film of this scene has 70 kB
+    assert late[1:] == early[1:]
+
+
+def test_gigabytes_are_readable() -> None:
+    assert in_gigabytes(0) == "0.0 GB"
+    assert in_gigabytes(1_234_567_890_123) == "1,234.6 GB"
