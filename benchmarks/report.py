@@ -155,9 +155,8 @@ def _conditions() -> str:
   writing the picture.
 - ÷ says how many times as long as vtray with as many threads; below 1 is faster.
 - How far a picture is off vtray's: the mean over all channels, of 255, and the share of pixels
-  {far},
-  once its brightness is scaled for the best fit. Programs round differently, and an edge may run
-  through a neighbouring pixel; a time counts up to {mean:g} and {share:.0%}."""
+  {far}, once its brightness is scaled for the best fit. Programs round differently, and an
+  edge may run through a neighbouring pixel; a time counts up to {mean:g} and {share:.0%}."""
 
 
 def _brief(timing: Timing | None) -> str:

@@ -8,9 +8,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from conftest import compiled_only
 
 import vtray
+from conftest import compiled_only
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text()

@@ -6,7 +6,6 @@ import sys
 
 from conftest import compiled_only
 from examples import light, one_sphere, plane, scene, sphere
-
 from vtray.memory import in_gigabytes
 
 pytestmark = compiled_only

@@ -32,9 +32,10 @@ THRESHOLD = 0.01
 
 Measured on pictures of 1024 x 1024 pixels: 0.00006 for 319 pixels of speckle at a horizon; in the
 room of the benchmarks 0.014 without one of its 64 lights, 0.03 to 0.04 without one of its 4
-spheres, 0.03 with every channel one step of 255 brighter. The threshold lies below all that is a
-change of a whole picture. As the error is a mean, an object of a few pixels may vanish below it
-(one of 1,000 spheres: 0.0002), which is why the command also says how many pixels differ.
+spheres, 0.03 with every channel one step of 255 brighter. The threshold lies between: above
+specks, below a change of the light or of something large. As the error is a mean, an object of a
+few pixels may vanish below it (one of 1,000 spheres, often 0.0002), which is why the command also
+says how many pixels differ.
 """
 
 LEAST_SHOWN = 0.0001
