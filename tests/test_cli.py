@@ -220,6 +220,11 @@ def fail_with(monkeypatch: pytest.MonkeyPatch, error: BaseException) -> None:
     [
         (KeyboardInterrupt(), 130, ""),
         (BrokenPipeError(), 1, ""),
+        (
+            OSError(28, "No space left"),
+            1,
+            "Error: standard output cannot be written: No space left\n",
+        ),
         (MemoryError(), 1, "Error: out of memory; choose a smaller camera.size\n"),
         (
             ZeroDivisionError("oops"),

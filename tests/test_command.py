@@ -78,10 +78,14 @@ def test_errors(vtray_command: Command, tmp_path: Path) -> None:
     assert [item.name for item in tmp_path.iterdir()] == ["bad.json"]
 
 
-def test_closed_stdout_is_no_traceback(scene_file: Path) -> None:
-    command = f"{Path(sys.executable).with_name('vtray')} --pixel 1,1 {scene_file} >&-"
+@pytest.mark.parametrize("redirection", [">&-", "2>&-", ">/dev/full", "| true"])
+@pytest.mark.parametrize("arguments", ["--pixel 1,1 SCENE", "--help", "missing.json a.png"])
+def test_streams_that_cannot_be_written(scene_file: Path, redirection: str, arguments: str) -> None:
+    program = Path(sys.executable).with_name("vtray")
+    command = f"{program} {arguments.replace('SCENE', str(scene_file))} {redirection}"
     done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
     assert "Traceback" not in done.stderr
+    assert "bug" not in done.stderr
 
 
 def test_full_device(vtray_command: Command, scene_file: Path) -> None:

@@ -2,10 +2,12 @@
 
 import json
 from itertools import product
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 
 import oracle
 import vtray
@@ -65,6 +67,38 @@ def test_is_the_same_for_any_threads_and_tiles(threads: int, tile: int) -> None:
     np.testing.assert_array_equal(image.linear, expected.linear)
     np.testing.assert_array_equal(image.pixels, expected.pixels)
     assert image.stats["rays"] == expected.stats["rays"]
+
+
+EXTREMES = st.sampled_from(
+    [0.0, -0.0, 5e-324, 1e-308, -1e-200, 1e-9, 1.0, 255.0, -1e9, 1e17, 1e200, -1e300, 1.7e308]
+)
+
+
+def numbers(document: object) -> list[tuple[Any, Any]]:
+    """Return where the numbers of a document are, but for the size of its image."""
+    found = []
+    items = document.items() if isinstance(document, dict) else enumerate(document)
+    for key, value in items:
+        if isinstance(value, (dict, list)):
+            found += numbers(value) if key != "size" else []
+        elif not isinstance(value, str):
+            found.append((document, key))
+    return found
+
+
+@given(scenes(), st.data())
+def test_any_number_gives_an_image_or_an_error(scene: dict, data: st.DataObject) -> None:
+    places = numbers(scene)
+    for _ in range(data.draw(st.integers(1, 4))):
+        parent, key = data.draw(st.sampled_from(places))
+        parent[key] = data.draw(EXTREMES)
+    try:
+        image = vtray.render(load(scene), threads=1)
+    except vtray.VtrayError:
+        return
+    assert np.isfinite(image.linear).all()
+    assert image.linear.min() >= 0
+    assert image.pixels.max() == (255 if image.linear.max() > 0 else 0)
 
 
 @pytest.mark.skipif(not CONFORMANCE.is_dir(), reason="the reference images are not here")

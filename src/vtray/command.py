@@ -1,6 +1,7 @@
 """What the commands have in common: arguments, errors and exit status."""
 
 import argparse
+import contextlib
 import os
 import sys
 from collections.abc import Callable
@@ -43,19 +44,17 @@ def run_command(action: Callable[[], int], *, too_large: str) -> int:
         What to do when memory runs out.
     """
     try:
-        status = action()
-        sys.stdout.flush()
-    except SystemExit:  # --help and --version have printed what they had to
-        sys.stdout.flush()
-        return SUCCESS
+        status = _until_printed(action)
     except KeyboardInterrupt:
         return INTERRUPTED
-    except BrokenPipeError:
+    except BrokenPipeError:  # the reader of the output has had enough
         return FAILURE
     except VtrayError as error:
         return _fail(str(error))
     except MemoryError:
         return _fail(f"out of memory; {too_large}")
+    except OSError as error:
+        return _fail(f"standard output cannot be written: {error.strerror or error}")
     except Exception as error:  # noqa: BLE001 - a user never sees a traceback
         return _fail(f"this is a bug in vtray, please report it: {error!r}")
     return status
@@ -67,8 +66,20 @@ def leave(status: int) -> NoReturn:
     At once: taking everything down takes time, after Ctrl-C a thread may still be busy in the
     compiler, and Python would complain about a pipe whose reader has gone.
     """
-    sys.stderr.flush()
+    with contextlib.suppress(OSError, AttributeError):  # closed, or not there at all
+        sys.stderr.flush()
     os._exit(status)
+
+
+def _until_printed(action: Callable[[], int]) -> int:
+    """Run a command until all that it prints is written."""
+    try:
+        status = action()
+    except SystemExit:  # --help and --version have printed what they had to
+        status = SUCCESS
+    if sys.stdout is not None:
+        sys.stdout.flush()
+    return status
 
 
 def _fail(message: str) -> int:

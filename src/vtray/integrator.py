@@ -69,6 +69,7 @@ def trace_tile(
     """
     peak = 0.0
     rays = 0
+    film[top:bottom, left:right] = 0.0
     for y in range(top, bottom, BLOCK):
         for x in range(left, right, BLOCK):
             block = Block(x, y, min(BLOCK, right - x), min(BLOCK, bottom - y))
@@ -111,11 +112,12 @@ def _trace_block(
 def _cast_rays(packet: Packet, block: Block, camera: CameraFrame) -> None:
     """Set each lane's ray, row by row through the block."""
     for row in range(block.height):
+        start = row * block.width
         for column in range(block.width):
-            lane = row * block.width + column
             direction = camera_ray(camera, block.left + column, block.top + row)
-            store(packet, DIRECTION, lane, direction)
-            packet[FORWARD + lane] = dot(direction, camera.forward)
+            store(packet, DIRECTION, start + column, direction)
+    for lane in range(block.width * block.height):
+        packet[FORWARD + lane] = dot(load(packet, DIRECTION, lane), camera.forward)
 
 
 @device

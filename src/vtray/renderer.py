@@ -100,7 +100,7 @@ def _trace(
 ) -> tuple[Film, float, int]:
     """Return the film, its largest channel, and how many rays were cast."""
     camera = scene.camera
-    film = np.zeros((camera.height, camera.width, 3))
+    film = np.empty((camera.height, camera.width, 3))
     stop = np.zeros(1, np.bool_)
     results: list[tuple[float, int]] = []
 
