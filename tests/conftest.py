@@ -3,11 +3,10 @@
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import numba
-import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
 
@@ -28,11 +27,10 @@ settings.load_profile("vtray")
 compiled_only = pytest.mark.skipif(not JIT, reason="needs the compiler")
 
 
-@pytest.fixture(autouse=True)
-def _numpy_errors() -> Iterator[None]:
+def pytest_configure(config: pytest.Config) -> None:
     """Let infinity and NaN pass silently in kernels that run uncompiled, as in compiled ones."""
-    with np.errstate(**({} if JIT else {"all": "ignore"})):
-        yield
+    if not JIT:
+        config.addinivalue_line("filterwarnings", "ignore::RuntimeWarning")
 
 
 @pytest.fixture

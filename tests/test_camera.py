@@ -66,8 +66,7 @@ def test_rays_go_through_the_pixels() -> None:
         down=(0.0, 1.0, 0.0),
         forward=(0.0, 0.0, 1.0),
         focus=10.0,
-        pixel_width=0.5,
-        pixel_height=0.25,
+        pixel=(0.5 * 8, 0.25 * 8, 10.0 * 8),
         width=5,
         height=4,
     )

@@ -127,6 +127,20 @@ def test_stays_the_same_when_the_scene_is_scaled(name: str, exponent: int) -> No
     np.testing.assert_array_equal(render(document).linear, render(HARD[name]).linear)
 
 
+@pytest.mark.parametrize("far", [1e20, 1e60, 1e100])
+def test_light_as_far_as_can_be_shines_from_its_direction(far: float) -> None:
+    objects = [sphere((0, 0, 5), 1), sphere((1, -2, 4), 0.5), plane((0, 1, 0), (0, -1, 0))]
+    near = render(scene(objects, [light(3e6, -4e6, -2e6)])).linear
+    difference = np.abs(render(scene(objects, [light(3 * far, -4 * far, -2 * far)])).linear - near)
+    assert np.count_nonzero(difference > 0.01) <= 3
+
+
+def test_camera_does_not_vanish_beside_something_huge() -> None:
+    wall = plane((0, 0, 1e200), (0.1, 0, -1))
+    picture = render(scene([wall], [light(0, 0, 0)])).pixels
+    assert (picture > 200).all()
+
+
 @pytest.mark.parametrize("normal", [TILTED, (0, -1, 0), (1e-9, 1, -1e-9)])
 def test_light_in_a_plane_gives_it_nothing(normal: tuple[float, ...]) -> None:
     # The light grazes the plane: rounding alone would decide which pixels it reaches.

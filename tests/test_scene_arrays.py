@@ -1,6 +1,5 @@
 """Packing a scene into arrays."""
 
-import numpy as np
 import pytest
 
 import vtray
@@ -31,14 +30,20 @@ def test_places_are_relative_to_the_image_plane_in_units_of_a_power_of_two() -> 
             [vtray.Light((5, 2, 0), 7)],
         )
     )
-    assert packed.unit == 16
+    assert packed.unit == 16 / 2**200
     camera, spheres, planes, lights, materials = packed.arrays
-    assert camera.eye == (0, 0, -10 / 16)
-    assert (camera.focus, camera.pixel_width, camera.width) == (10 / 16, 0.5 / 16, 4)
-    assert [float(column[0]) * 16 for column in spheres] == [0, 0, 6, 2, 8]
+
+    def lengths(*values: float) -> list[float]:
+        return [value * packed.unit for value in values]
+
+    assert lengths(*camera.eye, camera.focus) == [0, 0, -10, 10]
+    assert (camera.pixel, camera.width) == ((0.5 / 16, 0.5 / 16, 10 / 16), 4)
+    assert lengths(*(column[0] for column in spheres)) == [0, 0, 6, 2, 8]
     assert [float(column[0]) for column in planes[:3]] == [0, -1, 0]
-    assert (planes.offset[0] * 16, planes.height[0] * 16) == (-3, -3)
-    assert [float(column[0]) for column in lights] == [4 / 16, 0, -3 / 16, -3 / 16, 7, 7 / 16]
+    assert lengths(planes.offset[0], planes.height[0]) == [-3, -3]
+    assert lengths(lights.x[0], lights.y[0], lights.z[0]) == [4, 0, -3]
+    assert lengths(lights.depth[0], lights.magnitude[0]) == [-3, 7]
+    assert lights.intensity[0] == 7
     # The spheres come first, whatever the order in the scene.
     assert packed.objects.tolist() == [1, 0]
     assert materials.red.tolist() == [255, 1]
@@ -51,14 +56,13 @@ def test_spheres_behind_the_image_plane_are_left_out() -> None:
     assert packed.objects.tolist() == [1, 2, 3, 4]
 
 
-@pytest.mark.parametrize("size", [1e-300, 1.0, 1e300])
-def test_unit_keeps_squares_within_range(size: float) -> None:
-    arrays = pack(
-        scene([vtray.Sphere((0, 0, size), size, WHITE, 1)], center=(0, 0, 0), focus=size)
-    ).arrays
-    squared = arrays.spheres.radius[0] ** 2
-    assert 0 < squared <= (1 if size >= 1 else 1e-300) or size < 1
-    assert np.isfinite(squared)
+@pytest.mark.parametrize("size", [1e-320, 1e-300, 1.0, 1e300, 1.7e308])
+def test_unit_keeps_squares_of_squares_within_range(size: float) -> None:
+    sphere = vtray.Sphere((0, 0, size), size / 2, WHITE, 1)
+    packed = pack(scene([sphere], center=(0, 0, 0), focus=size, resolution=(size / 8, size / 8)))
+    radius = packed.arrays.spheres.radius[0]
+    assert 0 < radius**4 < 1e290
+    assert all(0 < length <= 1 for length in packed.arrays.camera.pixel)
 
 
 def test_empty_scene() -> None:

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from vtray.compiled import device
-from vtray.vector import Vec, add, dot, scale, sub
+from vtray.vector import Vec, add, dot, scale
 
 
 class CameraFrame(NamedTuple):
@@ -18,8 +18,9 @@ class CameraFrame(NamedTuple):
         The unit axes x', y', z' of the camera.
     focus
         The distance from the eye to the image plane.
-    pixel_width, pixel_height
-        The size of one pixel in the image plane.
+    pixel
+        Width and height of one pixel, and the distance from the eye to it, in a unit of their own:
+        they only make directions, and must not vanish beside things that are huge.
     width, height
         The size of the image in pixels.
     """
@@ -29,8 +30,7 @@ class CameraFrame(NamedTuple):
     down: Vec
     forward: Vec
     focus: float
-    pixel_width: float
-    pixel_height: float
+    pixel: Vec
     width: int
     height: int
 
@@ -60,9 +60,9 @@ def camera_axes(forward: Vec) -> tuple[Vec, Vec]:
 @device
 def camera_ray(camera: CameraFrame, column: int, row: int) -> Vec:
     """Return the unit direction of the ray from the eye through a pixel."""
-    across = (column - camera.width / 2) * camera.pixel_width
-    below = (row - camera.height / 2) * camera.pixel_height
-    pixel = add(scale(across, camera.right), scale(below, camera.down))
-    ray = sub(pixel, camera.eye)
+    across = (column - camera.width / 2) * camera.pixel[0]
+    below = (row - camera.height / 2) * camera.pixel[1]
+    in_plane = add(scale(across, camera.right), scale(below, camera.down))
+    ray = add(in_plane, scale(camera.pixel[2], camera.forward))
     length = math.sqrt(dot(ray, ray))
     return ray[0] / length, ray[1] / length, ray[2] / length

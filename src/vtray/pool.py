@@ -88,11 +88,14 @@ class _Pool(Generic[Task]):
     def wait(self, progress: Progress | None) -> None:
         """Wait until all threads have ended."""
         # Not by Thread.join: interrupted by Ctrl-C, it takes a thread that runs for ended (3.11).
-        while len(self._ended) < self._started:
-            self._wake.wait(POLL_SECONDS)
-            self._wake.clear()
+        while True:
+            ended = len(self._ended) == self._started
             if progress is not None:
                 progress(self._done.qsize(), self._total)
+            if ended:
+                return
+            self._wake.wait(POLL_SECONDS)
+            self._wake.clear()
 
     def give_up(self) -> None:
         """Drop the tasks that wait, and hurry those that run."""

@@ -1,8 +1,9 @@
 """The scene as arrays: what the kernels read.
 
-Lengths are divided by a power of two so that the largest is about 1: that changes no digit, and no
-square overflows or underflows. The origin moves to the centre of the image plane, so that a scene
-far from the world's origin loses no digits. What lies wholly behind the image plane is left out.
+Lengths are divided by a power of two, which changes no digit, so that the largest is about 2**200.
+Then no square of a square overflows, not even at points a billion times farther away, and those of
+parts 1e130 times smaller do not vanish. The origin moves to the centre of the image plane, so that
+a scene far from the world's origin loses no digits. Spheres behind the image plane are left out.
 """
 
 import math
@@ -130,21 +131,26 @@ def _exponent(value: float) -> int:
 
 
 def _unit_length(scene: Scene) -> float:
-    """Return the power of two just above the largest length of a scene."""
+    """Return the power of two by which the lengths of a scene are divided."""
     camera = scene.camera
     places = [camera.center, *(item.center for item in scene.objects)]
     places += [light.location for light in scene.lights]
     coordinates = max(max(abs(p.x), abs(p.y), abs(p.z)) for p in places)
     radii = (item.radius for item in scene.objects if isinstance(item, Sphere))
     highest = max(
+        _camera_exponent(camera), _exponent(coordinates), _exponent(max(radii, default=0.0))
+    )
+    # The unit itself and its inverse must be ordinary doubles.
+    return math.ldexp(1.0, max(highest - 200, -1000))
+
+
+def _camera_exponent(camera: Camera) -> int:
+    """Return an e with all lengths of a camera below 2**e, and the largest not far below."""
+    return max(
         _exponent(camera.focus),
         _exponent(camera.resolution[0]) + _exponent(camera.size[0]),
         _exponent(camera.resolution[1]) + _exponent(camera.size[1]),
-        _exponent(coordinates),
-        _exponent(max(radii, default=0.0)),
     )
-    # The unit itself and its inverse must be ordinary doubles.
-    return math.ldexp(1.0, min(max(highest, -1000), 1000))
 
 
 def _pack_camera(camera: Camera, unit: float) -> CameraFrame:
@@ -152,14 +158,15 @@ def _pack_camera(camera: Camera, unit: float) -> CameraFrame:
     forward = unit_vector(camera.normal)
     right, down = camera_axes(forward)
     focus = camera.focus / unit
+    own = -_camera_exponent(camera)
+    width, height = camera.resolution
     return CameraFrame(
         eye=(-focus * forward[0], -focus * forward[1], -focus * forward[2]),
         right=right,
         down=down,
         forward=forward,
         focus=focus,
-        pixel_width=camera.resolution[0] / unit,
-        pixel_height=camera.resolution[1] / unit,
+        pixel=(math.ldexp(width, own), math.ldexp(height, own), math.ldexp(camera.focus, own)),
         width=int(camera.size[0]),
         height=int(camera.size[1]),
     )

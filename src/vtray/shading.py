@@ -34,7 +34,9 @@ def lambert_cosine(normal: Vec, to_light: Vec, reach: float) -> float:
         How far rounding may have moved the point: a light no higher than that is on the horizon.
     """
     height = dot(normal, to_light)
-    return height / math.sqrt(dot(to_light, to_light)) if height > reach else 0.0
+    length2 = dot(to_light, to_light)
+    # The square is 0 for a light that is nearer than 1e-300 of the scene's size.
+    return height / math.sqrt(length2) if (height > reach) & (length2 > 0.0) else 0.0
 
 
 @device
