@@ -69,7 +69,6 @@ def trace_tile(
     """
     peak = 0.0
     rays = 0
-    film[top:bottom, left:right] = 0.0
     for y in range(top, bottom, BLOCK):
         for x in range(left, right, BLOCK):
             block = Block(x, y, min(BLOCK, right - x), min(BLOCK, bottom - y))
@@ -95,6 +94,8 @@ def _trace_block(
     _cast_rays(packet, block, scene.camera)
     _find_hits(packet, block, scene, work)
     hits = gather_interactions(packet, lanes, scene)
+    if hits < lanes:
+        _blacken(block, film)
     if hits == 0:
         return 0.0, lanes
     rays = lanes
@@ -161,6 +162,15 @@ def _cull_spheres(
             | outside_side(center, bottom, radius)
             | outside_side(center, left, radius)
         )
+
+
+@device
+def _blacken(block: Block, film: NDArray[np.float64]) -> None:
+    """Write no light to a block's part of the film, for the rays that hit nothing."""
+    for row in range(block.top, block.top + block.height):
+        for column in range(block.left, block.left + block.width):
+            for channel in range(3):
+                film[row, column, channel] = 0.0
 
 
 @device
