@@ -140,15 +140,13 @@ def _cull_spheres(
     packet: Packet, block: Block, camera: CameraFrame, spheres: Spheres, near: NDArray[np.bool_]
 ) -> None:
     """Find the spheres that reach into the pyramid from the eye through a block."""
-    last = block.width * block.height - 1
+    # Not by rays of two corners: far from the eye of a narrow view they are too nearly parallel.
     left_top = load(packet, DIRECTION, 0)
-    right_top = load(packet, DIRECTION, block.width - 1)
-    left_bottom = load(packet, DIRECTION, last - (block.width - 1))
-    right_bottom = load(packet, DIRECTION, last)
-    top = cross(right_top, left_top)
-    right = cross(right_bottom, right_top)
-    bottom = cross(left_bottom, right_bottom)
-    left = cross(left_top, left_bottom)
+    right_bottom = load(packet, DIRECTION, block.width * block.height - 1)
+    left = cross(left_top, camera.down)
+    top = cross(camera.right, left_top)
+    right = cross(camera.down, right_bottom)
+    bottom = cross(right_bottom, camera.right)
     for sphere in range(spheres.x.shape[0]):
         center = (
             spheres.x[sphere] - camera.eye[0],
@@ -157,10 +155,10 @@ def _cull_spheres(
         )
         radius = spheres.radius[sphere] + MARGIN * (spheres.magnitude[sphere] + camera.focus)
         near[sphere] = not (
-            outside_side(center, top, radius)
+            outside_side(center, left, radius)
+            | outside_side(center, top, radius)
             | outside_side(center, right, radius)
             | outside_side(center, bottom, radius)
-            | outside_side(center, left, radius)
         )
 
 
