@@ -1,6 +1,7 @@
 """The metaclass that checks objects made in code as a file is checked."""
 
 import math
+import sys
 from typing import Any
 
 import msgspec
@@ -46,11 +47,16 @@ def _bind(cls: type, args: tuple[object, ...], kwargs: dict[str, object]) -> dic
 
 
 def _is_plain(value: object) -> bool:
-    """Whether msgspec alone can check the value: finite, and no dictionary in it."""
-    if isinstance(value, float):
-        return math.isfinite(value)
+    """Whether msgspec alone can check the value: no dictionary, and no number beyond a double."""
     if isinstance(value, (list, tuple)):
         if all(issubclass(kind, msgspec.Struct) for kind in set(map(type, value))):
             return True
-        return all(isinstance(item, (int, float)) and math.isfinite(item) for item in value)
-    return isinstance(value, (int, str, msgspec.Struct))
+        return all(map(_is_plain_number, value))
+    return _is_plain_number(value) or isinstance(value, (str, msgspec.Struct))
+
+
+def _is_plain_number(value: object) -> bool:
+    """Whether a value is a number within the range of a double."""
+    if isinstance(value, int):
+        return value.bit_length() < sys.float_info.max_exp
+    return isinstance(value, float) and math.isfinite(value)
