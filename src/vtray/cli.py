@@ -148,7 +148,7 @@ def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
 
 def _print_stats(clock: "Stopwatch", image: "Image") -> None:
     """Print on stderr what the render took."""
-    from vtray.memory import in_gigabytes, peak_memory
+    from vtray.memory import peak_memory
 
     stats = image.stats
     steps = ("pack", "trace", "develop")
@@ -163,5 +163,5 @@ def _print_stats(clock: "Stopwatch", image: "Image") -> None:
     lines = [f"{step:12}{value:10.4f} s" for step, value in seconds.items()]
     lines.append(f"{'rays':12}{stats['rays']:,.0f}")
     lines.append(f"{'rays/second':12}{stats['rays'] / max(stats['trace'], 1e-9):,.0f}")
-    lines.append(f"{'peak memory':12}{in_gigabytes(peak_memory())}")
+    lines.append(f"{'peak memory':12}{peak_memory() / 1e6:,.0f} MB")
     print("\n".join(lines), file=sys.stderr)
