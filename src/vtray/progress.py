@@ -20,7 +20,7 @@ class ProgressBar:
         if self._bar is None and time.perf_counter() - self._start > DELAY_SECONDS:
             from tqdm import tqdm
 
-            self._bar = tqdm(total=total, unit="tile", file=sys.stderr, leave=False)
+            self._bar = tqdm(total=total, initial=done, unit="tile", file=sys.stderr, leave=False)
         if self._bar is not None:
             self._bar.update(done - self._bar.n)
 
