@@ -79,6 +79,15 @@ def test_change_in_any_source_is_noticed(tmp_path: Path) -> None:
     assert "AssertionError" in err  # the picture is black now
 
 
+def test_picture_is_the_same_on_a_processor_without_wide_vectors(tmp_path: Path) -> None:
+    scene = Path(__file__).parents[1] / "scenes" / "inside.json"
+    command = [Path(sys.executable).with_name("vtray"), scene]
+    plain = {"NUMBA_CPU_NAME": "generic", "VTRAY_CACHE_DIR": str(tmp_path / "cache")}
+    subprocess.run([*command, tmp_path / "this.png"], check=True)
+    subprocess.run([*command, tmp_path / "plain.png"], env={**os.environ, **plain}, check=True)
+    assert (tmp_path / "this.png").read_bytes() == (tmp_path / "plain.png").read_bytes()
+
+
 @pytest.mark.parametrize("variable", ["VTRAY_CACHE_DIR", "XDG_CACHE_HOME"])
 def test_without_a_writable_home(variable: str, tmp_path: Path) -> None:
     environment = {"VTRAY_CACHE_DIR": "", "TMPDIR": str(tmp_path), variable: "/proc/nowhere"}
