@@ -17,7 +17,8 @@ def write_png(pixels: Pixels, file: BinaryIO) -> None:
     """Write pixels, (height, width, 3), as an 8-bit RGB PNG."""
     from PIL import Image as PillowImage
 
-    # Level 1 takes a fifth of the time of the usual level 6, for files about a fifth larger.
+    # Measured on the example scenes: level 1 takes a third of the time of the usual level 6 (15 ms
+    # instead of 43 ms), for files a quarter larger.
     PillowImage.fromarray(pixels, "RGB").save(file, "PNG", compress_level=1)
 
 
