@@ -223,7 +223,7 @@ def fail_with(monkeypatch: pytest.MonkeyPatch, error: BaseException) -> None:
         (
             OSError(28, "No space left"),
             1,
-            "Error: standard output cannot be written: No space left\n",
+            "Error: [Errno 28] No space left\n",
         ),
         (MemoryError(), 1, "Error: out of memory; choose a smaller camera.size\n"),
         (

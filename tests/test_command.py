@@ -88,6 +88,19 @@ def test_streams_that_cannot_be_written(scene_file: Path, redirection: str, argu
     assert "bug" not in done.stderr
 
 
+def test_full_standard_output(scene_file: Path) -> None:
+    program = Path(sys.executable).with_name("vtray")
+    done = subprocess.run(
+        f"{program} --pixel 1,1 {scene_file} > /dev/full",
+        shell=True,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert done.stderr == "Error: standard output cannot be written: No space left on device\n"
+
+
 def test_full_device(vtray_command: Command, scene_file: Path) -> None:
     if not Path("/dev/full").exists():
         pytest.skip("there is no /dev/full")

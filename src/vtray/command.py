@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable
 from typing import NoReturn
 
-from vtray.errors import UsageError, VtrayError
+from vtray.errors import OutputError, UsageError, VtrayError
 
 SUCCESS = 0
 FAILURE = 1
@@ -53,8 +53,8 @@ def run_command(action: Callable[[], int], *, too_large: str) -> int:
         return _fail(str(error))
     except MemoryError:
         return _fail(f"out of memory; {too_large}")
-    except OSError as error:
-        return _fail(f"standard output cannot be written: {error.strerror or error}")
+    except OSError as error:  # no bug of vtray's: something is missing, or has no place
+        return _fail(str(error))
     except Exception as error:  # noqa: BLE001 - a user never sees a traceback
         return _fail(f"this is a bug in vtray, please report it: {error!r}")
     return status
@@ -78,7 +78,13 @@ def _until_printed(action: Callable[[], int]) -> int:
     except SystemExit:  # --help and --version have printed what they had to
         status = SUCCESS
     if sys.stdout is not None:
-        sys.stdout.flush()
+        try:
+            sys.stdout.flush()
+        except BrokenPipeError:
+            raise
+        except OSError as error:
+            message = f"standard output cannot be written: {error.strerror or error}"
+            raise OutputError(message) from error
     return status
 
 
