@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-from vtray.command import SUCCESS, Parser, leave, run_command
+from vtray.command import SUCCESS, Parser, leave, print_result, run_command
 from vtray.errors import OutputError
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ def _run(options: argparse.Namespace) -> int:
     if options.pixel is not None:
         from vtray.explain import explain_pixel
 
-        print(explain_pixel(scene, image, *options.pixel), end="")
+        print_result(explain_pixel(scene, image, *options.pixel))
     else:
         image.save(options.output)
     clock.lap("write")

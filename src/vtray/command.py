@@ -60,6 +60,20 @@ def run_command(action: Callable[[], int], *, too_large: str) -> int:
     return status
 
 
+def print_result(text: str) -> None:
+    """Print on standard output, at once; raise OutputError where that fails."""
+    if sys.stdout is None:  # closed
+        return
+    try:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        message = f"standard output cannot be written: {error.strerror or error}"
+        raise OutputError(message) from error
+
+
 def leave(status: int) -> NoReturn:
     """End the process.
 
@@ -77,14 +91,7 @@ def _until_printed(action: Callable[[], int]) -> int:
         status = action()
     except SystemExit:  # --help and --version have printed what they had to
         status = SUCCESS
-    if sys.stdout is not None:
-        try:
-            sys.stdout.flush()
-        except BrokenPipeError:
-            raise
-        except OSError as error:
-            message = f"standard output cannot be written: {error.strerror or error}"
-            raise OutputError(message) from error
+    print_result("")
     return status
 
 

@@ -19,7 +19,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-from vtray.command import FAILURE, SUCCESS, Parser, leave, run_command
+from vtray.command import FAILURE, SUCCESS, Parser, leave, print_result, run_command
 from vtray.errors import OutputError, VtrayError
 
 if TYPE_CHECKING:
@@ -223,7 +223,7 @@ def _run(options: argparse.Namespace) -> int:
             _write(found.error_map, output)
             line += f"; see {output}"
     finally:
-        print(line)
+        print_result(f"{line}\n")
     return ALIKE if alike else DIFFERENT
 
 
