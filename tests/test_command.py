@@ -78,25 +78,50 @@ def test_errors(vtray_command: Command, tmp_path: Path) -> None:
     assert [item.name for item in tmp_path.iterdir()] == ["bad.json"]
 
 
-@pytest.mark.parametrize("redirection", [">&-", "2>&-", ">/dev/full", "| true"])
-@pytest.mark.parametrize("arguments", ["--pixel 1,1 SCENE", "--help", "missing.json a.png"])
+def run_in_shell(command: str, scene_file: Path) -> "subprocess.CompletedProcess[str]":
+    """Run the command in a shell, with SCENE and PICTURE replaced by files."""
+    program = f"{Path(sys.executable).with_name('vtray')} {command}"
+    words = {"SCENE": scene_file, "PICTURE": scene_file.with_name("picture.png")}
+    for word, path in words.items():
+        program = program.replace(word, str(path))
+    done = subprocess.run(program, shell=True, capture_output=True, text=True, check=False)
+    for printed in (done.stdout, done.stderr):
+        assert "Traceback" not in printed
+        assert "bug" not in printed
+    return done
+
+
+@pytest.mark.parametrize("redirection", [">&-", "2>&-", ">&- 2>&-"])
+@pytest.mark.parametrize(
+    ("arguments", "status"),
+    [
+        ("SCENE PICTURE", 0),
+        ("--stats SCENE PICTURE", 0),
+        ("--pixel 1,1 SCENE", 0),
+        ("--help", 0),
+        ("missing.json PICTURE", 1),
+        ("", 1),
+    ],
+)
+def test_closed_streams(scene_file: Path, redirection: str, arguments: str, status: int) -> None:
+    done = run_in_shell(f"{arguments} {redirection}", scene_file)
+    assert done.returncode == status
+    if ">&-" in redirection.split():
+        assert done.stdout == ""
+    if "2>&-" in redirection.split():
+        assert done.stderr == ""
+        assert "Error" not in done.stdout
+    assert scene_file.with_name("picture.png").exists() == (arguments.endswith("SCENE PICTURE"))
+
+
+@pytest.mark.parametrize("redirection", [">/dev/full", "2>/dev/full", "| true"])
+@pytest.mark.parametrize("arguments", ["--pixel 1,1 SCENE", "--help", "missing.json PICTURE"])
 def test_streams_that_cannot_be_written(scene_file: Path, redirection: str, arguments: str) -> None:
-    program = Path(sys.executable).with_name("vtray")
-    command = f"{program} {arguments.replace('SCENE', str(scene_file))} {redirection}"
-    done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
-    assert "Traceback" not in done.stderr
-    assert "bug" not in done.stderr
+    run_in_shell(f"{arguments} {redirection}", scene_file)
 
 
 def test_full_standard_output(scene_file: Path) -> None:
-    program = Path(sys.executable).with_name("vtray")
-    done = subprocess.run(
-        f"{program} --pixel 1,1 {scene_file} > /dev/full",
-        shell=True,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = run_in_shell("--pixel 1,1 SCENE > /dev/full", scene_file)
     assert done.returncode == 1
     assert done.stderr == "Error: standard output cannot be written: No space left on device\n"
 

@@ -43,6 +43,7 @@ def run_command(action: Callable[[], int], *, too_large: str) -> int:
     too_large
         What to do when memory runs out.
     """
+    _open_closed_streams()
     try:
         status = _until_printed(action)
     except KeyboardInterrupt:
@@ -62,8 +63,6 @@ def run_command(action: Callable[[], int], *, too_large: str) -> int:
 
 def print_result(text: str) -> None:
     """Print on standard output, at once; raise OutputError where that fails."""
-    if sys.stdout is None:  # closed
-        return
     try:
         sys.stdout.write(text)
         sys.stdout.flush()
@@ -80,9 +79,16 @@ def leave(status: int) -> NoReturn:
     At once: taking everything down takes time, after Ctrl-C a thread may still be busy in the
     compiler, and Python would complain about a pipe whose reader has gone.
     """
-    with contextlib.suppress(OSError, AttributeError):  # closed, or not there at all
+    with contextlib.suppress(OSError):
         sys.stderr.flush()
     os._exit(status)
+
+
+def _open_closed_streams() -> None:
+    """Let what is printed vanish where the caller has closed standard output or error."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115 - until the process ends
 
 
 def _until_printed(action: Callable[[], int]) -> int:
@@ -97,5 +103,6 @@ def _until_printed(action: Callable[[], int]) -> int:
 
 def _fail(message: str) -> int:
     """Print an error on stderr; return the exit status."""
-    print(f"Error: {message}", file=sys.stderr)
+    with contextlib.suppress(OSError):  # there is nowhere left to say it
+        print(f"Error: {message}", file=sys.stderr)
     return FAILURE
