@@ -4,6 +4,9 @@ import json
 import re
 from typing import Any
 
+import pytest
+
+from vtray.errors import SceneError
 from vtray.scene import Scene
 from vtray.scene_file import loads
 
@@ -35,6 +38,15 @@ def refuse(warning: str) -> None:
 def read(text: str | bytes) -> Scene:
     """Read a scene that must give no warning."""
     return loads(text, "room.json", warn=refuse)
+
+
+def message_of(text: str | bytes) -> str:
+    """Give the error for a text, without the file's name, which must lead it."""
+    with pytest.raises(SceneError) as caught:
+        read(text)
+    name, message = str(caught.value).split(": ", 1)
+    assert name == "room.json"
+    return message
 
 
 def replaced(old: str, new: str) -> str:

@@ -5,20 +5,10 @@ from typing import Any
 
 import pytest
 
-from scene_text import ABSENT, changed, read, replaced
+from scene_text import ABSENT, changed, message_of, replaced
 from vtray.errors import SceneError
 from vtray.scene import Scene
 from vtray.scene_file import loads
-
-
-def message_of(text: str | bytes) -> str:
-    """Give the error for a text, without the file's name, which must lead it."""
-    with pytest.raises(SceneError) as caught:
-        read(text)
-    name, message = str(caught.value).split(": ", 1)
-    assert name == "room.json"
-    return message
-
 
 OBJECT = 'expected an object with "type": "sphere" or "plane", got'
 TYPE = 'expected "sphere" or "plane", got'

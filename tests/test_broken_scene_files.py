@@ -6,20 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from scene_text import TEXT, changed, read, replaced
-from vtray.errors import SceneError, VtrayError
+from scene_text import TEXT, changed, message_of, replaced
+from vtray.errors import VtrayError
 from vtray.scene import Scene
 from vtray.scene_file import loads
-
-
-def message_of(text: str | bytes) -> str:
-    """Give the error for a text, without the file's name, which must lead it."""
-    with pytest.raises(SceneError) as caught:
-        read(text)
-    name, message = str(caught.value).split(": ", 1)
-    assert name == "room.json"
-    return message
-
 
 EXPECTED_SCENE = "expected an object with the keys camera, lights and objects"
 RANGE = "expected a number within the range of a double, up to about 1.8e308, got"
