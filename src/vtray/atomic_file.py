@@ -23,7 +23,7 @@ def check_writable(path: Path) -> None:
             raise OutputError(message)
         if _is_special(target):
             return
-        handle, name = tempfile.mkstemp(prefix=f".{target.name[:100]}.", dir=target.parent)
+        handle, name = _new_beside(target)
         os.close(handle)
         os.unlink(name)
 
@@ -49,7 +49,7 @@ def write_whole(path: Path, write: Callable[[BinaryIO], None]) -> None:
             with target.open("wb") as file:
                 write(file)
             return
-        handle, name = tempfile.mkstemp(prefix=f".{target.name[:100]}.", dir=target.parent)
+        handle, name = _new_beside(target)
         try:
             with os.fdopen(handle, "wb") as file:
                 write(file)
@@ -59,6 +59,11 @@ def write_whole(path: Path, write: Callable[[BinaryIO], None]) -> None:
             with contextlib.suppress(OSError):
                 os.unlink(name)
             raise
+
+
+def _new_beside(target: Path) -> tuple[int, str]:
+    """Make an empty file in the folder of another; return its descriptor and its name."""
+    return tempfile.mkstemp(prefix=f".{target.name[:100]}.", dir=target.parent)
 
 
 def _is_special(target: Path) -> bool:
