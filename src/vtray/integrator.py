@@ -23,7 +23,7 @@ from vtray.packet import (
 )
 from vtray.scene_arrays import SceneArrays, Spheres
 from vtray.shading import add_light
-from vtray.vector import cross, dot
+from vtray.vector import cross, dot, pick, sub
 
 
 class Block(NamedTuple):
@@ -148,11 +148,7 @@ def _cull_spheres(
     right = cross(camera.down, right_bottom)
     bottom = cross(right_bottom, camera.right)
     for sphere in range(spheres.x.shape[0]):
-        center = (
-            spheres.x[sphere] - camera.eye[0],
-            spheres.y[sphere] - camera.eye[1],
-            spheres.z[sphere] - camera.eye[2],
-        )
+        center = sub(pick(spheres, sphere), camera.eye)
         radius = spheres.radius[sphere] + MARGIN * (spheres.magnitude[sphere] + camera.focus)
         near[sphere] = not (
             outside_side(center, left, radius)

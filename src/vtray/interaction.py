@@ -22,7 +22,7 @@ from vtray.packet import (
     store,
 )
 from vtray.scene_arrays import SceneArrays
-from vtray.vector import Vec, add, dot, scale
+from vtray.vector import Vec, add, dot, pick, scale, sub
 
 
 class Interaction(NamedTuple):
@@ -50,16 +50,12 @@ def interact(scene: SceneArrays, direction: Vec, distance: float, primitive: int
     spheres, planes = scene.spheres, scene.planes
     plane = primitive - spheres.x.shape[0]
     if plane < 0:
-        outward = (
-            point[0] - spheres.x[primitive],
-            point[1] - spheres.y[primitive],
-            point[2] - spheres.z[primitive],
-        )
+        outward = sub(point, pick(spheres, primitive))
         length = math.sqrt(dot(outward, outward))
         normal = (outward[0] / length, outward[1] / length, outward[2] / length)
         magnitude = spheres.magnitude[primitive]
     else:
-        normal = (planes.x[plane], planes.y[plane], planes.z[plane])
+        normal = pick(planes, plane)
         magnitude = planes.magnitude[plane]
     side = -1.0 if dot(normal, direction) > 0.0 else 1.0
     return Interaction(point, scale(side, normal), magnitude + scene.camera.focus + distance)

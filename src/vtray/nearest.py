@@ -9,7 +9,7 @@ from vtray.plane import intersect_plane
 from vtray.rounding import ROUNDING
 from vtray.scene_arrays import Planes, Spheres
 from vtray.sphere import intersect_sphere
-from vtray.vector import Vec, dot
+from vtray.vector import Vec, dot, pick, sub
 
 
 @device
@@ -53,11 +53,7 @@ def nearest_sphere(
     packet: Packet, lanes: int, camera: CameraFrame, spheres: Spheres, sphere: int
 ) -> None:
     """Let a sphere take the lanes in which it is nearer than the hit so far."""
-    from_center = (
-        camera.eye[0] - spheres.x[sphere],
-        camera.eye[1] - spheres.y[sphere],
-        camera.eye[2] - spheres.z[sphere],
-    )
+    from_center = sub(camera.eye, pick(spheres, sphere))
     radius = spheres.radius[sphere]
     for lane in range(lanes):
         direction = load(packet, DIRECTION, lane)
@@ -71,7 +67,7 @@ def nearest_plane(
     packet: Packet, lanes: int, camera: CameraFrame, planes: Planes, plane: int, primitive: int
 ) -> None:
     """Let a plane take the lanes in which it is nearer than the hit so far."""
-    normal = (planes.x[plane], planes.y[plane], planes.z[plane])
+    normal = pick(planes, plane)
     height = planes.height[plane]
     magnitude = planes.magnitude[plane]
     for lane in range(lanes):

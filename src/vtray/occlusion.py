@@ -12,7 +12,7 @@ from vtray.plane import plane_blocks
 from vtray.rounding import ROUNDING
 from vtray.scene_arrays import Lights, Planes, SceneArrays, Spheres
 from vtray.sphere import sphere_blocks
-from vtray.vector import Vec, add, dot, scale, sub
+from vtray.vector import Vec, add, dot, pick, scale, sub
 
 
 class Bounds(NamedTuple):
@@ -71,14 +71,14 @@ def find_sides(packet: Packet, hits: int, planes: Planes, work: Workspace) -> No
 @device
 def plane_side(planes: Planes, plane: int, point: Vec) -> float:
     """Return the signed distance of a point from a plane."""
-    along: float = dot(point, (planes.x[plane], planes.y[plane], planes.z[plane]))
+    along: float = dot(point, pick(planes, plane))
     return along - float(planes.offset[plane])
 
 
 @device
 def light_side(planes: Planes, plane: int, lights: Lights, light: int) -> float:
     """Return the signed distance of a light from a plane, 0 if rounding could explain it."""
-    side = plane_side(planes, plane, (lights.x[light], lights.y[light], lights.z[light]))
+    side = plane_side(planes, plane, pick(lights, light))
     reach = ROUNDING * (planes.magnitude[plane] + lights.magnitude[light])
     return side if abs(side) > reach else 0.0
 
@@ -127,10 +127,10 @@ def _cull_spheres(
     bounds: Bounds, spheres: Spheres, lights: Lights, light: int, near: NDArray[np.bool_]
 ) -> None:
     """Find the spheres that may stand between any of the points and a light."""
-    tip = (lights.x[light], lights.y[light], lights.z[light])
+    tip = pick(lights, light)
     magnitude = bounds.magnitude + lights.magnitude[light]
     for sphere in range(spheres.x.shape[0]):
-        center = (spheres.x[sphere], spheres.y[sphere], spheres.z[sphere])
+        center = pick(spheres, sphere)
         radius = spheres.radius[sphere] + MARGIN * (spheres.magnitude[sphere] + magnitude)
         near[sphere] = not outside_shaft(center, radius, tip, bounds.center, bounds.half)
 
@@ -140,10 +140,10 @@ def _block_by_sphere(
     packet: Packet, hits: int, spheres: Spheres, sphere: int, lights: Lights, light: int
 ) -> None:
     """Mark the points that a sphere hides from a light."""
-    center = (spheres.x[sphere], spheres.y[sphere], spheres.z[sphere])
+    center = pick(spheres, sphere)
     radius = spheres.radius[sphere]
     magnitude = spheres.magnitude[sphere]
-    place = (lights.x[light], lights.y[light], lights.z[light])
+    place = pick(lights, light)
     light_depth = lights.depth[light]
     for lane in range(hits):
         point = load(packet, POINT, lane)

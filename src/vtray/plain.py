@@ -18,7 +18,7 @@ from vtray.plane import plane_blocks
 from vtray.rounding import ROUNDING
 from vtray.scene_arrays import SceneArrays
 from vtray.shading import lambert_cosine
-from vtray.vector import Vec, add, dot, scale, sub
+from vtray.vector import Vec, add, dot, pick, scale, sub
 
 NOTHING = -1
 """In place of a primitive: nothing is hit, nothing blocks."""
@@ -79,7 +79,7 @@ def trace_pixel(
     materials, lights = scene.materials, scene.lights
     color = (materials.red[primitive], materials.green[primitive], materials.blue[primitive])
     for light in range(lights.x.shape[0]):
-        to_light = sub((lights.x[light], lights.y[light], lights.z[light]), found.point)
+        to_light = sub(pick(lights, light), found.point)
         reach = ROUNDING * (found.magnitude + lights.magnitude[light])
         cosines[light] = lambert_cosine(found.normal, to_light, reach)
         blockers[light] = _first_blocker(scene, found, light)
@@ -97,13 +97,13 @@ def _nearest_hit(scene: SceneArrays, direction: Vec) -> tuple[float, int]:
     nearest = math.inf
     primitive = NOTHING
     for k in range(spheres.x.shape[0]):
-        from_center = sub(camera.eye, (spheres.x[k], spheres.y[k], spheres.z[k]))
+        from_center = sub(camera.eye, pick(spheres, k))
         radius = spheres.radius[k]
         distance = sphere_distance(from_center, direction, radius, forward, camera.focus)
         if distance < nearest:
             nearest, primitive = distance, k
     for k in range(planes.x.shape[0]):
-        descent = dot(direction, (planes.x[k], planes.y[k], planes.z[k]))
+        descent = dot(direction, pick(planes, k))
         height, magnitude = planes.height[k], planes.magnitude[k]
         distance = plane_distance(height, descent, forward, camera.focus, magnitude)
         if distance < nearest:
@@ -116,11 +116,11 @@ def _first_blocker(scene: SceneArrays, start: Interaction, light: int) -> int:
     """Return the first primitive between a point and a light, or ``NOTHING``."""
     lights, spheres, planes = scene.lights, scene.spheres, scene.planes
     sphere_count: int = spheres.x.shape[0]
-    place = (lights.x[light], lights.y[light], lights.z[light])
+    place = pick(lights, light)
     light_depth = lights.depth[light]
     depth = dot(start.point, scene.camera.forward)
     for k in range(sphere_count):
-        center = (spheres.x[k], spheres.y[k], spheres.z[k])
+        center = pick(spheres, k)
         reach = ROUNDING * (start.magnitude + spheres.magnitude[k])
         if sphere_shadows(start.point, depth, place, light_depth, center, spheres.radius[k], reach):
             return k

@@ -7,6 +7,7 @@ a scene far from the world's origin loses no digits. Spheres behind the image pl
 """
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -181,7 +182,7 @@ def _pack_spheres(spheres: list[Sphere], origin: Floats, unit: float) -> Spheres
 
 def _in_front(spheres: Spheres, camera: CameraFrame) -> NDArray[np.bool_]:
     """Tell which spheres reach in front of the image plane, or so near that rounding decides."""
-    nearest = _dot(spheres, camera.forward) + spheres.radius
+    nearest = _dot(spheres[:3], camera.forward) + spheres.radius
     return nearest >= -ROUNDING * (spheres.magnitude + camera.focus)
 
 
@@ -195,8 +196,8 @@ def _pack_planes(planes: list[Plane], origin: Floats, unit: float, camera: Camer
         x,
         y,
         z,
-        offset=points[:, 0] * x + points[:, 1] * y + points[:, 2] * z,
-        height=from_eye[:, 0] * x + from_eye[:, 1] * y + from_eye[:, 2] * z,
+        offset=_dot(points.T, (x, y, z)),
+        height=_dot(from_eye.T, (x, y, z)),
         magnitude=np.abs(points).sum(axis=1),
     )
 
@@ -209,7 +210,7 @@ def _pack_lights(scene: Scene, origin: Floats, unit: float, camera: CameraFrame)
         x,
         y,
         z,
-        depth=x * camera.forward[0] + y * camera.forward[1] + z * camera.forward[2],
+        depth=_dot((x, y, z), camera.forward),
         intensity=np.array([light.intensity for light in scene.lights], float),
         magnitude=np.abs(points).sum(axis=1),
     )
@@ -226,6 +227,7 @@ def _columns(rows: Floats) -> tuple[Floats, Floats, Floats]:
     return columns[0], columns[1], columns[2]
 
 
-def _dot(points: Spheres | Lights, axis: Vec) -> Floats:
-    """Return the scalar products of points and an axis."""
-    return points.x * axis[0] + points.y * axis[1] + points.z * axis[2]
+def _dot(a: Sequence[Floats] | Floats, b: Sequence[Floats] | Vec) -> Floats:
+    """Return the scalar products of vectors, each given as its three coordinates."""
+    products: Floats = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    return products

@@ -17,7 +17,7 @@ from vtray.packet import (
 )
 from vtray.rounding import ROUNDING
 from vtray.scene_arrays import Lights
-from vtray.vector import Vec, add, dot, scale, sub
+from vtray.vector import Vec, add, dot, pick, scale, sub
 
 
 @device
@@ -42,7 +42,7 @@ def lambert_cosine(normal: Vec, to_light: Vec, reach: float) -> float:
 @device
 def add_light(packet: Packet, hits: int, lights: Lights, light: int) -> int:
     """Add a light to the points of a packet that it reaches; return how many face it."""
-    place = (lights.x[light], lights.y[light], lights.z[light])
+    place = pick(lights, light)
     intensity = lights.intensity[light]
     magnitude = lights.magnitude[light]
     facing = 0

@@ -1,8 +1,32 @@
 """Points and directions as 3-tuples of floats."""
 
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
 from vtray.compiled import device
 
 Vec = tuple[float, float, float]
+
+
+class Columns(Protocol):
+    """Many points or directions, as an array for each coordinate, (n,)."""
+
+    @property
+    def x(self) -> NDArray[np.float64]: ...  # noqa: D102
+
+    @property
+    def y(self) -> NDArray[np.float64]: ...  # noqa: D102
+
+    @property
+    def z(self) -> NDArray[np.float64]: ...  # noqa: D102
+
+
+@device
+def pick(columns: Columns, k: int) -> Vec:
+    """Return one of many points or directions."""
+    return columns.x[k], columns.y[k], columns.z[k]
 
 
 @device
