@@ -10,8 +10,8 @@ from vtray.errors import SceneError
 from vtray.scene import Scene
 from vtray.scene_file import loads
 
-OBJECT = 'expected an object with "type": "sphere" or "plane", got'
-TYPE = 'expected "sphere" or "plane", got'
+OBJECT = 'expected an object with "type": "sphere", "plane" or "spheres", got'
+TYPE = 'expected "sphere", "plane" or "spheres", got'
 LIGHT = "expected an object with the keys location and intensity, got"
 BYTE = "expected an integer from 0 to 255, got"
 SIZE = "expected an integer from 1 to 2147483647, got"
@@ -39,7 +39,7 @@ BAD_VALUES: list[tuple[str, object, str]] = [
     ("objects[1].type", "$.objects[0]", f'{TYPE} "$.objects[0]"'),
     ("objects[1].type", ["plane"], f'{TYPE} ["plane"]'),
     ("objects[1].type", 7, f"{TYPE} 7"),
-    ("objects[1].type", ABSENT, 'missing; expected "sphere" or "plane"'),
+    ("objects[1].type", ABSENT, 'missing; expected "sphere", "plane" or "spheres"'),
     ("objects[1]", [1, 2, [3, [4]]], f"{OBJECT} [1, 2, [3, [...]]]"),
     ("objects[1]", None, f"{OBJECT} null"),
     ("objects", {"a": 1}, 'expected an array, got {"a": 1}'),

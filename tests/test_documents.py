@@ -46,10 +46,23 @@ def test_outputs_are_what_the_commands_print(command: str, output: str) -> None:
     assert (done.returncode, done.stderr) == (0, "")
 
 
+@pytest.mark.parametrize(("name", "code"), blocks("arrays").items())
+def test_arrays_are_those_of_the_object(name: str, code: str, tmp_path: Path) -> None:
+    command = [sys.executable, "-W", "error", "-c", code]
+    subprocess.run(command, cwd=tmp_path, capture_output=True, check=True)
+    scene = json.loads((ROOT / "scenes" / "first.json").read_text())
+    scene["objects"] = [json.loads(blocks("object")[name])]
+    (tmp_path / "scene.json").write_text(json.dumps(scene))
+    (spheres,) = vtray.load(tmp_path / "scene.json").objects
+    assert isinstance(spheres, vtray.Spheres)
+    assert len(spheres) == 1000
+
+
 def test_blocks_are_found() -> None:
     assert list(blocks("command")) == ["run", "test"]
     assert list(blocks("example")) == ["file", "code"]
     assert len(blocks("output")) == 1
+    assert list(blocks("arrays")) == list(blocks("object")) == ["atoms"]
     assert README.index("<!-- benchmark:begin -->") < README.index("<!-- benchmark:end -->")
 
 

@@ -148,9 +148,13 @@ def test_integers_may_be_written_as_floats() -> None:
         (
             Scene,
             (CAMERA, [], [{"x": 1}]),
-            "Scene.objects[0]: expected Sphere or Plane, got {'x': 1}",
+            "Scene.objects[0]: expected Sphere, Plane or Spheres, got {'x': 1}",
         ),
-        (Scene, (CAMERA, [], [LIGHT]), "Scene.objects[0]: expected Sphere or Plane, got Light("),
+        (
+            Scene,
+            (CAMERA, [], [LIGHT]),
+            "Scene.objects[0]: expected Sphere, Plane or Spheres, got Light(",
+        ),
         (Scene, (None, [], []), "Scene.camera: expected Camera, got None"),
     ],
 )
@@ -193,7 +197,7 @@ def test_check_after_changes() -> None:
     changed.objects.append(SPHERE)
     changed.check()
     changed.objects.append(LIGHT)  # type: ignore[arg-type]
-    with pytest.raises(SceneError, match=r"Scene.objects\[3\]: expected Sphere or Plane"):
+    with pytest.raises(SceneError, match=r"Scene.objects\[3\]: expected Sphere, Plane or Spheres"):
         changed.check()
 
 

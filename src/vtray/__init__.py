@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from vtray.errors import OutputError, RenderError, SceneError, VtrayError
 from vtray.scene import Camera, Color, Direction, Light, Plane, Scene, Sphere, Vector
 from vtray.scene_file import load, loads
+from vtray.spheres import Spheres
 
 if TYPE_CHECKING:
     from vtray.image import Image
@@ -32,6 +33,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "Sphere",
+    "Spheres",
     "Vector",
     "VtrayError",
     "load",

@@ -15,7 +15,7 @@ class Checked(msgspec.StructMeta):
 
     def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
         """Bind the arguments, check them, and make the object."""
-        values = _bind(cls, args, kwargs)
+        values = bind(cls, args, kwargs)
         if all(map(_is_plain, values.values())):
             try:
                 return msgspec.convert(values, cls)
@@ -26,7 +26,12 @@ class Checked(msgspec.StructMeta):
         return construct(cls, values)  # type: ignore[arg-type]
 
 
-def _bind(cls: type, args: tuple[object, ...], kwargs: dict[str, object]) -> dict[str, object]:
+def make_unchecked(cls: type, **values: object) -> Any:  # noqa: ANN401
+    """Make an object of values that are known to be right."""
+    return msgspec.StructMeta.__call__(cls, **values)
+
+
+def bind(cls: type, args: tuple[object, ...], kwargs: dict[str, object]) -> dict[str, object]:
     """Name the positional arguments, and raise TypeError as a call does."""
     names: tuple[str, ...] = cls.__struct_fields__  # type: ignore[attr-defined]
     if len(args) > len(names):

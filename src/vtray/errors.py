@@ -22,3 +22,24 @@ class OutputError(VtrayError):
 
 class UsageError(VtrayError):
     """The command was called wrongly."""
+
+
+def why_unreadable(error: Exception, wanted: str) -> str:
+    """Say why a file cannot be read, to follow its name.
+
+    Parameters
+    ----------
+    error
+        What opening or reading it raised.
+    wanted
+        What was expected instead, such as "scene file".
+    """
+    if isinstance(error, IsADirectoryError):
+        return f"is a directory; expected a {wanted}"
+    if isinstance(error, FileNotFoundError):
+        return f"no such file; expected a {wanted}"
+    if isinstance(error, PermissionError):
+        return f"may not be read: permission denied; expected a readable {wanted}"
+    if isinstance(error, MemoryError):
+        return "is too large to hold in memory"
+    return f"cannot be read: {getattr(error, 'strerror', None) or error}"

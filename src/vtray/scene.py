@@ -4,37 +4,31 @@ The file format, its checks, the words of its error messages and the JSON Schema
 from the annotations in this module.
 """
 
+import itertools
 import os
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import msgspec
-from msgspec import Meta
+from msgspec import UNSET, UnsetType
 
 from vtray.checked import Checked
+from vtray.errors import OutputError
+from vtray.kinds import (
+    Byte,
+    DataPath,
+    Fraction,
+    NonNegative,
+    Positive,
+    PositivePair,
+    Real,
+    SizePair,
+)
+from vtray.spheres import Spheres
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-# The kinds of value. Each description completes "expected ..." in an error message.
-Real = Annotated[float, Meta(description="a finite number")]
-Positive = Annotated[float, Meta(gt=0, description="a number > 0")]
-NonNegative = Annotated[float, Meta(ge=0, description="a number ≥ 0")]
-Fraction = Annotated[float, Meta(ge=0, le=1, description="a number from 0 to 1")]
-# An integer may be written 255 or 255.0: JSON knows only numbers.
-Byte = Annotated[
-    Annotated[int, Meta(ge=0, le=255)] | Annotated[float, Meta(ge=0, le=255, multiple_of=1)],
-    Meta(description="an integer from 0 to 255"),
-]
-MAX_SIZE = 2**31 - 1  # the largest side of a PNG
-Size = Annotated[
-    Annotated[int, Meta(ge=1, le=MAX_SIZE)]
-    | Annotated[float, Meta(ge=1, le=MAX_SIZE, multiple_of=1)],
-    Meta(description=f"an integer from 1 to {MAX_SIZE}"),
-]
-SizePair = Annotated[tuple[Size, Size], Meta(description="an array of two integers > 0")]
-PositivePair = Annotated[tuple[Positive, Positive], Meta(description="an array of two numbers > 0")]
 
 
 class Vector(msgspec.Struct, metaclass=Checked, frozen=True, gc=False):
@@ -209,16 +203,39 @@ class Plane(
         ) -> None: ...
 
 
-Object = Sphere | Plane
+class SpheresInFile(
+    msgspec.Struct, frozen=True, tag_field="type", tag="spheres", omit_defaults=True
+):
+    """Many spheres, whose numbers stand in a file of NumPy arrays.
+
+    Attributes
+    ----------
+    data : str
+        Path of the arrays, relative to the scene file: a .npz file with the arrays center
+        and, where they are not keys of this object, radius, color and lambert; or a .npy
+        file with the centres alone.
+    radius : float, optional
+        Radius of all spheres, in scene units; for a .npz file, it may stand there.
+    color : Color, optional
+        Colour of all spheres; for a .npz file, it may stand there.
+    lambert : float, optional
+        Share of the light that the surfaces scatter; for a .npz file, it may stand there.
+    """
+
+    data: DataPath
+    radius: NonNegative | UnsetType = UNSET
+    color: Color | UnsetType = UNSET
+    lambert: Fraction | UnsetType = UNSET
+
+
+Object = Sphere | Plane | Spheres
 
 if TYPE_CHECKING:
     Triple = Sequence[float] | NDArray[Any]
 
 
-class Scene(msgspec.Struct, metaclass=Checked):
+class SceneInFile(msgspec.Struct):
     """All that a picture is made from.
-
-    Its attributes may be replaced and its lists changed; `check` looks at them again.
 
     Attributes
     ----------
@@ -226,7 +243,28 @@ class Scene(msgspec.Struct, metaclass=Checked):
         Where the picture is taken from.
     lights : list of Light
         The lights; may be empty.
-    objects : list of Sphere or Plane
+    objects : list of Sphere, Plane or SpheresInFile
+        The objects; may be empty.
+    """
+
+    camera: Camera
+    lights: list[Light]
+    objects: list[Sphere | Plane | SpheresInFile]
+
+
+class Scene(msgspec.Struct, metaclass=Checked):
+    """All that a picture is made from.
+
+    Its attributes may be replaced, its lists changed, and so may arrays that `Spheres` share;
+    `check` looks at them again.
+
+    Attributes
+    ----------
+    camera : Camera
+        Where the picture is taken from.
+    lights : list of Light
+        The lights; may be empty.
+    objects : list of Sphere, Plane or Spheres
         The objects; may be empty.
     """
 
@@ -243,28 +281,78 @@ class Scene(msgspec.Struct, metaclass=Checked):
             If the camera, a light or an object is not of its type.
         """
         Scene(self.camera, self.lights, self.objects)
+        for index, item in enumerate(self.objects):
+            if isinstance(item, Spheres):
+                item.check(f"Scene.objects[{index}]")
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the scene as indented JSON that `vtray.load` reads back as an equal scene.
 
+        The arrays of `Spheres` go to files beside it: for scene.json to scene.npz, those of
+        further `Spheres` to scene-2.npz and so on. Files of these names are replaced.
+
         Parameters
         ----------
         path : str or path
-            The file to write. It is replaced as a whole, or left as it was.
+            The file to write. Each file is replaced as a whole, or left as it was; arrays are
+            written first, and the JSON last.
 
         Raises
         ------
         SceneError
             If the scene is not valid any more.
         OutputError
-            If the file cannot be written.
+            If a file cannot be written.
         """
         from vtray.atomic_file import write_whole
 
         self.check()
-        data = msgspec.json.format(msgspec.json.encode(self), indent=2) + b"\n"
+        target = Path(path)
+        objects: list[Sphere | Plane | SpheresInFile] = []
+        arrays: dict[str, dict[str, object]] = {}
+        for item in self.objects:
+            if isinstance(item, Spheres):
+                name = _unused_name(target, arrays)
+                entry, arrays[name] = _split_spheres(item, name)
+                objects.append(entry)
+            else:
+                objects.append(item)
+        found = SceneInFile(self.camera, self.lights, objects)
+        data = msgspec.json.format(_encode(found, target), indent=2) + b"\n"
 
         def write(file: BinaryIO) -> None:
             file.write(data)
 
-        write_whole(Path(path), write)
+        for name, columns in arrays.items():
+            from vtray.array_file import write_arrays
+
+            write_arrays(target.with_name(name), columns)
+        write_whole(target, write)
+
+
+def _unused_name(scene: Path, used: Container[str]) -> str:
+    """Give the name for the next arrays of a scene."""
+    numbers = itertools.chain([""], (f"-{number}" for number in itertools.count(2)))
+    names = (f"{scene.stem}{number}.npz" for number in numbers)
+    return next(name for name in names if name not in used and name != scene.name)
+
+
+def _split_spheres(spheres: Spheres, name: str) -> tuple[SpheresInFile, dict[str, object]]:
+    """Split spheres into what stands in a scene file, and the arrays of a file of this name."""
+    arrays = msgspec.structs.asdict(spheres)
+    shared: dict[str, Any] = {}
+    if spheres.color.ndim == 1:
+        shared["color"] = Color(*arrays.pop("color").tolist())
+    for key in ("radius", "lambert"):
+        if isinstance(arrays[key], float):
+            shared[key] = arrays.pop(key)
+    return SpheresInFile(name, **shared), arrays
+
+
+def _encode(scene: SceneInFile, target: Path) -> bytes:
+    """Write a scene as JSON."""
+    try:
+        return msgspec.json.encode(scene)
+    except UnicodeEncodeError:
+        message = f"{target}: cannot be written: the name is not UTF-8, as JSON needs it"
+        raise OutputError(message) from None

@@ -17,6 +17,7 @@ from vtray.errors import SceneError
 from vtray.json_tree import CLEAN, Members, Tree, Written
 from vtray.scene_words import (
     Struct,
+    either,
     expected,
     join,
     nearest,
@@ -78,7 +79,7 @@ class FileChecker:
                 self.unknown.append(f"{where}: {text}")
                 self._check_ignored(value, where)
         for key in hints:
-            if key not in values:
+            if key not in values and key in required_keys(cls):
                 raise _missing(join(place, key), hints[key], key, found, known)
         # Only these have rules about several fields; others may hold parts that were not read.
         return _make(cls, values, place, found) if hasattr(cls, "__post_init__") else values
@@ -188,7 +189,20 @@ def _is_triple(structs: tuple[Struct, ...]) -> bool:
 @functools.cache
 def hints_of(cls: Struct) -> dict[str, Kind]:
     """Give the annotations of a Struct's fields, in their order."""
-    return typing.get_type_hints(cls, include_extras=True)
+    hints = typing.get_type_hints(cls, include_extras=True)
+    return {key: _without_unset(kind) for key, kind in hints.items()}
+
+
+def _without_unset(kind: Kind) -> Kind:
+    """Give the kind that the value of an optional key has where it is given."""
+    kinds = typing.get_args(kind)
+    return kinds[0] if kinds[1:] == (msgspec.UnsetType,) else kind
+
+
+@functools.cache
+def required_keys(cls: Struct) -> frozenset[str]:
+    """Give the keys of a Struct's fields that a file must have."""
+    return frozenset(field.encode_name for field in msgspec.structs.fields(cls) if field.required)
 
 
 def plain_kind(kind: Kind) -> Kind:
@@ -221,7 +235,7 @@ def _by_tag(found: Members, structs: tuple[Struct, ...], place: str) -> Struct:
     """Choose the type that an object names."""
     (field,) = tag_field(structs[0])
     by_tag = dict(zip(tags(structs), structs, strict=True))
-    words = " or ".join(map(quoted, by_tag))
+    words = either(map(quoted, by_tag))
     where = join(place, field)
     written = next((member.value for member in found if member.key == field), None)
     if written is None:

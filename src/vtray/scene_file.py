@@ -5,32 +5,47 @@ problem is slow, lives in `vtray.json_tree` and `vtray.scene_check`, and is impo
 """
 
 import os
-import re
 from collections import Counter
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import msgspec
+from msgspec import UNSET
 
-from vtray.errors import SceneError
-from vtray.scene import Camera, Color, Direction, Light, Plane, Scene, Sphere, Vector
+from vtray.checked import make_unchecked
+from vtray.errors import SceneError, why_unreadable
+from vtray.scene import (
+    Camera,
+    Color,
+    Direction,
+    Light,
+    Object,
+    Plane,
+    Scene,
+    SceneInFile,
+    Sphere,
+    SpheresInFile,
+    Vector,
+)
 
 Warn = Callable[[str], None]
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _MAX_WARNINGS = 20
-_DECODER = msgspec.json.Decoder(Scene)
-_ITEM = re.compile(r" - at `\$\.(lights|objects)\[(\d+)\][^`]*`$")
+_DECODER = msgspec.json.Decoder(SceneInFile)
+_LIGHT = msgspec.json.Decoder(Light)
+_OBJECT = msgspec.json.Decoder(Sphere | Plane | SpheresInFile)
 
 
 def load(path: str | os.PathLike[str], *, warn: Warn | None = None) -> Scene:
-    """Read a scene file.
+    """Read a scene file, and the files of arrays that it names.
 
     Parameters
     ----------
     path : str or path
-        The file, JSON in UTF-8.
+        The file, JSON in UTF-8. Paths in it are relative to its folder.
     warn : callable, optional
-        Called with one line of text for each key that the format does not know;
+        Called with one line of text for each key or array that the format does not know;
         `warnings.warn` by default.
 
     Returns
@@ -48,19 +63,9 @@ def load(path: str | os.PathLike[str], *, warn: Warn | None = None) -> Scene:
     try:
         with open(path, "rb") as file:
             raw = file.read()
-    except IsADirectoryError:
-        problem = "is a directory; expected a scene file"
-    except FileNotFoundError:
-        problem = "no such file; expected a scene file"
-    except PermissionError:
-        problem = "may not be read: permission denied; expected a readable scene file"
-    except MemoryError:
-        problem = "is too large to hold in memory"
-    except (OSError, ValueError) as error:
-        problem = f"cannot be read: {getattr(error, 'strerror', None) or error}"
-    else:
-        return _loads(raw, name, warn or _warn)
-    raise SceneError(f"{name}: {problem}")
+    except (OSError, ValueError, MemoryError) as error:
+        raise SceneError(f"{name}: {why_unreadable(error, 'scene file')}") from None
+    return _loads(raw, name, os.path.dirname(name), warn or _warn)
 
 
 def loads(text: str | bytes, name: str = "<string>", *, warn: Warn | None = None) -> Scene:
@@ -69,7 +74,7 @@ def loads(text: str | bytes, name: str = "<string>", *, warn: Warn | None = None
     Parameters
     ----------
     text : str or bytes
-        The JSON, in UTF-8 if bytes.
+        The JSON, in UTF-8 if bytes. Paths in it are relative to the current folder.
     name : str
         What messages call the text.
     warn : callable, optional
@@ -86,30 +91,35 @@ def loads(text: str | bytes, name: str = "<string>", *, warn: Warn | None = None
         As for `load`.
     """
     if isinstance(text, bytes):
-        return _loads(text, name, warn or _warn)
+        return _loads(text, name, "", warn or _warn)
     try:
         raw = text.encode()
     except UnicodeEncodeError as error:
         line = text.count("\n", 0, error.start) + 1
         problem = f"half of a surrogate pair stands alone in line {line}; expected whole characters"
         raise SceneError(f"{name}: {problem}") from None
-    return _loads(raw, name, warn or _warn)
+    return _loads(raw, name, "", warn or _warn)
 
 
-def _loads(raw: bytes, name: str, warn: Warn) -> Scene:
+def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
     if not raw.isascii():
         _check_utf8(raw, name)
         raw = raw.removeprefix(_BYTE_ORDER_MARK)
     try:
-        scene = _DECODER.decode(raw)
+        found = _DECODER.decode(raw)
     except (msgspec.MsgspecError, RecursionError) as error:
-        _explain(raw, name, str(error), warn)
+        _explain(raw, name, warn)
         # The slow look should have raised; if it saw nothing, msgspec's own words have to do.
         raise SceneError(f"{name}: {error}") from None
-    # Every key is required, so more colons than keys mean an unknown or a repeated one.
-    # A colon inside a string is always such a case, as no key or value of a scene has one.
-    if raw.count(b":") != _count_keys(scene):
-        _explain(raw, name, "", warn)
+    kinds = Counter(map(type, found.objects))
+    if not _has_only_known_keys(raw, found, kinds):
+        _explain(raw, name, warn)
+    objects: list[Any] = found.objects
+    if SpheresInFile in kinds:
+        objects, unknown = _read_spheres(found, name, folder)
+        for line in _few(unknown, "arrays"):
+            warn(f"{name}: {line}")
+    scene: Scene = make_unchecked(Scene, camera=found.camera, lights=found.lights, objects=objects)
     return scene
 
 
@@ -128,18 +138,34 @@ def _keys(*classes: type[msgspec.Struct]) -> int:
     return fields + sum(cls.__struct_config__.tag is not None for cls in classes)
 
 
-_KEYS_ONCE = _keys(Scene, Camera, Vector, Direction)
+_KEYS_ONCE = _keys(SceneInFile, Camera, Vector, Direction)
 _KEYS_OF: dict[type[msgspec.Struct], int] = {
     Light: _keys(Light, Vector),
     Sphere: _keys(Sphere, Vector, Color),
     Plane: _keys(Plane, Vector, Direction, Color),
+    SpheresInFile: 0,  # counted one by one, as most of its keys are optional
 }
 
 
-def _count_keys(scene: Scene) -> int:
-    """Count the keys that the file of a scene must have."""
-    kinds = Counter(map(type, scene.lights)) + Counter(map(type, scene.objects))
-    return _KEYS_ONCE + sum(_KEYS_OF[kind] * count for kind, count in kinds.items())
+def _has_only_known_keys(raw: bytes, found: SceneInFile, kinds: Counter[Any]) -> bool:
+    """Tell whether a file has as many colons as what was read of it, so no unknown keys."""
+    keys = _KEYS_ONCE + _KEYS_OF[Light] * len(found.lights)
+    keys += sum(_KEYS_OF[kind] * count for kind, count in kinds.items())
+    if SpheresInFile in kinds:
+        spheres = [item for item in found.objects if isinstance(item, SpheresInFile)]
+        keys += sum(map(_count_colons, spheres))
+        # A colon of a path that is written as an escape is not in the file.
+        if any(":" in item.data for item in spheres) and b"\\u003" in raw:
+            return False
+    # A colon inside any other string is that of an unknown key or its value.
+    return raw.count(b":") == keys
+
+
+def _count_colons(item: SpheresInFile) -> int:
+    """Count the colons of spheres in a file: one for each key, and those of the path."""
+    given = [key for key in item.__struct_fields__ if getattr(item, key) is not UNSET]
+    tag = 1
+    return tag + len(given) + ("color" in given) * _keys(Color) + item.data.count(":")
 
 
 class _Split(msgspec.Struct):
@@ -149,7 +175,7 @@ class _Split(msgspec.Struct):
     objects: msgspec.Raw = msgspec.Raw(b"[]")
 
 
-def _explain(raw: bytes, name: str, error: str, warn: Warn) -> None:
+def _explain(raw: bytes, name: str, warn: Warn) -> None:
     """Look for what is wrong, slowly: raise SceneError, or warn about unknown keys."""
     from vtray.json_tree import JsonTree
     from vtray.scene_check import FileChecker
@@ -160,18 +186,33 @@ def _explain(raw: bytes, name: str, error: str, warn: Warn) -> None:
         )
         raise SceneError(f"{name}: {problem}")
     try:
-        tree = JsonTree(raw, _clean_parts(raw, error))
+        tree = JsonTree(raw, _clean_parts(raw))
         checker = FileChecker(tree.line)
-        checker.check(tree.read(), Scene)
+        checker.check(tree.read(), SceneInFile)
     except SceneError as problem:
         raise SceneError(f"{name}: {problem}") from None
     except RecursionError:
         raise SceneError(f"{name}: nested too deeply; a scene needs 4 levels") from None
-    for unknown in checker.unknown[:_MAX_WARNINGS]:
-        warn(f"{name}: {unknown}")
-    more = len(checker.unknown) - _MAX_WARNINGS
-    if more > 0:
-        warn(f"{name}: {more} more unknown keys, ignored")
+    for line in _few(checker.unknown, "keys"):
+        warn(f"{name}: {line}")
+
+
+def _few(unknown: list[str], what: str) -> list[str]:
+    """Cut a long list of warnings."""
+    more = len(unknown) - _MAX_WARNINGS
+    return (
+        unknown if more <= 0 else [*unknown[:_MAX_WARNINGS], f"{more} more unknown {what}, ignored"]
+    )
+
+
+def _read_spheres(found: SceneInFile, name: str, folder: str) -> tuple[list[Object], list[str]]:
+    """Read the arrays that a scene file names; return all objects and the warnings."""
+    from vtray.spheres_file import with_arrays
+
+    try:
+        return with_arrays(found.objects, folder)
+    except SceneError as problem:
+        raise SceneError(f"{name}: {problem}") from None
 
 
 def _warn(message: str) -> None:
@@ -181,7 +222,7 @@ def _warn(message: str) -> None:
     warnings.warn(message, stacklevel=5)
 
 
-def _clean_parts(raw: bytes, error: str) -> dict[int, int] | None:
+def _clean_parts(raw: bytes) -> dict[int, int] | None:
     """Find the lights and objects that are right, so that a million of them cost little.
 
     Gives their first and end offsets; None if the syntax is broken.
@@ -192,17 +233,17 @@ def _clean_parts(raw: bytes, error: str) -> dict[int, int] | None:
         return {}
     except (msgspec.DecodeError, RecursionError):
         return None
-    # What stands after the first error was not looked at, nor will it be.
-    item = _ITEM.search(error)
-    wrong = (item[1], int(item[2])) if item else None
     clean: dict[int, int] = {}
-    light_counts, object_counts = {_KEYS_OF[Light]}, {_KEYS_OF[Sphere], _KEYS_OF[Plane]}
-    for key, counts in (("lights", light_counts), ("objects", object_counts)):
+    for key, decoder in (("lights", _LIGHT), ("objects", _OBJECT)):
         end = 0
-        for index, part in enumerate(_split_list(getattr(split, key))):
+        for part in _split_list(getattr(split, key)):
             start = raw.find(part, end)
             end = start + len(part)
-            if part.count(b":") in counts and (key, index) != wrong:
+            try:
+                keys = _KEYS_OF[type(decoder.decode(part))]
+            except (msgspec.MsgspecError, RecursionError):
+                continue
+            if part.count(b":") == keys:
                 clean[start] = end
     return clean
 

@@ -26,14 +26,20 @@ def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
     if not structs:
         return "a list" if in_code else "an array"
     if in_code:
-        names = " or ".join(cls.__name__ for cls in structs)
+        names = either(cls.__name__ for cls in structs)
         triple = len(structs) == 1 and len(structs[0].__struct_fields__) == 3
         return f"{names} or three numbers" if triple else names
     if tags(structs):
         (field,) = tag_field(structs[0])
-        return f"an object with {quoted(field)}: {' or '.join(map(quoted, tags(structs)))}"
+        return f"an object with {quoted(field)}: {either(map(quoted, tags(structs)))}"
     *most, last = structs[0].__struct_fields__
     return f"an object with the keys {', '.join(most)} and {last}"
+
+
+def either(words: Iterable[str]) -> str:
+    """Join words as in "a, b or c"."""
+    *most, last = words
+    return f"{', '.join(most)} or {last}" if most else last
 
 
 def struct_kinds(kind: Any) -> tuple[Struct, ...]:  # noqa: ANN401

@@ -11,7 +11,17 @@ from typing import Any
 
 import msgspec
 
-from vtray.scene import Camera, Color, Direction, Light, Plane, Scene, Sphere, Vector
+from vtray.scene import (
+    Camera,
+    Color,
+    Direction,
+    Light,
+    Plane,
+    SceneInFile,
+    Sphere,
+    SpheresInFile,
+    Vector,
+)
 
 _FIELD = re.compile(r"^(\w+(?:, \w+)*) : .*\n((?:    .+\n?)+)", re.MULTILINE)
 
@@ -25,7 +35,7 @@ def scene_schema() -> dict[str, Any]:
         A schema of draft 2020-12. It checks all that a schema can; that a key is given only
         once, for instance, it cannot.
     """
-    classes = (Scene, Camera, Light, Sphere, Plane, Vector, Direction, Color)
+    classes = (SceneInFile, Camera, Light, Sphere, Plane, SpheresInFile, Vector, Direction, Color)
     (_, parts) = msgspec.json.schema_components(classes, ref_template="#/$defs/{name}")
     for cls in classes:
         _describe(parts[cls.__name__], inspect.getdoc(cls) or "")
@@ -33,7 +43,12 @@ def scene_schema() -> dict[str, Any]:
     parts["Direction"]["not"] = {
         "properties": {name: {"const": 0} for name in Direction.__struct_fields__}
     }
-    scene = parts.pop("Scene")
+    # A file of centres alone has nothing else.
+    parts["SpheresInFile"] |= {
+        "if": {"properties": {"data": {"pattern": r"\.npy$"}}},
+        "then": {"required": ["radius", "color", "lambert"]},
+    }
+    scene = parts.pop("SceneInFile")
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         **scene,

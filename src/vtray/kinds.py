@@ -1,0 +1,27 @@
+"""The kinds of value in a scene: their limits, and the words for them.
+
+Each description completes "expected ..." in an error message.
+"""
+
+from typing import Annotated
+
+from msgspec import Meta
+
+Real = Annotated[float, Meta(description="a finite number")]
+Positive = Annotated[float, Meta(gt=0, description="a number > 0")]
+NonNegative = Annotated[float, Meta(ge=0, description="a number ≥ 0")]
+Fraction = Annotated[float, Meta(ge=0, le=1, description="a number from 0 to 1")]
+# An integer may be written 255 or 255.0: JSON knows only numbers.
+Byte = Annotated[
+    Annotated[int, Meta(ge=0, le=255)] | Annotated[float, Meta(ge=0, le=255, multiple_of=1)],
+    Meta(description="an integer from 0 to 255"),
+]
+MAX_SIZE = 2**31 - 1  # the largest side of a PNG
+Size = Annotated[
+    Annotated[int, Meta(ge=1, le=MAX_SIZE)]
+    | Annotated[float, Meta(ge=1, le=MAX_SIZE, multiple_of=1)],
+    Meta(description=f"an integer from 1 to {MAX_SIZE}"),
+]
+SizePair = Annotated[tuple[Size, Size], Meta(description="an array of two integers > 0")]
+PositivePair = Annotated[tuple[Positive, Positive], Meta(description="an array of two numbers > 0")]
+DataPath = Annotated[str, Meta(pattern=r"\.np[yz]$", description="the path of a .npz or .npy file")]

@@ -1,0 +1,308 @@
+"""Many spheres as arrays, and the checks of these arrays.
+
+The checks look at the least and the greatest number of an array, which costs about a millisecond
+per million; only when one of them is wrong does a search find the first wrong number. NumPy is
+imported here only when arrays are at hand.
+"""
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import msgspec
+
+from vtray.checked import Checked, bind, make_unchecked
+from vtray.errors import SceneError
+from vtray.kinds import Byte, Fraction, NonNegative, Real
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    AnyArray = NDArray[Any]
+    Floats = NDArray[np.float64] | NDArray[np.float32]
+    Bytes = NDArray[np.uint8]
+else:
+    AnyArray = Floats = Bytes = Any
+
+
+class Column(NamedTuple):
+    """What one of the arrays must hold.
+
+    Attributes
+    ----------
+    kind
+        The kind of each number.
+    row
+        Shape of what belongs to one sphere: () for a number, (3,) for three.
+    one
+        What may stand for all spheres instead of an array, in words; "" if nothing may.
+    """
+
+    kind: Any
+    row: tuple[int, ...]
+    one: str
+
+
+COLUMNS = {
+    "center": Column(Real, (3,), ""),
+    "radius": Column(NonNegative, (), "a number"),
+    "color": Column(Byte, (3,), "three integers"),
+    "lambert": Column(Fraction, (), "a number"),
+}
+
+
+class _CheckedArrays(Checked):
+    """Makes construction in code check and convert arrays."""
+
+    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
+        """Bind the arguments, check and convert them, and make the object."""
+        values = bind(cls, args, kwargs)
+        return make_unchecked(cls, **check_arrays(values, f"{cls.__name__}."))
+
+
+class Spheres(
+    msgspec.Struct,
+    metaclass=_CheckedArrays,
+    frozen=True,
+    eq=False,
+    tag_field="type",
+    tag="spheres",
+):
+    """Many spheres with matt surfaces, as arrays.
+
+    An array may be anything that NumPy makes an array of: its own arrays, those of other packages
+    (by ``__array__`` or ``__dlpack__``), or lists. An array of a dtype named below is not copied,
+    in whatever order it lies in memory: the attribute is then a read-only view of it, and changes
+    when it is changed; `Scene.check` looks at it again.
+
+    Attributes
+    ----------
+    center : array (n, 3)
+        Centres in world space, finite; float64 or float32 as given, all else becomes float64.
+        There may be none.
+    radius : array (n,) or float
+        Radii in scene units, ≥ 0, or one for all; float64 or float32 as given.
+    color : array (n, 3) or (3,)
+        Colours, or one for all, as uint8; whole numbers from 0 to 255 of any other dtype are
+        converted, and `Color` is one colour.
+    lambert : array (n,) or float
+        Share of the light that each surface scatters, from 0 to 1, or one for all; float64 or
+        float32 as given.
+
+    Raises
+    ------
+    SceneError
+        If an array has the wrong shape, the wrong dtype, or holds a wrong number. The message
+        names the place, for instance ``Spheres.radius[17]``.
+
+    Examples
+    --------
+    >>> Spheres(center=[(0, 0, 5), (1, 0, 5)], radius=0.5, color=(255, 0, 0), lambert=1)
+    Spheres(center=<float64 (2, 3)>, radius=0.5, color=<uint8 (3,)>, lambert=1.0)
+    """
+
+    center: Floats
+    radius: Floats | float
+    color: Bytes
+    lambert: Floats | float
+
+    if TYPE_CHECKING:  # what code may give, beside what the attributes hold
+
+        def __init__(
+            self, center: ArrayLike, radius: ArrayLike, color: ArrayLike, lambert: ArrayLike
+        ) -> None: ...
+
+    __hash__ = None  # type: ignore[assignment]  # arrays are compared, and may change
+
+    def __len__(self) -> int:
+        return len(self.center)
+
+    def __eq__(self, other: object) -> bool:
+        """Tell whether the same spheres stand in the same order, whatever the dtypes."""
+        if not isinstance(other, Spheres):
+            return NotImplemented
+        if len(self) != len(other):
+            return False
+        import numpy as np
+
+        pairs = ((getattr(self, name), getattr(other, name)) for name in COLUMNS)
+        return len(self) == 0 or all(bool(np.all(one == two)) for one, two in pairs)
+
+    def __ne__(self, other: object) -> bool:
+        return NotImplemented if not isinstance(other, Spheres) else not self == other
+
+    def __repr__(self) -> str:
+        values = {name: getattr(self, name) for name in COLUMNS}
+        shown = {
+            name: value if isinstance(value, float) else f"<{value.dtype} {value.shape}>"
+            for name, value in values.items()
+        }
+        return f"Spheres({', '.join(f'{name}={text}' for name, text in shown.items())})"
+
+    def check(self, place: str = "Spheres") -> None:
+        """Check the arrays again, after those that they share may have been changed.
+
+        Parameters
+        ----------
+        place
+            Where the spheres belong, for messages.
+
+        Raises
+        ------
+        SceneError
+            If a number is not right any more.
+        """
+        check_arrays(msgspec.structs.asdict(self), f"{place}.")
+
+
+def from_arrays(values: Mapping[str, object], place: str) -> Spheres:
+    """Make `Spheres` as calling the class does, with other places in the messages.
+
+    Parameters
+    ----------
+    values
+        What was given for center, radius, color and lambert.
+    place
+        What messages begin with, right before the name of an array.
+    """
+    spheres: Spheres = make_unchecked(Spheres, **check_arrays(values, place))
+    return spheres
+
+
+def check_arrays(values: Mapping[str, object], place: str) -> dict[str, Any]:
+    """Check and convert the arrays of spheres.
+
+    Parameters
+    ----------
+    values
+        What was given for center, radius, color and lambert.
+    place
+        What messages begin with, right before the name of an array.
+
+    Returns
+    -------
+    dict
+        The arrays, and floats where one number stands for all.
+
+    Raises
+    ------
+    SceneError
+        If one of them is not right.
+    """
+    found = {name: _to_array(values[name], name, place) for name in COLUMNS}
+    center = _check_center(found["center"], place)
+    shaped = {"center": center}
+    for name in ("radius", "color", "lambert"):
+        shaped[name] = _check_shape(found[name], name, center, place)
+    return {name: _check_numbers(array, name, place) for name, array in shaped.items()}
+
+
+def _to_array(found: Any, name: str, place: str) -> AnyArray:  # noqa: ANN401
+    """Return an array of numbers."""
+    import numpy as np
+
+    from vtray.json_tree import short
+    from vtray.scene_words import show
+
+    given: Any = msgspec.structs.astuple(found) if isinstance(found, msgspec.Struct) else found
+    only_dlpack = hasattr(given, "__dlpack__") and not hasattr(given, "__array__")
+    try:
+        array: AnyArray = np.from_dlpack(given) if only_dlpack else np.asarray(given)
+    except (ValueError, TypeError, RuntimeError, OverflowError, BufferError) as error:
+        got = f"{show(given)} ({short(str(error), 100)})"
+    else:
+        masked = isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given)
+        if array.dtype.kind in "iuf" and not masked:
+            return array
+        if masked:
+            got = "an array with masked numbers"
+        else:
+            got = f"an array of dtype {array.dtype}" if hasattr(given, "dtype") else show(given)
+    raise SceneError(f"{place}{name}: expected {array_words(name)}, got {got}")
+
+
+def array_words(name: str, count: object = "n") -> str:
+    """Say what an array must be, to follow the word "expected"."""
+    column = COLUMNS[name]
+    shape = f"({count}, {column.row[0]})" if column.row else f"({count},)"
+    words = f"an array of numbers of shape {shape}"
+    return f"{column.one} or {words}" if column.one else words
+
+
+def _check_center(center: AnyArray, place: str) -> AnyArray:
+    """Return centres of shape (n, 3)."""
+    if center.shape == (0,):  # what an empty list has
+        return center.reshape(0, 3)
+    if center.ndim == 2 and center.shape[1] == 3:
+        return center
+    hint = " (transpose it)" if center.ndim == 2 and center.shape[0] == 3 else ""
+    message = f"expected {array_words('center')}, got shape {center.shape}{hint}"
+    raise SceneError(f"{place}center: {message}")
+
+
+def _check_shape(array: AnyArray, name: str, center: AnyArray, place: str) -> AnyArray:
+    """Return an array with a row for each centre, or with one for all."""
+    row = COLUMNS[name].row
+    shape = (len(center), *row)
+    if array.shape in (row, shape):
+        return array
+    if array.shape == (0,) and len(center) == 0:
+        return array.reshape(shape)
+    words = f"{array_words(name, len(center))}, as center has shape {center.shape}"
+    raise SceneError(f"{place}{name}: expected {words}, got shape {array.shape}")
+
+
+def _check_numbers(given: AnyArray, name: str, place: str) -> Any:  # noqa: ANN401
+    """Return an array of right numbers, read-only and of the dtype of an attribute, or a float."""
+    import numpy as np
+
+    kind = COLUMNS[name].kind
+    with np.errstate(over="ignore", invalid="ignore"):
+        array = given
+        if kind is not Byte and given.dtype not in (np.float32, np.float64):
+            array = given.astype(np.float64)
+        if not _are_right(array, kind):
+            from vtray.scene_words import expected
+
+            index = _first_wrong(array, kind)
+            words = expected(kind if math.isfinite(array[index]) else Real)
+            where = f"{name}[{', '.join(map(str, index))}]" if index else name
+            raise SceneError(f"{place}{where}: expected {words}, got {given[index]!s}")
+    if kind is Byte:
+        array = array.astype(np.uint8, copy=False)
+    if array.ndim == 0:
+        return float(array)
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+def _are_right(array: AnyArray, kind: Any) -> bool:  # noqa: ANN401
+    """Tell whether all numbers of an array are of a kind."""
+    if array.size == 0:
+        return True
+    # All kinds are intervals of the finite numbers, and NaN is its own least and greatest.
+    extremes = [float(array.min()), float(array.max())]
+    if not all(map(math.isfinite, extremes)):
+        return False
+    try:
+        msgspec.convert(extremes, list[kind])
+    except msgspec.ValidationError:
+        return False
+    return kind is not Byte or bool((array.astype("u1", copy=False) == array).all())
+
+
+def _first_wrong(array: AnyArray, kind: Any) -> tuple[int, ...]:  # noqa: ANN401
+    """Return the index of the first number that is not of a kind; one there is."""
+    import numpy as np
+
+    flat = array.ravel()
+    first, end = 0, flat.size
+    while end - first > 1:
+        middle = (first + end) // 2
+        if _are_right(flat[first:middle], kind):
+            first = middle
+        else:
+            end = middle
+    return tuple(int(i) for i in np.unravel_index(first, array.shape))
