@@ -40,13 +40,14 @@ def read_arrays(path: Path, names: Collection[str], alone: str) -> "tuple[Arrays
     SceneError
         If the file cannot be read, is damaged, or holds pickled objects, which could do harm.
     """
+    suffix = path.name[-4:]  # not path.suffix, which is empty for a file called .npz
     try:
         with path.open("rb") as file:
-            return _read(file, path.suffix, names, alone)
+            return _read(file, suffix, names, alone)
     except SceneError:
         raise
     except (OSError, ValueError, MemoryError) as error:  # a path with a null byte is a ValueError
-        raise SceneError(why_unreadable(error, f"{path.suffix} file")) from None
+        raise SceneError(why_unreadable(error, f"{suffix} file")) from None
 
 
 def write_arrays(path: Path, arrays: Mapping[str, Any]) -> None:

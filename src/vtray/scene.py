@@ -281,9 +281,10 @@ class Scene(msgspec.Struct, metaclass=Checked):
             If the camera, a light or an object is not of its type.
         """
         Scene(self.camera, self.lights, self.objects)
-        for index, item in enumerate(self.objects):
-            if isinstance(item, Spheres):
-                item.check(f"Scene.objects[{index}]")
+        if Spheres in map(type, self.objects):
+            for index, item in enumerate(self.objects):
+                if isinstance(item, Spheres):
+                    item.check(f"Scene.objects[{index}]")
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the scene as indented JSON that `vtray.load` reads back as an equal scene.

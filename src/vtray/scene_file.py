@@ -116,9 +116,7 @@ def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
         _explain(raw, name, warn)
     objects: list[Any] = found.objects
     if SpheresInFile in kinds:
-        objects, unknown = _read_spheres(found, name, folder)
-        for line in _few(unknown, "arrays"):
-            warn(f"{name}: {line}")
+        objects = _read_spheres(found, name, folder, warn)
     scene: Scene = make_unchecked(Scene, camera=found.camera, lights=found.lights, objects=objects)
     return scene
 
@@ -200,19 +198,22 @@ def _explain(raw: bytes, name: str, warn: Warn) -> None:
 def _few(unknown: list[str], what: str) -> list[str]:
     """Cut a long list of warnings."""
     more = len(unknown) - _MAX_WARNINGS
-    return (
-        unknown if more <= 0 else [*unknown[:_MAX_WARNINGS], f"{more} more unknown {what}, ignored"]
-    )
+    if more <= 0:
+        return unknown
+    return [*unknown[:_MAX_WARNINGS], f"{more} more unknown {what}, ignored"]
 
 
-def _read_spheres(found: SceneInFile, name: str, folder: str) -> tuple[list[Object], list[str]]:
-    """Read the arrays that a scene file names; return all objects and the warnings."""
+def _read_spheres(found: SceneInFile, name: str, folder: str, warn: Warn) -> list[Object]:
+    """Return the objects of a file with the arrays it names; warn about unknown arrays."""
     from vtray.spheres_file import with_arrays
 
     try:
-        return with_arrays(found.objects, folder)
+        objects, unknown = with_arrays(found.objects, folder)
     except SceneError as problem:
         raise SceneError(f"{name}: {problem}") from None
+    for line in _few(unknown, "arrays"):
+        warn(f"{name}: {line}")
+    return objects
 
 
 def _warn(message: str) -> None:
