@@ -23,7 +23,6 @@ def check_brightness(lights: Sequence[Light]) -> None:
         raise RenderError(message)
 
 
-@kernel
 def develop(film: NDArray[np.float64], peak: float, pixels: NDArray[np.uint8]) -> None:
     """Expose rows of a film so that the brightest channel of the image becomes 255.
 
@@ -36,8 +35,13 @@ def develop(film: NDArray[np.float64], peak: float, pixels: NDArray[np.uint8]) -
     pixels
         Where the result is written, (height, width, 3).
     """
-    linear = film.reshape(film.size)
-    bytes_ = pixels.reshape(pixels.size)
+    # Not in the kernel: there it would call a library of Numba's, which takes 3 ms to load.
+    _expose(film.reshape(film.size), float(peak), pixels.reshape(pixels.size))
+
+
+@kernel
+def _expose(linear: NDArray[np.float64], peak: float, bytes_: NDArray[np.uint8]) -> None:
+    """Expose the channels of any number of pixels, all (n,)."""
     for k in range(linear.size):
         exposed = math.floor((255.0 * linear[k]) / peak) if peak > 0.0 else 0.0
         # For one peak in seven, 255 * peak / peak rounds to just below 255.
