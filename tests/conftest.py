@@ -34,6 +34,12 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 @pytest.fixture
+def compiler(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let kernels that the test makes itself be compiled, also where vtray's own are not."""
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", 0)
+
+
+@pytest.fixture
 def vtray_command() -> Callable[..., subprocess.CompletedProcess[str]]:
     """Return a function that runs the installed command as a process."""
 

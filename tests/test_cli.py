@@ -250,7 +250,7 @@ def test_terminal_shows_compiling_and_progress(
     small: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("sys.stderr.isatty", lambda: True)
-    monkeypatch.setattr("vtray.compiled.is_compiled", lambda: False)
+    monkeypatch.setattr("vtray.kernel_folder.is_compiled", lambda: False)
     monkeypatch.setattr("vtray.progress.DELAY_SECONDS", -1.0)
     assert cli.run([str(small), str(small.with_name("a.png"))]) == 0
     err = capsys.readouterr().err

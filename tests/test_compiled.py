@@ -6,11 +6,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 from conftest import compiled_only
 from examples import one_sphere
-from vtray import compiled
+from vtray import kernel_folder
 
 pytestmark = compiled_only
 
@@ -50,10 +48,10 @@ def test_compiled_once_and_found_again_by_two_at_once(tmp_path: Path) -> None:
     cache = {"VTRAY_CACHE_DIR": str(tmp_path)}
     both = [start(None, **cache), start(None, **cache)]
     first = max(finish(process) for process in both)
-    files = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.nbc")}
+    files = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.kernel")}
     again = finish(start(None, **cache))
     assert again < first / 5
-    assert files == {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.nbc")}
+    assert files == {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.kernel")}
 
     # A damaged file is compiled again, not trusted and not a crash.
     for path in files:
@@ -64,7 +62,7 @@ def test_compiled_once_and_found_again_by_two_at_once(tmp_path: Path) -> None:
 
 def test_change_in_any_source_is_noticed(tmp_path: Path) -> None:
     package = tmp_path / "site"
-    shutil.copytree(Path(compiled.__file__).parent, package / "vtray")
+    shutil.copytree(Path(kernel_folder.__file__).parent, package / "vtray")
     cache = {"VTRAY_CACHE_DIR": str(tmp_path / "cache")}
     finish(start(package, **cache))
     shading = package / "vtray" / "shading.py"
@@ -86,27 +84,3 @@ def test_picture_is_the_same_on_a_processor_without_wide_vectors(tmp_path: Path)
     subprocess.run([*command, tmp_path / "this.png"], check=True)
     subprocess.run([*command, tmp_path / "plain.png"], env={**os.environ, **plain}, check=True)
     assert (tmp_path / "this.png").read_bytes() == (tmp_path / "plain.png").read_bytes()
-
-
-@pytest.mark.parametrize("variable", ["VTRAY_CACHE_DIR", "XDG_CACHE_HOME"])
-def test_without_a_writable_home(variable: str, tmp_path: Path) -> None:
-    environment = {"VTRAY_CACHE_DIR": "", "TMPDIR": str(tmp_path), variable: "/proc/nowhere"}
-    script = "from vtray.compiled import cache_folder; print(cache_folder())"
-    done = subprocess.run(
-        [sys.executable, "-c", script],
-        env={**os.environ, **environment},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    if variable == "VTRAY_CACHE_DIR":  # what was asked for cannot be had: nothing is kept
-        assert done.stdout == "None\n"
-    else:
-        assert done.stdout.startswith(str(tmp_path))
-
-
-def test_folder_is_named_by_all_sources() -> None:
-    folder = compiled.cache_folder()
-    assert folder is not None
-    assert folder.name.startswith("kernels-")
-    assert compiled.is_compiled() == any(folder.rglob("*.nbc"))

@@ -134,7 +134,7 @@ def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
     if options.quiet or not sys.stderr.isatty():
         return render(scene, options.threads)
 
-    from vtray.compiled import is_compiled
+    from vtray.kernel_folder import is_compiled
     from vtray.progress import ProgressBar
 
     if not is_compiled():
@@ -152,7 +152,7 @@ def _print_stats(clock: "Stopwatch", image: "Image") -> None:
 
     stats = image.stats
     steps = ("pack", "trace", "develop")
-    # Loading Numba counts as compiling.
+    # Loading NumPy and LLVM counts as compiling.
     compiling = clock.seconds["render"] - sum(stats[step] for step in steps)
     seconds = {
         "read": clock.seconds["read"],

@@ -1,4 +1,4 @@
-"""How kernels are compiled, and where the machine code is kept.
+"""How kernels are compiled.
 
 Every compile-time decision is made here:
 
@@ -7,96 +7,129 @@ Every compile-time decision is made here:
 - No ``fastmath``, no fused multiply-add: pictures are equal to the last bit on every processor.
 - ``_nrt=False``: no reference counts on arrays. Kernels allocate nothing, and the counting in inner
   loops kept them from being vectorised (a room with 64 lights: 0.55 s with it, 0.09 s without).
-- ``cache=True`` for kernels (not for the device functions inside them): compiled once per machine.
 
-Numba's own cache does not notice a change in a function that a kernel calls from another module,
-so the cache folder is named after a hash of all sources of the package. Within it, Numba keys the
-code on its own version and on the processor, and writes by renaming, so that two processes may
-start at once.
+Kernels are compiled once per machine: `object_code` keeps them on disk and loads them. Numba is
+imported only to compile, and where a kernel cannot be called without it.
 """
 
-import hashlib
 import os
-import shutil
-import tempfile
+import threading
 from collections.abc import Callable
-from functools import cache
+from functools import cached_property, update_wrapper
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
-import numba
+from vtray.native_call import NativeCall, Pinned, Types, UnsupportedError, caller, unpack, unpinned
+from vtray.object_code import (
+    compile_object,
+    link,
+    object_file,
+    read_object_code,
+    write_object_code,
+)
 
 Function = TypeVar("Function", bound=Callable[..., Any])
-
-CACHE_VARIABLE = "VTRAY_CACHE_DIR"
-"""Environment variable that names another folder for compiled kernels."""
+Value = TypeVar("Value")
 
 _OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "_nrt": False}
+
+_COMPILING = threading.RLock()
 
 
 def device(function: Function) -> Function:
     """Compile a small scalar function that kernels call."""
-    compiled: Function = numba.njit(function, **_OPTIONS)
-    return compiled
+    return function if _is_off() else cast("Function", Device(function))
 
 
 def kernel(function: Function) -> Function:
     """Compile a loop over arrays, and keep the machine code on disk."""
-    folder = cache_folder()
-    if folder is None:
-        return device(function)
-    # Numba reads this setting when the decorator runs; other users of Numba keep theirs.
-    settings: Any = numba.config
-    theirs = settings.CACHE_DIR
-    settings.CACHE_DIR = str(folder)
+    return function if _is_off() else cast("Function", Kernel(function))
+
+
+def pinned(argument: Value) -> Value:
+    """Return a stand-in for an argument that many calls of kernels share.
+
+    Taking apart a scene of forty arrays takes 40 microseconds; this does it once for all calls.
+    """
+    if _is_off():
+        return argument
     try:
-        compiled: Function = numba.njit(function, cache=True, **_OPTIONS)
-    finally:
-        settings.CACHE_DIR = theirs
-    return compiled
+        return cast("Value", Pinned(argument))
+    except UnsupportedError:
+        return argument
 
 
-@cache
-def cache_folder() -> Path | None:
-    """Return the folder of this version's compiled kernels, None if nothing can be written."""
-    from platformdirs import user_cache_path
+class Device:
+    """A function that is compiled when a kernel, or Python, calls it for the first time."""
 
-    chosen = os.environ.get(CACHE_VARIABLE)
-    homes = [Path(chosen)] if chosen else [user_cache_path("vtray"), _temporary_home()]
-    for home in homes:
-        folder = home / f"kernels-{_source_hash()}"
+    def __init__(self, function: Callable[..., object]) -> None:
+        update_wrapper(self, function)
+        self._function = function
+
+    def __call__(self, *arguments: object) -> object:  # noqa: D102
+        return self._dispatcher(*arguments)
+
+    @cached_property
+    def _dispatcher(self) -> Callable[..., object]:
+        """The function as Numba's decorator returns it."""
+        import numba
+
+        compiled: Callable[..., object] = numba.njit(self._function, **_OPTIONS)
+        return compiled
+
+    @property
+    def _numba_type_(self) -> object:
+        """What Numba asks for where compiled code calls this."""
+        import numba
+
+        dispatcher: Any = self._dispatcher
+        return numba.types.Dispatcher(dispatcher)
+
+
+class Kernel(Device):
+    """A function whose machine code is kept on disk."""
+
+    def __init__(self, function: Callable[..., object]) -> None:
+        super().__init__(function)
+        # For each tuple of types; None where only Numba can call the code.
+        self._native: dict[Types, NativeCall | None] = {}
+
+    def __call__(self, *arguments: object) -> object:  # noqa: D102
         try:
-            folder.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryFile(dir=folder):
-                return folder
-        except OSError:
-            continue
-    return None
+            types, words = unpack(arguments)
+        except UnsupportedError:
+            return self._dispatcher(*unpinned(arguments))
+        if types not in self._native:
+            with _COMPILING:
+                if types not in self._native:
+                    self._native[types] = self._load(types, unpinned(arguments))
+        native = self._native[types]
+        if native is None:
+            return self._dispatcher(*unpinned(arguments))
+        return native(words)
+
+    def _load(self, types: Types, arguments: tuple[object, ...]) -> NativeCall | None:
+        """Return what calls the machine code, from disk or newly compiled, None if that fails."""
+        try:
+            file = self._file(types)
+            compiled = read_object_code(file) if file else None
+            if compiled is None:
+                compiled = compile_object(self._function, arguments, _OPTIONS)
+                if file:
+                    write_object_code(file, compiled)
+            return caller(link(compiled), compiled.layout)
+        except Exception:  # noqa: BLE001 - whatever it is, Numba either can do it or explains it
+            return None
+
+    def _file(self, types: Types) -> Path | None:
+        """Return the file of the machine code, None if the function is none of vtray's own."""
+        module, name = self._function.__module__, self._function.__qualname__
+        # The name of the folder tells only whether vtray's own sources have changed.
+        return (
+            object_file(f"{module}.{name}", "".join(types)) if module.startswith("vtray.") else None
+        )
 
 
-def is_compiled() -> bool:
-    """Tell whether an earlier process has left compiled kernels (perhaps not all of them)."""
-    folder = cache_folder()
-    return folder is not None and any(folder.rglob("*.nbc"))
-
-
-def forget() -> None:
-    """Throw the compiled kernels on disk away, for instance because they cannot be read."""
-    folder = cache_folder()
-    if folder is not None:
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True, exist_ok=True)
-
-
-def _temporary_home() -> Path:
-    """Return a folder of this user's own, for machines without a writable home."""
-    user = os.getuid() if hasattr(os, "getuid") else "user"
-    return Path(tempfile.gettempdir()) / f"vtray-cache-{user}"
-
-
-def _source_hash() -> str:
-    """Return a short hash of all sources of the package."""
-    digest = hashlib.sha256()
-    for source in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(source.name.encode() + b"\0" + source.read_bytes() + b"\0")
-    return digest.hexdigest()[:16]
+def _is_off() -> bool:
+    """Tell whether everything shall run as plain Python, as Numba's setting says."""
+    return os.environ.get("NUMBA_DISABLE_JIT", "0") not in {"", "0"}

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray import compiled
+from vtray.compiled import pinned
 from vtray.exposure import check_brightness, develop
 from vtray.image import Image
 from vtray.integrator import new_workspace, trace_tile
@@ -81,18 +81,10 @@ def available_cores() -> int:
 
 def compile_kernels(scene: SceneArrays) -> None:
     """Compile what is needed to render a scene, or load it from disk."""
-
-    def empty_run() -> None:
-        film = np.zeros((0, 0, 3))
-        stop = np.zeros(1, np.bool_)
-        trace_tile(scene, 0, 0, 0, 0, film, new_packet(), new_workspace(scene), stop)
-        develop(film, 0.0, np.zeros((0, 0, 3), np.uint8))
-
-    try:
-        empty_run()
-    except Exception:  # noqa: BLE001 - a damaged cache file can raise anything
-        compiled.forget()
-        empty_run()
+    film = np.zeros((0, 0, 3))
+    stop = np.zeros(1, np.bool_)
+    trace_tile(scene, 0, 0, 0, 0, film, new_packet(), new_workspace(scene), stop)
+    develop(film, 0.0, np.zeros((0, 0, 3), np.uint8))
 
 
 def _trace(
@@ -103,12 +95,13 @@ def _trace(
     film = np.empty((camera.height, camera.width, 3))
     stop = np.zeros(1, np.bool_)
     results: list[tuple[float, int]] = []
+    world, canvas, flag = pinned(scene), pinned(film), pinned(stop)
 
     def new_worker() -> Callable[[Tile], None]:
-        packet, work = new_packet(), new_workspace(scene)
+        packet, work = pinned(new_packet()), pinned(new_workspace(scene))
 
         def trace(tile: Tile) -> None:
-            results.append(trace_tile(scene, *tile, film, packet, work, stop))
+            results.append(trace_tile(world, *tile, canvas, packet, work, flag))
 
         return trace
 
