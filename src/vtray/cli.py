@@ -1,6 +1,7 @@
 """The command line: reads the arguments, calls the rest, prints, and sets the exit status."""
 
 import argparse
+import os
 import re
 import sys
 from collections.abc import Sequence
@@ -129,6 +130,8 @@ def _load(options: argparse.Namespace) -> "Scene":
 
 def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
     """Render the scene; on a terminal, show what takes long."""
+    # NumPy's linear algebra, unused here, starts a thread for each core that spins for 40 ms.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from vtray.renderer import render
 
     if options.quiet or not sys.stderr.isatty():
