@@ -13,6 +13,7 @@ import oracle
 import vtray
 from conftest import CONFORMANCE, JIT, compiled_only
 from strategies import crowd, scenes
+from vtray.acceleration import accelerate
 from vtray.plain import NOTHING, trace_pixel
 from vtray.scene_arrays import pack
 
@@ -48,7 +49,7 @@ def test_equals_oracle_with_hundreds_of_objects(seed: int) -> None:
 def test_equals_the_plain_path(seed: int) -> None:
     scene = load(crowd(seed, spheres=60 if JIT else 5))
     linear = vtray.render(scene, threads=1).linear
-    arrays = pack(scene).arrays
+    arrays = pack(scene, accelerate(scene)).arrays
     cosines, blockers = np.zeros(len(scene.lights)), np.zeros(len(scene.lights), np.int64)
     for row, column in product(range(35), range(51) if JIT else range(0, 51, 10)):
         traced = trace_pixel(arrays, column, row, cosines, blockers)

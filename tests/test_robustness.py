@@ -10,7 +10,7 @@ import oracle
 import vtray
 from conftest import compiled_only
 from examples import light, plane, scene, sphere, xyz
-from vtray.interaction import interact
+from vtray.acceleration import accelerate
 from vtray.plain import NOTHING, trace_pixel
 from vtray.rounding import ROUNDING
 from vtray.scene_arrays import pack
@@ -180,7 +180,8 @@ def test_plane_in_the_image_plane_is_behind_it(normal: tuple[float, ...], by: fl
 def test_rounding_stays_within_its_bound(name: str) -> None:
     document = HARD[name]
     loaded = vtray.loads(json.dumps(document))
-    packed = pack(loaded)
+    packed = pack(loaded, accelerate(loaded))
+    primitives = sorted(document["objects"], key=lambda item: item["type"] == "plane")
     camera = packed.arrays.camera
     cosines = np.zeros(len(loaded.lights))
     blockers = np.zeros(len(loaded.lights), np.int64)
@@ -190,9 +191,9 @@ def test_rounding_stays_within_its_bound(name: str) -> None:
             traced = trace_pixel(packed.arrays, column, row, cosines, blockers)
             if traced.primitive == NOTHING:
                 continue
-            found = interact(packed.arrays, traced.direction, traced.distance, traced.primitive)
+            found = traced.interaction
             off = distance_from_surface(
-                document["objects"][packed.objects[traced.primitive]],
+                primitives[traced.primitive],
                 [np.longdouble(p) * packed.unit for p in found.point],
                 document["camera"]["center"],
             )

@@ -3,9 +3,16 @@
 import pytest
 
 import vtray
-from vtray.scene_arrays import pack
+from vtray.acceleration import accelerate
+from vtray.scene_arrays import Packed
+from vtray.scene_arrays import pack as pack_arrays
+from vtray.sphere_arrays import sphere_center, sphere_radius
 
 WHITE = (255, 255, 255)
+
+
+def pack(scene: vtray.Scene) -> Packed:
+    return pack_arrays(scene, accelerate(scene))
 
 
 def scene(objects: list, lights: list | None = None, **camera: object) -> vtray.Scene:
@@ -31,41 +38,33 @@ def test_places_are_relative_to_the_image_plane_in_units_of_a_power_of_two() -> 
         )
     )
     assert packed.unit == 16 / 2**200
-    camera, spheres, planes, lights, materials = packed.arrays
+    camera, spheres, _, _, planes, lights, materials = packed.arrays
 
     def lengths(*values: float) -> list[float]:
         return [value * packed.unit for value in values]
 
     assert lengths(*camera.eye, camera.focus) == [0, 0, -10, 10]
     assert (camera.pixel, camera.width) == ((0.5 / 16, 0.5 / 16, 10 / 16), 4)
-    assert lengths(*(column[0] for column in spheres)) == [0, 0, 6, 2, 8]
+    assert lengths(*sphere_center(spheres, 0), sphere_radius(spheres, 0)) == [0, 0, 6, 2]
     assert [float(column[0]) for column in planes[:3]] == [0, -1, 0]
     assert lengths(planes.offset[0], planes.height[0]) == [-3, -3]
     assert lengths(lights.x[0], lights.y[0], lights.z[0]) == [4, 0, -3]
     assert lengths(lights.depth[0], lights.magnitude[0]) == [-3, 7]
     assert lights.intensity[0] == 7
-    # The spheres come first, whatever the order in the scene.
-    assert packed.objects.tolist() == [1, 0]
-    assert materials.red.tolist() == [255, 1]
-    assert materials.lambert.tolist() == [1, 0.5]
-
-
-def test_spheres_behind_the_image_plane_are_left_out() -> None:
-    depths = [-5.0, -2.0, -1.9, 0.0, 4.0]
-    packed = pack(scene([vtray.Sphere((1, 2, 3 + depth), 2, WHITE, 1) for depth in depths]))
-    assert packed.objects.tolist() == [1, 2, 3, 4]
+    assert materials.sphere_color.tolist() == [[255, 255, 255]]
+    assert materials.plane_color.tolist() == [[1, 2, 3]]
+    assert (materials.sphere_lambert.tolist(), materials.plane_lambert.tolist()) == ([1], [0.5])
 
 
 @pytest.mark.parametrize("size", [1e-320, 1e-300, 1.0, 1e300, 1.7e308])
 def test_unit_keeps_squares_of_squares_within_range(size: float) -> None:
     sphere = vtray.Sphere((0, 0, size), size / 2, WHITE, 1)
     packed = pack(scene([sphere], center=(0, 0, 0), focus=size, resolution=(size / 8, size / 8)))
-    radius = packed.arrays.spheres.radius[0]
+    radius = sphere_radius(packed.arrays.spheres, 0)
     assert 0 < radius**4 < 1e290
     assert all(0 < length <= 1 for length in packed.arrays.camera.pixel)
 
 
 def test_empty_scene() -> None:
     packed = pack(scene([]))
-    assert packed.arrays.spheres.x.shape == packed.arrays.lights.x.shape == (0,)
-    assert packed.objects.shape == (0,)
+    assert packed.arrays.spheres.number.shape == packed.arrays.lights.x.shape == (0,)

@@ -5,6 +5,8 @@ Every compile-time decision is made here:
 - ``error_model="numpy"``: a division by zero gives infinity or NaN, as in C, and loops vectorise.
 - ``nogil=True``: kernels of several threads run side by side.
 - No ``fastmath``, no fused multiply-add: pictures are equal to the last bit on every processor.
+- ``forceinline=True`` for device functions: LLVM left some calls in inner loops, which were not
+  vectorised then (a million spheres: 0.62 s without it, 0.22 s with it).
 - ``_nrt=False``: no reference counts on arrays. Kernels allocate nothing, and the counting in inner
   loops kept them from being vectorised (a room with 64 lights: 0.55 s with it, 0.09 s without).
 
@@ -17,7 +19,7 @@ import threading
 from collections.abc import Callable
 from functools import cached_property, update_wrapper
 from pathlib import Path
-from typing import Any, TypeVar, cast
+from typing import Any, ClassVar, TypeVar, cast
 
 from vtray.native_call import NativeCall, Pinned, Types, UnsupportedError, caller, unpack, unpinned
 from vtray.object_code import (
@@ -62,6 +64,8 @@ def pinned(argument: Value) -> Value:
 class Device:
     """A function that is compiled when a kernel, or Python, calls it for the first time."""
 
+    _options: ClassVar[dict[str, Any]] = {**_OPTIONS, "forceinline": True}
+
     def __init__(self, function: Callable[..., object]) -> None:
         update_wrapper(self, function)
         self._function = function
@@ -74,7 +78,7 @@ class Device:
         """The function as Numba's decorator returns it."""
         import numba
 
-        compiled: Callable[..., object] = numba.njit(self._function, **_OPTIONS)
+        compiled: Callable[..., object] = numba.njit(self._function, **self._options)
         return compiled
 
     @property
@@ -88,6 +92,8 @@ class Device:
 
 class Kernel(Device):
     """A function whose machine code is kept on disk."""
+
+    _options: ClassVar[dict[str, Any]] = _OPTIONS
 
     def __init__(self, function: Callable[..., object]) -> None:
         super().__init__(function)

@@ -1,15 +1,26 @@
 """How a pixel got its value, in words: what ``vtray --pixel`` prints."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
+from vtray.acceleration import accelerate, locate
 from vtray.errors import RenderError
 from vtray.image import Image
 from vtray.plain import NOTHING, TracedPixel, trace_pixel
-from vtray.scene import Scene, Sphere
+from vtray.scene import Plane, Scene
 from vtray.scene_arrays import Packed, pack
+from vtray.spheres import Spheres
 from vtray.vector import Vec
+
+
+class Surface(NamedTuple):
+    """What is said of a sphere or a plane: which one it is, and its material."""
+
+    name: str
+    color: Vec
+    lambert: float
 
 
 def explain_pixel(scene: Scene, image: Image, column: int, row: int) -> str:
@@ -33,7 +44,7 @@ def explain_pixel(scene: Scene, image: Image, column: int, row: int) -> str:
     if not (0 <= column < width and 0 <= row < height):
         message = f"--pixel: expected 0,0 to {width - 1},{height - 1}, got {column},{row}"
         raise RenderError(message)
-    packed = pack(scene)
+    packed = pack(scene, accelerate(scene))
     cosines = np.zeros(len(scene.lights))
     blockers = np.full(len(scene.lights), NOTHING)
     traced = trace_pixel(packed.arrays, column, row, cosines, blockers)
@@ -57,16 +68,15 @@ def _explain_ray(scene: Scene, packed: Packed, traced: TracedPixel) -> list[str]
 
 def _explain_hit(scene: Scene, packed: Packed, traced: TracedPixel) -> list[str]:
     """Return the lines on what the ray hit."""
-    place = packed.objects[traced.primitive]
-    item = scene.objects[place]
+    surface = _surface(scene, traced.primitive)
     point = _world(scene, packed, traced.interaction.point)
     distance = traced.distance * packed.unit
-    color = item.color
+    red, green, blue = surface.color
     return [
-        f"hit          objects[{place}], a {_kind(item)}, {distance:.10g} away",
+        f"hit          {surface.name}, {distance:.10g} away",
         f"  point      {_vector(point)}",
         f"  normal     {_vector(traced.interaction.normal)}, on the ray's side",
-        f"  material   color ({color.r:g}, {color.g:g}, {color.b:g}), lambert {item.lambert:g}",
+        f"  material   color ({red:g}, {green:g}, {blue:g}), lambert {surface.lambert:g}",
     ]
 
 
@@ -79,7 +89,7 @@ def _explain_lights(
 ) -> list[str]:
     """Return the lines on each light: its direction, what blocks it or what it adds."""
     lines = []
-    item = scene.objects[packed.objects[traced.primitive]]
+    surface = _surface(scene, traced.primitive)
     point = _world(scene, packed, traced.interaction.point)
     for k, light in enumerate(scene.lights):
         location = light.location
@@ -91,17 +101,12 @@ def _explain_lights(
         if cosines[k] == 0.0:
             lines.append("  adds       nothing: it is behind the surface")
         elif blockers[k] != NOTHING:
-            place = packed.objects[blockers[k]]
-            blocker = scene.objects[place]
-            lines.append(
-                f"  adds       nothing: objects[{place}], a {_kind(blocker)}, is in the way"
-            )
+            blocker = _surface(scene, int(blockers[k]))
+            lines.append(f"  adds       nothing: {blocker.name}, is in the way")
         else:
-            strength = cosines[k] * item.lambert * light.intensity
-            added = tuple(
-                strength * channel for channel in (item.color.r, item.color.g, item.color.b)
-            )
-            factors = f"cosine {cosines[k]:.6g} x lambert {item.lambert:g}"
+            strength = cosines[k] * surface.lambert * light.intensity
+            added = tuple(strength * channel for channel in surface.color)
+            factors = f"cosine {cosines[k]:.6g} x lambert {surface.lambert:g}"
             factors += f" x intensity {light.intensity:g} x color"
             lines.append(f"  adds       {_vector(added)} = {factors}")
     return lines
@@ -121,9 +126,23 @@ def _explain_exposure(image: Image, traced: TracedPixel, column: int, row: int) 
     ]
 
 
-def _kind(item: object) -> str:
-    """Return the type of an object as the scene file calls it."""
-    return "sphere" if isinstance(item, Sphere) else "plane"
+def _surface(scene: Scene, primitive: int) -> Surface:
+    """Return what is to be said of a primitive."""
+    kept = accelerate(scene)
+    count = len(kept.leaves.number)
+    if primitive >= count:
+        planes = [place for place, item in enumerate(scene.objects) if isinstance(item, Plane)]
+        place, index = planes[primitive - count], 0
+    else:
+        place, index = locate(scene, kept, primitive)
+    item = scene.objects[place]
+    if not isinstance(item, Spheres):
+        kind, color = "sphere" if primitive < count else "plane", item.color
+        name = f"objects[{place}], a {kind}"
+        return Surface(name, (float(color.r), float(color.g), float(color.b)), item.lambert)
+    red, green, blue = map(float, kept.source.color[primitive])
+    lambert = float(kept.source.lambert[primitive])
+    return Surface(f"objects[{place}], sphere {index}", (red, green, blue), lambert)
 
 
 def _world(scene: Scene, packed: Packed, point: Vec) -> Vec:

@@ -1,38 +1,35 @@
 """The integrator: from a tile of pixels to their linear light."""
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.bvh_nearest import nearest_in_bvh
+from vtray.bvh_occlusion import block_in_bvh
 from vtray.camera import CameraFrame, camera_ray
 from vtray.compiled import device, kernel
-from vtray.culling import MARGIN, outside_side
+from vtray.few_spheres import block_by_few, nearest_of_few
 from vtray.interaction import gather_interactions
-from vtray.nearest import clear_hits, nearest_plane, nearest_sphere
-from vtray.occlusion import Workspace, bound_points, find_blocked, find_sides
+from vtray.nearest import clear_hits, nearest_plane
+from vtray.occlusion import Bounds, block_by_planes, bound_points, find_sides
 from vtray.packet import (
     BLOCK,
     DIRECTION,
     FORWARD,
+    LANES,
+    NO_PRIMITIVE,
     PIXEL,
+    PRIMITIVE,
     VALUE,
+    Block,
     Packet,
     load,
     store,
 )
-from vtray.scene_arrays import SceneArrays, Spheres
-from vtray.shading import add_light
-from vtray.vector import cross, dot, pick, sub
-
-
-class Block(NamedTuple):
-    """A rectangle of pixels, at most ``BLOCK`` wide and high, traced as one packet."""
-
-    left: int
-    top: int
-    width: int
-    height: int
+from vtray.scene_arrays import SceneArrays, has_bvh
+from vtray.shading import add_light, find_cosines
+from vtray.sphere_arrays import sphere_count
+from vtray.vector import dot
+from vtray.workspace import Workspace
 
 
 @kernel
@@ -92,8 +89,9 @@ def _trace_block(
     """Trace the packet of one block: rays, hits, light, film."""
     lanes = block.width * block.height
     _cast_rays(packet, block, scene.camera)
-    _find_hits(packet, block, scene, work)
-    hits = gather_interactions(packet, lanes, scene)
+    _find_hits(packet, scene, work)
+    _drop_outside(packet, block)
+    hits = gather_interactions(packet, scene, work)
     if hits < lanes:
         _blacken(block, film)
     if hits == 0:
@@ -104,58 +102,58 @@ def _trace_block(
     for light in range(scene.lights.x.shape[0]):
         if stop[0]:
             break
-        find_blocked(packet, hits, bounds, scene, light, work)
-        rays += add_light(packet, hits, scene.lights, light)
+        facing = find_cosines(packet, hits, scene.lights, light)
+        if facing > 0:
+            _find_blocked(packet, hits, bounds, scene, light, work)
+            add_light(packet, hits, scene.lights, light)
+            rays += facing
     return _expose(packet, hits, block, film), rays
 
 
 @device
 def _cast_rays(packet: Packet, block: Block, camera: CameraFrame) -> None:
-    """Set each lane's ray, row by row through the block."""
-    for row in range(block.height):
-        start = row * block.width
-        for column in range(block.width):
+    """Set each lane's ray."""
+    for row in range(BLOCK):
+        for column in range(BLOCK):
             direction = camera_ray(camera, block.left + column, block.top + row)
-            store(packet, DIRECTION, start + column, direction)
-    for lane in range(block.width * block.height):
+            store(packet, DIRECTION, row * BLOCK + column, direction)
+    for lane in range(LANES):
         packet[FORWARD + lane] = dot(load(packet, DIRECTION, lane), camera.forward)
 
 
 @device
-def _find_hits(packet: Packet, block: Block, scene: SceneArrays, work: Workspace) -> None:
-    """Find each lane's nearest hit: spheres first, then planes."""
-    lanes = block.width * block.height
-    spheres = scene.spheres.x.shape[0]
-    clear_hits(packet, lanes)
-    _cull_spheres(packet, block, scene.camera, scene.spheres, work.near)
-    for sphere in range(spheres):
-        if work.near[sphere]:
-            nearest_sphere(packet, lanes, scene.camera, scene.spheres, sphere)
+def _find_hits(packet: Packet, scene: SceneArrays, work: Workspace) -> None:
+    """Find each lane's nearest hit; planes first, so that less of the hierarchy is searched."""
+    clear_hits(packet)
     for plane in range(scene.planes.x.shape[0]):
-        nearest_plane(packet, lanes, scene.camera, scene.planes, plane, spheres + plane)
+        number = sphere_count(scene.spheres) + plane
+        nearest_plane(packet, scene.camera, scene.planes, plane, number)
+    if has_bvh(scene):
+        nearest_in_bvh(packet, scene, work)
+    else:
+        nearest_of_few(packet, scene, work.near)
 
 
 @device
-def _cull_spheres(
-    packet: Packet, block: Block, camera: CameraFrame, spheres: Spheres, near: NDArray[np.bool_]
+def _find_blocked(
+    packet: Packet, hits: int, bounds: Bounds, scene: SceneArrays, light: int, work: Workspace
 ) -> None:
-    """Find the spheres that reach into the pyramid from the eye through a block."""
-    # Not by rays of two corners: far from the eye of a narrow view they are too nearly parallel.
-    left_top = load(packet, DIRECTION, 0)
-    right_bottom = load(packet, DIRECTION, block.width * block.height - 1)
-    left = cross(left_top, camera.down)
-    top = cross(camera.right, left_top)
-    right = cross(camera.down, right_bottom)
-    bottom = cross(right_bottom, camera.right)
-    for sphere in range(spheres.x.shape[0]):
-        center = sub(pick(spheres, sphere), camera.eye)
-        radius = spheres.radius[sphere] + MARGIN * (spheres.magnitude[sphere] + camera.focus)
-        near[sphere] = not (
-            outside_side(center, left, radius)
-            | outside_side(center, top, radius)
-            | outside_side(center, right, radius)
-            | outside_side(center, bottom, radius)
-        )
+    """Mark in row ``BLOCKED`` the points that a light does not reach."""
+    block_by_planes(packet, hits, scene.planes, scene.lights, light, work)
+    if has_bvh(scene):
+        block_in_bvh(packet, scene, light, work)
+    else:
+        block_by_few(packet, hits, bounds, scene, light, work.near)
+
+
+@device
+def _drop_outside(packet: Packet, block: Block) -> None:
+    """Forget the hits of lanes whose pixels are not in the block."""
+    if block.width < BLOCK or block.height < BLOCK:
+        for row in range(BLOCK):
+            for column in range(BLOCK):
+                if row >= block.height or column >= block.width:
+                    packet[PRIMITIVE + row * BLOCK + column] = NO_PRIMITIVE
 
 
 @device
@@ -173,21 +171,11 @@ def _expose(packet: Packet, hits: int, block: Block, film: NDArray[np.float64]) 
     peak = 0.0
     for lane in range(hits):
         pixel = int(packet[PIXEL + lane])
-        row = block.top + pixel // block.width
-        column = block.left + pixel % block.width
+        row = block.top + pixel // BLOCK
+        column = block.left + pixel % BLOCK
         red, green, blue = load(packet, VALUE, lane)
         film[row, column, 0] = red
         film[row, column, 1] = green
         film[row, column, 2] = blue
         peak = max(peak, red, green, blue)
     return peak
-
-
-def new_workspace(scene: SceneArrays) -> Workspace:
-    """Return the scratch memory of one thread for a scene."""
-    planes = scene.planes.x.shape[0]
-    return Workspace(
-        near=np.zeros(scene.spheres.x.shape[0], np.bool_),
-        above=np.zeros(planes, np.bool_),
-        below=np.zeros(planes, np.bool_),
-    )

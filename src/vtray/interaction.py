@@ -3,7 +3,11 @@
 import math
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from vtray.compiled import device
+from vtray.grouping import group_hits, list_hits
 from vtray.packet import (
     COLOR,
     DEPTH,
@@ -11,18 +15,20 @@ from vtray.packet import (
     DISTANCE,
     LAMBERT,
     MAGNITUDE,
-    NO_PRIMITIVE,
     NORMAL,
     PIXEL,
     POINT,
     PRIMITIVE,
+    SLOT,
     VALUE,
     Packet,
     load,
     store,
 )
-from vtray.scene_arrays import SceneArrays
+from vtray.scene_arrays import SceneArrays, has_bvh
+from vtray.sphere_arrays import sphere_center, sphere_count, sphere_magnitude, sphere_radius
 from vtray.vector import Vec, add, dot, pick, scale, sub
+from vtray.workspace import Workspace
 
 
 class Interaction(NamedTuple):
@@ -44,45 +50,62 @@ class Interaction(NamedTuple):
 
 
 @device
-def interact(scene: SceneArrays, direction: Vec, distance: float, primitive: int) -> Interaction:
-    """Return the point where a camera ray hits a primitive."""
+def interact(
+    scene: SceneArrays, direction: Vec, distance: float, primitive: int, slot: int
+) -> Interaction:
+    """Return the point where a camera ray hits a primitive, which the arrays have at `slot`."""
     point = add(scene.camera.eye, scale(distance, direction))
-    spheres, planes = scene.spheres, scene.planes
-    plane = primitive - spheres.x.shape[0]
-    if plane < 0:
-        outward = sub(point, pick(spheres, primitive))
+    if primitive < sphere_count(scene.spheres):
+        center = sphere_center(scene.spheres, slot)
+        outward = sub(point, center)
         length = math.sqrt(dot(outward, outward))
         normal = (outward[0] / length, outward[1] / length, outward[2] / length)
-        magnitude = spheres.magnitude[primitive]
+        magnitude = sphere_magnitude(center, sphere_radius(scene.spheres, slot))
     else:
-        normal = pick(planes, plane)
-        magnitude = planes.magnitude[plane]
+        normal = pick(scene.planes, slot)
+        magnitude = scene.planes.magnitude[slot]
     side = -1.0 if dot(normal, direction) > 0.0 else 1.0
     return Interaction(point, scale(side, normal), magnitude + scene.camera.focus + distance)
 
 
 @device
-def gather_interactions(packet: Packet, lanes: int, scene: SceneArrays) -> int:
+def material(scene: SceneArrays, primitive: int) -> tuple[Vec, float]:
+    """Return colour and Lambert coefficient of a primitive."""
+    materials = scene.materials
+    plane = primitive - sphere_count(scene.spheres)
+    if plane < 0:
+        color = materials.sphere_color
+        lambert = materials.sphere_lambert[primitive]
+        return _triple(color, primitive), lambert
+    return _triple(materials.plane_color, plane), materials.plane_lambert[plane]
+
+
+@device
+def _triple(rows: NDArray[np.uint8], k: int) -> Vec:
+    """Return a row of an (n, 3) array as numbers."""
+    return float(rows[k, 0]), float(rows[k, 1]), float(rows[k, 2])
+
+
+@device
+def gather_interactions(packet: Packet, scene: SceneArrays, work: Workspace) -> int:
     """Move the lanes with a hit to the front, as interactions with no light yet; return how many.
 
-    Row ``PIXEL`` keeps where each came from.
+    With a hierarchy they are in groups. Row ``PIXEL`` keeps where each came from.
     """
-    hits = 0
-    materials = scene.materials
-    for lane in range(lanes):
-        if packet[PRIMITIVE + lane] == NO_PRIMITIVE:
-            continue
+    hits = group_hits(packet, work) if has_bvh(scene) else list_hits(packet, work)
+    for hit in range(hits):
+        lane = work.order[hit]
         primitive = int(packet[PRIMITIVE + lane])
         direction = load(packet, DIRECTION, lane)
-        found = interact(scene, direction, packet[DISTANCE + lane], primitive)
-        store(packet, POINT, hits, found.point)
-        store(packet, NORMAL, hits, found.normal)
-        color = (materials.red[primitive], materials.green[primitive], materials.blue[primitive])
-        store(packet, COLOR, hits, color)
-        store(packet, VALUE, hits, (0.0, 0.0, 0.0))
-        packet[PIXEL + hits] = lane
-        packet[DEPTH + hits] = dot(found.point, scene.camera.forward)
-        packet[MAGNITUDE + hits] = found.magnitude
-        packet[LAMBERT + hits] = materials.lambert[primitive]
-        hits += 1
+        slot = int(packet[SLOT + lane])
+        found = interact(scene, direction, packet[DISTANCE + lane], primitive, slot)
+        color, lambert = material(scene, primitive)
+        store(packet, POINT, hit, found.point)
+        store(packet, NORMAL, hit, found.normal)
+        store(packet, COLOR, hit, color)
+        store(packet, VALUE, hit, (0.0, 0.0, 0.0))
+        packet[PIXEL + hit] = lane
+        packet[DEPTH + hit] = dot(found.point, scene.camera.forward)
+        packet[MAGNITUDE + hit] = found.magnitude
+        packet[LAMBERT + hit] = lambert
     return hits

@@ -4,11 +4,23 @@ import math
 
 from vtray.camera import CameraFrame
 from vtray.compiled import device
-from vtray.packet import DIRECTION, DISTANCE, FORWARD, NO_PRIMITIVE, PRIMITIVE, Packet, load
+from vtray.packet import (
+    DIRECTION,
+    DISTANCE,
+    FORWARD,
+    LANES,
+    NO_PRIMITIVE,
+    PART,
+    PRIMITIVE,
+    SLOT,
+    Packet,
+    load,
+)
 from vtray.plane import intersect_plane
 from vtray.rounding import ROUNDING
-from vtray.scene_arrays import Planes, Spheres
+from vtray.scene_arrays import Planes
 from vtray.sphere import intersect_sphere
+from vtray.sphere_arrays import SphereArrays, sphere_center, sphere_radius
 from vtray.vector import Vec, dot, pick, sub
 
 
@@ -41,45 +53,50 @@ def plane_distance(
 
 
 @device
-def clear_hits(packet: Packet, lanes: int) -> None:
+def clear_hits(packet: Packet) -> None:
     """Start with no hit in any lane."""
-    for lane in range(lanes):
+    for lane in range(LANES):
         packet[DISTANCE + lane] = math.inf
         packet[PRIMITIVE + lane] = NO_PRIMITIVE
 
 
 @device
 def nearest_sphere(
-    packet: Packet, lanes: int, camera: CameraFrame, spheres: Spheres, sphere: int
+    packet: Packet, first: int, camera: CameraFrame, spheres: SphereArrays, slot: int
 ) -> None:
-    """Let a sphere take the lanes in which it is nearer than the hit so far."""
-    from_center = sub(camera.eye, pick(spheres, sphere))
-    radius = spheres.radius[sphere]
-    for lane in range(lanes):
+    """Let a sphere take those of eight lanes in which it is nearer than the hit so far."""
+    from_center = sub(camera.eye, sphere_center(spheres, slot))
+    radius = sphere_radius(spheres, slot)
+    number = spheres.number[slot]
+    # The mask tells the compiler that no index is negative.
+    begin = first & (LANES - 1)
+    for lane in range(begin, begin + PART):
         direction = load(packet, DIRECTION, lane)
         forward = packet[FORWARD + lane]
         distance = sphere_distance(from_center, direction, radius, forward, camera.focus)
-        _take_nearer(packet, lane, distance, sphere)
+        _take_nearer(packet, lane, distance, number, slot)
 
 
 @device
 def nearest_plane(
-    packet: Packet, lanes: int, camera: CameraFrame, planes: Planes, plane: int, primitive: int
+    packet: Packet, camera: CameraFrame, planes: Planes, plane: int, number: int
 ) -> None:
     """Let a plane take the lanes in which it is nearer than the hit so far."""
     normal = pick(planes, plane)
     height = planes.height[plane]
     magnitude = planes.magnitude[plane]
-    for lane in range(lanes):
+    for lane in range(LANES):
         descent = dot(load(packet, DIRECTION, lane), normal)
         forward = packet[FORWARD + lane]
         distance = plane_distance(height, descent, forward, camera.focus, magnitude)
-        _take_nearer(packet, lane, distance, primitive)
+        _take_nearer(packet, lane, distance, number, plane)
 
 
 @device
-def _take_nearer(packet: Packet, lane: int, distance: float, primitive: int) -> None:
-    """Keep the nearer of two hits; of two at the same distance, the earlier one."""
-    nearer = distance < packet[DISTANCE + lane]
+def _take_nearer(packet: Packet, lane: int, distance: float, number: int, slot: int) -> None:
+    """Keep the nearer of two hits; of two at the same distance, that with the lower number."""
+    best = packet[DISTANCE + lane]
+    nearer = (distance < best) | ((distance == best) & (number < packet[PRIMITIVE + lane]))
     packet[DISTANCE + lane] = distance if nearer else packet[DISTANCE + lane]
-    packet[PRIMITIVE + lane] = primitive if nearer else packet[PRIMITIVE + lane]
+    packet[PRIMITIVE + lane] = number if nearer else packet[PRIMITIVE + lane]
+    packet[SLOT + lane] = slot if nearer else packet[SLOT + lane]

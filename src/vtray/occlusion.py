@@ -2,17 +2,15 @@
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from vtray.compiled import device
-from vtray.culling import MARGIN, outside_shaft
-from vtray.packet import BLOCKED, DEPTH, MAGNITUDE, POINT, Packet, load
+from vtray.packet import BLOCKED, DEPTH, LANES, MAGNITUDE, PART, POINT, Packet, load
 from vtray.plane import plane_blocks
 from vtray.rounding import ROUNDING
-from vtray.scene_arrays import Lights, Planes, SceneArrays, Spheres
+from vtray.scene_arrays import Lights, Planes
 from vtray.sphere import sphere_blocks
+from vtray.sphere_arrays import SphereArrays, sphere_center, sphere_magnitude, sphere_radius
 from vtray.vector import Vec, add, dot, pick, scale, sub
+from vtray.workspace import Workspace
 
 
 class Bounds(NamedTuple):
@@ -21,22 +19,6 @@ class Bounds(NamedTuple):
     center: Vec
     half: Vec
     magnitude: float
-
-
-class Workspace(NamedTuple):
-    """A thread's notes on the packet at hand.
-
-    Attributes
-    ----------
-    near
-        Which spheres may be met, one per sphere.
-    above, below
-        Whether any point lies on that side of a plane, clear of rounding, one per plane.
-    """
-
-    near: NDArray[np.bool_]
-    above: NDArray[np.bool_]
-    below: NDArray[np.bool_]
 
 
 @device
@@ -105,52 +87,49 @@ def sphere_shadows(
 
 
 @device
-def find_blocked(
-    packet: Packet, hits: int, bounds: Bounds, scene: SceneArrays, light: int, work: Workspace
+def block_by_sphere(
+    packet: Packet,
+    begin: int,
+    end: int,
+    spheres: SphereArrays,
+    slot: int,
+    lights: Lights,
+    light: int,
 ) -> None:
-    """Mark in row ``BLOCKED`` the points that a light does not reach."""
-    for lane in range(hits):
-        packet[BLOCKED + lane] = 0.0
-    _cull_spheres(bounds, scene.spheres, scene.lights, light, work.near)
-    for sphere in range(scene.spheres.x.shape[0]):
-        if work.near[sphere]:
-            _block_by_sphere(packet, hits, scene.spheres, sphere, scene.lights, light)
-    for plane in range(scene.planes.x.shape[0]):
-        end = light_side(scene.planes, plane, scene.lights, light)
-        if (end < 0.0 and work.above[plane]) or (end > 0.0 and work.below[plane]):
-            depth = scene.lights.depth[light]
-            _block_by_plane(packet, hits, scene.planes, plane, end, depth)
+    """Mark the points of a range that a sphere hides from a light."""
+    for chunk in range(begin // PART, (end + PART - 1) // PART):
+        # Points beyond the range in the same eight are only marked if they are hidden, too.
+        _block_eight(packet, chunk * PART, spheres, slot, lights, light)
 
 
 @device
-def _cull_spheres(
-    bounds: Bounds, spheres: Spheres, lights: Lights, light: int, near: NDArray[np.bool_]
+def _block_eight(
+    packet: Packet, first: int, spheres: SphereArrays, slot: int, lights: Lights, light: int
 ) -> None:
-    """Find the spheres that may stand between any of the points and a light."""
-    tip = pick(lights, light)
-    magnitude = bounds.magnitude + lights.magnitude[light]
-    for sphere in range(spheres.x.shape[0]):
-        center = pick(spheres, sphere)
-        radius = spheres.radius[sphere] + MARGIN * (spheres.magnitude[sphere] + magnitude)
-        near[sphere] = not outside_shaft(center, radius, tip, bounds.center, bounds.half)
-
-
-@device
-def _block_by_sphere(
-    packet: Packet, hits: int, spheres: Spheres, sphere: int, lights: Lights, light: int
-) -> None:
-    """Mark the points that a sphere hides from a light."""
-    center = pick(spheres, sphere)
-    radius = spheres.radius[sphere]
-    magnitude = spheres.magnitude[sphere]
+    """Mark those of eight points that a sphere hides from a light."""
+    center, radius = sphere_center(spheres, slot), sphere_radius(spheres, slot)
+    magnitude = sphere_magnitude(center, radius)
     place = pick(lights, light)
     light_depth = lights.depth[light]
-    for lane in range(hits):
+    # The mask tells the compiler that no index is negative.
+    begin = first & (LANES - 1)
+    for lane in range(begin, begin + PART):
         point = load(packet, POINT, lane)
         reach = ROUNDING * (packet[MAGNITUDE + lane] + magnitude)
         depth = packet[DEPTH + lane]
         shadow = sphere_shadows(point, depth, place, light_depth, center, radius, reach)
         packet[BLOCKED + lane] = 1.0 if shadow else packet[BLOCKED + lane]
+
+
+@device
+def block_by_planes(
+    packet: Packet, hits: int, planes: Planes, lights: Lights, light: int, work: Workspace
+) -> None:
+    """Mark the points that planes hide from a light."""
+    for plane in range(planes.x.shape[0]):
+        end = light_side(planes, plane, lights, light)
+        if (end < 0.0 and work.above[plane]) or (end > 0.0 and work.below[plane]):
+            _block_by_plane(packet, hits, planes, plane, end, lights.depth[light])
 
 
 @device

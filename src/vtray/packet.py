@@ -6,6 +6,8 @@ array at distances known at compile time: with an array for each, the compiler c
 they do not overlap, and would not vectorise.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,11 +20,14 @@ BLOCK = 16
 LANES = BLOCK * BLOCK
 """Rays in a packet: one per pixel of its block."""
 
+PART = 8
+"""Lanes that one vector instruction handles, and the side of a part of a block."""
+
 # Rows of one number a lane; a vector takes three rows.
 DIRECTION = 0 * LANES
 FORWARD = 3 * LANES  # the ray's direction along the camera's normal
 DISTANCE = 4 * LANES
-PRIMITIVE = 5 * LANES
+PRIMITIVE = 5 * LANES  # the number of what is hit, which decides between equal distances
 PIXEL = 6 * LANES
 POINT = 7 * LANES
 DEPTH = 10 * LANES  # the point's distance in front of the image plane
@@ -32,12 +37,23 @@ LAMBERT = 15 * LANES
 COLOR = 16 * LANES
 VALUE = 19 * LANES
 BLOCKED = 22 * LANES
-ROWS = 23
+COSINE = 23 * LANES
+SLOT = 24 * LANES  # where the arrays have what is hit
+ROWS = 25
 
 NO_PRIMITIVE = -1.0
 """In row ``PRIMITIVE``: the ray hits nothing. (A double as all rows: lanes stay equally wide.)"""
 
 Packet = NDArray[np.float64]
+
+
+class Block(NamedTuple):
+    """A rectangle of pixels, at most ``BLOCK`` wide and high, traced as one packet."""
+
+    left: int
+    top: int
+    width: int
+    height: int
 
 
 def new_packet() -> Packet:

@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 
 from vtray.camera import camera_ray
 from vtray.compiled import device, kernel
-from vtray.interaction import Interaction, interact
+from vtray.interaction import Interaction, interact, material
 from vtray.nearest import plane_distance, sphere_distance
 from vtray.occlusion import light_side, plane_side, sphere_shadows
 from vtray.plane import plane_blocks
 from vtray.rounding import ROUNDING
 from vtray.scene_arrays import SceneArrays
 from vtray.shading import lambert_cosine
+from vtray.sphere_arrays import sphere_center, sphere_count, sphere_magnitude, sphere_radius
 from vtray.vector import Vec, add, dot, pick, scale, sub
 
 NOTHING = -1
@@ -70,63 +71,67 @@ def trace_pixel(
         Out: for each light the first primitive between hit and light, or ``NOTHING``.
     """
     direction = camera_ray(scene.camera, column, row)
-    distance, primitive = _nearest_hit(scene, direction)
+    distance, primitive, slot = _nearest_hit(scene, direction)
     value = (0.0, 0.0, 0.0)
     found = Interaction(scene.camera.eye, direction, 0.0)
     if primitive == NOTHING:
         return TracedPixel(direction, distance, primitive, found, value)
-    found = interact(scene, direction, distance, primitive)
-    materials, lights = scene.materials, scene.lights
-    color = (materials.red[primitive], materials.green[primitive], materials.blue[primitive])
+    found = interact(scene, direction, distance, primitive, slot)
+    color, lambert = material(scene, primitive)
+    lights = scene.lights
     for light in range(lights.x.shape[0]):
         to_light = sub(pick(lights, light), found.point)
         reach = ROUNDING * (found.magnitude + lights.magnitude[light])
         cosines[light] = lambert_cosine(found.normal, to_light, reach)
         blockers[light] = _first_blocker(scene, found, light)
         if blockers[light] == NOTHING:
-            strength = cosines[light] * materials.lambert[primitive] * lights.intensity[light]
+            strength = cosines[light] * lambert * lights.intensity[light]
             value = add(value, scale(strength, color))
     return TracedPixel(direction, distance, primitive, found, value)
 
 
 @device
-def _nearest_hit(scene: SceneArrays, direction: Vec) -> tuple[float, int]:
-    """Return distance and primitive of a camera ray's nearest hit."""
+def _nearest_hit(scene: SceneArrays, direction: Vec) -> tuple[float, int, int]:
+    """Return distance, primitive and slot of a camera ray's nearest hit."""
     camera, spheres, planes = scene.camera, scene.spheres, scene.planes
     forward = dot(direction, camera.forward)
-    nearest = math.inf
-    primitive = NOTHING
-    for k in range(spheres.x.shape[0]):
-        from_center = sub(camera.eye, pick(spheres, k))
-        radius = spheres.radius[k]
+    nearest, primitive, slot = math.inf, NOTHING, 0
+    for k in range(sphere_count(spheres)):
+        from_center = sub(camera.eye, sphere_center(spheres, k))
+        radius = sphere_radius(spheres, k)
         distance = sphere_distance(from_center, direction, radius, forward, camera.focus)
-        if distance < nearest:
-            nearest, primitive = distance, k
+        number = int(spheres.number[k])
+        if distance < nearest or (distance == nearest and number < primitive):
+            nearest, primitive, slot = distance, number, k
     for k in range(planes.x.shape[0]):
         descent = dot(direction, pick(planes, k))
         height, magnitude = planes.height[k], planes.magnitude[k]
         distance = plane_distance(height, descent, forward, camera.focus, magnitude)
         if distance < nearest:
-            nearest, primitive = distance, spheres.x.shape[0] + k
-    return nearest, primitive
+            nearest, primitive, slot = distance, sphere_count(spheres) + k, k
+    return nearest, primitive, slot
 
 
 @device
 def _first_blocker(scene: SceneArrays, start: Interaction, light: int) -> int:
-    """Return the first primitive between a point and a light, or ``NOTHING``."""
+    """Return the lowest primitive between a point and a light, or ``NOTHING``."""
     lights, spheres, planes = scene.lights, scene.spheres, scene.planes
-    sphere_count: int = spheres.x.shape[0]
+    count = sphere_count(spheres)
     place = pick(lights, light)
     light_depth = lights.depth[light]
     depth = dot(start.point, scene.camera.forward)
-    for k in range(sphere_count):
-        center = pick(spheres, k)
-        reach = ROUNDING * (start.magnitude + spheres.magnitude[k])
-        if sphere_shadows(start.point, depth, place, light_depth, center, spheres.radius[k], reach):
-            return k
+    blocker = NOTHING
+    for k in range(count):
+        center, radius = sphere_center(spheres, k), sphere_radius(spheres, k)
+        reach = ROUNDING * (start.magnitude + sphere_magnitude(center, radius))
+        if sphere_shadows(start.point, depth, place, light_depth, center, radius, reach):
+            number = int(spheres.number[k])
+            blocker = number if blocker == NOTHING else min(blocker, number)
+    if blocker != NOTHING:
+        return blocker
     for k in range(planes.x.shape[0]):
         reach = ROUNDING * (start.magnitude + planes.magnitude[k])
         side = plane_side(planes, k, start.point)
         if plane_blocks(side, light_side(planes, k, lights, light), depth, light_depth, reach):
-            return sphere_count + k
+            return count + k
     return NOTHING

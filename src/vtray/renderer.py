@@ -6,10 +6,11 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.acceleration import accelerate
 from vtray.compiled import pinned
 from vtray.exposure import check_brightness, develop
 from vtray.image import Image
-from vtray.integrator import new_workspace, trace_tile
+from vtray.integrator import trace_tile
 from vtray.memory import check_memory
 from vtray.packet import new_packet
 from vtray.pool import Progress, run_tasks
@@ -17,6 +18,7 @@ from vtray.scene import Scene
 from vtray.scene_arrays import SceneArrays, pack
 from vtray.stopwatch import Stopwatch
 from vtray.tiles import TILE, Tile, split_into_tiles
+from vtray.workspace import new_workspace
 
 Film = NDArray[np.float64]
 
@@ -61,7 +63,9 @@ def render(
     check_memory(*(int(side) for side in scene.camera.size))
     check_brightness(scene.lights)
     clock = Stopwatch()
-    arrays = pack(scene).arrays
+    kept = accelerate(scene, threads)
+    clock.lap("build")
+    arrays = pack(scene, kept).arrays
     clock.lap("pack")
     compile_kernels(arrays)
     clock.lap("compile")

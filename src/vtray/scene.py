@@ -252,7 +252,7 @@ class SceneInFile(msgspec.Struct):
     objects: list[Sphere | Plane | SpheresInFile]
 
 
-class Scene(msgspec.Struct, metaclass=Checked):
+class Scene(msgspec.Struct, metaclass=Checked, dict=True):
     """All that a picture is made from.
 
     Its attributes may be replaced, its lists changed, and so may arrays that `Spheres` share;

@@ -3,7 +3,8 @@
 Lengths are divided by a power of two, which changes no digit, so that the largest is about 2**200.
 Then no square of a square overflows, not even at points a billion times farther away, and those of
 parts 1e130 times smaller do not vanish. The origin moves to the centre of the image plane, so that
-a scene far from the world's origin loses no digits. Spheres behind the image plane are left out.
+a scene far from the world's origin loses no digits. The spheres, which can be many, stay in world
+space in memory; each is brought into this space where it is used.
 """
 
 import math
@@ -13,22 +14,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.acceleration import Acceleration
+from vtray.bvh import Bvh, no_bvh
 from vtray.camera import CameraFrame, camera_axes
-from vtray.rounding import ROUNDING
-from vtray.scene import Camera, Direction, Plane, Scene, Sphere, Vector
+from vtray.compiled import device
+from vtray.scene import Camera, Direction, Plane, Scene, Vector
+from vtray.sphere_arrays import SphereArrays
 from vtray.vector import Vec
 
 Floats = NDArray[np.float64]
 
-
-class Spheres(NamedTuple):
-    """Centres, radii, and the magnitudes that rounding errors are relative to, all (n,)."""
-
-    x: Floats
-    y: Floats
-    z: Floats
-    radius: Floats
-    magnitude: Floats
+LARGEST_RATIO = 2.0**100
+"""Spheres so tiny beside all else that this is exceeded are traced without their hierarchy."""
 
 
 class Planes(NamedTuple):
@@ -54,12 +51,19 @@ class Lights(NamedTuple):
 
 
 class Materials(NamedTuple):
-    """Colours from 0 to 255 and Lambert coefficients of the primitives, all (n,)."""
+    """Colours, (n, 3), and Lambert coefficients, (n,); those of spheres by their numbers."""
 
-    red: Floats
-    green: Floats
-    blue: Floats
-    lambert: Floats
+    sphere_color: NDArray[np.uint8]
+    sphere_lambert: Floats
+    plane_color: NDArray[np.uint8]
+    plane_lambert: Floats
+
+
+class ToBoxes(NamedTuple):
+    """What leads from the kernels' space to that of the boxes: ``point * ratio + offset``."""
+
+    ratio: float
+    offset: Vec
 
 
 class SceneArrays(NamedTuple):
@@ -70,10 +74,19 @@ class SceneArrays(NamedTuple):
     """
 
     camera: CameraFrame
-    spheres: Spheres
+    spheres: SphereArrays
+    bvh: Bvh
+    to_boxes: ToBoxes
     planes: Planes
     lights: Lights
     materials: Materials
+
+
+@device
+def has_bvh(scene: SceneArrays) -> bool:
+    """Tell whether the spheres of a scene have a hierarchy."""
+    nodes: int = scene.bvh.child.shape[0]
+    return nodes > 0
 
 
 class Packed(NamedTuple):
@@ -85,36 +98,30 @@ class Packed(NamedTuple):
         What the kernels read.
     unit
         Length in scene units of length 1 in the arrays, a power of two.
-    objects
-        The place in ``scene.objects`` of each primitive, (n,).
     """
 
     arrays: SceneArrays
     unit: float
-    objects: NDArray[np.int64]
 
 
-def pack(scene: Scene) -> Packed:
-    """Return the arrays of a scene."""
-    spheres = [(k, item) for k, item in enumerate(scene.objects) if isinstance(item, Sphere)]
-    planes = [(k, item) for k, item in enumerate(scene.objects) if isinstance(item, Plane)]
-    unit = _unit_length(scene)
+def pack(scene: Scene, kept: Acceleration) -> Packed:
+    """Return the arrays of a scene, whose spheres are ready for tracing."""
+    planes = [item for item in scene.objects if isinstance(item, Plane)]
+    unit = _unit_length(scene, planes, kept)
     camera = _pack_camera(scene.camera, unit)
     origin = _points([scene.camera.center], unit)[0]
-
-    sphere_arrays = _pack_spheres([item for _, item in spheres], origin, unit)
-    seen = _in_front(sphere_arrays, camera)
-    kept = [spheres[k] for k in np.flatnonzero(seen)]
-    items = [item for _, item in kept + planes]
-    colors = np.array([(c.color.r, c.color.g, c.color.b) for c in items], float).reshape(-1, 3)
+    x, y, z = map(float, origin)
+    to_boxes = _pack_to_boxes(kept, (x, y, z), unit)
     arrays = SceneArrays(
         camera,
-        Spheres(*(column[seen] for column in sphere_arrays)),
-        _pack_planes([item for _, item in planes], origin, unit, camera),
+        SphereArrays(*kept.leaves, 1.0 / unit, (x, y, z)),
+        kept.bvh if to_boxes.ratio < LARGEST_RATIO else no_bvh(),
+        to_boxes,
+        _pack_planes(planes, origin, unit, camera),
         _pack_lights(scene, origin, unit, camera),
-        Materials(*_columns(colors), np.array([item.lambert for item in items], float)),
+        _pack_materials(kept, planes),
     )
-    return Packed(arrays, unit, np.array([k for k, _ in kept + planes], np.int64))
+    return Packed(arrays, unit)
 
 
 def unit_vector(vector: Direction) -> Vec:
@@ -131,16 +138,13 @@ def _exponent(value: float) -> int:
     return math.frexp(value)[1] if value else -2000
 
 
-def _unit_length(scene: Scene) -> float:
+def _unit_length(scene: Scene, planes: list[Plane], kept: Acceleration) -> float:
     """Return the power of two by which the lengths of a scene are divided."""
     camera = scene.camera
-    places = [camera.center, *(item.center for item in scene.objects)]
+    places = [camera.center, *(plane.center for plane in planes)]
     places += [light.location for light in scene.lights]
     coordinates = max(max(abs(p.x), abs(p.y), abs(p.z)) for p in places)
-    radii = (item.radius for item in scene.objects if isinstance(item, Sphere))
-    highest = max(
-        _camera_exponent(camera), _exponent(coordinates), _exponent(max(radii, default=0.0))
-    )
+    highest = max(_camera_exponent(camera), _exponent(coordinates), _exponent(kept.largest))
     # The unit itself and its inverse must be ordinary doubles.
     return math.ldexp(1.0, max(highest - 200, -1000))
 
@@ -173,17 +177,22 @@ def _pack_camera(camera: Camera, unit: float) -> CameraFrame:
     )
 
 
-def _pack_spheres(spheres: list[Sphere], origin: Floats, unit: float) -> Spheres:
-    """Return the arrays of all spheres."""
-    centers = _points([sphere.center for sphere in spheres], unit) - origin
-    radius = np.array([sphere.radius for sphere in spheres], float) / unit
-    return Spheres(*_columns(centers), radius, np.abs(centers).sum(axis=1) + radius)
+def _pack_to_boxes(kept: Acceleration, origin: Vec, unit: float) -> ToBoxes:
+    """Return what leads to the space of the boxes."""
+    ratio = kept.frame.scale * unit
+    (x, y, z), (a, b, c) = origin, kept.frame.origin
+    return ToBoxes(ratio, (x * ratio - a, y * ratio - b, z * ratio - c))
 
 
-def _in_front(spheres: Spheres, camera: CameraFrame) -> NDArray[np.bool_]:
-    """Tell which spheres reach in front of the image plane, or so near that rounding decides."""
-    nearest = _dot(spheres[:3], camera.forward) + spheres.radius
-    return nearest >= -ROUNDING * (spheres.magnitude + camera.focus)
+def _pack_materials(kept: Acceleration, planes: list[Plane]) -> Materials:
+    """Return the materials of all primitives."""
+    colors = [(plane.color.r, plane.color.g, plane.color.b) for plane in planes]
+    return Materials(
+        kept.source.color,
+        kept.source.lambert,
+        np.array(colors, np.uint8).reshape(-1, 3),
+        np.array([plane.lambert for plane in planes], float),
+    )
 
 
 def _pack_planes(planes: list[Plane], origin: Floats, unit: float, camera: CameraFrame) -> Planes:

@@ -6,6 +6,7 @@ from vtray.compiled import device
 from vtray.packet import (
     BLOCKED,
     COLOR,
+    COSINE,
     LAMBERT,
     MAGNITUDE,
     NORMAL,
@@ -40,19 +41,30 @@ def lambert_cosine(normal: Vec, to_light: Vec, reach: float) -> float:
 
 
 @device
-def add_light(packet: Packet, hits: int, lights: Lights, light: int) -> int:
-    """Add a light to the points of a packet that it reaches; return how many face it."""
+def find_cosines(packet: Packet, hits: int, lights: Lights, light: int) -> int:
+    """Set rows ``COSINE`` and ``BLOCKED`` for a light; return how many points face it.
+
+    What faces away counts as blocked, so that no shadow ray is cast from there.
+    """
     place = pick(lights, light)
-    intensity = lights.intensity[light]
     magnitude = lights.magnitude[light]
     facing = 0
     for lane in range(hits):
         to_light = sub(place, load(packet, POINT, lane))
         reach = ROUNDING * (packet[MAGNITUDE + lane] + magnitude)
         cosine = lambert_cosine(load(packet, NORMAL, lane), to_light, reach)
+        packet[COSINE + lane] = cosine
+        packet[BLOCKED + lane] = 0.0 if cosine > 0.0 else 1.0
         facing += 1 if cosine > 0.0 else 0
-        cosine = cosine if packet[BLOCKED + lane] == 0.0 else 0.0
+    return facing
+
+
+@device
+def add_light(packet: Packet, hits: int, lights: Lights, light: int) -> None:
+    """Add a light to the points of a packet that it reaches."""
+    intensity = lights.intensity[light]
+    for lane in range(hits):
+        cosine = packet[COSINE + lane] if packet[BLOCKED + lane] == 0.0 else 0.0
         strength = cosine * packet[LAMBERT + lane] * intensity
         added = scale(strength, load(packet, COLOR, lane))
         store(packet, VALUE, lane, add(load(packet, VALUE, lane), added))
-    return facing

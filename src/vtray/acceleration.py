@@ -1,0 +1,238 @@
+"""What is kept with a scene from render to render: its spheres, ready for tracing.
+
+The spheres of all objects are numbered in the order of the scene, put into the order of the leaves
+of a hierarchy, and kept until they change. A new camera, light or plane costs no new build.
+"""
+
+import operator
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.bvh import MAX_SPHERES, Bvh, Frame, Leaves, no_bvh
+from vtray.bvh_build import Built, build
+from vtray.errors import RenderError
+from vtray.pool import Progress
+from vtray.scene import Plane, Scene, Sphere
+from vtray.spheres import Spheres
+
+FEW = 24
+"""Up to so many spheres, no hierarchy is needed: testing each for a whole packet is faster."""
+
+Item = Sphere | Spheres
+
+
+class Source(NamedTuple):
+    """The spheres as they are given, in the order of their numbers.
+
+    Attributes
+    ----------
+    center
+        World space, (n, 3), float32 or float64.
+    radius
+        (n,), or (1,) if all are the same.
+    color
+        0 to 255, (n, 3).
+    lambert
+        (n,).
+    """
+
+    center: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    color: NDArray[np.uint8]
+    lambert: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Acceleration:
+    """The spheres of a scene, ready for tracing.
+
+    Attributes
+    ----------
+    leaves
+        In the order of the leaves, or, if there are few, of their numbers.
+    bvh
+        The hierarchy, none if there are few.
+    frame
+        The space of its boxes.
+    nodes
+        How many nodes it has.
+    source
+        The spheres by their numbers.
+    largest
+        The largest coordinate or radius.
+    items, first
+        The objects that have spheres, and the number of the first sphere of each.
+    fingerprint
+        What the contents of their arrays came to.
+    """
+
+    leaves: Leaves
+    bvh: Bvh
+    frame: Frame
+    nodes: int
+    source: Source
+    largest: float
+    items: list[Item]
+    first: NDArray[np.int64]
+    fingerprint: int
+
+    @property
+    def memory(self) -> int:
+        """Bytes that are used beside the arrays that were given."""
+        used = sum(array.nbytes for array in (*self.leaves, *self.source) if array.base is None)
+        node = sum(array.nbytes for array in self.bvh) // max(len(self.bvh.child) // 8, 1)
+        return used + self.nodes * node
+
+
+def accelerate(scene: Scene, threads: int = 1, progress: Progress | None = None) -> Acceleration:
+    """Return what is kept with a scene, made anew if its spheres have changed.
+
+    Raises
+    ------
+    RenderError
+        There are more spheres than a hierarchy can hold.
+    """
+    items: list[Item] = [item for item in scene.objects if not isinstance(item, Plane)]
+    fingerprint = sum(_fingerprint(item) for item in items if isinstance(item, Spheres))
+    kept: Acceleration | None = scene.__dict__.get(_KEPT)
+    if kept and kept.fingerprint == fingerprint and _are_same(kept.items, items):
+        return kept
+    made = _make(items, fingerprint, threads, progress)
+    scene.__dict__[_KEPT] = made
+    return made
+
+
+def locate(scene: Scene, kept: Acceleration, number: int) -> tuple[int, int]:
+    """Return the place in ``scene.objects`` that a sphere belongs to, and its index there."""
+    item = int(np.searchsorted(kept.first, number, side="right")) - 1
+    places = [place for place, other in enumerate(scene.objects) if not isinstance(other, Plane)]
+    return places[item], number - int(kept.first[item])
+
+
+_KEPT = "_acceleration"
+
+
+def _are_same(these: list[Item], those: list[Item]) -> bool:
+    """Tell whether two lists hold the same objects."""
+    return len(these) == len(those) and all(map(operator.is_, these, those))
+
+
+def _make(
+    items: list[Item], fingerprint: int, threads: int, progress: Progress | None
+) -> Acceleration:
+    """Give numbers to the spheres, and build the hierarchy."""
+    source = _collect(items)
+    count = len(source.center)
+    if count > MAX_SPHERES:
+        message = f"objects: expected at most {MAX_SPHERES} spheres, got {count}"
+        raise RenderError(message)
+    if count <= FEW:
+        built = Built(_in_order(source), no_bvh(), Frame(1.0, (0.0, 0.0, 0.0)), 0)
+    else:
+        built = build(source.center, source.radius, threads, progress)
+    sizes = [len(item) if isinstance(item, Spheres) else 1 for item in items]
+    return Acceleration(
+        *built,
+        source=source,
+        largest=_largest(source) if count else 0.0,
+        items=items,
+        first=np.concatenate([[0], np.cumsum(sizes, dtype=np.int64)])[:-1],
+        fingerprint=fingerprint,
+    )
+
+
+def _in_order(source: Source) -> Leaves:
+    """Return spheres in the order of their numbers."""
+    count = len(source.center)
+    data = np.empty((count, 4))
+    data[:, :3] = source.center
+    data[:, 3] = source.radius
+    return Leaves(data.reshape(-1), np.arange(count, dtype=np.int32))
+
+
+def _largest(source: Source) -> float:
+    """Return the largest coordinate or radius."""
+    coordinates = max(-float(source.center.min()), float(source.center.max()))
+    return max(coordinates, float(source.radius.max()))
+
+
+def _collect(items: list[Item]) -> Source:
+    """Return the spheres of all objects."""
+    parts = []
+    for kind, group in groupby(items, type):
+        if kind is Spheres:
+            parts += [_from_arrays(item) for item in group if isinstance(item, Spheres)]
+        else:
+            parts.append(_from_objects(list(group)))
+    if not parts:
+        return _from_objects([])
+    if len(parts) > 1:
+        radius = [np.broadcast_to(part.radius, len(part.center)) for part in parts]
+        parts[0] = Source(
+            np.concatenate([part.center for part in parts], dtype=np.float64),
+            np.concatenate(radius),
+            np.concatenate([part.color for part in parts]),
+            np.concatenate([part.lambert for part in parts]),
+        )
+    # Kernels tell arrays that may be written to from others; these may not.
+    for array in parts[0]:
+        array.flags.writeable = False
+    return parts[0]
+
+
+def _from_objects(spheres: list[Item]) -> Source:
+    """Return single spheres as arrays."""
+    count = len(spheres)
+
+    def column(name: str) -> NDArray[np.float64]:
+        return np.fromiter(map(operator.attrgetter(name), spheres), np.float64, count)
+
+    center, color = np.empty((count, 3)), np.empty((count, 3), np.uint8)
+    for axis, (coordinate, channel) in enumerate(zip("xyz", "rgb", strict=True)):
+        center[:, axis] = column(f"center.{coordinate}")
+        color[:, axis] = column(f"color.{channel}")
+    return Source(center, column("radius"), color, column("lambert"))
+
+
+def _from_arrays(spheres: Spheres) -> Source:
+    """Return spheres given as arrays, without a copy where that can be."""
+    count = len(spheres)
+    one_radius = isinstance(spheres.radius, float) and count > 0
+    return Source(
+        np.ascontiguousarray(spheres.center),
+        _column(spheres.radius, 1 if one_radius else count),
+        np.ascontiguousarray(np.broadcast_to(spheres.color, (count, 3))),
+        _column(spheres.lambert, count),
+    )
+
+
+def _column(values: Any, count: int) -> NDArray[np.float64]:  # noqa: ANN401
+    """Return doubles, one for each sphere."""
+    return np.ascontiguousarray(np.broadcast_to(values, count), np.float64)
+
+
+def _fingerprint(spheres: Spheres) -> int:
+    """Return a number that changes if any number in the arrays does, which may be written to."""
+    total = 0
+    for values in (spheres.center, spheres.radius, spheres.color, spheres.lambert):
+        if not isinstance(values, float):
+            total = total * 31 + _sum_weighted(np.ascontiguousarray(values).reshape(-1))
+    return total
+
+
+_ROW = 1 << 12
+_WEIGHTS = np.arange(1, 2 * _ROW + 16, 2, dtype=np.uint64) * np.uint64(0x9E3779B97F4A7C15)
+
+
+def _sum_weighted(values: NDArray[Any]) -> int:
+    """Return the sum of all bits, in words, each times an odd number of its place."""
+    raw = values.view(np.uint8)
+    words = raw[: len(raw) // 8 * 8].view(np.uint64)
+    rows = words[: len(words) // _ROW * _ROW].reshape(-1, _ROW) @ _WEIGHTS[:_ROW]
+    rest = np.append(words[rows.size * _ROW :], raw[len(words) * 8 :].astype(np.uint64))
+    rows *= np.arange(3, 2 * rows.size + 3, 2, dtype=np.uint64)
+    return int(rows.sum()) + int(rest @ _WEIGHTS[: rest.size])

@@ -1,0 +1,144 @@
+"""Through the hierarchy with camera rays: those of 8 by 8 pixels, one beam from the eye."""
+
+import numpy as np
+
+from vtray.beam import Beam, beam_margin, children_met, enter_child, make_beam
+from vtray.bvh import COUNT_BITS, COUNT_MASK, WIDTH, Bvh
+from vtray.compiled import device
+from vtray.culling import MARGIN, outside_side
+from vtray.nearest import nearest_sphere
+from vtray.packet import BLOCK, DIRECTION, DISTANCE, LANES, PART, Packet, load
+from vtray.scene_arrays import SceneArrays
+from vtray.sphere_arrays import sphere_center, sphere_magnitude, sphere_radius
+from vtray.vector import Vec, add, cross, dot, scale, sub
+from vtray.workspace import Workspace
+
+
+@device
+def nearest_in_bvh(packet: Packet, scene: SceneArrays, work: Workspace) -> None:
+    """Let the spheres take the lanes in which they are nearer than the hits so far."""
+    for top in range(0, BLOCK, PART):
+        for left in range(0, BLOCK, PART):
+            _search_part(packet, top * BLOCK + left, scene, work)
+
+
+@device
+def _search_part(packet: Packet, first: int, scene: SceneArrays, work: Workspace) -> None:
+    """Search the hierarchy for a part of a block, nearest boxes first."""
+    bvh, ratio = scene.bvh, scene.to_boxes.ratio
+    beam = _part_beam(packet, first, scene)
+    _set_rows(packet, first, scene, work)
+    start = scene.camera.focus * ratio * (1.0 - MARGIN)
+    far = _farthest(packet, first) * ratio
+    waiting = _push_met(bvh, 0, beam, start, far, work, 0)
+    while waiting > 0:
+        waiting -= 1
+        if work.stack_enter[waiting] > far:
+            continue
+        child = work.stack[waiting]
+        if child >= 0:
+            waiting = _push_met(bvh, child, beam, start, far, work, waiting)
+        else:
+            begin = ~child >> COUNT_BITS
+            for slot in range(begin, begin + (~child & COUNT_MASK)):
+                _test_sphere(packet, first, scene, slot, work)
+            far = _farthest(packet, first) * ratio
+
+
+@device
+def _part_beam(packet: Packet, first: int, scene: SceneArrays) -> Beam:
+    """Return the beam of a part's rays."""
+    low = load(packet, DIRECTION, first)
+    high = low
+    for row in range(PART):
+        for lane in range(first + row * BLOCK, first + row * BLOCK + PART):
+            x, y, z = load(packet, DIRECTION, lane)
+            low = min(low[0], x), min(low[1], y), min(low[2], z)
+            high = max(high[0], x), max(high[1], y), max(high[2], z)
+    camera, ratio, offset = scene.camera, scene.to_boxes.ratio, scene.to_boxes.offset
+    apex = add(scale(ratio, camera.eye), offset)
+    return make_beam(apex, low, high, beam_margin(apex, offset) + MARGIN * camera.focus * ratio)
+
+
+@device
+def _set_rows(packet: Packet, first: int, scene: SceneArrays, work: Workspace) -> None:
+    """Note the normal of the plane in which the rays of each row lie, and its square."""
+    for row in range(PART):
+        normal = cross(scene.camera.right, load(packet, DIRECTION, first + row * BLOCK))
+        work.rows[row] = normal[0]
+        work.rows[row + PART] = normal[1]
+        work.rows[row + 2 * PART] = normal[2]
+        work.rows[row + 3 * PART] = dot(normal, normal)
+
+
+@device
+def _test_sphere(
+    packet: Packet, first: int, scene: SceneArrays, slot: int, work: Workspace
+) -> None:
+    """Test a sphere for those rows of a part that it reaches."""
+    camera, spheres = scene.camera, scene.spheres
+    place, radius = sphere_center(spheres, slot), sphere_radius(spheres, slot)
+    radius += MARGIN * (sphere_magnitude(place, radius) + camera.focus)
+    center = sub(place, camera.eye)
+    left = cross(load(packet, DIRECTION, first), camera.down)
+    right = cross(camera.down, load(packet, DIRECTION, first + PART - 1))
+    if outside_side(center, left, radius) | outside_side(center, right, radius):
+        return
+    rows = _rows_met(center, radius, work)
+    lane = first
+    while rows > 0:
+        if rows & 1:
+            nearest_sphere(packet, lane, camera, spheres, slot)
+        rows >>= 1
+        lane += BLOCK
+
+
+@device
+def _rows_met(center: Vec, radius: float, work: Workspace) -> int:
+    """Return a bit for each row whose plane a sphere reaches."""
+    met = 0
+    for row in range(PART):
+        normal = work.rows[row], work.rows[row + PART], work.rows[row + 2 * PART]
+        distance = dot(center, normal)
+        outside = distance * distance > radius * radius * work.rows[row + 3 * PART]
+        met |= 0 if outside else 1 << row
+    return met
+
+
+@device
+def _farthest(packet: Packet, first: int) -> float:
+    """Return the largest distance of the hits so far in a part of a block."""
+    # Doubles ≥ 0 are in the order of their bits, and a maximum of integers can be vectorised.
+    bits = packet.view(np.int64)
+    far = 0
+    begin = first & (LANES - 1)
+    for row in range(PART):
+        for lane in range(begin + row * BLOCK, begin + row * BLOCK + PART):
+            far = max(far, bits[DISTANCE + lane])
+    largest: float = np.int64(far).view(np.float64)
+    return largest
+
+
+@device
+def _push_met(
+    bvh: Bvh, node: int, beam: Beam, start: float, end: float, work: Workspace, base: int
+) -> int:
+    """Push the children that a beam may meet, the nearest last; return the stack's new height."""
+    met = children_met(bvh, node, beam, start, end)
+    stack, enters = work.stack, work.stack_enter
+    child = node * WIDTH
+    top = base
+    while met > 0:
+        if met & 1:
+            enter = enter_child(bvh, child, beam)
+            place = top
+            while place > base and enters[place - 1] < enter:
+                enters[place] = enters[place - 1]
+                stack[place] = stack[place - 1]
+                place -= 1
+            enters[place] = enter
+            stack[place] = bvh.child[child]
+            top += 1
+        met >>= 1
+        child += 1
+    return top

@@ -1,0 +1,371 @@
+"""The nodes of the hierarchy: ranges of sorted points, split where their codes differ.
+
+References
+----------
+Lauterbach, Garland, Sengupta, Luebke, Manocha, "Fast BVH Construction on GPUs", 2009.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.bvh import (
+    COUNT_BITS,
+    COUNT_MASK,
+    EMPTY,
+    LEAF,
+    MAX_DEPTH,
+    SIDES,
+    STACK,
+    WIDTH,
+    Bvh,
+    Frame,
+    Leaves,
+)
+from vtray.compiled import device, kernel
+from vtray.culling import MARGIN
+from vtray.key_sort import Keys, sort_few
+from vtray.morton import Grid, in_one_cell, key_number, make_grid, make_key
+from vtray.vector import Vec
+
+FULL_ENOUGH = 3
+"""The children of a node are split further until none has more spheres, or the node is full."""
+
+OUTSIDE = 3.0e38
+"""The low sides of an empty box, and minus its high sides."""
+
+
+class Points(NamedTuple):
+    """The spheres as they are given.
+
+    Attributes
+    ----------
+    center
+        World space, (n, 3), float32 or float64.
+    radius
+        (n,), or (1,) if all are the same.
+    step
+        0 if all radii are the same, otherwise 1.
+    frame
+        The space of the boxes.
+    """
+
+    center: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    step: int
+    frame: Frame
+
+
+class Extent(NamedTuple):
+    """The box around some points, and the largest radius."""
+
+    low: Vec
+    high: Vec
+    radius: float
+
+
+class Order(NamedTuple):
+    """The points' order: their sorted keys, and the grid of these."""
+
+    keys: Keys
+    grid: Grid
+
+
+class Scratch(NamedTuple):
+    """The nodes that wait to be split, and the ranges of a node's children."""
+
+    stack: NDArray[np.int64]
+    begin: NDArray[np.int64]
+    end: NDArray[np.int64]
+
+
+def new_scratch() -> Scratch:
+    """Return the scratch memory of one thread."""
+    return Scratch(*(np.empty(size, np.int64) for size in (STACK, WIDTH, WIDTH)))
+
+
+@kernel
+def find_extent(points: Points, begin: int, end: int) -> Extent:
+    """Return the extent in world space of a range of points."""
+    low = math.inf, math.inf, math.inf
+    high = -math.inf, -math.inf, -math.inf
+    radius = 0.0
+    for k in range(begin, end):
+        x, y, z = _center(points, k)
+        low = min(low[0], x), min(low[1], y), min(low[2], z)
+        high = max(high[0], x), max(high[1], y), max(high[2], z)
+        radius = max(radius, points.radius[k * points.step])
+    return Extent(low, high, radius)
+
+
+@kernel
+def set_keys(points: Points, begin: int, end: int, order: Order) -> None:
+    """Set the keys of a range of points."""
+    for k in range(begin, end):
+        order.keys[k] = make_key(_place(points, k), k, order.grid)
+
+
+@kernel
+def split_top(
+    points: Points,
+    order: Order,
+    grain: int,
+    bvh: Bvh,
+    subtrees: NDArray[np.int64],
+    scratch: Scratch,
+) -> tuple[int, int]:
+    """Make the topmost nodes.
+
+    Parameters
+    ----------
+    grain
+        The size of the ranges that are left for `build_subtree`.
+    subtrees
+        Out: for each of these ranges, the place in ``bvh.child`` for its node, its begin and its
+        end, (n, 3).
+
+    Returns
+    -------
+    nodes, subtrees
+        How many there are.
+    """
+    end = order.keys.shape[0]
+    return _split(points, order, 0, end, grain, 0, bvh, subtrees, scratch)
+
+
+@kernel
+def build_subtree(
+    points: Points,
+    order: Order,
+    begin: int,
+    end: int,
+    root: int,
+    bvh: Bvh,
+    leaves: Leaves,
+    subtrees: NDArray[np.int64],
+    scratch: Scratch,
+) -> int:
+    """Build the tree of a range of points, its nodes from `root` on; return how many there are."""
+    used, _ = _split(points, order, begin, end, LEAF, root, bvh, subtrees, scratch)
+    for node in range(used - 1, root - 1, -1):
+        _fill_node(points, order, node, bvh, leaves)
+    return used - root
+
+
+@kernel
+def finish_top(points: Points, order: Order, nodes: int, bvh: Bvh, leaves: Leaves) -> None:
+    """Set leaves and boxes of the topmost nodes, whose subtrees are built."""
+    for node in range(nodes - 1, -1, -1):
+        _fill_node(points, order, node, bvh, leaves)
+
+
+@device
+def _center(points: Points, number: int) -> Vec:
+    """Return the centre of a sphere in world space."""
+    center = points.center
+    return float(center[number, 0]), float(center[number, 1]), float(center[number, 2])
+
+
+@device
+def _place(points: Points, number: int) -> Vec:
+    """Return the centre of a sphere in the boxes' space."""
+    x, y, z = _center(points, number)
+    scale, origin = points.frame.scale, points.frame.origin
+    return x * scale - origin[0], y * scale - origin[1], z * scale - origin[2]
+
+
+@device
+def _split(
+    points: Points,
+    order: Order,
+    begin: int,
+    end: int,
+    grain: int,
+    root: int,
+    bvh: Bvh,
+    subtrees: NDArray[np.int64],
+    scratch: Scratch,
+) -> tuple[int, int]:
+    """Make nodes of a range, down to ranges of `grain`; return the end of the nodes, and `found`.
+
+    A child comes after its parent. Until a node is split, its begin, its end and its depth stand in
+    the places of its children.
+    """
+    child, stack = bvh.child, scratch.stack
+    used, found, waiting = root + 1, 0, 1
+    stack[0] = root
+    child[root * WIDTH] = begin
+    child[root * WIDTH + 1] = end
+    child[root * WIDTH + 2] = 0
+    while waiting > 0:
+        waiting -= 1
+        first = stack[waiting] * WIDTH
+        depth = child[first + 2]
+        ranges = _split_node(points, order, child[first], child[first + 1], depth, grain, scratch)
+        for k in range(WIDTH):
+            low, high = scratch.begin[k], scratch.end[k]
+            if k >= ranges:
+                child[first + k] = EMPTY
+            elif high - low <= LEAF:
+                child[first + k] = ~(low << COUNT_BITS | (high - low))
+            elif high - low <= grain or _is_left(order, low, high, grain):
+                subtrees[found, 0] = first + k
+                subtrees[found, 1] = low
+                subtrees[found, 2] = high
+                found += 1
+            else:
+                child[first + k] = used
+                child[used * WIDTH] = low
+                child[used * WIDTH + 1] = high
+                child[used * WIDTH + 2] = depth + 1
+                stack[waiting] = used
+                waiting += 1
+                used += 1
+    return used, found
+
+
+@device
+def _is_left(order: Order, begin: int, end: int, grain: int) -> bool:
+    """Tell whether a range is left for a subtree, which sorts it by a finer grid."""
+    return grain > LEAF and in_one_cell(order.keys[begin], order.keys[end - 1], order.grid)
+
+
+@device
+def _split_node(
+    points: Points, order: Order, begin: int, end: int, depth: int, grain: int, scratch: Scratch
+) -> int:
+    """Split a range into up to eight, always the largest next; return how many."""
+    starts, ends = scratch.begin, scratch.end
+    starts[0] = begin
+    ends[0] = end
+    ranges = 1
+    while ranges < WIDTH:
+        largest = 0
+        for k in range(1, ranges):
+            if ends[k] - starts[k] > ends[largest] - starts[largest]:
+                largest = k
+        low, high = starts[largest], ends[largest]
+        if high - low <= FULL_ENOUGH or _is_left(order, low, high, grain):
+            break
+        middle = _split_range(points, order, low, high, depth)
+        for k in range(ranges, largest + 1, -1):
+            starts[k] = starts[k - 1]
+            ends[k] = ends[k - 1]
+        ends[largest] = middle
+        starts[largest + 1] = middle
+        ends[largest + 1] = high
+        ranges += 1
+    return ranges
+
+
+@device
+def _split_range(points: Points, order: Order, begin: int, end: int, depth: int) -> int:
+    """Return where the second part of a range begins."""
+    keys, grid = order.keys, order.grid
+    half = (begin + end) // 2
+    if depth >= MAX_DEPTH:
+        return half
+    if in_one_cell(keys[begin], keys[end - 1], grid):
+        _sort_within_cell(points, order, begin, end)
+        if in_one_cell(keys[begin], keys[end - 1], grid):
+            return half
+    # The highest bit that changes between the first and the last key changes just once.
+    first, last = keys[begin], keys[end - 1]
+    low, high = begin, end - 1
+    while low + 1 < high:
+        half = (low + high) // 2
+        # A key shares that bit with the one from which it differs by less.
+        if keys[half] ^ first < keys[half] ^ last:
+            low = half
+        else:
+            high = half
+    return high
+
+
+@device
+def _sort_within_cell(points: Points, order: Order, begin: int, end: int) -> None:
+    """Sort the points of one cell by a grid of their own, if they are not all in one place."""
+    keys, grid = order.keys, order.grid
+    low = _place(points, key_number(keys[begin], grid))
+    high = low
+    for k in range(begin, end):
+        x, y, z = _place(points, key_number(keys[k], grid))
+        low = min(low[0], x), min(low[1], y), min(low[2], z)
+        high = max(high[0], x), max(high[1], y), max(high[2], z)
+    finer = make_grid(low, high, grid.number_bits)
+    if finer.cells > 0.0:
+        for k in range(begin, end):
+            number = key_number(keys[k], grid)
+            keys[k] = make_key(_place(points, number), number, finer)
+        sort_few(keys, begin, end)
+
+
+@device
+def _fill_node(points: Points, order: Order, node: int, bvh: Bvh, leaves: Leaves) -> None:
+    """Set the leaves of a node and its children's boxes, once the nodes below it have theirs."""
+    for k in range(WIDTH):
+        child = bvh.child[node * WIDTH + k]
+        low = OUTSIDE, OUTSIDE, OUTSIDE
+        high = -OUTSIDE, -OUTSIDE, -OUTSIDE
+        if child >= 0:
+            low, high = _node_box(child, bvh)
+        elif child != EMPTY:
+            first = ~child >> COUNT_BITS
+            low, high = _fill_leaf(points, order, first, ~child & COUNT_MASK, leaves)
+        for axis in range(3):
+            bvh.sides[node * SIDES + axis * WIDTH + k] = low[axis]
+            bvh.sides[node * SIDES + (3 + axis) * WIDTH + k] = high[axis]
+
+
+@device
+def _fill_leaf(
+    points: Points, order: Order, first: int, count: int, leaves: Leaves
+) -> tuple[Vec, Vec]:
+    """Copy the spheres of a leaf to where they belong; return their box."""
+    low = OUTSIDE, OUTSIDE, OUTSIDE
+    high = -OUTSIDE, -OUTSIDE, -OUTSIDE
+    for slot in range(first, first + count):
+        number = key_number(order.keys[slot], order.grid)
+        center = _center(points, number)
+        radius = points.radius[number * points.step]
+        leaves.data[4 * slot] = center[0]
+        leaves.data[4 * slot + 1] = center[1]
+        leaves.data[4 * slot + 2] = center[2]
+        leaves.data[4 * slot + 3] = radius
+        leaves.number[slot] = number
+        x, y, z = _place(points, number)
+        reach = radius * points.frame.scale
+        reach += MARGIN * (abs(x) + abs(y) + abs(z) + reach)
+        low = min(low[0], x - reach), min(low[1], y - reach), min(low[2], z - reach)
+        high = max(high[0], x + reach), max(high[1], y + reach), max(high[2], z + reach)
+    return (
+        (_below(low[0]), _below(low[1]), _below(low[2])),
+        (-_below(-high[0]), -_below(-high[1]), -_below(-high[2])),
+    )
+
+
+@device
+def _below(value: float) -> float:
+    """Return a number that is still below a value when it is rounded to float32."""
+    return value - abs(value) * 2.0**-23 - 2.0**-149
+
+
+@device
+def _node_box(node: int, bvh: Bvh) -> tuple[Vec, Vec]:
+    """Return the box around a node's children."""
+    low = OUTSIDE, OUTSIDE, OUTSIDE
+    high = -OUTSIDE, -OUTSIDE, -OUTSIDE
+    for k in range(node * SIDES, node * SIDES + WIDTH):
+        low = (
+            min(low[0], float(bvh.sides[k])),
+            min(low[1], float(bvh.sides[k + WIDTH])),
+            min(low[2], float(bvh.sides[k + 2 * WIDTH])),
+        )
+        high = (
+            max(high[0], float(bvh.sides[k + 3 * WIDTH])),
+            max(high[1], float(bvh.sides[k + 4 * WIDTH])),
+            max(high[2], float(bvh.sides[k + 5 * WIDTH])),
+        )
+    return low, high

@@ -1,0 +1,83 @@
+"""Through the hierarchy with shadow rays: those of a group of points, one beam from the light."""
+
+import math
+
+from vtray.beam import Beam, beam_margin, children_met, make_beam
+from vtray.bvh import COUNT_BITS, COUNT_MASK, WIDTH
+from vtray.compiled import device
+from vtray.culling import MARGIN
+from vtray.occlusion import block_by_sphere
+from vtray.packet import BLOCKED, MAGNITUDE, POINT, Packet, load
+from vtray.scene_arrays import SceneArrays
+from vtray.vector import add, pick, scale, sub
+from vtray.workspace import Workspace
+
+
+@device
+def block_in_bvh(packet: Packet, scene: SceneArrays, light: int, work: Workspace) -> None:
+    """Mark the points that spheres hide from a light, group by group."""
+    for k in range(1, work.group[0] + 1):
+        begin, end = work.group[k], work.group[k + 1]
+        begin = _first_open(packet, begin, end)
+        if begin < end:
+            _search_group(packet, begin, end, scene, light, work)
+
+
+@device
+def _first_open(packet: Packet, begin: int, end: int) -> int:
+    """Return the first point of a range that nothing blocks so far, `end` if there is none."""
+    while begin < end and packet[BLOCKED + begin] != 0.0:
+        begin += 1
+    return begin
+
+
+@device
+def _search_group(
+    packet: Packet, begin: int, end: int, scene: SceneArrays, light: int, work: Workspace
+) -> None:
+    """Search the hierarchy until all points of a group are blocked."""
+    bvh, stack = scene.bvh, work.stack
+    beam = _group_beam(packet, begin, end, scene, light)
+    waiting = 1
+    stack[0] = 0
+    while waiting > 0:
+        waiting -= 1
+        node = stack[waiting]
+        met = children_met(bvh, node, beam, 0.0, 1.0 + MARGIN)
+        place = node * WIDTH
+        while met > 0:
+            if met & 1:
+                child = bvh.child[place]
+                if child >= 0:
+                    stack[waiting] = child
+                    waiting += 1
+                else:
+                    first = ~child >> COUNT_BITS
+                    for slot in range(first, first + (~child & COUNT_MASK)):
+                        block_by_sphere(
+                            packet, begin, end, scene.spheres, slot, scene.lights, light
+                        )
+                    begin = _first_open(packet, begin, end)
+                    if begin == end:
+                        return
+            met >>= 1
+            place += 1
+
+
+@device
+def _group_beam(packet: Packet, begin: int, end: int, scene: SceneArrays, light: int) -> Beam:
+    """Return the beam from a light to the points of a group that nothing blocks so far."""
+    place = pick(scene.lights, light)
+    low = math.inf, math.inf, math.inf
+    high = -math.inf, -math.inf, -math.inf
+    magnitude = 0.0
+    for lane in range(begin, end):
+        if packet[BLOCKED + lane] == 0.0:
+            x, y, z = sub(load(packet, POINT, lane), place)
+            low = min(low[0], x), min(low[1], y), min(low[2], z)
+            high = max(high[0], x), max(high[1], y), max(high[2], z)
+            magnitude = max(magnitude, packet[MAGNITUDE + lane])
+    ratio, offset = scene.to_boxes.ratio, scene.to_boxes.offset
+    apex = add(scale(ratio, place), offset)
+    margin = beam_margin(apex, offset) + MARGIN * magnitude * ratio
+    return make_beam(apex, scale(ratio, low), scale(ratio, high), margin)
