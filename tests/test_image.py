@@ -68,7 +68,9 @@ def test_threads_and_tiles_are_checked(bad: object) -> None:
 def test_scene_changed_in_code_is_checked() -> None:
     document = vtray.loads(json.dumps(one_sphere()))
     document.objects.append("cube")
-    with pytest.raises(vtray.SceneError, match=r"Scene.objects\[1\]: expected Sphere, Plane or Spheres"):
+    with pytest.raises(
+        vtray.SceneError, match=r"Scene.objects\[1\]: expected Sphere, Plane or Spheres"
+    ):
         vtray.render(document)
 
 
