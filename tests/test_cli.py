@@ -122,11 +122,24 @@ def test_stats(small: Path, capfd: pytest.CaptureFixture[str]) -> None:
     out, err = capfd.readouterr()
     assert out == ""
     names = [line[:12].strip() for line in err.splitlines()]
-    steps = ["read", "compile", "pack", "trace", "develop", "write"]
+    steps = ["read", "compile", "build", "pack", "trace", "develop", "write"]
     assert names == [*steps, "rays", "rays/second", "peak memory"]
     for line in err.splitlines()[: len(steps)]:
         assert re.fullmatch(r"\w+ +\d+\.\d{4} s", line)
-    assert int(err.splitlines()[6].split()[1]) > 12 * 9
+    assert int(err.splitlines()[len(steps)].split()[1]) > 12 * 9
+
+
+def test_stats_of_many_spheres(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    document = one_sphere()
+    document["objects"] = [sphere((k % 10, k // 10, 9), 0.4) for k in range(100)]
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps(document))
+    assert cli.run(["--stats", str(path), str(tmp_path / "a.png")]) == 0
+    lines = capfd.readouterr().err.splitlines()
+    stats = {line[:12].strip(): line[12:].strip() for line in lines}
+    assert 1 < int(stats["nodes"]) < 100
+    assert 1 < int(stats["depth"]) < int(stats["nodes"])
+    assert stats["hierarchy"] == "0 MB"
 
 
 def test_help_and_version(capfd: pytest.CaptureFixture[str]) -> None:
@@ -254,7 +267,9 @@ def test_terminal_shows_compiling_and_progress(
     monkeypatch.setattr("vtray.progress.DELAY_SECONDS", -1.0)
     assert cli.run([str(small), str(small.with_name("a.png"))]) == 0
     err = capsys.readouterr().err
-    assert err.startswith("vtray: compiling for this machine, only this once ...\n")
-    assert "tile" in err
+    reading, compiling, bar = err.split("\n")[:3]
+    assert reading == f"vtray: reading {small} ..."
+    assert compiling == "vtray: compiling for this machine, only this once ..."
+    assert bar.startswith("\rtrace")
     assert cli.run(["-q", str(small), str(small.with_name("a.png"))]) == 0
     assert capsys.readouterr().err == ""

@@ -12,9 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.bvh import MAX_SPHERES, Bvh, Frame, Leaves, no_bvh
+from vtray.bvh import MAX_SPHERES, WIDTH, Bvh, Frame, Leaves, no_bvh
 from vtray.bvh_build import Built, build
 from vtray.errors import RenderError
+from vtray.memory import check_memory_of_spheres
 from vtray.pool import Progress
 from vtray.scene import Plane, Scene, Sphere
 from vtray.spheres import Spheres
@@ -58,8 +59,8 @@ class Acceleration:
         The hierarchy, none if there are few.
     frame
         The space of its boxes.
-    nodes
-        How many nodes it has.
+    depth
+        How many nodes lie one below the other at the most.
     source
         The spheres by their numbers.
     largest
@@ -73,7 +74,7 @@ class Acceleration:
     leaves: Leaves
     bvh: Bvh
     frame: Frame
-    nodes: int
+    depth: int
     source: Source
     largest: float
     items: list[Item]
@@ -81,11 +82,15 @@ class Acceleration:
     fingerprint: int
 
     @property
+    def nodes(self) -> int:
+        """How many nodes the hierarchy has."""
+        return len(self.bvh.child) // WIDTH
+
+    @property
     def memory(self) -> int:
         """Bytes that are used beside the arrays that were given."""
-        used = sum(array.nbytes for array in (*self.leaves, *self.source) if array.base is None)
-        node = sum(array.nbytes for array in self.bvh) // max(len(self.bvh.child) // 8, 1)
-        return used + self.nodes * node
+        arrays = (*self.leaves, *self.bvh, *self.source)
+        return sum(array.nbytes for array in arrays if array.base is None)
 
 
 def accelerate(scene: Scene, threads: int = 1, progress: Progress | None = None) -> Acceleration:
@@ -94,7 +99,7 @@ def accelerate(scene: Scene, threads: int = 1, progress: Progress | None = None)
     Raises
     ------
     RenderError
-        There are more spheres than a hierarchy can hold.
+        There are more spheres than a hierarchy or the memory can hold.
     """
     items: list[Item] = [item for item in scene.objects if not isinstance(item, Plane)]
     fingerprint = sum(_fingerprint(item) for item in items if isinstance(item, Spheres))
@@ -125,8 +130,10 @@ def _make(
     items: list[Item], fingerprint: int, threads: int, progress: Progress | None
 ) -> Acceleration:
     """Give numbers to the spheres, and build the hierarchy."""
+    sizes = [len(item) if isinstance(item, Spheres) else 1 for item in items]
+    count = sum(sizes)
+    check_memory_of_spheres(count)
     source = _collect(items)
-    count = len(source.center)
     if count > MAX_SPHERES:
         message = f"objects: expected at most {MAX_SPHERES} spheres, got {count}"
         raise RenderError(message)
@@ -134,7 +141,6 @@ def _make(
         built = Built(_in_order(source), no_bvh(), Frame(1.0, (0.0, 0.0, 0.0)), 0)
     else:
         built = build(source.center, source.radius, threads, progress)
-    sizes = [len(item) if isinstance(item, Spheres) else 1 for item in items]
     return Acceleration(
         *built,
         source=source,

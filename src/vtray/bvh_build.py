@@ -23,7 +23,7 @@ from vtray.bvh_nodes import (
     set_keys,
     split_top,
 )
-from vtray.compiled import pinned
+from vtray.compiled import pinned, uncompiled
 from vtray.key_sort import sort_keys
 from vtray.morton import make_grid
 from vtray.pool import Progress, run_tasks
@@ -50,14 +50,14 @@ class Built(NamedTuple):
         The hierarchy.
     frame
         The space of its boxes.
-    nodes
-        How many nodes there are; ``bvh`` has room for more.
+    depth
+        How many nodes lie one below the other at the most.
     """
 
     leaves: Leaves
     bvh: Bvh
     frame: Frame
-    nodes: int
+    depth: int
 
 
 def build(
@@ -88,53 +88,95 @@ def build(
     points, low, high = _place_in_frame(points, extents)
 
     shared = pinned(points)
-    order = Order(np.empty(n, np.uint64), make_grid(low, high, max(n - 1, 1).bit_length()))
+    grid = uncompiled(make_grid)(low, high, max(n - 1, 1).bit_length())
+    order = Order(np.empty(n, np.uint64), grid)
     unsorted = pinned(order)
     _run(chunks, lambda chunk: set_keys(shared, *chunk, unsorted), threads)
     order = Order(sort_keys(order.keys, threads), order.grid)
 
     leaves = Leaves(np.empty(4 * n), np.empty(n, np.int32))
-    bvh, nodes = _build_nodes(points, order, leaves, threads, progress)
-    return Built(leaves, bvh, points.frame, nodes)
+    bvh, depth = _build_nodes(points, order, leaves, threads, progress)
+    return Built(leaves, bvh, points.frame, depth)
 
 
 def _build_nodes(
     points: Points, order: Order, leaves: Leaves, threads: int, progress: Progress | None
 ) -> tuple[Bvh, int]:
-    """Build the nodes over sorted points, put the spheres into their leaves, count the nodes."""
+    """Build the nodes over sorted points, and put the spheres into their leaves.
+
+    Returns
+    -------
+    bvh, depth
+        As in `Built`.
+    """
     n = len(order.keys)
     grain = max(n // SUBTREES, SMALL)
     # Nodes of one depth have points of their own, so at most n / grain of them are larger than
-    # that. A subtree of m points has fewer than m / 4 nodes: but for the last, which have more than
-    # a leaf, each has eight children. Memory that is never written to costs nothing.
-    top_limit = (n // grain + 1) * (STACK // WIDTH)
-    found = np.empty((top_limit * WIDTH, 3), np.int64)
-    size = top_limit + n // 4 + len(found)
-    bvh = Bvh(np.empty(size * SIDES, np.float32), np.empty(size * WIDTH, np.int32))
-    top, count = split_top(points, order, grain, bvh, found, new_scratch())
+    # that. Memory that is never written to costs nothing.
+    most = (n // grain + 1) * (STACK // WIDTH)
+    top, found = _new_bvh(most), np.empty((most * WIDTH, 4), np.int64)
+    top_nodes, count, deepest = split_top(points, order, grain, top, found, new_scratch())
     subtrees = found[:count]
-    sizes = (subtrees[:, 2] - subtrees[:, 1]) // 4 + 1
-    roots = top + np.cumsum(sizes) - sizes
-    shared = pinned(points), pinned(order), pinned(bvh), pinned(leaves)
-    used: list[int] = []
+    parts, depths = _build_subtrees(points, order, leaves, subtrees, threads, progress)
+
+    ends = top_nodes + np.cumsum([len(part.child) // WIDTH for part in parts], dtype=np.int64)
+    bvh = _new_bvh(int(ends[-1]) if count else top_nodes)
+    _put_nodes(bvh, 0, Bvh(top.sides[: top_nodes * SIDES], top.child[: top_nodes * WIDTH]))
+
+    def put(k: int) -> None:
+        root = int(ends[k]) - len(parts[k].child) // WIDTH
+        bvh.child[subtrees[k, 0]] = root
+        _put_nodes(bvh, root, parts[k])
+
+    run_tasks(range(count), lambda: put, threads)
+    finish_top(points, order, top_nodes, bvh, leaves)
+    return bvh, 1 + max([deepest, *depths])
+
+
+def _build_subtrees(
+    points: Points,
+    order: Order,
+    leaves: Leaves,
+    subtrees: NDArray[np.int64],
+    threads: int,
+    progress: Progress | None,
+) -> tuple[list[Bvh], list[int]]:
+    """Return the trees of ranges of points, each numbered from 0, and their depths."""
+    # All nodes but the last, which have more points than a leaf, have eight children, so that a
+    # tree of m points has fewer than m / 4 nodes.
+    most = int((subtrees[:, 2] - subtrees[:, 1]).max(initial=0)) // 4 + 1
+    cloud, sorted_, target = pinned(points), pinned(order), pinned(leaves)
+    parts = [_new_bvh(0)] * len(subtrees)
+    depths = [0] * len(subtrees)
 
     def new_worker() -> Callable[[int], None]:
-        nothing, scratch = pinned(np.empty((0, 3), np.int64)), pinned(new_scratch())
+        bvh = _new_bvh(most)
+        tree, scratch = pinned(bvh), pinned(new_scratch())
+        nothing = pinned(np.empty((0, 4), np.int64))
 
         def build_one(k: int) -> None:
-            cloud, sorted_, tree, target = shared
-            place, begin, end = map(int, subtrees[k])
-            root = int(roots[k])
-            bvh.child[place] = root
-            used.append(
-                build_subtree(cloud, sorted_, begin, end, root, tree, target, nothing, scratch)
+            _, begin, end, depth = map(int, subtrees[k])
+            size, depths[k] = build_subtree(
+                cloud, sorted_, begin, end, depth, tree, target, nothing, scratch
             )
+            parts[k] = Bvh(bvh.sides[: size * SIDES].copy(), bvh.child[: size * WIDTH].copy())
 
         return build_one
 
-    run_tasks(range(count), new_worker, threads, progress=progress)
-    finish_top(points, order, top, bvh, leaves)
-    return bvh, top + sum(used)
+    run_tasks(range(len(subtrees)), new_worker, threads, progress=progress)
+    return parts, depths
+
+
+def _new_bvh(nodes: int) -> Bvh:
+    """Return room for nodes."""
+    return Bvh(np.empty(nodes * SIDES, np.float32), np.empty(nodes * WIDTH, np.int32))
+
+
+def _put_nodes(bvh: Bvh, root: int, part: Bvh) -> None:
+    """Copy nodes to where their numbers begin with `root`."""
+    bvh.sides[root * SIDES :][: len(part.sides)] = part.sides
+    # Leaves, below 0, stay what they are.
+    bvh.child[root * WIDTH :][: len(part.child)] = part.child + root * (part.child >= 0)
 
 
 def _place_in_frame(points: Points, extents: list[Extent]) -> tuple[Points, Vec, Vec]:

@@ -115,7 +115,7 @@ def split_top(
     bvh: Bvh,
     subtrees: NDArray[np.int64],
     scratch: Scratch,
-) -> tuple[int, int]:
+) -> tuple[int, int, int]:
     """Make the topmost nodes.
 
     Parameters
@@ -123,16 +123,16 @@ def split_top(
     grain
         The size of the ranges that are left for `build_subtree`.
     subtrees
-        Out: for each of these ranges, the place in ``bvh.child`` for its node, its begin and its
-        end, (n, 3).
+        Out: for each of these ranges the place in ``bvh.child`` for its node, its begin, its end,
+        and its depth, (n, 4).
 
     Returns
     -------
-    nodes, subtrees
-        How many there are.
+    nodes, subtrees, depth
+        How many there are, and the depth of the deepest of these nodes.
     """
     end = order.keys.shape[0]
-    return _split(points, order, 0, end, grain, 0, bvh, subtrees, scratch)
+    return _split(points, order, 0, end, 0, grain, bvh, subtrees, scratch)
 
 
 @kernel
@@ -141,17 +141,23 @@ def build_subtree(
     order: Order,
     begin: int,
     end: int,
-    root: int,
+    depth: int,
     bvh: Bvh,
     leaves: Leaves,
     subtrees: NDArray[np.int64],
     scratch: Scratch,
-) -> int:
-    """Build the tree of a range of points, its nodes from `root` on; return how many there are."""
-    used, _ = _split(points, order, begin, end, LEAF, root, bvh, subtrees, scratch)
-    for node in range(used - 1, root - 1, -1):
+) -> tuple[int, int]:
+    """Build the tree of a range of points, its root as node 0.
+
+    Returns
+    -------
+    nodes, depth
+        How many there are, and the depth of the deepest.
+    """
+    used, _, deepest = _split(points, order, begin, end, depth, LEAF, bvh, subtrees, scratch)
+    for node in range(used - 1, -1, -1):
         _fill_node(points, order, node, bvh, leaves)
-    return used - root
+    return used, deepest
 
 
 @kernel
@@ -182,27 +188,29 @@ def _split(
     order: Order,
     begin: int,
     end: int,
+    depth: int,
     grain: int,
-    root: int,
     bvh: Bvh,
     subtrees: NDArray[np.int64],
     scratch: Scratch,
-) -> tuple[int, int]:
-    """Make nodes of a range, down to ranges of `grain`; return the end of the nodes, and `found`.
+) -> tuple[int, int, int]:
+    """Make nodes of a range, down to ranges of `grain`; return their number, subtrees, and depth.
 
     A child comes after its parent. Until a node is split, its begin, its end and its depth stand in
     the places of its children.
     """
     child, stack = bvh.child, scratch.stack
-    used, found, waiting = root + 1, 0, 1
-    stack[0] = root
-    child[root * WIDTH] = begin
-    child[root * WIDTH + 1] = end
-    child[root * WIDTH + 2] = 0
+    used, found, waiting = 1, 0, 1
+    stack[0] = 0
+    child[0] = begin
+    child[1] = end
+    child[2] = depth
+    deepest = depth
     while waiting > 0:
         waiting -= 1
         first = stack[waiting] * WIDTH
         depth = child[first + 2]
+        deepest = max(deepest, depth)
         ranges = _split_node(points, order, child[first], child[first + 1], depth, grain, scratch)
         for k in range(WIDTH):
             low, high = scratch.begin[k], scratch.end[k]
@@ -214,6 +222,7 @@ def _split(
                 subtrees[found, 0] = first + k
                 subtrees[found, 1] = low
                 subtrees[found, 2] = high
+                subtrees[found, 3] = depth + 1
                 found += 1
             else:
                 child[first + k] = used
@@ -223,7 +232,7 @@ def _split(
                 stack[waiting] = used
                 waiting += 1
                 used += 1
-    return used, found
+    return used, found, deepest
 
 
 @device

@@ -125,7 +125,13 @@ def _load(options: argparse.Namespace) -> "Scene":
         if not options.quiet:
             print(f"Warning: {message}", file=sys.stderr)
 
-    return load(options.scene, warn=warn)
+    if options.quiet or not sys.stderr.isatty():
+        return load(options.scene, warn=warn)
+
+    from vtray.progress import announced
+
+    with announced(f"vtray: reading {options.scene} ..."):
+        return load(options.scene, warn=warn)
 
 
 def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
@@ -154,7 +160,7 @@ def _print_stats(clock: "Stopwatch", image: "Image") -> None:
     from vtray.memory import peak_memory
 
     stats = image.stats
-    steps = ("pack", "trace", "develop")
+    steps = ("build", "pack", "trace", "develop")
     # Loading NumPy and LLVM counts as compiling.
     compiling = clock.seconds["render"] - sum(stats[step] for step in steps)
     seconds = {
@@ -166,5 +172,9 @@ def _print_stats(clock: "Stopwatch", image: "Image") -> None:
     lines = [f"{step:12}{value:10.4f} s" for step, value in seconds.items()]
     lines.append(f"{'rays':12}{stats['rays']:,.0f}")
     lines.append(f"{'rays/second':12}{stats['rays'] / max(stats['trace'], 1e-9):,.0f}")
+    if stats["nodes"]:
+        lines.append(f"{'nodes':12}{stats['nodes']:,.0f}")
+        lines.append(f"{'depth':12}{stats['depth']:,.0f}")
+        lines.append(f"{'hierarchy':12}{stats['memory'] / 1e6:,.0f} MB")
     lines.append(f"{'peak memory':12}{peak_memory() / 1e6:,.0f} MB")
     print("\n".join(lines), file=sys.stderr)

@@ -48,6 +48,12 @@ def kernel(function: Function) -> Function:
     return function if _is_off() else cast("Function", Kernel(function))
 
 
+def uncompiled(function: Function) -> Function:
+    """Return a device function as plain Python, for a single call that is not worth compiling."""
+    plain: Function = getattr(function, "__wrapped__", function)
+    return plain
+
+
 def pinned(argument: Value) -> Value:
     """Return a stand-in for an argument that many calls of kernels share.
 

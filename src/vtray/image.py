@@ -24,8 +24,9 @@ class Image:
     pixels
         Light after exposure, uint8, (height, width, 3).
     stats
-        How the picture was made: seconds for ``"compile"``, ``"pack"``, ``"trace"`` and
-        ``"develop"``, and the number of ``"rays"`` cast.
+        How the picture was made: seconds for ``"build"``, ``"pack"``, ``"compile"``, ``"trace"``
+        and ``"develop"``; the number of ``"rays"`` cast; of the hierarchy, its ``"nodes"``, its
+        ``"depth"``, and its ``"memory"`` in bytes.
     """
 
     linear: NDArray[np.float64]

@@ -7,13 +7,26 @@ from vtray.errors import RenderError
 BYTES_PER_PIXEL = 3 * 8 + 3 + 4
 """Film, pixels, and the copy that the image encoder makes."""
 
+BYTES_PER_SPHERE = 80
+"""The hierarchy, and what it takes to build it, beside the arrays that were given."""
+
 ALWAYS_FITS = 2**26
-"""Images below this many bytes are not looked at: asking takes longer than they do."""
+"""What needs fewer bytes is not looked at: asking takes longer than it does."""
 
 
 def check_memory(width: int, height: int) -> None:
     """Raise RenderError if an image of this size cannot be held in memory."""
-    needed = width * height * BYTES_PER_PIXEL
+    what = f"camera.size: an image of {width} x {height} pixels needs"
+    _check(width * height * BYTES_PER_PIXEL, what, "a smaller size")
+
+
+def check_memory_of_spheres(count: int) -> None:
+    """Raise RenderError if so many spheres cannot be held in memory."""
+    _check(count * BYTES_PER_SPHERE, f"objects: {count} spheres need", "fewer spheres")
+
+
+def _check(needed: int, what: str, instead: str) -> None:
+    """Raise RenderError if there is less memory than needed."""
     if needed < ALWAYS_FITS:
         return
     import psutil
@@ -21,9 +34,8 @@ def check_memory(width: int, height: int) -> None:
     available = psutil.virtual_memory().available
     if needed > available:
         message = (
-            f"camera.size: an image of {width} x {height} pixels needs "
-            f"{in_gigabytes(needed)} of memory, {in_gigabytes(available)} is available; "
-            f"expected a smaller size"
+            f"{what} {in_gigabytes(needed)} of memory, {in_gigabytes(available)} is available; "
+            f"expected {instead}"
         )
         raise RenderError(message)
 

@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,8 @@ from vtray.image import Image
 from vtray.integrator import trace_tile
 from vtray.memory import check_memory
 from vtray.packet import new_packet
-from vtray.pool import Progress, run_tasks
+from vtray.pool import Progress as StepProgress
+from vtray.pool import run_tasks
 from vtray.scene import Scene
 from vtray.scene_arrays import SceneArrays, pack
 from vtray.stopwatch import Stopwatch
@@ -21,6 +23,7 @@ from vtray.tiles import TILE, Tile, split_into_tiles
 from vtray.workspace import new_workspace
 
 Film = NDArray[np.float64]
+Progress = Callable[[str, int, int], None]
 
 
 def render(
@@ -37,7 +40,8 @@ def render(
     threads
         How many threads to use, at least 1; None for all cores.
     progress
-        Called from time to time with the number of tiles done and the number of all.
+        Called from time to time with what is being done, ``"build"`` or ``"trace"``, how many of
+        its tasks are done, and how many there are.
     tile
         Side of a tile in pixels.
 
@@ -63,17 +67,23 @@ def render(
     check_memory(*(int(side) for side in scene.camera.size))
     check_brightness(scene.lights)
     clock = Stopwatch()
-    kept = accelerate(scene, threads)
+    kept = accelerate(scene, threads, _step_of(progress, "build"))
     clock.lap("build")
     arrays = pack(scene, kept).arrays
     clock.lap("pack")
     compile_kernels(arrays)
     clock.lap("compile")
-    film, peak, rays = _trace(arrays, threads, tile, progress)
+    film, peak, rays = _trace(arrays, threads, tile, _step_of(progress, "trace"))
     clock.lap("trace")
     pixels = _develop(film, peak, threads)
     clock.lap("develop")
-    return Image(film, pixels, {**clock.seconds, "rays": rays})
+    stats = {"rays": rays, "nodes": kept.nodes, "depth": kept.depth, "memory": kept.memory}
+    return Image(film, pixels, {**clock.seconds, **stats})
+
+
+def _step_of(progress: Progress | None, step: str) -> StepProgress | None:
+    """Return what shows the progress of one step."""
+    return None if progress is None else partial(progress, step)
 
 
 def available_cores() -> int:
@@ -92,7 +102,7 @@ def compile_kernels(scene: SceneArrays) -> None:
 
 
 def _trace(
-    scene: SceneArrays, threads: int, tile: int, progress: Progress | None
+    scene: SceneArrays, threads: int, tile: int, progress: StepProgress | None
 ) -> tuple[Film, float, int]:
     """Return the film, its largest channel, and how many rays were cast."""
     camera = scene.camera
