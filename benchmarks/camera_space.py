@@ -1,12 +1,19 @@
 """A scene as other renderers want it: seen from the eye."""
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
+
+import numpy as np
+from cube import LAMBERT, Cube
+from numpy.typing import NDArray
 
 from vtray import Direction, Scene, Sphere, Vector
 from vtray.camera import camera_axes
 from vtray.scene import Object
 from vtray.vector import Vec, dot, scale, sub
+
+CHUNK = 1 << 16
 
 
 class Surface(NamedTuple):
@@ -27,6 +34,24 @@ class Surface(NamedTuple):
     color: Vec
 
 
+class Cloud(NamedTuple):
+    """Spheres by the million.
+
+    Attributes
+    ----------
+    spheres
+        Centre and radius of each, (n, 4).
+    color
+        The colour of each, (n, 3), from 0 to 255.
+    lambert
+        The Lambert coefficient of all.
+    """
+
+    spheres: NDArray[np.float32]
+    color: NDArray[np.uint8]
+    lambert: float
+
+
 class View(NamedTuple):
     """A scene in camera space: the eye at the origin, x to the right, y up, z forward.
 
@@ -42,6 +67,8 @@ class View(NamedTuple):
         Where each light is, and its intensity.
     surfaces
         The objects.
+    clouds
+        Spheres that are given as arrays.
     """
 
     width: int
@@ -50,9 +77,10 @@ class View(NamedTuple):
     pixel_height: float
     lights: list[tuple[Vec, float]]
     surfaces: list[Surface]
+    clouds: list[Cloud]
 
 
-def view_from_eye(scene: Scene, brightness: float) -> View:
+def view_from_eye(scene: Scene, brightness: float, cubes: Sequence[Cube] = ()) -> View:
     """Turn a scene to where its camera is.
 
     Parameters
@@ -62,6 +90,8 @@ def view_from_eye(scene: Scene, brightness: float) -> View:
     brightness
         What to multiply all intensities with. Other renderers have no exposure: 255 divided by
         the largest value of `vtray.Image.linear` makes their pictures as bright as vtray's.
+    cubes
+        Spheres of the scene that are given as arrays.
     """
     camera = scene.camera
     forward = _unit(_triple(camera.normal))
@@ -85,7 +115,19 @@ def view_from_eye(scene: Scene, brightness: float) -> View:
     (width, height), (pixel_width, pixel_height) = camera.size, camera.resolution
     pixel = pixel_width / camera.focus, pixel_height / camera.focus
     surfaces = [surface(item) for item in scene.objects]
-    return View(int(width), int(height), *pixel, lights, surfaces)
+    axes = np.array([right, scale(-1, down), forward])
+    clouds = [_cloud(cube, axes, np.array(eye)) for cube in cubes]
+    return View(int(width), int(height), *pixel, lights, surfaces, clouds)
+
+
+def _cloud(cube: Cube, axes: NDArray[np.float64], eye: NDArray[np.float64]) -> Cloud:
+    """Turn spheres to where the camera is."""
+    spheres = np.empty((len(cube.center), 4), np.float32)
+    spheres[:, 3] = cube.radius
+    for start in range(0, len(spheres), CHUNK):
+        part = slice(start, start + CHUNK)
+        spheres[part, :3] = (cube.center[part] - eye) @ axes.T
+    return Cloud(spheres, cube.color, LAMBERT)
 
 
 def _towards_eye(normal: Vec, point: Vec) -> Vec:
