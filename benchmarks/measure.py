@@ -1,12 +1,36 @@
 """Running processes and timing them."""
 
+import json
 import math
+import re
 import statistics
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NamedTuple
+
+LAUNCHER = Path(__file__).with_name("launch.py")
+NOT_SAID = math.nan
+
+
+class Phases(NamedTuple):
+    """The seconds of the parts of a render, as a program reports them; NaN if it does not.
+
+    Attributes
+    ----------
+    load
+        Reading the scene.
+    build
+        Making what finds hits fast.
+    trace
+        Tracing rays.
+    """
+
+    load: float = NOT_SAID
+    build: float = NOT_SAID
+    trace: float = NOT_SAID
 
 
 @dataclass(frozen=True)
@@ -25,6 +49,8 @@ class Job:
         The exit status that it must end with.
     environment
         All its environment variables; None for those of this process.
+    phases
+        Finds all parts of a render in what the process prints.
     """
 
     name: str
@@ -32,6 +58,7 @@ class Job:
     inner_seconds: Callable[[str], float] = field(default=lambda _: math.nan)
     status: int = 0
     environment: Mapping[str, str] | None = None
+    phases: Callable[[str], Phases] = field(default=lambda _: Phases())
 
 
 @dataclass(frozen=True)
@@ -57,43 +84,74 @@ class Spread:
 
 @dataclass(frozen=True)
 class Timing:
-    """What several runs of a job took: the whole process, and the part of it that it reports."""
+    """What several runs of a job took.
+
+    Attributes
+    ----------
+    whole
+        The whole process.
+    inner
+        The part of it that it reports.
+    load, build
+        Two more parts of it that it reports.
+    memory
+        The most memory that it had, in bytes, the median of all runs.
+    """
 
     whole: Spread
     inner: Spread
+    load: Spread = Spread((NOT_SAID,))
+    build: Spread = Spread((NOT_SAID,))
+    memory: float = NOT_SAID
+
+
+class Run(NamedTuple):
+    """What one run of a job took: as `Timing`, each part once."""
+
+    whole: float
+    inner: float
+    phases: Phases
+    memory: float
 
 
 def run_interleaved(jobs: Sequence[Job], repeats: int) -> dict[str, Timing]:
     """Run all jobs in turn, several times over, so that a slow minute hits all of them alike."""
     rounds = [{job.name: run_once(job) for job in jobs} for _ in range(repeats)]
-    return {
-        job.name: Timing(
-            Spread(tuple(results[job.name][0] for results in rounds)),
-            Spread(tuple(results[job.name][1] for results in rounds)),
-        )
-        for job in jobs
-    }
+    return {job.name: _timing([runs[job.name] for runs in rounds]) for job in jobs}
 
 
-def run_once(job: Job) -> tuple[float, float]:
-    """Run a job; return the seconds of the whole process and of the part that it reports."""
-    start = time.perf_counter()
+def run_once(job: Job) -> Run:
+    """Run a job."""
+    launcher = [sys.executable, "-I", "-S", str(LAUNCHER)]
     process = subprocess.run(
-        job.command,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        env=job.environment,
-        check=False,
+        [*launcher, *job.command], stdout=subprocess.PIPE, env=job.environment, check=True
     )
-    seconds = time.perf_counter() - start
-    output = process.stdout.decode(errors="replace")
-    if process.returncode != job.status:
-        sys.exit(f"{' '.join(job.command)}\nended with {process.returncode}:\n{output[-2000:]}")
-    return seconds, job.inner_seconds(output)
+    found = json.loads(process.stdout)
+    output = found["output"]
+    if found["status"] != job.status:
+        sys.exit(f"{' '.join(job.command)}\nended with {found['status']}:\n{output[-2000:]}")
+    return Run(found["seconds"], job.inner_seconds(output), job.phases(output), found["memory"])
+
+
+def seconds_after(pattern: str, output: str) -> float:
+    """Return the number that the group of a pattern finds in what a program printed, or NaN."""
+    found = re.search(pattern, output, re.MULTILINE)
+    return float(found[1]) if found else NOT_SAID
+
+
+def _timing(runs: Sequence[Run]) -> Timing:
+    return Timing(
+        whole=Spread(tuple(run.whole for run in runs)),
+        inner=Spread(tuple(run.inner for run in runs)),
+        load=Spread(tuple(run.phases.load for run in runs)),
+        build=Spread(tuple(run.phases.build for run in runs)),
+        memory=statistics.median(run.memory for run in runs),
+    )
 
 
 def in_seconds(value: float) -> str:
     """Write seconds, with three digits where they mean something."""
+    if math.isnan(value):
+        return "-"
     decimals = 2 if value >= 1 else 3 if value >= 0.1 else 4
     return f"{value:.{decimals}f}"

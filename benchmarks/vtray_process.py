@@ -1,8 +1,9 @@
 """vtray: how it is run and timed, as a process like the others."""
 
-import re
 import sys
 from pathlib import Path
+
+from measure import Phases, seconds_after
 
 NAME = "vtray"
 
@@ -18,6 +19,12 @@ def command(scene: Path, picture: Path, threads: int) -> list[str]:
     return [*executable(), "--stats", "-t", str(threads), str(scene), str(picture)]
 
 
+def phases(output: str) -> Phases:
+    """Return the seconds of the steps that ``--stats`` printed; loading is reading and packing."""
+    load = _seconds("read", output) + _seconds("pack", output)
+    return Phases(load, _seconds("build", output), _seconds("trace", output))
+
+
 def trace_seconds(output: str) -> float:
     """Return the seconds of tracing that ``--stats`` printed."""
     return _seconds("trace", output)
@@ -29,5 +36,4 @@ def compile_seconds(output: str) -> float:
 
 
 def _seconds(step: str, output: str) -> float:
-    found = re.search(rf"^{step} +([0-9.]+) s$", output, re.MULTILINE)
-    return float(found[1]) if found else float("nan")
+    return seconds_after(rf"^{step} +([0-9.]+) s$", output)
