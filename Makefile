@@ -2,7 +2,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help run test coverage memtest lint format schema scenes bench check clean
+.PHONY: help run test coverage memtest lint format schema scenes peers bench check clean
 
 help: ## list what can be made
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -41,10 +41,18 @@ schema: .venv/ready ## write docs/scene.schema.json
 scenes: .venv/ready ## make the example scenes and their pictures again
 	$(BIN)/python scenes/make_scenes.py --render
 
-bench: .venv/ready ## measure, and write benchmarks/results.md and the table in README.md
+peers: benchmarks/.venv/ready ## install Mitsuba and OVITO for the benchmarks, each some 200 MB
+
+benchmarks/.venv/ready: benchmarks/peers.txt
+	$(PYTHON) -m venv benchmarks/.venv
+	benchmarks/.venv/bin/pip install --quiet -r benchmarks/peers.txt
+	touch $@
+
+bench: .venv/ready ## measure, and write benchmarks/results.md and what README.md shows of it
+	$(BIN)/pip install --quiet --editable '.[bench]'
 	$(BIN)/python benchmarks/run.py
 
 check: lint test coverage ## all that must pass before a change lands
 
 clean: ## remove what was made
-	rm -rf .venv build dist .coverage .hypothesis .pytest_cache .mypy_cache .ruff_cache
+	rm -rf .venv benchmarks/.venv build dist .coverage .hypothesis .pytest_cache .mypy_cache .ruff_cache

@@ -1,19 +1,26 @@
 """A scene as other renderers want it: seen from the eye."""
 
 import math
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Iterator
+from typing import NamedTuple, Protocol
 
 import numpy as np
-from cube import LAMBERT, Cube
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from vtray import Direction, Scene, Sphere, Vector
+from vtray import Direction, Plane, Scene, Sphere, Vector
 from vtray.camera import camera_axes
-from vtray.scene import Object
 from vtray.vector import Vec, dot, scale, sub
 
 CHUNK = 1 << 16
+
+
+class Spheres(Protocol):
+    """Spheres as a scene has them by the million: an array of each, or one value for all."""
+
+    center: NDArray[np.floating]
+    radius: ArrayLike
+    color: ArrayLike
+    lambert: float
 
 
 class Surface(NamedTuple):
@@ -51,6 +58,20 @@ class Cloud(NamedTuple):
     color: NDArray[np.uint8]
     lambert: float
 
+    def formatted(self, line: str) -> Iterator[str]:
+        """Write a line for each sphere, many at a time.
+
+        Parameters
+        ----------
+        line
+            Its text, with places for the centre, the radius and the reflectance from 0 to 1.
+        """
+        for start in range(0, len(self.spheres), CHUNK):
+            part = slice(start, start + CHUNK)
+            color = self.color[part] * (self.lambert / 255)
+            numbers = np.hstack([self.spheres[part], color])
+            yield line * len(numbers) % tuple(numbers.ravel().tolist())
+
 
 class View(NamedTuple):
     """A scene in camera space: the eye at the origin, x to the right, y up, z forward.
@@ -80,7 +101,7 @@ class View(NamedTuple):
     clouds: list[Cloud]
 
 
-def view_from_eye(scene: Scene, brightness: float, cubes: Sequence[Cube] = ()) -> View:
+def view_from_eye(scene: Scene, brightness: float) -> View:
     """Turn a scene to where its camera is.
 
     Parameters
@@ -90,8 +111,6 @@ def view_from_eye(scene: Scene, brightness: float, cubes: Sequence[Cube] = ()) -
     brightness
         What to multiply all intensities with. Other renderers have no exposure: 255 divided by
         the largest value of `vtray.Image.linear` makes their pictures as bright as vtray's.
-    cubes
-        Spheres of the scene that are given as arrays.
     """
     camera = scene.camera
     forward = _unit(_triple(camera.normal))
@@ -101,7 +120,7 @@ def view_from_eye(scene: Scene, brightness: float, cubes: Sequence[Cube] = ()) -
     def turn(vector: Vec) -> Vec:
         return dot(vector, right), -dot(vector, down), dot(vector, forward)
 
-    def surface(item: Object) -> Surface:
+    def surface(item: Sphere | Plane) -> Surface:
         center = turn(sub(_triple(item.center), eye))
         color = scale(item.lambert / 255, (item.color.r, item.color.g, item.color.b))
         if isinstance(item, Sphere):
@@ -114,20 +133,24 @@ def view_from_eye(scene: Scene, brightness: float, cubes: Sequence[Cube] = ()) -
     ]
     (width, height), (pixel_width, pixel_height) = camera.size, camera.resolution
     pixel = pixel_width / camera.focus, pixel_height / camera.focus
-    surfaces = [surface(item) for item in scene.objects]
+    one_by_one = [item for item in scene.objects if isinstance(item, Sphere | Plane)]
+    surfaces = [surface(item) for item in one_by_one]
+    many = [item for item in scene.objects if not isinstance(item, Sphere | Plane)]
     axes = np.array([right, scale(-1, down), forward])
-    clouds = [_cloud(cube, axes, np.array(eye)) for cube in cubes]
+    clouds = [_cloud(spheres, axes, np.array(eye)) for spheres in many]
     return View(int(width), int(height), *pixel, lights, surfaces, clouds)
 
 
-def _cloud(cube: Cube, axes: NDArray[np.float64], eye: NDArray[np.float64]) -> Cloud:
+def _cloud(given: Spheres, axes: NDArray[np.float64], eye: NDArray[np.float64]) -> Cloud:
     """Turn spheres to where the camera is."""
-    spheres = np.empty((len(cube.center), 4), np.float32)
-    spheres[:, 3] = cube.radius
-    for start in range(0, len(spheres), CHUNK):
+    count = len(given.center)
+    spheres = np.empty((count, 4), np.float32)
+    spheres[:, 3] = given.radius
+    for start in range(0, count, CHUNK):
         part = slice(start, start + CHUNK)
-        spheres[part, :3] = (cube.center[part] - eye) @ axes.T
-    return Cloud(spheres, cube.color, LAMBERT)
+        spheres[part, :3] = (given.center[part] - eye) @ axes.T
+    color = np.broadcast_to(np.asarray(given.color, np.uint8), (count, 3))
+    return Cloud(spheres, color, float(given.lambert))
 
 
 def _towards_eye(normal: Vec, point: Vec) -> Vec:

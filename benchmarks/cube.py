@@ -19,7 +19,6 @@ Json = dict[str, Any]
 
 SEED = 1000
 SIDE = 1024
-LAMBERT = 1.0
 FIELD_OF_VIEW_DEGREES = 40
 FLOOR = 1.1
 """How far below the middle of the cube the floor is; y points down."""
@@ -40,11 +39,14 @@ class Cube(NamedTuple):
         The radius of them all. It shrinks so that they always fill a twelfth of the cube.
     color
         Their colours, (n, 3), from 0 to 255.
+    lambert
+        The Lambert coefficient of them all.
     """
 
     center: NDArray[np.float32]
     radius: float
     color: NDArray[np.uint8]
+    lambert: float
 
 
 def make_cube(count: int) -> Cube:
@@ -54,7 +56,7 @@ def make_cube(count: int) -> Cube:
     center *= 2
     center -= 1
     color = generator.integers(0, 256, (count, 3), dtype=np.uint8)
-    return Cube(center, 0.56 * max(count, 1) ** (-1 / 3), color)
+    return Cube(center, 0.56 * max(count, 1) ** (-1 / 3), color, 1.0)
 
 
 def scene_around(objects: list[Json], side: int = SIDE) -> Json:
@@ -86,14 +88,14 @@ def write_cube(count: int, folder: Path, side: int = SIDE) -> Path:
     """Write the scene file and the arrays beside it; return the scene file."""
     cube = make_cube(count)
     data = folder / f"cube-{count}.npz"
-    np.savez(data, center=cube.center, radius=cube.radius, color=cube.color, lambert=LAMBERT)
+    np.savez(data, **cube._asdict())
     scene = data.with_suffix(".json")
     scene.write_text(json.dumps(scene_around([{"type": "spheres", "data": data.name}], side)))
     return scene
 
 
-def write_list(count: int, folder: Path, side: int = SIDE) -> Path:
-    """Write the same scene with an object for each sphere; return the scene file."""
+def list_text(count: int, side: int = SIDE) -> str:
+    """Return the same scene with an object for each sphere."""
     cube = make_cube(count)
     spheres = [
         {
@@ -101,13 +103,11 @@ def write_list(count: int, folder: Path, side: int = SIDE) -> Path:
             "center": _xyz(center),
             "radius": cube.radius,
             "color": dict(zip("rgb", color, strict=True)),
-            "lambert": LAMBERT,
+            "lambert": cube.lambert,
         }
         for center, color in zip(cube.center.tolist(), cube.color.tolist(), strict=True)
     ]
-    scene = folder / f"list-{count}.json"
-    scene.write_text(json.dumps(scene_around(spheres, side)))
-    return scene
+    return json.dumps(scene_around(spheres, side))
 
 
 def _xyz(numbers: Iterable[float]) -> Json:

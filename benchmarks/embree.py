@@ -1,51 +1,60 @@
 """Embree: how it is given a scene, run and timed, by a small program of ours."""
 
-import struct
+import atexit
+import functools
+import shutil
+import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
-from camera_space import Cloud, Surface, View
-from numpy.typing import NDArray
+import host
+from peer import Peer, answer
 
-MAGIC = b"VTS1"
-
-
-def write_scene(view: View, path: Path) -> None:
-    """Write a scene as `embree_spheres.cpp` reads it: numbers of 4 bytes, then colours of 3."""
-    balls = [surface for surface in view.surfaces if not isinstance(surface.shape, tuple)]
-    clouds = [_cloud(balls), *view.clouds] if balls else view.clouds
-    planes = [_plane(surface) for surface in view.surfaces if isinstance(surface.shape, tuple)]
-    lights = [(*place, power) for place, power in view.lights]
-    counts = len(planes), len(lights), sum(len(cloud.spheres) for cloud in clouds)
-    lambert = clouds[0].lambert if clouds else 1.0
-    if any(cloud.lambert != lambert for cloud in clouds):
-        raise ValueError("all spheres must have the same Lambert coefficient")
-    sizes = view.pixel_width, view.pixel_height, lambert
-    with path.open("wb") as file:
-        file.write(
-            struct.pack("<4s5i3f3i", MAGIC, view.width, view.height, *counts, *sizes, 0, 0, 0)
-        )
-        file.write(np.array(planes, "<f4").tobytes())
-        file.write(np.array(lights, "<f4").tobytes())
-        for cloud in clouds:
-            cloud.spheres.tofile(file)
-        for cloud in clouds:
-            cloud.color.tofile(file)
+SOURCE = Path(__file__).with_name("embree_spheres.cpp")
+COMPILER = ("g++", "-std=c++17", "-O3", "-march=native", "-mprefer-vector-width=512")
+# Not -ffast-math: rays go to infinity.
+FLAGS = ("-fno-math-errno", "-fno-trapping-math", "-fopenmp-simd")
+LIBRARIES = ("-lembree3", "-lz", "-lpthread")
 
 
-def _plane(surface: Surface) -> list[float]:
-    """Return the unit normal of a plane, its product with a point of it, and the colour."""
-    normal = np.array(surface.shape)
-    return [*normal, float(normal @ surface.center), *(255 * c for c in surface.color), 0.0]
+@functools.cache
+def program() -> str | None:
+    """Compile our program; return it, or None if the compiler or Embree is not there."""
+    folder = tempfile.mkdtemp(prefix="vtray-embree-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    path = str(Path(folder) / "embree_spheres")
+    done = answer([*COMPILER, *FLAGS, str(SOURCE), "-o", path, *LIBRARIES])
+    return None if done is None else path
 
 
-def _cloud(balls: list[Surface]) -> Cloud:
-    """Return spheres as arrays; their colours are rounded to 8 bits."""
-    spheres = np.array([(*ball.center, ball.shape) for ball in balls], np.float32)
-    color = np.array([ball.color for ball in balls])
-    return Cloud(spheres, np.rint(255 * color).astype(np.uint8), 1.0)
+def version() -> str | None:
+    """Return the version, or None if it is not installed."""
+    path = program()
+    found = answer([path, "--version"]) if path else None
+    return found.split()[1] if found else None
 
 
-def read_colors(cloud: Cloud) -> NDArray[np.float32]:
-    """Return reflectances from 0 to 1."""
-    return cloud.color * np.float32(cloud.lambert / 255)
+def _command(*words: str) -> Callable[[Path, Path, int, tuple[int, int]], list[str]]:
+    """Return what makes the command that renders a scene file."""
+
+    def command(scene: Path, picture: Path, threads: int, _size: tuple[int, int]) -> list[str]:
+        return [str(program()), "-t", str(threads), *words, str(scene), str(picture)]
+
+    return command
+
+
+def _peer(name: str, words: tuple[str, ...], how: str) -> Peer:
+    return Peer(
+        name=name,
+        version=version,
+        write_scene=host.write_scene,
+        command=_command(*words),
+        phases=host.phases,
+        options=f"{how}; {' '.join(COMPILER)}",
+        most_spheres=10_000_000,
+    )
+
+
+PACKETS = _peer("Embree", (), "rtcIntersect16, coherent; spheres are geometry of ours")
+SINGLE = _peer("Embree, single rays", ("--single",), "rtcIntersect1; spheres are geometry of ours")
+OWN = _peer("Embree, its own spheres", ("--own",), "rtcIntersect16, coherent; SPHERE_POINT")

@@ -1,20 +1,14 @@
 // Renders spheres and planes with Embree: the host of a peer beside which vtray is measured.
 //
-//     embree_spheres [-t THREADS] [--single] SCENE OUTPUT
+//     embree_spheres [-t THREADS] [--single] [--own] SCENE OUTPUT
 //
-// SCENE is the file that embree.py writes; OUTPUT is a PNG. What took how long goes to standard
-// output. Planes are intersected here, without Embree, and block a light only where they can: a hit
-// is seen from the eye, so a plane can only come between it and a light on the plane's other side.
+// SCENE is a file as host_scene.py describes it; OUTPUT is a PNG. Rays go in packets of 16, or
+// single; spheres are geometry of ours, or Embree's own. What took how long goes to standard output.
+// Planes are intersected here, without Embree; they block no light.
 //
 // Camera space: the eye at the origin, x to the right, y up, z forward.
 
-#include <embree3/rtcore.h>
-#include <fcntl.h>
 #include <pmmintrin.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <atomic>
@@ -24,51 +18,29 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "embree_geometry.h"
+#include "host_picture.h"
+#include "host_scene.h"
+
 namespace {
 
 constexpr int TILE = 32;
-constexpr int SIDE = 4;               // a packet is 4 x 4 pixels
+constexpr int SIDE = 4;  // a packet is 4 x 4 pixels
 constexpr int LANES = SIDE * SIDE;
-constexpr float NEAR = 1e-4F;         // where a shadow ray starts: rounding, with room to spare
-constexpr float BEYOND = std::numeric_limits<float>::infinity();
+constexpr float NEAR = 1e-4F;  // where a shadow ray starts: rounding, with room to spare
 
-struct Header {
-    char magic[4];
-    int32_t width, height, planes, lights, spheres;
-    float pixel_width, pixel_height, lambert;
-    int32_t unused[3];
-};
-
-struct Plane {
-    float x, y, z, offset, r, g, b, unused;  // the unit normal, its product with a point, the colour
-};
-
-struct Light {
-    float x, y, z, intensity;
-};
-
-struct Sphere {
-    float x, y, z, radius;
-};
-
-struct Scene {
-    const Header* header;
-    const Plane* planes;
-    const Light* lights;
-    const Sphere* spheres;
-    const uint8_t* colors;
-    std::vector<std::vector<int>> blockers;  // for each light, the planes between it and the eye
+struct Scene : HostScene {
     RTCScene embree;
 };
 
 struct Options {
     int threads = 1;
     bool single = false;
+    bool own = false;
     const char* scene = nullptr;
     const char* output = nullptr;
 };
@@ -82,69 +54,16 @@ struct alignas(64) Hits {
     float sum[LANES];  // of cosine times intensity over all lights
 };
 
-[[noreturn]] void fail(const std::string& message) {
-    std::fprintf(stderr, "Error: %s\n", message.c_str());
-    std::exit(1);
-}
-
 double now() {
     using namespace std::chrono;
     return duration<double>(steady_clock::now().time_since_epoch()).count();
 }
 
-// ---------------------------------------------------------------------------------- the scene file
-
-Scene load(const char* path) {
-    const int file = open(path, O_RDONLY);
-    struct stat info{};
-    if (file < 0 || fstat(file, &info) != 0) fail(std::string(path) + ": cannot be read");
-    void* data = mmap(nullptr, info.st_size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file, 0);
-    close(file);
-    if (data == MAP_FAILED) fail(std::string(path) + ": cannot be mapped");
-
-    Scene scene{};
-    scene.header = static_cast<const Header*>(data);
-    if (std::memcmp(scene.header->magic, "VTS1", 4) != 0) fail(std::string(path) + ": not a scene");
-    scene.planes = reinterpret_cast<const Plane*>(scene.header + 1);
-    scene.lights = reinterpret_cast<const Light*>(scene.planes + scene.header->planes);
-    scene.spheres = reinterpret_cast<const Sphere*>(scene.lights + scene.header->lights);
-    scene.colors = reinterpret_cast<const uint8_t*>(scene.spheres + scene.header->spheres);
-
-    // The eye is at the origin, where every plane's distance is minus its offset.
-    scene.blockers.resize(scene.header->lights);
-    for (int i = 0; i < scene.header->lights; i++) {
-        const Light& light = scene.lights[i];
-        for (int j = 0; j < scene.header->planes; j++) {
-            const Plane& plane = scene.planes[j];
-            const float side =
-                plane.x * light.x + plane.y * light.y + plane.z * light.z - plane.offset;
-            if (side * -plane.offset < 0) scene.blockers[i].push_back(j);
-        }
-    }
-    return scene;
-}
-
-// The quality of the build and the flags of the scene are left as they are: others were tried, and
-// are no faster with spheres.
-RTCScene build(const Scene& scene, RTCDevice device) {
-    const RTCScene embree = rtcNewScene(device);
-    if (scene.header->spheres > 0) {
-        const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
-        rtcSetSharedGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, scene.spheres, 0,
-            sizeof(Sphere), scene.header->spheres);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(embree, geometry);
-        rtcReleaseGeometry(geometry);
-    }
-    rtcCommitScene(embree);
-    return embree;
-}
-
-// ------------------------------------------------------------------------------------ single rays
+// ------------------------------------------------------------------------------------------- hits
 
 // What a ray met: the nearest sphere as Embree found it, or a plane that is nearer.
-void settle(const Scene& scene, const float* direction, float t, unsigned sphere, Hits& hits, int i) {
+void settle(
+    const Scene& scene, const float* direction, float t, unsigned sphere, Hits& hits, int i) {
     const float dx = direction[0], dy = direction[1], dz = direction[2];
     int nearest = sphere == RTC_INVALID_GEOMETRY_ID ? -2 : -1;
     for (int j = 0; j < scene.header->planes; j++) {
@@ -185,17 +104,7 @@ void settle(const Scene& scene, const float* direction, float t, unsigned sphere
     }
 }
 
-bool plane_blocks(const Scene& scene, int light, const Hits& hits, int i, const float* d, float far) {
-    for (const int j : scene.blockers[light]) {
-        if (j == hits.plane[i]) continue;
-        const Plane& plane = scene.planes[j];
-        const float above = plane.x * hits.x[i] + plane.y * hits.y[i] + plane.z * hits.z[i];
-        const float at =
-            (plane.offset - above) / (plane.x * d[0] + plane.y * d[1] + plane.z * d[2]);
-        if (at > NEAR && at < far) return true;
-    }
-    return false;
-}
+// ------------------------------------------------------------------------------------ single rays
 
 void trace_single(const Scene& scene, int column, int row, Hits& hits) {
     RTCIntersectContext context;
@@ -228,7 +137,7 @@ void trace_single(const Scene& scene, int column, int row, Hits& hits) {
         const float cosine =
             hits.normal_x[0] * d[0] + hits.normal_y[0] * d[1] + hits.normal_z[0] * d[2];
         const float far = squared * shrink;
-        if (cosine <= 0 || plane_blocks(scene, k, hits, 0, d, far)) continue;
+        if (cosine <= 0) continue;
         RTCRay shadow{};
         shadow.org_x = hits.x[0];
         shadow.org_y = hits.y[0];
@@ -290,7 +199,8 @@ void trace_packet(const Scene& scene, int left, int top, Hits& hits) {
         int lit = 0;
 #pragma omp simd reduction(| : lit)
         for (int i = 0; i < LANES; i++) {
-            const float dx = light.x - hits.x[i], dy = light.y - hits.y[i], dz = light.z - hits.z[i];
+            const float dx = light.x - hits.x[i], dy = light.y - hits.y[i];
+            const float dz = light.z - hits.z[i];
             const float squared = dx * dx + dy * dy + dz * dz;
             const float shrink = 1.0F / std::sqrt(squared);
             shadow.org_x[i] = hits.x[i];
@@ -307,12 +217,6 @@ void trace_packet(const Scene& scene, int left, int top, Hits& hits) {
             lit |= valid[i];
         }
         if (!lit) continue;
-        if (!scene.blockers[k].empty()) {
-            for (int i = 0; i < LANES; i++) {
-                const float d[3] = {shadow.dir_x[i], shadow.dir_y[i], shadow.dir_z[i]};
-                if (plane_blocks(scene, k, hits, i, d, shadow.tfar[i])) valid[i] = 0;
-            }
-        }
         rtcOccluded16(valid, scene.embree, &context, &shadow);
 #pragma omp simd
         for (int i = 0; i < LANES; i++) {
@@ -322,26 +226,13 @@ void trace_packet(const Scene& scene, int left, int top, Hits& hits) {
     }
 }
 
-// ------------------------------------------------------------------------------------- the picture
-
-// Rows of pixels as a PNG has them: each begins with a byte that says how it is filtered.
-struct Picture {
-    int width, height;
-    size_t stride;
-    std::vector<uint8_t> bytes;
-
-    Picture(int width, int height)
-        : width(width), height(height), stride(1 + 3 * static_cast<size_t>(width)),
-          bytes(stride * height) {}
-
-    void set(int column, int row, const Hits& hits, int i) {
-        if (column >= width || row >= height || hits.plane[i] == -2) return;
-        uint8_t* pixel = &bytes[stride * row + 1 + 3 * static_cast<size_t>(column)];
-        pixel[0] = static_cast<uint8_t>(std::min(255.0F, hits.r[i] * hits.sum[i]));
-        pixel[1] = static_cast<uint8_t>(std::min(255.0F, hits.g[i] * hits.sum[i]));
-        pixel[2] = static_cast<uint8_t>(std::min(255.0F, hits.b[i] * hits.sum[i]));
-    }
-};
+void develop(const Hits& hits, int i, Picture& picture, int column, int row) {
+    if (column >= picture.width || row >= picture.height || hits.plane[i] == -2) return;
+    uint8_t* pixel = picture.at(column, row);
+    pixel[0] = static_cast<uint8_t>(std::min(255.0F, hits.r[i] * hits.sum[i]));
+    pixel[1] = static_cast<uint8_t>(std::min(255.0F, hits.g[i] * hits.sum[i]));
+    pixel[2] = static_cast<uint8_t>(std::min(255.0F, hits.b[i] * hits.sum[i]));
+}
 
 void trace_tile(const Scene& scene, bool single, int left, int top, Picture& picture) {
     Hits hits{};
@@ -352,12 +243,12 @@ void trace_tile(const Scene& scene, bool single, int left, int top, Picture& pic
         for (int column = left; column < right; column += side) {
             if (single) {
                 trace_single(scene, column, row, hits);
-                picture.set(column, row, hits, 0);
+                develop(hits, 0, picture, column, row);
                 continue;
             }
             trace_packet(scene, column, row, hits);
             for (int i = 0; i < LANES; i++)
-                picture.set(column + i % SIDE, row + i / SIDE, hits, i);
+                develop(hits, i, picture, column + i % SIDE, row + i / SIDE);
         }
     }
 }
@@ -378,50 +269,6 @@ void trace(const Scene& scene, const Options& options, Picture& picture) {
     for (std::thread& worker : workers) worker.join();
 }
 
-void put(std::vector<uint8_t>& out, uint32_t value) {
-    for (int shift = 24; shift >= 0; shift -= 8) out.push_back(value >> shift);
-}
-
-void chunk(FILE* file, const char* type, const std::vector<uint8_t>& data) {
-    std::vector<uint8_t> length, sum;
-    put(length, data.size());
-    uLong crc = crc32(0, reinterpret_cast<const Bytef*>(type), 4);
-    if (!data.empty()) crc = crc32(crc, data.data(), data.size());
-    put(sum, crc);
-    std::fwrite(length.data(), 1, 4, file);
-    std::fwrite(type, 1, 4, file);
-    std::fwrite(data.data(), 1, data.size(), file);
-    std::fwrite(sum.data(), 1, 4, file);
-}
-
-// A PNG without compression, which is the fastest to write.
-void write(const Picture& picture, const char* path) {
-    FILE* file = std::fopen(path, "wb");
-    if (!file) fail(std::string(path) + ": cannot be written");
-    std::vector<uint8_t> header;
-    put(header, picture.width);
-    put(header, picture.height);
-    for (const int value : {8, 2, 0, 0, 0}) header.push_back(value);
-
-    constexpr size_t BLOCK = 65535;
-    const std::vector<uint8_t>& bytes = picture.bytes;
-    std::vector<uint8_t> data{0x78, 0x01};
-    data.reserve(bytes.size() + bytes.size() / 1000 + 64);
-    for (size_t i = 0; i < bytes.size(); i += BLOCK) {
-        const size_t size = std::min(BLOCK, bytes.size() - i);
-        data.push_back(i + size == bytes.size());
-        for (const size_t value : {size, size >> 8, ~size, ~size >> 8}) data.push_back(value);
-        data.insert(data.end(), bytes.begin() + i, bytes.begin() + i + size);
-    }
-    put(data, adler32(adler32(0, nullptr, 0), bytes.data(), bytes.size()));
-
-    std::fwrite("\x89PNG\r\n\x1a\n", 1, 8, file);
-    chunk(file, "IHDR", header);
-    chunk(file, "IDAT", data);
-    chunk(file, "IEND", {});
-    if (std::fclose(file) != 0) fail(std::string(path) + ": cannot be written");
-}
-
 Options parse(int count, char** arguments) {
     Options options;
     for (int i = 1; i < count; i++) {
@@ -431,6 +278,8 @@ Options parse(int count, char** arguments) {
             options.threads = std::max(1, std::atoi(arguments[++i]));
         } else if (word == "--single") {
             options.single = true;
+        } else if (word == "--own") {
+            options.own = true;
         } else if (!options.scene) {
             options.scene = arguments[i];
         } else {
@@ -451,11 +300,11 @@ int main(int count, char** arguments) {
     if (!options.output) fail("usage: embree_spheres [options] SCENE OUTPUT");
 
     const double start = now();
-    Scene scene = load(options.scene);
+    Scene scene{load(options.scene), nullptr};
     const double loaded = now();
     const std::string threads = "threads=" + std::to_string(options.threads);
     const RTCDevice device = rtcNewDevice(threads.c_str());
-    scene.embree = build(scene, device);
+    scene.embree = build(scene, device, options.own);
     if (rtcGetDeviceError(device) != RTC_ERROR_NONE) fail("Embree cannot build this scene");
     const double built = now();
     Picture picture(scene.header->width, scene.header->height);

@@ -7,13 +7,15 @@ from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 
-from peers import PEERS, describe
+from peers import CUBE_PEERS, describe
 
 CPU_INFO = Path("/proc/cpuinfo")
 
 
 def machine() -> dict[str, str]:
     """Return name and value of all that bears on the numbers."""
+    # "OVITO, Tachyon" is OVITO.
+    by_package = {peer.name.split(",")[0]: peer for peer in CUBE_PEERS}
     return {
         "date": datetime.now(UTC).strftime("%Y-%m-%d"),
         "processor": f"{_processor()}, {cores()} cores",
@@ -22,7 +24,7 @@ def machine() -> dict[str, str]:
         "Python": platform.python_version(),
         "vtray": version("vtray"),
         "Numba": version("numba"),
-        **{peer.NAME: describe(peer) for peer in PEERS},
+        **{name: describe(peer) for name, peer in by_package.items()},
     }
 
 

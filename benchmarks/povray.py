@@ -1,45 +1,62 @@
 """POV-Ray: how it is given a scene, run and timed."""
 
+import itertools
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
-from camera_space import Surface, View
+from camera_space import Cloud, Surface, View
+from measure import Phases, seconds_after
+from peer import Peer, answer
 
 from vtray.vector import Vec
 
-NAME = "POV-Ray"
-EXECUTABLE = "povray"
-ENDING = ".pov"
-COLUMN = 0
-"""Which of vtray's columns its first one is."""
 # No display, no antialiasing, no progress; linear light in the file, as vtray writes it.
-OPTIONS: tuple[str, ...] = ("-D", "-A", "-V", "+FN", "File_Gamma=1")
+OPTIONS = ("-D", "-A", "-V", "+FN", "File_Gamma=1")
 
 
 def command(scene: Path, picture: Path, threads: int, size: tuple[int, int]) -> list[str]:
     """Return the command that renders a scene file."""
     width, height = size
     files = [f"+I{scene}", f"+O{picture}", f"+W{width}", f"+H{height}"]
-    return [EXECUTABLE, *OPTIONS, *files, f"+WT{threads}"]
+    return ["povray", *OPTIONS, *files, f"+WT{threads}"]
+
+
+def phases(output: str) -> Phases:
+    """Return the seconds that POV-Ray says its steps took, from what it printed."""
+    return Phases(*(_seconds(step, output) for step in ("Parse", "Bounding", "Trace")))
 
 
 def trace_seconds(output: str) -> float:
     """Return the seconds that POV-Ray says it traced rays, from what it printed."""
-    found = re.search(r"Trace Time:.*\(([0-9.]+) seconds\)", output)
-    return float(found[1]) if found else float("nan")
+    return phases(output).trace
 
 
-def version(output: str) -> str:
-    """Return the version, from what ``--version`` prints."""
-    found = re.search(r"POV-Ray ([0-9.]*[0-9])", output)
-    return found[1] if found else "of unknown version"
+def _seconds(step: str, output: str) -> float:
+    return seconds_after(rf"{step} Time:.*\(([0-9.]+) seconds\)", output)
 
 
-VERSION_OPTION = "--version"
+def version() -> str | None:
+    """Return the version, or None if it is not installed."""
+    found = re.search(r"POV-Ray ([0-9.]*[0-9])", answer(["povray", "--version"]) or "")
+    return found[1] if found else None
+
+
+def write_scene(view: View, folder: Path) -> Path:
+    """Write a scene into a folder."""
+    path = folder / "scene.pov"
+    with path.open("w") as file:
+        file.writelines(_parts(view))
+    return path
 
 
 def export(view: View) -> str:
-    """Write a scene in POV-Ray's language."""
+    """Return a scene in POV-Ray's language."""
+    return "".join(_parts(view))
+
+
+def _parts(view: View) -> Iterator[str]:
+    """Write a scene, many lines at a time."""
     lines = [
         "#version 3.7;",
         "global_settings { assumed_gamma 1 }",
@@ -48,7 +65,13 @@ def export(view: View) -> str:
         *(f"light_source {{ {_vector(place)}, rgb {power!r} }}" for place, power in view.lights),
         *(_object(surface) for surface in view.surfaces),
     ]
-    return "\n".join(lines) + "\n"
+    yield "\n".join(lines) + "\n"
+    yield from itertools.chain.from_iterable(map(_cloud, view.clouds))
+
+
+def _cloud(cloud: Cloud) -> Iterator[str]:
+    line = "sphere { <%r, %r, %r>, %r pigment { rgb <%r, %r, %r> } }\n"
+    return cloud.formatted(line)
 
 
 def _camera(view: View) -> str:
@@ -73,3 +96,13 @@ def _object(surface: Surface) -> str:
 
 def _vector(vector: Vec) -> str:
     return "<{!r}, {!r}, {!r}>".format(*vector)
+
+
+PEER = Peer(
+    name="POV-Ray",
+    version=version,
+    write_scene=write_scene,
+    command=command,
+    phases=phases,
+    options=" ".join(OPTIONS),
+)

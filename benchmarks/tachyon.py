@@ -1,44 +1,59 @@
 """Tachyon: how it is given a scene, run and timed."""
 
+import itertools
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
-from camera_space import Surface, View
+from camera_space import Cloud, Surface, View
+from measure import Phases, seconds_after
+from peer import Peer, answer
 
 from vtray.vector import Vec
 
-NAME = "Tachyon"
-EXECUTABLE = "tachyon"
-ENDING = ".dat"
-COLUMN = 1
-"""Which of vtray's columns its first one is: its rays go through the right edges of pixels."""
-OPTIONS: tuple[str, ...] = ("-fullshade", "-aasamples", "0", "-format", "PNG")
+OPTIONS = ("-fullshade", "-aasamples", "0", "-format", "PNG")
 
 
 def command(scene: Path, picture: Path, threads: int, size: tuple[int, int]) -> list[str]:
     """Return the command that renders a scene file."""
     width, height = map(str, size)
     files = [str(scene), "-o", str(picture), "-res", width, height]
-    return [EXECUTABLE, *files, *OPTIONS, "-numthreads", str(threads)]
+    return ["tachyon", *files, *OPTIONS, "-numthreads", str(threads)]
+
+
+def phases(output: str) -> Phases:
+    """Return the seconds that Tachyon says its steps took, from what it printed."""
+    steps = ("Scene Parsing", "Preprocessing", "Ray Tracing")
+    return Phases(*(seconds_after(rf"{step} Time: *([0-9.]+) seconds", output) for step in steps))
 
 
 def trace_seconds(output: str) -> float:
     """Return the seconds that Tachyon says it traced rays, from what it printed."""
-    found = re.search(r"Ray Tracing Time: *([0-9.]+) seconds", output)
-    return float(found[1]) if found else float("nan")
+    return phases(output).trace
 
 
-def version(output: str) -> str:
-    """Return the version, from what ``-version`` prints."""
-    found = re.search(r"[0-9]+\.[0-9.]*[0-9]", output)
-    return found[0] if found else "of unknown version"
+def version() -> str | None:
+    """Return the version, or None if it is not installed."""
+    # Some builds end with an error although they answer.
+    found = re.search(r"[0-9]+\.[0-9.]*[0-9]", answer(["tachyon", "-version"], (0, 255)) or "")
+    return found[0] if found else None
 
 
-VERSION_OPTION = "-version"
+def write_scene(view: View, folder: Path) -> Path:
+    """Write a scene into a folder."""
+    path = folder / "scene.dat"
+    with path.open("w") as file:
+        file.writelines(_parts(view))
+    return path
 
 
 def export(view: View) -> str:
-    """Write a scene in Tachyon's language."""
+    """Return a scene in Tachyon's language."""
+    return "".join(_parts(view))
+
+
+def _parts(view: View) -> Iterator[str]:
+    """Write a scene, many lines at a time."""
     lines = [
         "BEGIN_SCENE",
         f"RESOLUTION {view.width} {view.height}",
@@ -46,9 +61,15 @@ def export(view: View) -> str:
         "BACKGROUND 0.0 0.0 0.0",
         *(_light(place, power) for place, power in view.lights),
         *(line for i, surface in enumerate(view.surfaces) for line in _object(surface, f"look{i}")),
-        "END_SCENE",
     ]
-    return "\n".join(lines) + "\n"
+    yield "\n".join(lines) + "\n"
+    yield from itertools.chain.from_iterable(map(_cloud, view.clouds))
+    yield "END_SCENE\n"
+
+
+def _cloud(cloud: Cloud) -> Iterator[str]:
+    look = "TEXTURE AMBIENT 0 DIFFUSE 1 SPECULAR 0 OPACITY 1 COLOR %r %r %r TEXFUNC 0"
+    return cloud.formatted(f"SPHERE CENTER %r %r %r RAD %r {look}\n")
 
 
 def _camera(view: View) -> list[str]:
@@ -82,3 +103,14 @@ def _object(surface: Surface, look: str) -> list[str]:
 
 def _vector(vector: Vec) -> str:
     return "{!r} {!r} {!r}".format(*vector)
+
+
+PEER = Peer(
+    name="Tachyon",
+    version=version,
+    write_scene=write_scene,
+    command=command,
+    phases=phases,
+    options=" ".join(OPTIONS),
+    column=1,  # its rays go through the right edges of pixels
+)
