@@ -1,12 +1,20 @@
 """The results as Markdown, and the table in the README."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import same_picture
 import vtray_process
-from measure import Spread, Timing, in_seconds
-from peers import PEERS
+from cube_report import (
+    cube_table,
+    cube_threads_table,
+    growth_table,
+    own_timing,
+    programs_table,
+)
+from markdown import ratio, table
+from measure import Timing, in_seconds
+from peers import CUBE_PEERS, PEERS
 from rendering import Row
 
 BEGIN = "<!-- benchmark:begin -->"
@@ -29,6 +37,12 @@ class Results:
         For each scene, by what it is, the times of all renderers.
     threads
         For numbers of threads, vtray's times for the first scene.
+    cube
+        As `scenes`, for a cube of many spheres.
+    cube_threads
+        As `threads`, for this cube.
+    scaling
+        For numbers of spheres in the cube, the times of all renderers with one thread.
     """
 
     machine: dict[str, str]
@@ -36,6 +50,9 @@ class Results:
     startup: dict[str, Timing] = field(default_factory=dict)
     scenes: dict[str, list[Row]] = field(default_factory=dict)
     threads: dict[int, Timing] = field(default_factory=dict)
+    cube: dict[str, list[Row]] = field(default_factory=dict)
+    cube_threads: dict[int, Timing] = field(default_factory=dict)
+    scaling: dict[int, list[Row]] = field(default_factory=dict)
 
 
 def full_report(results: Results) -> str:
@@ -47,7 +64,7 @@ def full_report(results: Results) -> str:
             f"Seconds are the median of {results.repeats} runs, with the least and the most in "
             "brackets."
         ),
-        _table(("", ""), results.machine.items()),
+        table(("", ""), results.machine.items()),
     ]
     if results.startup:
         parts += ["## Start-up", _startup_table(results.startup)]
@@ -55,15 +72,22 @@ def full_report(results: Results) -> str:
         parts += ["## Scenes", _scene_table(results.scenes), _conditions()]
     if results.threads:
         parts += ["## Threads", "The room, with vtray.", _thread_table(results.threads)]
+    if results.cube_threads:
+        parts += ["The cube, with vtray.", cube_threads_table(results.cube_threads)]
+    if results.cube:
+        parts += ["## A cube of many spheres", cube_table(results.cube), _cube_conditions()]
+    if results.scaling:
+        parts += ["## More and more spheres", _SCALING_NOTE, growth_table(results.scaling)]
+        parts += [_PROGRAMS_NOTE, programs_table(results.scaling)]
     return "\n\n".join(parts) + "\n"
 
 
 def summary(results: Results) -> str:
     """Write the table for the README: seconds of each whole process, and of tracing alone."""
-    programs = [vtray_process.NAME, *(peer.NAME for peer in PEERS)]
+    programs = [vtray_process.NAME, *(peer.name for peer in PEERS)]
     rows = [
         (scene, str(threads), *(_brief(timings.get((program, threads))) for program in programs))
-        for scene, found in results.scenes.items()
+        for scene, found in (results.scenes | results.cube).items()
         for timings in ({(row.program, row.threads): row.timing for row in found},)
         for threads in sorted({row.threads for row in found})
     ]
@@ -74,7 +98,10 @@ def summary(results: Results) -> str:
         "A time is given only where the picture is vtray's. "
         "Spreads, options and start-up: [benchmarks/results.md](benchmarks/results.md)."
     )
-    return _table(("scene", "threads", *headings), rows) + "\n\n" + note
+    shown = [table(("scene", "threads", *headings), rows), note]
+    if results.scaling:
+        shown.append("![Seconds against the number of spheres](docs/images/scaling.png)")
+    return "\n\n".join(shown)
 
 
 def replace_between_markers(text: str, table: str) -> str:
@@ -87,7 +114,7 @@ def replace_between_markers(text: str, table: str) -> str:
 
 def _startup_table(startup: Mapping[str, Timing]) -> str:
     rows = [(name, str(timing.whole), str(timing.inner)) for name, timing in startup.items()]
-    return _table(("process", "seconds", "of which compiling, or loading what was compiled"), rows)
+    return table(("process", "seconds", "of which compiling, or loading what was compiled"), rows)
 
 
 def _scene_table(scenes: Mapping[str, list[Row]]) -> str:
@@ -105,32 +132,17 @@ def _scene_table(scenes: Mapping[str, list[Row]]) -> str:
         for scene, found in scenes.items()
         for row in found
     ]
-    return _table((*headings, "picture off by"), rows)
+    return table((*headings, "picture off by"), rows)
 
 
 def _cells(row: Row, rows: list[Row]) -> tuple[str, str, str, str]:
     """Return the times of a row, and these as multiples of vtray's with as many threads."""
-    if row.timing is None:
+    ours = own_timing(rows, row)
+    if row.timing is None or ours is None:
         return "-", "-", "-", "-"
-    ours = next(
-        item.timing
-        for item in rows
-        if item.program == vtray_process.NAME and item.threads == row.threads
-    )
     whole, inner = row.timing.whole, row.timing.inner
-    ratios = (
-        _ratio(whole, ours.whole if ours else None),
-        _ratio(inner, ours.inner if ours else None),
-    )
+    ratios = ratio(whole.median, ours.whole.median), ratio(inner.median, ours.inner.median)
     return str(whole), str(inner), *ratios
-
-
-def _ratio(theirs: Spread, ours: Spread | None) -> str:
-    """Write how many times as long the others took; below 1, they were faster."""
-    if ours is None:
-        return "-"
-    ratio = theirs.median / ours.median
-    return f"{ratio:.0f}" if ratio >= 10 else f"{ratio:.2f}"
 
 
 def _thread_table(threads: Mapping[int, Timing]) -> str:
@@ -139,12 +151,12 @@ def _thread_table(threads: Mapping[int, Timing]) -> str:
         (str(count), str(timing.inner), f"{one / timing.inner.median:.2f}")
         for count, timing in threads.items()
     ]
-    return _table(("threads", "tracing", "speed-up"), rows)
+    return table(("threads", "tracing", "speed-up"), rows)
 
 
 def _conditions() -> str:
     """Write how the programs were run and what counts as the same picture."""
-    options = "; ".join(f"{peer.NAME} `{' '.join(peer.OPTIONS)}`" for peer in PEERS)
+    options = "; ".join(f"{peer.name} `{peer.options}`" for peer in PEERS)
     mean, share = same_picture.MEAN_TOLERANCE, same_picture.SHARE_TOLERANCE
     far = f"off by more than {same_picture.FAR:g}"
     return f"""\
@@ -159,13 +171,32 @@ def _conditions() -> str:
   edge may run through a neighbouring pixel; a time counts up to {mean:g} and {share:.0%}."""
 
 
+def _cube_conditions() -> str:
+    """Write what the cube's table shows, beyond what is said of all scenes."""
+    options = "".join(f"\n  - {peer.name}: `{peer.options}`" for peer in CUBE_PEERS)
+    return f"""\
+- N spheres with their centres at random in a cube, of a radius that fills a twelfth of it, over a
+  floor, with one light that casts shadows; one ray per pixel.
+- Loading, building and tracing are what the programs report; building is the making of what finds
+  hits fast. What is left of the whole process is start-up and writing the picture.
+- Embree is a library: the program around it is ours, as are the scripts for Mitsuba and OVITO. They
+  read the scene as vtray does, from arrays; Tachyon and POV-Ray read text. Embree has spheres of
+  its own, and is faster with ours.
+- OVITO does not tell building from tracing. It is held to as many cores as it should have threads.
+- Options, besides files, size and threads:{options}"""
+
+
+_SCALING_NOTE = """\
+The cube with vtray on one thread. For each doubling: the factor since the row above, spread over
+the doublings between."""
+
+_PROGRAMS_NOTE = """\
+The cube with one thread: seconds of the whole process, and in brackets of tracing alone. A dash
+stands for a program that is not installed, that needs too much memory, or whose picture is another
+for no known reason."""
+
+
 def _brief(timing: Timing | None) -> str:
     if timing is None:
         return "-"
     return f"{in_seconds(timing.whole.median)} ({in_seconds(timing.inner.median)})"
-
-
-def _table(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Write a table of Markdown."""
-    lines = [headings, ["---"] * len(headings), *rows]
-    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)

@@ -2,27 +2,36 @@
 
     python benchmarks/run.py [--quick] [--only NAME]
 
-Writes benchmarks/results.md and the table in README.md; a partial run only prints.
+Writes benchmarks/results.md, the table in README.md and docs/images/scaling.png; a partial run only
+prints, and draws the picture if it measured what is in it.
 """
 
 import argparse
+import json
 import os
 import sys
 import tempfile
 from pathlib import Path
 
 import startup
+from cube import SIDE, write_cube
 from machine import cores, machine
-from rendering import time_scene, time_threads
+from peers import CUBE_PEERS
+from plot import draw_scaling
+from rendering import THREADS, time_cube, time_scene, time_threads
 from report import Results, full_report, replace_between_markers, summary
 from scenes import SCENES
 
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE / "results.md"
 README = HERE.parent / "README.md"
-PARTS = ("startup", *SCENES, "threads")
+PLOT = HERE.parent / "docs" / "images" / "scaling.png"
+PARTS = ("startup", *SCENES, "threads", "cube", "scaling")
 REPEATS, QUICK_REPEATS = 5, 2
 QUICK_SIDE = 256
+CUBE, QUICK_CUBE = 1_000_000, 10_000
+COUNTS, QUICK_COUNTS = (10_000, 100_000, 1_000_000, 10_000_000), (1_000, 10_000)
+SCALING_REPEATS = 3
 
 
 def main() -> None:
@@ -38,6 +47,8 @@ def main() -> None:
     print(report)
     if versions > 1:
         sys.exit("Error: vtray's sources changed during the run; nothing is written, run it again")
+    if results.scaling and not options.quick:
+        _draw(results)
     if options.quick or options.only:
         return
     RESULTS.write_text(report, encoding="utf-8")
@@ -59,14 +70,35 @@ def measure(folder: Path, parts: list[str], *, quick: bool) -> Results:
             side = min(full_side, QUICK_SIDE) if quick else full_side
             title = f"{description}, {side} x {side}"
             results.scenes[title] = time_scene(make(side), folder, repeats)
+    side = QUICK_SIDE if quick else SIDE
+    spheres = QUICK_CUBE if quick else CUBE
     if "threads" in parts:
         _say("threads")
-        _, make, full_side = SCENES["room"]
         counts = [count for count in (1, 2, 4, 8, 16) if count <= max(cores(), 2)]
-        scene = make(QUICK_SIDE if quick else full_side)
-        timings = time_threads(scene, folder, counts, repeats)
-        results.threads = dict(zip(counts, timings, strict=True))
+        scene = folder / "room.json"
+        scene.write_text(json.dumps(SCENES["room"][1](side)))
+        results.threads = dict(zip(counts, time_threads(scene, counts, repeats), strict=True))
+        scene = write_cube(spheres, folder, side)
+        results.cube_threads = dict(zip(counts, time_threads(scene, counts, repeats), strict=True))
+    if "cube" in parts:
+        title = f"{spheres:,} spheres in a cube over a floor, 1 light, {side} x {side}"
+        _say(title)
+        results.cube[title] = time_cube(spheres, side, CUBE_PEERS, THREADS, folder, repeats)
+    if "scaling" in parts:
+        for count in QUICK_COUNTS if quick else COUNTS:
+            _say(f"{count:,} spheres")
+            peers = [peer for peer in CUBE_PEERS if count <= peer.most_spheres]
+            times = min(repeats, SCALING_REPEATS)
+            results.scaling[count] = time_cube(count, side, peers, (1,), folder, times)
     return results
+
+
+def _draw(results: Results) -> None:
+    """Draw how the time grows, if that can be."""
+    try:
+        draw_scaling(results.scaling, PLOT)
+    except ImportError:
+        print(f"Matplotlib is not installed: {PLOT} stays as it was", file=sys.stderr)
 
 
 def _parse() -> argparse.Namespace:
