@@ -131,13 +131,13 @@ def test_stats(small: Path, capfd: pytest.CaptureFixture[str]) -> None:
 
 def test_stats_of_many_spheres(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     document = one_sphere()
-    document["objects"] = [sphere((k % 10, k // 10, 9), 0.4) for k in range(100)]
+    document["objects"] = [sphere((k % 10, k // 10, 9), 0.4) for k in range(200)]
     path = tmp_path / "scene.json"
     path.write_text(json.dumps(document))
     assert cli.run(["--stats", str(path), str(tmp_path / "a.png")]) == 0
     lines = capfd.readouterr().err.splitlines()
     stats = {line[:12].strip(): line[12:].strip() for line in lines}
-    assert 1 < int(stats["nodes"]) < 100
+    assert 1 < int(stats["nodes"]) < 200
     assert 1 < int(stats["depth"]) < int(stats["nodes"])
     assert stats["hierarchy"] == "0 MB"
 

@@ -168,7 +168,7 @@ def test_unwritable_folder(vtray_command: Command, scene_file: Path) -> None:
 def heavy_scene() -> dict:
     """Return a scene that takes many seconds."""
     spheres = [sphere((k % 50 - 25, k // 50 - 25, 40), 0.6) for k in range(2500)]
-    lights = [light(k - 50, -50, 0, intensity=0.01) for k in range(100)]
+    lights = [light(k / 20 - 50, -50, 0, intensity=0.001) for k in range(2000)]
     return scene([*spheres, plane((0, 0, 60), (0, 0, -1))], lights, size=[2000, 2000])
 
 

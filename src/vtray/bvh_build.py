@@ -52,12 +52,15 @@ class Built(NamedTuple):
         The space of its boxes.
     depth
         How many nodes lie one below the other at the most.
+    largest
+        The largest coordinate or radius.
     """
 
     leaves: Leaves
     bvh: Bvh
     frame: Frame
     depth: int
+    largest: float
 
 
 def build(
@@ -80,12 +83,12 @@ def build(
         Called from time to time with the number of tasks done and the number of all.
     """
     n = len(center)
-    points = Points(center, radius, 0 if len(radius) == 1 else 1, Frame(1.0, (0.0, 0.0, 0.0)))
+    points = Points(center, radius, Frame(1.0, (0.0, 0.0, 0.0)))
     chunks = [(begin, min(begin + CHUNK, n)) for begin in range(0, n, CHUNK)]
     extents: list[Extent] = []
     unframed = pinned(points)
     _run(chunks, lambda chunk: extents.append(find_extent(unframed, *chunk)), threads)
-    points, low, high = _place_in_frame(points, extents)
+    points, low, high, largest = _place_in_frame(points, extents)
 
     shared = pinned(points)
     grid = uncompiled(make_grid)(low, high, max(n - 1, 1).bit_length())
@@ -96,7 +99,7 @@ def build(
 
     leaves = Leaves(np.empty(4 * n), np.empty(n, np.int32))
     bvh, depth = _build_nodes(points, order, leaves, threads, progress)
-    return Built(leaves, bvh, points.frame, depth)
+    return Built(leaves, bvh, points.frame, depth, largest)
 
 
 def _build_nodes(
@@ -179,8 +182,18 @@ def _put_nodes(bvh: Bvh, root: int, part: Bvh) -> None:
     bvh.child[root * WIDTH :][: len(part.child)] = part.child + root * (part.child >= 0)
 
 
-def _place_in_frame(points: Points, extents: list[Extent]) -> tuple[Points, Vec, Vec]:
-    """Return the points with the boxes' space, and the box around their centres in it."""
+def _place_in_frame(points: Points, extents: list[Extent]) -> tuple[Points, Vec, Vec, float]:
+    """Find the space of the boxes.
+
+    Returns
+    -------
+    points
+        The points with that space.
+    low, high
+        The box around their centres in it.
+    largest
+        The largest coordinate or radius in world space.
+    """
     low = np.min([extent.low for extent in extents], axis=0)
     high = np.max([extent.high for extent in extents], axis=0)
     largest = max(-float(low.min()), float(high.max()), *(extent.radius for extent in extents))
@@ -188,7 +201,7 @@ def _place_in_frame(points: Points, extents: list[Extent]) -> tuple[Points, Vec,
     scale = math.ldexp(1.0, -max(math.frexp(largest)[1], -1000))
     middle = low * scale * 0.5 + high * scale * 0.5
     placed = points._replace(frame=Frame(scale, _vec(middle)))
-    return placed, _vec(low * scale - middle), _vec(high * scale - middle)
+    return placed, _vec(low * scale - middle), _vec(high * scale - middle), largest
 
 
 def _vec(array: NDArray[np.float64]) -> Vec:

@@ -46,15 +46,12 @@ class Points(NamedTuple):
         World space, (n, 3), float32 or float64.
     radius
         (n,), or (1,) if all are the same.
-    step
-        0 if all radii are the same, otherwise 1.
     frame
         The space of the boxes.
     """
 
     center: NDArray[np.float64]
     radius: NDArray[np.float64]
-    step: int
     frame: Frame
 
 
@@ -92,11 +89,12 @@ def find_extent(points: Points, begin: int, end: int) -> Extent:
     low = math.inf, math.inf, math.inf
     high = -math.inf, -math.inf, -math.inf
     radius = 0.0
+    last = points.radius.shape[0] - 1
     for k in range(begin, end):
         x, y, z = _center(points, k)
         low = min(low[0], x), min(low[1], y), min(low[2], z)
         high = max(high[0], x), max(high[1], y), max(high[2], z)
-        radius = max(radius, points.radius[k * points.step])
+        radius = max(radius, points.radius[min(k, last)])
     return Extent(low, high, radius)
 
 
@@ -155,8 +153,9 @@ def build_subtree(
         How many there are, and the depth of the deepest.
     """
     used, _, deepest = _split(points, order, begin, end, depth, LEAF, bvh, subtrees, scratch)
+    _gather(points, order, begin, end, leaves)
     for node in range(used - 1, -1, -1):
-        _fill_node(points, order, node, bvh, leaves)
+        _find_boxes(node, bvh, leaves, points.frame)
     return used, deepest
 
 
@@ -164,7 +163,11 @@ def build_subtree(
 def finish_top(points: Points, order: Order, nodes: int, bvh: Bvh, leaves: Leaves) -> None:
     """Set leaves and boxes of the topmost nodes, whose subtrees are built."""
     for node in range(nodes - 1, -1, -1):
-        _fill_node(points, order, node, bvh, leaves)
+        for k in range(node * WIDTH, (node + 1) * WIDTH):
+            if bvh.child[k] < EMPTY:
+                first = ~bvh.child[k] >> COUNT_BITS
+                _gather(points, order, first, first + (~bvh.child[k] & COUNT_MASK), leaves)
+        _find_boxes(node, bvh, leaves, points.frame)
 
 
 @device
@@ -177,8 +180,14 @@ def _center(points: Points, number: int) -> Vec:
 @device
 def _place(points: Points, number: int) -> Vec:
     """Return the centre of a sphere in the boxes' space."""
-    x, y, z = _center(points, number)
-    scale, origin = points.frame.scale, points.frame.origin
+    return _to_frame(_center(points, number), points.frame)
+
+
+@device
+def _to_frame(center: Vec, frame: Frame) -> Vec:
+    """Return a point of world space in the boxes' space."""
+    scale, origin = frame.scale, frame.origin
+    x, y, z = center
     return x * scale - origin[0], y * scale - origin[1], z * scale - origin[2]
 
 
@@ -312,8 +321,23 @@ def _sort_within_cell(points: Points, order: Order, begin: int, end: int) -> Non
 
 
 @device
-def _fill_node(points: Points, order: Order, node: int, bvh: Bvh, leaves: Leaves) -> None:
-    """Set the leaves of a node and its children's boxes, once the nodes below it have theirs."""
+def _gather(points: Points, order: Order, begin: int, end: int, leaves: Leaves) -> None:
+    """Copy a range of spheres to where they belong."""
+    # A loop of its own: most of these loads miss all caches, and the less else there is to do, the
+    # more of them the processor has under way at a time.
+    last = points.radius.shape[0] - 1
+    for slot in range(begin, end):
+        number = key_number(order.keys[slot], order.grid)
+        leaves.data[4 * slot] = points.center[number, 0]
+        leaves.data[4 * slot + 1] = points.center[number, 1]
+        leaves.data[4 * slot + 2] = points.center[number, 2]
+        leaves.data[4 * slot + 3] = points.radius[min(number, last)]
+        leaves.number[slot] = number
+
+
+@device
+def _find_boxes(node: int, bvh: Bvh, leaves: Leaves, frame: Frame) -> None:
+    """Set the boxes of a node's children, once the nodes below it have theirs."""
     for k in range(WIDTH):
         child = bvh.child[node * WIDTH + k]
         low = OUTSIDE, OUTSIDE, OUTSIDE
@@ -321,31 +345,22 @@ def _fill_node(points: Points, order: Order, node: int, bvh: Bvh, leaves: Leaves
         if child >= 0:
             low, high = _node_box(child, bvh)
         elif child != EMPTY:
-            first = ~child >> COUNT_BITS
-            low, high = _fill_leaf(points, order, first, ~child & COUNT_MASK, leaves)
+            low, high = _leaf_box(~child >> COUNT_BITS, ~child & COUNT_MASK, leaves, frame)
         for axis in range(3):
             bvh.sides[node * SIDES + axis * WIDTH + k] = low[axis]
             bvh.sides[node * SIDES + (3 + axis) * WIDTH + k] = high[axis]
 
 
 @device
-def _fill_leaf(
-    points: Points, order: Order, first: int, count: int, leaves: Leaves
-) -> tuple[Vec, Vec]:
-    """Copy the spheres of a leaf to where they belong; return their box."""
+def _leaf_box(first: int, count: int, leaves: Leaves, frame: Frame) -> tuple[Vec, Vec]:
+    """Return the box around the spheres of a leaf, wider than rounding could explain."""
     low = OUTSIDE, OUTSIDE, OUTSIDE
     high = -OUTSIDE, -OUTSIDE, -OUTSIDE
+    data = leaves.data
     for slot in range(first, first + count):
-        number = key_number(order.keys[slot], order.grid)
-        center = _center(points, number)
-        radius = points.radius[number * points.step]
-        leaves.data[4 * slot] = center[0]
-        leaves.data[4 * slot + 1] = center[1]
-        leaves.data[4 * slot + 2] = center[2]
-        leaves.data[4 * slot + 3] = radius
-        leaves.number[slot] = number
-        x, y, z = _place(points, number)
-        reach = radius * points.frame.scale
+        center = data[4 * slot], data[4 * slot + 1], data[4 * slot + 2]
+        x, y, z = _to_frame(center, frame)
+        reach = data[4 * slot + 3] * frame.scale
         reach += MARGIN * (abs(x) + abs(y) + abs(z) + reach)
         low = min(low[0], x - reach), min(low[1], y - reach), min(low[2], z - reach)
         high = max(high[0], x + reach), max(high[1], y + reach), max(high[2], z + reach)

@@ -140,8 +140,8 @@ def _surface(scene: Scene, primitive: int) -> Surface:
         kind, color = "sphere" if primitive < count else "plane", item.color
         name = f"objects[{place}], a {kind}"
         return Surface(name, (float(color.r), float(color.g), float(color.b)), item.lambert)
-    red, green, blue = map(float, kept.source.color[primitive])
-    lambert = float(kept.source.lambert[primitive])
+    red, green, blue = map(float, np.broadcast_to(item.color, (len(item), 3))[index])
+    lambert = float(np.broadcast_to(item.lambert, len(item))[index])
     return Surface(f"objects[{place}], sphere {index}", (red, green, blue), lambert)
 
 

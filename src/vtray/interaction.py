@@ -73,11 +73,12 @@ def material(scene: SceneArrays, primitive: int) -> tuple[Vec, float]:
     """Return colour and Lambert coefficient of a primitive."""
     materials = scene.materials
     plane = primitive - sphere_count(scene.spheres)
-    if plane < 0:
-        color = materials.sphere_color
-        lambert = materials.sphere_lambert[primitive]
-        return _triple(color, primitive), lambert
-    return _triple(materials.plane_color, plane), materials.plane_lambert[plane]
+    if plane >= 0:
+        return _triple(materials.plane_color, plane), materials.plane_lambert[plane]
+    color, lambert = materials.sphere_color, materials.sphere_lambert
+    # One row may stand for all spheres.
+    row = min(primitive, color.shape[0] - 1)
+    return _triple(color, row), lambert[min(primitive, lambert.shape[0] - 1)]
 
 
 @device

@@ -11,6 +11,9 @@ Keys = NDArray[np.uint64]
 SMALL = 1 << 16
 """Fewer keys than this are sorted by one thread."""
 
+FEW_THREADS = 2
+"""Up to so many threads, one is as fast: sample sort does twice the work."""
+
 SAMPLES = 64
 """Keys of each part that are looked at to divide all keys evenly."""
 
@@ -23,7 +26,7 @@ def sort_keys(keys: Keys, threads: int) -> Keys:
     Sample sort: Blelloch et al., "A Comparison of Sorting Algorithms for the Connection Machine
     CM-2", 1991.
     """
-    if threads == 1 or len(keys) < SMALL:
+    if threads <= FEW_THREADS or len(keys) < SMALL:
         keys.sort()
         return keys
     parts = np.array_split(keys, threads)

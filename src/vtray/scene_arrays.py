@@ -51,7 +51,10 @@ class Lights(NamedTuple):
 
 
 class Materials(NamedTuple):
-    """Colours, (n, 3), and Lambert coefficients, (n,); those of spheres by their numbers."""
+    """Colours, (n, 3), and Lambert coefficients, (n,).
+
+    They go by the numbers of the primitives; for spheres, one row may stand for all.
+    """
 
     sphere_color: NDArray[np.uint8]
     sphere_lambert: Floats
