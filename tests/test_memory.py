@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 
+import vtray
 from conftest import compiled_only
 from examples import light, one_sphere, plane, scene, sphere
 from vtray.memory import in_gigabytes
@@ -34,6 +35,7 @@ from vtray.memory import peak_memory
 vtray.render(vtray.load(sys.argv[1]), threads=2).save(sys.argv[2])
 print(peak_memory())
 """
+    vtray.render(vtray.loads(json.dumps(one_sphere())))  # so that nothing is left to compile
     (peak,) = run(script, str(path), str(tmp_path / "picture.png"))
     film = size * size * 3 * 8
     assert film < peak < 2 * film

@@ -10,7 +10,7 @@ BYTES_PER_PIXEL = 3 * 8 + 3 + 4
 BYTES_PER_SPHERE = 80
 """The hierarchy, and what it takes to build it, beside the arrays that were given."""
 
-ALWAYS_FITS = 2**26
+ALWAYS_FITS = 2**28
 """What needs fewer bytes is not looked at: asking takes longer than it does."""
 
 

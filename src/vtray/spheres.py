@@ -6,6 +6,7 @@ imported here only when arrays are at hand.
 """
 
 import math
+import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -212,7 +213,8 @@ def _to_array(found: Any, name: str, place: str) -> AnyArray:  # noqa: ANN401
     except (ValueError, TypeError, RuntimeError, OverflowError, BufferError) as error:
         got = f"{show(given)} ({short(str(error), 100)})"
     else:
-        masked = isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given)
+        # Who has no masked arrays need not wait for NumPy to load them.
+        masked = "numpy.ma" in sys.modules and np.ma.is_masked(given)
         if array.dtype.kind in "iuf" and not masked:
             return array
         if masked:
