@@ -103,3 +103,16 @@ def test_fewer_threads_than_asked_for_do_the_work_too(monkeypatch: pytest.Monkey
 
     with pytest.raises(RuntimeError, match="can't start"):
         run_tasks(range(50), lambda: done.append, 10)
+
+
+def test_interrupt_while_threads_are_started(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = threading.Thread.start
+
+    def interrupted(thread: threading.Thread) -> None:
+        whole(thread)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(threading.Thread, "start", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        run_tasks(range(100), lambda: lambda task: time.sleep(0.001), 2)
+    assert_threads(1)

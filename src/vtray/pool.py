@@ -71,6 +71,7 @@ class _Pool(Generic[Task]):
         self._total = self._waiting.qsize()
         self._done: SimpleQueue[None] = SimpleQueue()
         self._started = 0
+        self._begun: list[bool] = []
         self._ended: list[bool] = []
         self._wake = threading.Event()
 
@@ -89,7 +90,8 @@ class _Pool(Generic[Task]):
         """Wait until all threads have ended."""
         # Not by Thread.join: interrupted by Ctrl-C, it takes a thread that runs for ended (3.11).
         while True:
-            ended = len(self._ended) == self._started
+            # Ctrl-C may come when a thread has begun and is not yet counted as started.
+            ended = len(self._ended) >= max(self._started, len(self._begun))
             if progress is not None:
                 progress(self._done.qsize(), self._total)
             if ended:
@@ -112,6 +114,7 @@ class _Pool(Generic[Task]):
 
     def _work(self) -> None:
         """Take tasks until there are none."""
+        self._begun.append(True)
         try:
             worker = self._new_worker()
             while (task := self._next()) is not None:
