@@ -1,33 +1,40 @@
 """Through the hierarchy with camera rays: those of 8 by 8 pixels, one beam from the eye."""
 
+import math
+
 import numpy as np
 
 from vtray.beam import Beam, beam_margin, children_met, enter_child, make_beam
 from vtray.bvh import COUNT_BITS, COUNT_MASK, WIDTH, Bvh
+from vtray.camera import CameraFrame, left_side, top_side
 from vtray.compiled import device
 from vtray.culling import MARGIN, outside_side
 from vtray.nearest import nearest_sphere
-from vtray.packet import BLOCK, DIRECTION, DISTANCE, LANES, PART, Packet, load
+from vtray.packet import BLOCK, DIRECTION, DISTANCE, LANES, PART, Block, Packet, load
 from vtray.scene_arrays import SceneArrays
 from vtray.sphere_arrays import sphere_center, sphere_magnitude, sphere_radius
-from vtray.vector import Vec, add, cross, dot, scale, sub
+from vtray.vector import Vec, add, dot, scale, sub
 from vtray.workspace import Workspace
 
 
 @device
-def nearest_in_bvh(packet: Packet, scene: SceneArrays, work: Workspace) -> None:
+def nearest_in_bvh(packet: Packet, block: Block, scene: SceneArrays, work: Workspace) -> None:
     """Let the spheres take the lanes in which they are nearer than the hits so far."""
     for top in range(0, BLOCK, PART):
         for left in range(0, BLOCK, PART):
-            _search_part(packet, top * BLOCK + left, scene, work)
+            _search_part(packet, block, left, top, scene, work)
 
 
 @device
-def _search_part(packet: Packet, first: int, scene: SceneArrays, work: Workspace) -> None:
+def _search_part(
+    packet: Packet, block: Block, left: int, top: int, scene: SceneArrays, work: Workspace
+) -> None:
     """Search the hierarchy for a part of a block, nearest boxes first."""
     bvh, ratio = scene.bvh, scene.to_boxes.ratio
+    first = top * BLOCK + left
+    sides = _part_sides(scene.camera, block.left + left)
     beam = _part_beam(packet, first, scene)
-    _set_rows(packet, first, scene, work)
+    _set_rows(scene.camera, block.top + top, work)
     start = scene.camera.focus * ratio * (1.0 - MARGIN)
     far = _farthest(packet, first) * ratio
     waiting = _push_met(bvh, 0, beam, start, far, work, 0)
@@ -41,15 +48,16 @@ def _search_part(packet: Packet, first: int, scene: SceneArrays, work: Workspace
         else:
             begin = ~child >> COUNT_BITS
             for slot in range(begin, begin + (~child & COUNT_MASK)):
-                _test_sphere(packet, first, scene, slot, work)
+                _test_sphere(packet, first, sides, scene, slot, work)
             far = _farthest(packet, first) * ratio
 
 
 @device
 def _part_beam(packet: Packet, first: int, scene: SceneArrays) -> Beam:
     """Return the beam of a part's rays."""
-    low = load(packet, DIRECTION, first)
-    high = low
+    # Infinite at first, so that a direction that is not a number, which hits nothing, is no bound.
+    low = math.inf, math.inf, math.inf
+    high = -math.inf, -math.inf, -math.inf
     for row in range(PART):
         for lane in range(first + row * BLOCK, first + row * BLOCK + PART):
             x, y, z = load(packet, DIRECTION, lane)
@@ -61,10 +69,16 @@ def _part_beam(packet: Packet, first: int, scene: SceneArrays) -> Beam:
 
 
 @device
-def _set_rows(packet: Packet, first: int, scene: SceneArrays, work: Workspace) -> None:
+def _part_sides(camera: CameraFrame, column: int) -> tuple[Vec, Vec]:
+    """Return the normals, pointing out, of the left and the right side of a part."""
+    return left_side(camera, column), scale(-1.0, left_side(camera, column + PART - 1))
+
+
+@device
+def _set_rows(camera: CameraFrame, top: int, work: Workspace) -> None:
     """Note the normal of the plane in which the rays of each row lie, and its square."""
     for row in range(PART):
-        normal = cross(scene.camera.right, load(packet, DIRECTION, first + row * BLOCK))
+        normal = top_side(camera, top + row)
         work.rows[row] = normal[0]
         work.rows[row + PART] = normal[1]
         work.rows[row + 2 * PART] = normal[2]
@@ -73,16 +87,19 @@ def _set_rows(packet: Packet, first: int, scene: SceneArrays, work: Workspace) -
 
 @device
 def _test_sphere(
-    packet: Packet, first: int, scene: SceneArrays, slot: int, work: Workspace
+    packet: Packet,
+    first: int,
+    sides: tuple[Vec, Vec],
+    scene: SceneArrays,
+    slot: int,
+    work: Workspace,
 ) -> None:
     """Test a sphere for those rows of a part that it reaches."""
     camera, spheres = scene.camera, scene.spheres
     place, radius = sphere_center(spheres, slot), sphere_radius(spheres, slot)
     radius += MARGIN * (sphere_magnitude(place, radius) + camera.focus)
     center = sub(place, camera.eye)
-    left = cross(load(packet, DIRECTION, first), camera.down)
-    right = cross(camera.down, load(packet, DIRECTION, first + PART - 1))
-    if outside_side(center, left, radius) | outside_side(center, right, radius):
+    if outside_side(center, sides[0], radius) | outside_side(center, sides[1], radius):
         return
     rows = _rows_met(center, radius, work)
     lane = first

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from vtray.compiled import device
-from vtray.vector import Vec, add, dot, scale
+from vtray.vector import Vec, add, dot, scale, sub
 
 
 class CameraFrame(NamedTuple):
@@ -66,3 +66,28 @@ def camera_ray(camera: CameraFrame, column: int, row: int) -> Vec:
     ray = add(in_plane, scale(camera.pixel[2], camera.forward))
     length = math.sqrt(dot(ray, ray))
     return ray[0] / length, ray[1] / length, ray[2] / length
+
+
+@device
+def left_side(camera: CameraFrame, column: int) -> Vec:
+    """Return a normal of the plane in which the rays of a column lie, pointing left.
+
+    It is not made of rays: at the edge of a very wide view, the parts of their directions that are
+    needed here have lost their digits.
+    """
+    return _side(camera, (column - camera.width / 2) * camera.pixel[0], camera.right)
+
+
+@device
+def top_side(camera: CameraFrame, row: int) -> Vec:
+    """Return a normal of the plane in which the rays of a row lie, pointing up."""
+    return _side(camera, (row - camera.height / 2) * camera.pixel[1], camera.down)
+
+
+@device
+def _side(camera: CameraFrame, offset: float, axis: Vec) -> Vec:
+    """Return what is square to ``offset * axis + distance * forward`` and to the third axis."""
+    distance = camera.pixel[2]
+    # Its squares must not vanish, so its length is from 1 to 2 unless nothing is left of it.
+    longest = max(abs(offset), distance, 1e-300)
+    return sub(scale(offset / longest, camera.forward), scale(distance / longest, axis))

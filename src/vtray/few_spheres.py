@@ -3,12 +3,12 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.camera import CameraFrame
+from vtray.camera import CameraFrame, left_side, top_side
 from vtray.compiled import device
 from vtray.culling import MARGIN, outside_shaft, outside_side
 from vtray.nearest import nearest_sphere
 from vtray.occlusion import Bounds, block_by_sphere
-from vtray.packet import DIRECTION, LANES, PART, Packet, load
+from vtray.packet import BLOCK, LANES, PART, Block, Packet
 from vtray.scene_arrays import Lights, SceneArrays
 from vtray.sphere_arrays import (
     SphereArrays,
@@ -17,15 +17,15 @@ from vtray.sphere_arrays import (
     sphere_magnitude,
     sphere_radius,
 )
-from vtray.vector import cross, pick, sub
+from vtray.vector import pick, scale, sub
 
 Flags = NDArray[np.bool_]
 
 
 @device
-def nearest_of_few(packet: Packet, scene: SceneArrays, near: Flags) -> None:
+def nearest_of_few(packet: Packet, block: Block, scene: SceneArrays, near: Flags) -> None:
     """Let the spheres take the lanes in which they are nearer than the hits so far."""
-    _cull_for_rays(packet, scene.camera, scene.spheres, near)
+    _cull_for_rays(block, scene.camera, scene.spheres, near)
     for slot in range(sphere_count(scene.spheres)):
         if near[slot]:
             for first in range(0, LANES, PART):
@@ -44,15 +44,12 @@ def block_by_few(
 
 
 @device
-def _cull_for_rays(packet: Packet, camera: CameraFrame, spheres: SphereArrays, near: Flags) -> None:
+def _cull_for_rays(block: Block, camera: CameraFrame, spheres: SphereArrays, near: Flags) -> None:
     """Find the spheres that reach into the pyramid from the eye through a block."""
     # Not by rays of two corners: far from the eye of a narrow view they are too nearly parallel.
-    left_top = load(packet, DIRECTION, 0)
-    right_bottom = load(packet, DIRECTION, LANES - 1)
-    left = cross(left_top, camera.down)
-    top = cross(camera.right, left_top)
-    right = cross(camera.down, right_bottom)
-    bottom = cross(right_bottom, camera.right)
+    left, top = left_side(camera, block.left), top_side(camera, block.top)
+    right = scale(-1.0, left_side(camera, block.left + BLOCK - 1))
+    bottom = scale(-1.0, top_side(camera, block.top + BLOCK - 1))
     for slot in range(sphere_count(spheres)):
         place, radius = sphere_center(spheres, slot), sphere_radius(spheres, slot)
         center = sub(place, camera.eye)

@@ -89,7 +89,7 @@ def _trace_block(
     """Trace the packet of one block: rays, hits, light, film."""
     lanes = block.width * block.height
     _cast_rays(packet, block, scene.camera)
-    _find_hits(packet, scene, work)
+    _find_hits(packet, block, scene, work)
     _drop_outside(packet, block)
     hits = gather_interactions(packet, scene, work)
     if hits < lanes:
@@ -122,16 +122,16 @@ def _cast_rays(packet: Packet, block: Block, camera: CameraFrame) -> None:
 
 
 @device
-def _find_hits(packet: Packet, scene: SceneArrays, work: Workspace) -> None:
+def _find_hits(packet: Packet, block: Block, scene: SceneArrays, work: Workspace) -> None:
     """Find each lane's nearest hit; planes first, so that less of the hierarchy is searched."""
     clear_hits(packet)
     for plane in range(scene.planes.x.shape[0]):
         number = sphere_count(scene.spheres) + plane
         nearest_plane(packet, scene.camera, scene.planes, plane, number)
     if has_bvh(scene):
-        nearest_in_bvh(packet, scene, work)
+        nearest_in_bvh(packet, block, scene, work)
     else:
-        nearest_of_few(packet, scene, work.near)
+        nearest_of_few(packet, block, scene, work.near)
 
 
 @device
