@@ -110,15 +110,15 @@ def children_met(bvh: Bvh, node: int, beam: Beam, start: float, end: float) -> i
     for k in range(WIDTH):
         enter = max(
             start,
-            bvh.sides[x_near + k] * x.near + x.near_start,
-            bvh.sides[y_near + k] * y.near + y.near_start,
-            bvh.sides[z_near + k] * z.near + z.near_start,
+            float(bvh.sides[x_near + k]) * x.near + x.near_start,
+            float(bvh.sides[y_near + k]) * y.near + y.near_start,
+            float(bvh.sides[z_near + k]) * z.near + z.near_start,
         )
         leave = min(
             end,
-            bvh.sides[x_far + k] * x.far + x.far_start,
-            bvh.sides[y_far + k] * y.far + y.far_start,
-            bvh.sides[z_far + k] * z.far + z.far_start,
+            float(bvh.sides[x_far + k]) * x.far + x.far_start,
+            float(bvh.sides[y_far + k]) * y.far + y.far_start,
+            float(bvh.sides[z_far + k]) * z.far + z.far_start,
         )
         met |= 1 << k if enter <= leave else 0
     return met
@@ -130,9 +130,9 @@ def enter_child(bvh: Bvh, child: int, beam: Beam) -> float:
     first = child // WIDTH * SIDES + child % WIDTH
     x, y, z = beam.x, beam.y, beam.z
     enter: float = max(
-        bvh.sides[first + x.near_side] * x.near + x.near_start,
-        bvh.sides[first + y.near_side] * y.near + y.near_start,
-        bvh.sides[first + z.near_side] * z.near + z.near_start,
+        float(bvh.sides[first + x.near_side]) * x.near + x.near_start,
+        float(bvh.sides[first + y.near_side]) * y.near + y.near_start,
+        float(bvh.sides[first + z.near_side]) * z.near + z.near_start,
     )
     return enter
 

@@ -40,7 +40,8 @@ def make_grid(low: Vec, high: Vec, number_bits: int) -> Grid:
     """Return the finest grid over a box whose keys leave room for the numbers."""
     axis_bits = min((64 - number_bits) // 3, 21)
     longest = max(high[0] - low[0], high[1] - low[1], high[2] - low[2])
-    cells = float(1 << axis_bits) / longest if longest > 0.0 else 0.0
+    # The least doubles would make it infinite, and the cell of the corner infinite times zero.
+    cells = min(float(1 << axis_bits) / longest, 1e300) if longest > 0.0 else 0.0
     return Grid(low, cells, axis_bits, number_bits)
 
 
