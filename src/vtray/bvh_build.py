@@ -35,7 +35,7 @@ CHUNK = 1 << 16
 SUBTREES = 256
 """Ranges, about, whose trees are built as tasks of their own."""
 
-SMALL = 1 << 11
+SMALL = 1 << 14
 """A range of fewer points is not worth a task."""
 
 
@@ -122,16 +122,9 @@ def _build_nodes(
     subtrees = found[:count]
     parts, depths = _build_subtrees(points, order, leaves, subtrees, threads, progress)
 
-    ends = top_nodes + np.cumsum([len(part.child) // WIDTH for part in parts], dtype=np.int64)
-    bvh = _new_bvh(int(ends[-1]) if count else top_nodes)
-    _put_nodes(bvh, 0, Bvh(top.sides[: top_nodes * SIDES], top.child[: top_nodes * WIDTH]))
-
-    def put(k: int) -> None:
-        root = int(ends[k]) - len(parts[k].child) // WIDTH
-        bvh.child[subtrees[k, 0]] = root
-        _put_nodes(bvh, root, parts[k])
-
-    run_tasks(range(count), lambda: put, threads)
+    parts.insert(0, Bvh(top.sides[: top_nodes * SIDES], top.child[: top_nodes * WIDTH]))
+    bvh, roots = _join(parts, threads)
+    bvh.child[subtrees[:, 0]] = roots[1:]
     finish_top(points, order, top_nodes, bvh, leaves)
     return bvh, 1 + max([deepest, *depths])
 
@@ -175,11 +168,25 @@ def _new_bvh(nodes: int) -> Bvh:
     return Bvh(np.empty(nodes * SIDES, np.float32), np.empty(nodes * WIDTH, np.int32))
 
 
-def _put_nodes(bvh: Bvh, root: int, part: Bvh) -> None:
-    """Copy nodes to where their numbers begin with `root`."""
-    bvh.sides[root * SIDES :][: len(part.sides)] = part.sides
-    # Leaves, below 0, stay what they are.
-    bvh.child[root * WIDTH :][: len(part.child)] = part.child + root * (part.child >= 0)
+def _join(parts: list[Bvh], threads: int) -> tuple[Bvh, NDArray[np.int64]]:
+    """Return the nodes of several trees in one, and the numbers that their roots have there."""
+    sizes = np.array([len(part.child) // WIDTH for part in parts])
+    roots = np.cumsum(sizes) - sizes
+    bvh = _new_bvh(int(sizes.sum()))
+
+    def put(run: NDArray[np.int64]) -> None:
+        nodes = slice(roots[run[0]], roots[run[-1]] + sizes[run[-1]])
+        sides = bvh.sides[nodes.start * SIDES : nodes.stop * SIDES]
+        child = bvh.child[nodes.start * WIDTH : nodes.stop * WIDTH]
+        np.concatenate([parts[k].sides for k in run], out=sides)
+        np.concatenate([parts[k].child for k in run], out=child)
+        # Numbers of nodes are counted from the root of all; those of leaves are below 0.
+        shift = np.repeat(roots[run], sizes[run] * WIDTH)
+        np.add(child, shift, out=child, where=child >= 0, casting="unsafe")
+
+    runs = [run for run in np.array_split(np.arange(len(parts)), threads) if len(run)]
+    run_tasks(runs, lambda: put, threads)
+    return bvh, roots
 
 
 def _place_in_frame(points: Points, extents: list[Extent]) -> tuple[Points, Vec, Vec, float]:

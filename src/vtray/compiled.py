@@ -16,6 +16,7 @@ imported only to compile, and where a kernel cannot be called without it.
 
 import os
 import threading
+import time
 from collections.abc import Callable
 from functools import cached_property, update_wrapper
 from pathlib import Path
@@ -36,6 +37,7 @@ Value = TypeVar("Value")
 _OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "_nrt": False}
 
 _COMPILING = threading.RLock()
+_loading = [0.0]
 
 
 def device(function: Function) -> Function:
@@ -46,6 +48,11 @@ def device(function: Function) -> Function:
 def kernel(function: Function) -> Function:
     """Compile a loop over arrays, and keep the machine code on disk."""
     return function if _is_off() else cast("Function", Kernel(function))
+
+
+def loading_seconds() -> float:
+    """Return how long this process has compiled kernels, or loaded them from disk."""
+    return _loading[0]
 
 
 def uncompiled(function: Function) -> Function:
@@ -114,7 +121,9 @@ class Kernel(Device):
         if types not in self._native:
             with _COMPILING:
                 if types not in self._native:
+                    start = time.perf_counter()
                     self._native[types] = self._load(types, unpinned(arguments))
+                    _loading[0] += time.perf_counter() - start
         native = self._native[types]
         if native is None:
             return self._dispatcher(*unpinned(arguments))
