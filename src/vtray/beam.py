@@ -16,7 +16,7 @@ from typing import NamedTuple
 from vtray.bvh import SIDES, WIDTH, Bvh
 from vtray.compiled import device
 from vtray.culling import MARGIN
-from vtray.vector import Vec
+from vtray.vector import Vec, magnitude
 
 TINY = 1e-30
 """In place of a direction of 0, whose inverse must stay finite."""
@@ -148,7 +148,5 @@ def beam_margin(apex: Vec, offset: Vec) -> float:
     offset
         The origin of the kernels' space. Both are in the boxes' space.
     """
-    size = abs(apex[0]) + abs(apex[1]) + abs(apex[2])
-    size += abs(offset[0]) + abs(offset[1]) + abs(offset[2])
     # Eight: more than the boxes themselves reach.
-    return MARGIN * (size + 8.0)
+    return MARGIN * (magnitude(apex) + magnitude(offset) + 8.0)

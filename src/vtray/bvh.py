@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.compiled import device
 from vtray.vector import Vec
 
 WIDTH = 8
@@ -69,8 +70,7 @@ class Bvh(NamedTuple):
         For each node the low sides x, y, z, then the high sides x, y, z of its eight children,
         (nodes * 48,).
     child
-        For each child the number of its node, or, for a leaf, ``~(first << 4 | count)`` from its
-        first sphere and how many it has, (nodes * 8,).
+        For each child the number of its node, or the `leaf_code` of its leaf, (nodes * 8,).
     """
 
     sides: NDArray[np.float32]
@@ -90,6 +90,19 @@ class Leaves(NamedTuple):
 
     data: NDArray[np.float64]
     number: NDArray[np.int32]
+
+
+@device
+def leaf_code(first: int, count: int) -> int:
+    """Return what stands in ``Bvh.child`` for a leaf."""
+    return ~(first << COUNT_BITS | count)
+
+
+@device
+def leaf_range(code: int) -> tuple[int, int]:
+    """Return the first sphere of a leaf, and the first that no longer belongs to it."""
+    first = ~code >> COUNT_BITS
+    return first, first + (~code & COUNT_MASK)
 
 
 def no_bvh() -> Bvh:

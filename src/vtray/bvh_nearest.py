@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from vtray.beam import Beam, beam_margin, children_met, enter_child, make_beam
-from vtray.bvh import COUNT_BITS, COUNT_MASK, WIDTH, Bvh
+from vtray.bvh import WIDTH, Bvh, leaf_range
 from vtray.camera import CameraFrame, left_side, top_side
 from vtray.compiled import device
 from vtray.culling import MARGIN, outside_side
@@ -13,7 +13,7 @@ from vtray.nearest import nearest_sphere
 from vtray.packet import BLOCK, DIRECTION, DISTANCE, LANES, PART, Block, Packet, load
 from vtray.scene_arrays import SceneArrays
 from vtray.sphere_arrays import sphere_center, sphere_magnitude, sphere_radius
-from vtray.vector import Vec, add, dot, scale, sub
+from vtray.vector import Vec, add, dot, lower, scale, sub, upper
 from vtray.workspace import Workspace
 
 
@@ -46,8 +46,8 @@ def _search_part(
         if child >= 0:
             waiting = _push_met(bvh, child, beam, start, far, work, waiting)
         else:
-            begin = ~child >> COUNT_BITS
-            for slot in range(begin, begin + (~child & COUNT_MASK)):
+            begin, end = leaf_range(child)
+            for slot in range(begin, end):
                 _test_sphere(packet, first, sides, scene, slot, work)
             far = _farthest(packet, first) * ratio
 
@@ -60,9 +60,8 @@ def _part_beam(packet: Packet, first: int, scene: SceneArrays) -> Beam:
     high = -math.inf, -math.inf, -math.inf
     for row in range(PART):
         for lane in range(first + row * BLOCK, first + row * BLOCK + PART):
-            x, y, z = load(packet, DIRECTION, lane)
-            low = min(low[0], x), min(low[1], y), min(low[2], z)
-            high = max(high[0], x), max(high[1], y), max(high[2], z)
+            direction = load(packet, DIRECTION, lane)
+            low, high = lower(low, direction), upper(high, direction)
     camera, ratio, offset = scene.camera, scene.to_boxes.ratio, scene.to_boxes.offset
     apex = add(scale(ratio, camera.eye), offset)
     return make_beam(apex, low, high, beam_margin(apex, offset) + MARGIN * camera.focus * ratio)

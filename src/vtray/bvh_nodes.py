@@ -12,8 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.bvh import (
-    COUNT_BITS,
-    COUNT_MASK,
     EMPTY,
     LEAF,
     MAX_DEPTH,
@@ -23,12 +21,14 @@ from vtray.bvh import (
     Bvh,
     Frame,
     Leaves,
+    leaf_code,
+    leaf_range,
 )
 from vtray.compiled import device, kernel
 from vtray.culling import MARGIN
 from vtray.key_sort import Keys, sort_few
 from vtray.morton import Grid, in_one_cell, key_number, make_grid, make_key
-from vtray.vector import Vec
+from vtray.vector import Vec, add, lower, magnitude, scale, sub, upper
 
 FULL_ENOUGH = 3
 """The children of a node are split further until none has more spheres, or the node is full."""
@@ -91,9 +91,8 @@ def find_extent(points: Points, begin: int, end: int) -> Extent:
     radius = 0.0
     last = points.radius.shape[0] - 1
     for k in range(begin, end):
-        x, y, z = _center(points, k)
-        low = min(low[0], x), min(low[1], y), min(low[2], z)
-        high = max(high[0], x), max(high[1], y), max(high[2], z)
+        place = _center(points, k)
+        low, high = lower(low, place), upper(high, place)
         radius = max(radius, points.radius[min(k, last)])
     return Extent(low, high, radius)
 
@@ -165,8 +164,8 @@ def finish_top(points: Points, order: Order, nodes: int, bvh: Bvh, leaves: Leave
     for node in range(nodes - 1, -1, -1):
         for k in range(node * WIDTH, (node + 1) * WIDTH):
             if bvh.child[k] < EMPTY:
-                first = ~bvh.child[k] >> COUNT_BITS
-                _gather(points, order, first, first + (~bvh.child[k] & COUNT_MASK), leaves)
+                begin, end = leaf_range(bvh.child[k])
+                _gather(points, order, begin, end, leaves)
         _find_boxes(node, bvh, leaves, points.frame)
 
 
@@ -186,9 +185,7 @@ def _place(points: Points, number: int) -> Vec:
 @device
 def _to_frame(center: Vec, frame: Frame) -> Vec:
     """Return a point of world space in the boxes' space."""
-    scale, origin = frame.scale, frame.origin
-    x, y, z = center
-    return x * scale - origin[0], y * scale - origin[1], z * scale - origin[2]
+    return sub(scale(frame.scale, center), frame.origin)
 
 
 @device
@@ -226,7 +223,7 @@ def _split(
             if k >= ranges:
                 child[first + k] = EMPTY
             elif high - low <= LEAF:
-                child[first + k] = ~(low << COUNT_BITS | (high - low))
+                child[first + k] = leaf_code(low, high - low)
             elif high - low <= grain or _is_left(order, low, high, grain):
                 subtrees[found, 0] = first + k
                 subtrees[found, 1] = low
@@ -309,9 +306,8 @@ def _sort_within_cell(points: Points, order: Order, begin: int, end: int) -> Non
     low = _place(points, key_number(keys[begin], grid))
     high = low
     for k in range(begin, end):
-        x, y, z = _place(points, key_number(keys[k], grid))
-        low = min(low[0], x), min(low[1], y), min(low[2], z)
-        high = max(high[0], x), max(high[1], y), max(high[2], z)
+        place = _place(points, key_number(keys[k], grid))
+        low, high = lower(low, place), upper(high, place)
     finer = make_grid(low, high, grid.number_bits)
     if finer.cells > 0.0:
         for k in range(begin, end):
@@ -345,25 +341,25 @@ def _find_boxes(node: int, bvh: Bvh, leaves: Leaves, frame: Frame) -> None:
         if child >= 0:
             low, high = _node_box(child, bvh)
         elif child != EMPTY:
-            low, high = _leaf_box(~child >> COUNT_BITS, ~child & COUNT_MASK, leaves, frame)
+            begin, end = leaf_range(child)
+            low, high = _leaf_box(begin, end, leaves, frame)
         for axis in range(3):
             bvh.sides[node * SIDES + axis * WIDTH + k] = low[axis]
             bvh.sides[node * SIDES + (3 + axis) * WIDTH + k] = high[axis]
 
 
 @device
-def _leaf_box(first: int, count: int, leaves: Leaves, frame: Frame) -> tuple[Vec, Vec]:
+def _leaf_box(begin: int, end: int, leaves: Leaves, frame: Frame) -> tuple[Vec, Vec]:
     """Return the box around the spheres of a leaf, wider than rounding could explain."""
     low = OUTSIDE, OUTSIDE, OUTSIDE
     high = -OUTSIDE, -OUTSIDE, -OUTSIDE
     data = leaves.data
-    for slot in range(first, first + count):
-        center = data[4 * slot], data[4 * slot + 1], data[4 * slot + 2]
-        x, y, z = _to_frame(center, frame)
+    for slot in range(begin, end):
+        place = _to_frame((data[4 * slot], data[4 * slot + 1], data[4 * slot + 2]), frame)
         reach = data[4 * slot + 3] * frame.scale
-        reach += MARGIN * (abs(x) + abs(y) + abs(z) + reach)
-        low = min(low[0], x - reach), min(low[1], y - reach), min(low[2], z - reach)
-        high = max(high[0], x + reach), max(high[1], y + reach), max(high[2], z + reach)
+        reach += MARGIN * (magnitude(place) + reach)
+        corner = reach, reach, reach
+        low, high = lower(low, sub(place, corner)), upper(high, add(place, corner))
     return (
         (_below(low[0]), _below(low[1]), _below(low[2])),
         (-_below(-high[0]), -_below(-high[1]), -_below(-high[2])),
@@ -381,15 +377,14 @@ def _node_box(node: int, bvh: Bvh) -> tuple[Vec, Vec]:
     """Return the box around a node's children."""
     low = OUTSIDE, OUTSIDE, OUTSIDE
     high = -OUTSIDE, -OUTSIDE, -OUTSIDE
+    sides = bvh.sides
     for k in range(node * SIDES, node * SIDES + WIDTH):
-        low = (
-            min(low[0], float(bvh.sides[k])),
-            min(low[1], float(bvh.sides[k + WIDTH])),
-            min(low[2], float(bvh.sides[k + 2 * WIDTH])),
+        low_k = float(sides[k]), float(sides[k + WIDTH]), float(sides[k + 2 * WIDTH])
+        k_high = k + 3 * WIDTH
+        high_k = (
+            float(sides[k_high]),
+            float(sides[k_high + WIDTH]),
+            float(sides[k_high + 2 * WIDTH]),
         )
-        high = (
-            max(high[0], float(bvh.sides[k + 3 * WIDTH])),
-            max(high[1], float(bvh.sides[k + 4 * WIDTH])),
-            max(high[2], float(bvh.sides[k + 5 * WIDTH])),
-        )
+        low, high = lower(low, low_k), upper(high, high_k)
     return low, high

@@ -3,13 +3,13 @@
 import math
 
 from vtray.beam import Beam, beam_margin, children_met, make_beam
-from vtray.bvh import COUNT_BITS, COUNT_MASK, WIDTH
+from vtray.bvh import WIDTH, leaf_range
 from vtray.compiled import device
 from vtray.culling import MARGIN
 from vtray.occlusion import block_by_sphere
 from vtray.packet import BLOCKED, MAGNITUDE, POINT, Packet, load
 from vtray.scene_arrays import SceneArrays
-from vtray.vector import add, pick, scale, sub
+from vtray.vector import add, lower, pick, scale, sub, upper
 from vtray.workspace import Workspace
 
 
@@ -52,8 +52,8 @@ def _search_group(
                     stack[waiting] = child
                     waiting += 1
                 else:
-                    first = ~child >> COUNT_BITS
-                    for slot in range(first, first + (~child & COUNT_MASK)):
+                    first, after = leaf_range(child)
+                    for slot in range(first, after):
                         block_by_sphere(
                             packet, begin, end, scene.spheres, slot, scene.lights, light
                         )
@@ -73,9 +73,8 @@ def _group_beam(packet: Packet, begin: int, end: int, scene: SceneArrays, light:
     magnitude = 0.0
     for lane in range(begin, end):
         if packet[BLOCKED + lane] == 0.0:
-            x, y, z = sub(load(packet, POINT, lane), place)
-            low = min(low[0], x), min(low[1], y), min(low[2], z)
-            high = max(high[0], x), max(high[1], y), max(high[2], z)
+            from_light = sub(load(packet, POINT, lane), place)
+            low, high = lower(low, from_light), upper(high, from_light)
             magnitude = max(magnitude, packet[MAGNITUDE + lane])
     ratio, offset = scene.to_boxes.ratio, scene.to_boxes.offset
     apex = add(scale(ratio, place), offset)

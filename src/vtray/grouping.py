@@ -13,15 +13,12 @@ SPREAD = 40503
 
 @device
 def list_hits(packet: Packet, work: Workspace) -> int:
-    """List the lanes with a hit, in one group; return how many there are."""
+    """List the lanes with a hit; return how many there are."""
     hits = 0
     for lane in range(LANES):
         if packet[PRIMITIVE + lane] != NO_PRIMITIVE:
             work.order[hits] = lane
             hits += 1
-    work.group[0] = 1
-    work.group[1] = 0
-    work.group[2] = hits
     return hits
 
 

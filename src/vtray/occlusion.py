@@ -9,7 +9,7 @@ from vtray.rounding import ROUNDING
 from vtray.scene_arrays import Lights, Planes
 from vtray.sphere import sphere_blocks
 from vtray.sphere_arrays import SphereArrays, sphere_center, sphere_magnitude, sphere_radius
-from vtray.vector import Vec, add, dot, pick, scale, sub
+from vtray.vector import Vec, add, dot, lower, pick, scale, sub, upper
 from vtray.workspace import Workspace
 
 
@@ -28,9 +28,8 @@ def bound_points(packet: Packet, hits: int) -> Bounds:
     high = low
     magnitude = 0.0
     for lane in range(hits):
-        x, y, z = load(packet, POINT, lane)
-        low = min(low[0], x), min(low[1], y), min(low[2], z)
-        high = max(high[0], x), max(high[1], y), max(high[2], z)
+        point = load(packet, POINT, lane)
+        low, high = lower(low, point), upper(high, point)
         magnitude = max(magnitude, packet[MAGNITUDE + lane])
     return Bounds(scale(0.5, add(low, high)), scale(0.5, sub(high, low)), magnitude)
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.compiled import device
-from vtray.vector import Vec
+from vtray.vector import Vec, magnitude, scale, sub
 
 
 class SphereArrays(NamedTuple):
@@ -40,12 +40,9 @@ def sphere_count(spheres: SphereArrays) -> int:
 @device
 def sphere_center(spheres: SphereArrays, slot: int) -> Vec:
     """Return a sphere's centre in the kernels' space."""
-    data, scale, origin = spheres.data, spheres.scale, spheres.origin
-    return (
-        data[4 * slot] * scale - origin[0],
-        data[4 * slot + 1] * scale - origin[1],
-        data[4 * slot + 2] * scale - origin[2],
-    )
+    data = spheres.data
+    center = data[4 * slot], data[4 * slot + 1], data[4 * slot + 2]
+    return sub(scale(spheres.scale, center), spheres.origin)
 
 
 @device
@@ -58,4 +55,4 @@ def sphere_radius(spheres: SphereArrays, slot: int) -> float:
 @device
 def sphere_magnitude(center: Vec, radius: float) -> float:
     """Return what the rounding errors of a sphere are relative to."""
-    return abs(center[0]) + abs(center[1]) + abs(center[2]) + radius
+    return magnitude(center) + radius

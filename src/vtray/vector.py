@@ -58,6 +58,24 @@ def sub(a: Vec, b: Vec) -> Vec:
 
 
 @device
+def lower(a: Vec, b: Vec) -> Vec:
+    """Return the smaller of each coordinate."""
+    return min(a[0], b[0]), min(a[1], b[1]), min(a[2], b[2])
+
+
+@device
+def upper(a: Vec, b: Vec) -> Vec:
+    """Return the larger of each coordinate."""
+    return max(a[0], b[0]), max(a[1], b[1]), max(a[2], b[2])
+
+
+@device
+def magnitude(a: Vec) -> float:
+    """Return the sum of the absolute coordinates, which rounding errors are relative to."""
+    return abs(a[0]) + abs(a[1]) + abs(a[2])
+
+
+@device
 def scale(s: float, a: Vec) -> Vec:
     """Return s * a."""
     return s * a[0], s * a[1], s * a[2]
