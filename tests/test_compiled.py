@@ -1,14 +1,19 @@
 """Compiled kernels are kept, found again, and replaced when they do not fit."""
 
+import hashlib
 import os
 import shutil
+import signal
 import subprocess
 import sys
+import threading
 from pathlib import Path
+
+import pytest
 
 from conftest import compiled_only
 from examples import one_sphere
-from vtray import kernel_folder
+from vtray import compiled, kernel_folder
 
 pytestmark = compiled_only
 
@@ -84,3 +89,18 @@ def test_picture_is_the_same_on_a_processor_without_wide_vectors(tmp_path: Path)
     subprocess.run([*command, tmp_path / "this.png"], check=True)
     subprocess.run([*command, tmp_path / "plain.png"], env={**os.environ, **plain}, check=True)
     assert (tmp_path / "this.png").read_bytes() == (tmp_path / "plain.png").read_bytes()
+
+
+def test_interrupt_does_not_wait_for_the_compiler(monkeypatch: pytest.MonkeyPatch) -> None:
+    ended = threading.Event()
+
+    def long_work_in_c(*_: object) -> None:
+        hashlib.pbkdf2_hmac("sha256", b"", b"", 3_000_000)
+        ended.set()
+
+    monkeypatch.setattr("vtray.compiled.compile_object", long_work_in_c)
+    threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        compiled.kernel(lambda value: value)(1.0)
+    assert not ended.is_set()
+    assert ended.wait(20)

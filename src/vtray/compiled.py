@@ -135,7 +135,7 @@ class Kernel(Device):
             file = self._file(types)
             compiled = read_object_code(file) if file else None
             if compiled is None:
-                compiled = compile_object(self._function, arguments, _OPTIONS)
+                compiled = _in_thread(compile_object, self._function, arguments, _OPTIONS)
                 if file:
                     write_object_code(file, compiled)
             return caller(link(compiled), compiled.layout)
@@ -149,6 +149,26 @@ class Kernel(Device):
         return (
             object_file(f"{module}.{name}", "".join(types)) if module.startswith("vtray.") else None
         )
+
+
+def _in_thread(function: Callable[..., Value], *arguments: object) -> Value:
+    """Return what a function returns, called in a thread that Ctrl-C does not wait for.
+
+    LLVM calls back into Python when it is done with its long work. In the main thread, Python would
+    raise KeyboardInterrupt there, after seconds, and it would be lost.
+    """
+    from concurrent.futures import Future
+
+    outcome: Future[Value] = Future()
+
+    def work() -> None:
+        try:
+            outcome.set_result(function(*arguments))
+        except BaseException as error:  # noqa: BLE001 - raised again by who waits
+            outcome.set_exception(error)
+
+    threading.Thread(target=work, daemon=True).start()
+    return outcome.result()
 
 
 def _is_off() -> bool:
