@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vtray.acceleration import accelerate
 from vtray.compiled import loading_seconds, pinned
 from vtray.exposure import check_brightness, develop
-from vtray.image import Image
+from vtray.image import Image, Surfaces
 from vtray.integrator import trace_tile
 from vtray.memory import check_memory
 from vtray.packet import new_packet
@@ -18,6 +18,7 @@ from vtray.pool import Progress as StepProgress
 from vtray.pool import run_tasks
 from vtray.scene import Scene
 from vtray.scene_arrays import SceneArrays, pack
+from vtray.settings import RenderSettings
 from vtray.stopwatch import Stopwatch
 from vtray.tiles import TILE, Tile, split_into_tiles
 from vtray.workspace import new_workspace
@@ -83,7 +84,19 @@ def render(
     clock.seconds["build"] -= loading
     clock.seconds["compile"] += loading
     stats = {"rays": rays, "nodes": kept.nodes, "depth": kept.depth, "memory": kept.memory}
-    return Image(film, pixels, {**clock.seconds, **stats})
+    return Image(
+        film,
+        pixels,
+        peak,
+        Scene(scene.camera, list(scene.lights), list(scene.objects)),
+        RenderSettings(),
+        {**clock.seconds, **stats},
+        look=_look,
+    )
+
+
+def _look() -> Surfaces:
+    raise NotImplementedError
 
 
 def _step_of(progress: Progress | None, step: str) -> StepProgress | None:
