@@ -1,9 +1,9 @@
-"""A beam: rays from one point into a box of directions, and the boxes that it may meet.
+"""A beam: rays from a point or a box into a box of directions, and the boxes that it may meet.
 
-All the rays of a block of pixels start at the eye, and all shadow rays to a light end there. At a
-distance of ``s`` times the direction, a beam fills the box from ``apex + s * low`` to ``apex + s *
-high``; whether that touches a given box is, for each axis, a question of two bounds on ``s``. With
-a single direction this is the usual slab test.
+The rays of a camera start at the eye or, in an orthographic view, side by side in one direction; all
+shadow rays to a light end there. At a distance of ``s`` times the direction, a beam fills the box
+from ``start_low + s * low`` to ``start_high + s * high``; whether that touches a given box is, for
+each axis, a question of two bounds on ``s``. With a single ray this is the usual slab test.
 
 References
 ----------
@@ -59,43 +59,41 @@ class Beam(NamedTuple):
 
 
 @device
-def make_beam(apex: Vec, low: Vec, high: Vec, margin: float) -> Beam:
-    """Return the beam from a point in all directions from `low` to `high`, in the boxes' frame.
+def make_beam(start_low: Vec, start_high: Vec, low: Vec, high: Vec, margin: float) -> Beam:
+    """Return the beam from a box of starts in a box of directions, in the boxes' frame.
 
     Parameters
     ----------
-    apex
-        Where the beam starts.
+    start_low, start_high
+        The least and the greatest coordinates of where its rays start.
     low, high
         The least and the greatest components of its directions.
     margin
         How far rounding may have moved what the beam is tested for.
     """
     return Beam(
-        _make_slab(apex[0], low[0], high[0], margin, 0),
-        _make_slab(apex[1], low[1], high[1], margin, 1),
-        _make_slab(apex[2], low[2], high[2], margin, 2),
+        _make_slab(start_low[0] - margin, start_high[0] + margin, low[0], high[0], 0),
+        _make_slab(start_low[1] - margin, start_high[1] + margin, low[1], high[1], 1),
+        _make_slab(start_low[2] - margin, start_high[2] + margin, low[2], high[2], 2),
     )
 
 
 @device
-def _make_slab(apex: float, low: float, high: float, margin: float, axis: int) -> Slab:
-    """Return the bounds of an axis.
+def _make_slab(first: float, last: float, low: float, high: float, axis: int) -> Slab:
+    """Return the bounds of an axis, for starts from `first` to `last`.
 
-    These are ``s * low <= high side - apex`` and ``s * high >= low side - apex``, solved for s.
+    These are ``first + s * low <= high side`` and ``last + s * high >= low side``, solved for s.
     """
     low_side, high_side = axis * WIDTH, (axis + 3) * WIDTH
     if low >= 0.0:
         enter, leave = 1.0 / max(high, TINY), 1.0 / max(low, TINY)
-        start, stop = -(apex + margin) * enter, -(apex - margin) * leave
-        return Slab(low_side, enter, start, high_side, leave, stop)
+        return Slab(low_side, enter, -last * enter, high_side, leave, -first * leave)
     if high <= 0.0:
         enter, leave = 1.0 / min(low, -TINY), 1.0 / min(high, -TINY)
-        start, stop = -(apex - margin) * enter, -(apex + margin) * leave
-        return Slab(high_side, enter, start, low_side, leave, stop)
+        return Slab(high_side, enter, -first * enter, low_side, leave, -last * leave)
     # Directions to both sides: one bound says something, and there is no end.
     enter = 1.0 / max(high, TINY)
-    return Slab(low_side, enter, -(apex + margin) * enter, high_side, 0.0, NEVER)
+    return Slab(low_side, enter, -last * enter, high_side, 0.0, NEVER)
 
 
 @device

@@ -79,4 +79,4 @@ def _group_beam(packet: Packet, begin: int, end: int, scene: SceneArrays, light:
     ratio, offset = scene.to_boxes.ratio, scene.to_boxes.offset
     apex = add(scale(ratio, place), offset)
     margin = beam_margin(apex, offset) + MARGIN * magnitude * ratio
-    return make_beam(apex, scale(ratio, low), scale(ratio, high), margin)
+    return make_beam(apex, apex, scale(ratio, low), scale(ratio, high), margin)

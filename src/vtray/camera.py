@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from vtray.compiled import device
-from vtray.vector import Vec, add, dot, scale, sub
+from vtray.vector import Vec, add, dot, scale
 
 
 class CameraFrame(NamedTuple):
@@ -13,14 +13,18 @@ class CameraFrame(NamedTuple):
     Attributes
     ----------
     eye
-        Where the rays start: ``-focus * forward``.
+        Where the rays start: ``-focus * forward``; in an orthographic view that of the middle.
     right, down, forward
         The unit axes x', y', z' of the camera.
     focus
         The distance from the eye to the image plane.
     pixel
-        Width and height of one pixel, and the distance from the eye to it, in a unit of their own:
-        they only make directions, and must not vanish beside things that are huge.
+        From one pixel to the next across and down, and the distance from the eye, in a unit of
+        their own: they only make directions, and must not vanish beside things that are huge.
+    shift
+        By how much the start of the ray moves from one pixel to the next, across and down.
+    extent
+        How far from the eye rays start at the most.
     width, height
         The size of the image in pixels.
     """
@@ -31,6 +35,8 @@ class CameraFrame(NamedTuple):
     forward: Vec
     focus: float
     pixel: Vec
+    shift: tuple[float, float]
+    extent: float
     width: int
     height: int
 
@@ -58,36 +64,35 @@ def camera_axes(forward: Vec) -> tuple[Vec, Vec]:
 
 
 @device
-def camera_ray(camera: CameraFrame, column: int, row: int) -> Vec:
-    """Return the unit direction of the ray from the eye through a pixel."""
-    across = (column - camera.width / 2) * camera.pixel[0]
-    below = (row - camera.height / 2) * camera.pixel[1]
-    in_plane = add(scale(across, camera.right), scale(below, camera.down))
+def is_shifted(camera: CameraFrame) -> bool:
+    """Tell whether rays start side by side, as in an orthographic view, not all at the eye."""
+    return camera.extent > 0.0
+
+
+@device
+def camera_ray(camera: CameraFrame, column: float, row: float) -> tuple[Vec, Vec]:
+    """Return where the ray through a place in the image starts, minus the eye, and its direction.
+
+    Parameters
+    ----------
+    camera
+        The camera.
+    column, row
+        The place in pixels, from the left and from the top; that of a pixel itself are integers.
+
+    Returns
+    -------
+    offset, direction
+        The offset is 0 in perspective; the direction has length 1.
+    """
+    across = column - camera.width / 2
+    below = row - camera.height / 2
+    in_plane = add(
+        scale(across * camera.pixel[0], camera.right), scale(below * camera.pixel[1], camera.down)
+    )
     ray = add(in_plane, scale(camera.pixel[2], camera.forward))
     length = math.sqrt(dot(ray, ray))
-    return ray[0] / length, ray[1] / length, ray[2] / length
-
-
-@device
-def left_side(camera: CameraFrame, column: int) -> Vec:
-    """Return a normal of the plane in which the rays of a column lie, pointing left.
-
-    It is not made of rays: at the edge of a very wide view, the parts of their directions that are
-    needed here have lost their digits.
-    """
-    return _side(camera, (column - camera.width / 2) * camera.pixel[0], camera.right)
-
-
-@device
-def top_side(camera: CameraFrame, row: int) -> Vec:
-    """Return a normal of the plane in which the rays of a row lie, pointing up."""
-    return _side(camera, (row - camera.height / 2) * camera.pixel[1], camera.down)
-
-
-@device
-def _side(camera: CameraFrame, offset: float, axis: Vec) -> Vec:
-    """Return what is square to ``offset * axis + distance * forward`` and to the third axis."""
-    distance = camera.pixel[2]
-    # Its squares must not vanish, so its length is from 1 to 2 unless nothing is left of it.
-    longest = max(abs(offset), distance, 1e-300)
-    return sub(scale(offset / longest, camera.forward), scale(distance / longest, axis))
+    offset = add(
+        scale(across * camera.shift[0], camera.right), scale(below * camera.shift[1], camera.down)
+    )
+    return offset, (ray[0] / length, ray[1] / length, ray[2] / length)

@@ -13,23 +13,6 @@ MARGIN = 2.0**-44
 
 
 @device
-def outside_side(center_from_eye: Vec, side: Vec, radius: float) -> bool:
-    """Tell whether a sphere lies wholly outside one side of a pyramid whose tip is the eye.
-
-    Parameters
-    ----------
-    center_from_eye
-        The sphere's centre minus the eye.
-    side
-        The side's normal, pointing out of the pyramid; any length.
-    radius
-        The sphere's radius, widened by the margin.
-    """
-    distance = dot(center_from_eye, side)
-    return (distance > 0.0) & (distance * distance > radius * radius * dot(side, side))
-
-
-@device
 def outside_shaft(center: Vec, radius: float, light: Vec, box_center: Vec, box_half: Vec) -> bool:
     """Tell whether a sphere lies wholly outside the shaft from a light to a box of hits.
 

@@ -3,12 +3,12 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.camera import CameraFrame, left_side, top_side
 from vtray.compiled import device
-from vtray.culling import MARGIN, outside_shaft, outside_side
-from vtray.nearest import nearest_sphere
+from vtray.cones import Footprint
+from vtray.culling import MARGIN, outside_shaft
+from vtray.nearest import test_sphere
 from vtray.occlusion import Bounds, block_by_sphere
-from vtray.packet import BLOCK, LANES, PART, Block, Packet
+from vtray.packet import PART, Packet
 from vtray.scene_arrays import Lights, SceneArrays
 from vtray.sphere_arrays import (
     SphereArrays,
@@ -17,19 +17,22 @@ from vtray.sphere_arrays import (
     sphere_magnitude,
     sphere_radius,
 )
-from vtray.vector import pick, scale, sub
+from vtray.vector import pick
+from vtray.workspace import Workspace
 
 Flags = NDArray[np.bool_]
 
 
 @device
-def nearest_of_few(packet: Packet, block: Block, scene: SceneArrays, near: Flags) -> None:
+def nearest_of_few(
+    packet: Packet, lanes: int, scene: SceneArrays, footprint: Footprint, work: Workspace
+) -> None:
     """Let the spheres take the lanes in which they are nearer than the hits so far."""
-    _cull_for_rays(block, scene.camera, scene.spheres, near)
-    for slot in range(sphere_count(scene.spheres)):
-        if near[slot]:
-            for first in range(0, LANES, PART):
-                nearest_sphere(packet, first, scene.camera, scene.spheres, slot)
+    for first in range(0, lanes, PART):
+        for slot in range(sphere_count(scene.spheres)):
+            test_sphere(
+                packet, first, scene.camera, scene.spheres, slot, work.cones, footprint
+            )
 
 
 @device
@@ -41,25 +44,6 @@ def block_by_few(
     for slot in range(sphere_count(scene.spheres)):
         if near[slot]:
             block_by_sphere(packet, 0, hits, scene.spheres, slot, scene.lights, light)
-
-
-@device
-def _cull_for_rays(block: Block, camera: CameraFrame, spheres: SphereArrays, near: Flags) -> None:
-    """Find the spheres that reach into the pyramid from the eye through a block."""
-    # Not by rays of two corners: far from the eye of a narrow view they are too nearly parallel.
-    left, top = left_side(camera, block.left), top_side(camera, block.top)
-    right = scale(-1.0, left_side(camera, block.left + BLOCK - 1))
-    bottom = scale(-1.0, top_side(camera, block.top + BLOCK - 1))
-    for slot in range(sphere_count(spheres)):
-        place, radius = sphere_center(spheres, slot), sphere_radius(spheres, slot)
-        center = sub(place, camera.eye)
-        radius += MARGIN * (sphere_magnitude(place, radius) + camera.focus)
-        near[slot] = not (
-            outside_side(center, left, radius)
-            | outside_side(center, top, radius)
-            | outside_side(center, right, radius)
-            | outside_side(center, bottom, radius)
-        )
 
 
 @device

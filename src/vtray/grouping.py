@@ -1,7 +1,7 @@
 """Groups of hits on the same sphere or plane: near each other, they go to the lights together."""
 
 from vtray.compiled import device
-from vtray.packet import LANES, NO_PRIMITIVE, PRIMITIVE, Packet
+from vtray.packet import NO_PRIMITIVE, PRIMITIVE, Packet
 from vtray.workspace import TABLE, Workspace
 
 GROUP = 32
@@ -12,10 +12,10 @@ SPREAD = 40503
 
 
 @device
-def list_hits(packet: Packet, work: Workspace) -> int:
+def list_hits(packet: Packet, lanes: int, work: Workspace) -> int:
     """List the lanes with a hit; return how many there are."""
     hits = 0
-    for lane in range(LANES):
+    for lane in range(lanes):
         if packet[PRIMITIVE + lane] != NO_PRIMITIVE:
             work.order[hits] = lane
             hits += 1
@@ -23,9 +23,9 @@ def list_hits(packet: Packet, work: Workspace) -> int:
 
 
 @device
-def group_hits(packet: Packet, work: Workspace) -> int:
+def group_hits(packet: Packet, lanes: int, work: Workspace) -> int:
     """List the lanes with a hit, in groups that hit the same; return how many lanes there are."""
-    owners = _find_members(packet, work)
+    owners = _find_members(packet, lanes, work)
     hits = 0
     groups = 0
     for k in range(owners):
@@ -37,7 +37,7 @@ def group_hits(packet: Packet, work: Workspace) -> int:
         hits += count
     work.group[0] = groups
     work.group[groups + 1] = hits
-    for lane in range(LANES):
+    for lane in range(lanes):
         owner = work.member[lane]
         if owner >= 0:
             work.order[work.size[owner]] = lane
@@ -46,13 +46,13 @@ def group_hits(packet: Packet, work: Workspace) -> int:
 
 
 @device
-def _find_members(packet: Packet, work: Workspace) -> int:
+def _find_members(packet: Packet, lanes: int, work: Workspace) -> int:
     """Find what is hit, by which lanes, and by how many; return how many things are."""
     table, owner, member, size = work.table, work.owner, work.member, work.size
     for place in range(TABLE):
         table[place] = -1
     owners = 0
-    for lane in range(LANES):
+    for lane in range(lanes):
         member[lane] = -1
         primitive = int(packet[PRIMITIVE + lane])
         if primitive == NO_PRIMITIVE:

@@ -5,28 +5,31 @@ from numpy.typing import NDArray
 
 from vtray.bvh_nearest import nearest_in_bvh
 from vtray.bvh_occlusion import block_in_bvh
-from vtray.camera import CameraFrame, camera_ray
+from vtray.camera import CameraFrame, camera_ray, is_shifted
 from vtray.compiled import device, kernel
+from vtray.cones import Footprint, find_cones
 from vtray.few_spheres import block_by_few, nearest_of_few
+from vtray.film import Film, add_samples, clear_sums, is_wanted, write_middles, write_pixels
 from vtray.interaction import gather_interactions
 from vtray.nearest import clear_hits, nearest_plane
 from vtray.occlusion import Bounds, block_by_planes, bound_points, find_sides
 from vtray.packet import (
     BLOCK,
+    COLUMN,
     DIRECTION,
     FORWARD,
     LANES,
-    NO_PRIMITIVE,
-    PIXEL,
-    PRIMITIVE,
-    VALUE,
+    OFFSET,
+    PART,
+    ROW,
     Block,
     Packet,
     load,
     store,
 )
+from vtray.sampling import Sampling, list_pixels, place_samples
 from vtray.scene_arrays import SceneArrays, has_bvh
-from vtray.shading import add_light, find_cosines
+from vtray.shading import add_light, clear_shadows, find_cosines, note_shadows
 from vtray.sphere_arrays import sphere_count
 from vtray.vector import dot
 from vtray.workspace import Workspace
@@ -35,11 +38,12 @@ from vtray.workspace import Workspace
 @kernel
 def trace_tile(
     scene: SceneArrays,
+    sampling: Sampling,
     left: int,
     top: int,
     right: int,
     bottom: int,
-    film: NDArray[np.float64],
+    film: Film,
     packet: Packet,
     work: Workspace,
     stop: NDArray[np.bool_],
@@ -50,10 +54,12 @@ def trace_tile(
     ----------
     scene
         The scene.
+    sampling
+        Which rays are cast for which pixels.
     left, top, right, bottom
         The tile in pixels; right and bottom are the first that no longer belong to it.
     film
-        The linear light of the image, (height, width, 3); the tile's part of it is written.
+        What is wanted of the image; the tile's part of it is written.
     packet, work
         Scratch memory of this thread.
     stop
@@ -62,43 +68,75 @@ def trace_tile(
     Returns
     -------
     peak, rays
-        The largest channel of the tile, and how many rays were cast.
+        The largest channel of the pixels traced, and how many rays were cast.
     """
     peak = 0.0
     rays = 0
+    together = max(1, LANES // sampling.count)
     for y in range(top, bottom, BLOCK):
         for x in range(left, right, BLOCK):
             block = Block(x, y, min(BLOCK, right - x), min(BLOCK, bottom - y))
-            brightest, cast = _trace_block(scene, block, film, packet, work, stop)
-            peak = max(peak, brightest)
-            rays += cast
-            if stop[0]:
-                return peak, rays
+            pixels = list_pixels(block, sampling.marks, work)
+            for begin in range(0, pixels, together):
+                end = min(begin + together, pixels)
+                if sampling.count > 1:
+                    clear_sums(work, end - begin)
+                hits = 0
+                for first in range(0, sampling.count, LANES):
+                    last = min(first + LANES, sampling.count)
+                    lanes = place_samples(packet, block, begin, end, sampling, first, last, work)
+                    hits, shadow_rays = _trace_packet(
+                        scene, sampling, lanes, film, packet, work, stop
+                    )
+                    rays += lanes + shadow_rays
+                    if stop[0]:
+                        return peak, rays
+                    if sampling.count > 1:
+                        add_samples(packet, lanes, hits, last - first, work)
+                if sampling.count > 1:
+                    peak = max(peak, write_pixels(block, begin, end, work, film))
+                else:
+                    peak = max(peak, write_middles(packet, block, begin, end, hits, work, film))
     return peak, rays
 
 
 @device
-def _trace_block(
+def _trace_packet(
     scene: SceneArrays,
-    block: Block,
-    film: NDArray[np.float64],
+    sampling: Sampling,
+    lanes: int,
+    film: Film,
     packet: Packet,
     work: Workspace,
     stop: NDArray[np.bool_],
-) -> tuple[float, int]:
-    """Trace the packet of one block: rays, hits, light, film."""
-    lanes = block.width * block.height
-    _cast_rays(packet, block, scene.camera)
-    _find_hits(packet, block, scene, work)
-    _drop_outside(packet, block)
-    hits = gather_interactions(packet, scene, work)
-    if hits < lanes:
-        _blacken(block, film)
-    if hits == 0:
-        return 0.0, lanes
-    rays = lanes
+) -> tuple[int, int]:
+    """Trace a packet: rays, hits, light; return how many hits and how many shadow rays."""
+    whole = (lanes + PART - 1) // PART * PART
+    _cast_rays(packet, whole, scene.camera)
+    find_cones(packet, whole, is_shifted(scene.camera), work.cones)
+    rays = 0
+    _find_hits(packet, whole, scene, sampling.footprint, work)
+    hits = gather_interactions(packet, lanes, scene, work)
+    if is_wanted(film.linear) and hits > 0:
+        rays = _light_hits(scene, hits, film, packet, work, stop)
+    return hits, rays
+
+
+@device
+def _light_hits(
+    scene: SceneArrays,
+    hits: int,
+    film: Film,
+    packet: Packet,
+    work: Workspace,
+    stop: NDArray[np.bool_],
+) -> int:
+    """Add all lights to the hits of a packet; return how many shadow rays were cast."""
+    rays = 0
     bounds = bound_points(packet, hits)
     find_sides(packet, hits, scene.planes, work)
+    if is_wanted(film.shadows):
+        clear_shadows(packet, hits)
     for light in range(scene.lights.x.shape[0]):
         if stop[0]:
             break
@@ -106,32 +144,37 @@ def _trace_block(
         if facing > 0:
             _find_blocked(packet, hits, bounds, scene, light, work)
             add_light(packet, hits, scene.lights, light)
+            if is_wanted(film.shadows):
+                note_shadows(packet, hits, light)
             rays += facing
-    return _expose(packet, hits, block, film), rays
+    return rays
 
 
 @device
-def _cast_rays(packet: Packet, block: Block, camera: CameraFrame) -> None:
+def _cast_rays(packet: Packet, lanes: int, camera: CameraFrame) -> None:
     """Set each lane's ray."""
-    for row in range(BLOCK):
-        for column in range(BLOCK):
-            direction = camera_ray(camera, block.left + column, block.top + row)
-            store(packet, DIRECTION, row * BLOCK + column, direction)
-    for lane in range(LANES):
+    for lane in range(lanes):
+        offset, direction = camera_ray(camera, packet[COLUMN + lane], packet[ROW + lane])
+        if is_shifted(camera):
+            store(packet, OFFSET, lane, offset)
+        store(packet, DIRECTION, lane, direction)
+    for lane in range(lanes):
         packet[FORWARD + lane] = dot(load(packet, DIRECTION, lane), camera.forward)
 
 
 @device
-def _find_hits(packet: Packet, block: Block, scene: SceneArrays, work: Workspace) -> None:
+def _find_hits(
+    packet: Packet, lanes: int, scene: SceneArrays, footprint: Footprint, work: Workspace
+) -> None:
     """Find each lane's nearest hit; planes first, so that less of the hierarchy is searched."""
-    clear_hits(packet)
+    clear_hits(packet, lanes)
     for plane in range(scene.planes.x.shape[0]):
         number = sphere_count(scene.spheres) + plane
-        nearest_plane(packet, scene.camera, scene.planes, plane, number)
+        nearest_plane(packet, lanes, scene.camera, scene.planes, plane, number)
     if has_bvh(scene):
-        nearest_in_bvh(packet, block, scene, work)
+        nearest_in_bvh(packet, lanes, scene, footprint, work)
     else:
-        nearest_of_few(packet, block, scene, work.near)
+        nearest_of_few(packet, lanes, scene, footprint, work)
 
 
 @device
@@ -144,38 +187,3 @@ def _find_blocked(
         block_in_bvh(packet, scene, light, work)
     else:
         block_by_few(packet, hits, bounds, scene, light, work.near)
-
-
-@device
-def _drop_outside(packet: Packet, block: Block) -> None:
-    """Forget the hits of lanes whose pixels are not in the block."""
-    if block.width < BLOCK or block.height < BLOCK:
-        for row in range(BLOCK):
-            for column in range(BLOCK):
-                if row >= block.height or column >= block.width:
-                    packet[PRIMITIVE + row * BLOCK + column] = NO_PRIMITIVE
-
-
-@device
-def _blacken(block: Block, film: NDArray[np.float64]) -> None:
-    """Write no light to a block's part of the film, for the rays that hit nothing."""
-    for row in range(block.top, block.top + block.height):
-        for column in range(block.left, block.left + block.width):
-            for channel in range(3):
-                film[row, column, channel] = 0.0
-
-
-@device
-def _expose(packet: Packet, hits: int, block: Block, film: NDArray[np.float64]) -> float:
-    """Write the light of a packet's points to the film; return the largest channel."""
-    peak = 0.0
-    for lane in range(hits):
-        pixel = int(packet[PIXEL + lane])
-        row = block.top + pixel // BLOCK
-        column = block.left + pixel % BLOCK
-        red, green, blue = load(packet, VALUE, lane)
-        film[row, column, 0] = red
-        film[row, column, 1] = green
-        film[row, column, 2] = blue
-        peak = max(peak, red, green, blue)
-    return peak

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.camera import is_shifted
 from vtray.compiled import device
 from vtray.grouping import group_hits, list_hits
 from vtray.packet import (
@@ -16,10 +17,11 @@ from vtray.packet import (
     LAMBERT,
     MAGNITUDE,
     NORMAL,
-    PIXEL,
+    OFFSET,
     POINT,
     PRIMITIVE,
     SLOT,
+    SOURCE,
     VALUE,
     Packet,
     load,
@@ -51,10 +53,12 @@ class Interaction(NamedTuple):
 
 @device
 def interact(
-    scene: SceneArrays, direction: Vec, distance: float, primitive: int, slot: int
+    scene: SceneArrays, offset: Vec, direction: Vec, distance: float, primitive: int, slot: int
 ) -> Interaction:
     """Return the point where a camera ray hits a primitive, which the arrays have at `slot`."""
     point = add(scene.camera.eye, scale(distance, direction))
+    if is_shifted(scene.camera):
+        point = add(point, offset)
     if primitive < sphere_count(scene.spheres):
         center = sphere_center(scene.spheres, slot)
         outward = sub(point, center)
@@ -65,6 +69,7 @@ def interact(
         normal = pick(scene.planes, slot)
         magnitude = scene.planes.magnitude[slot]
     side = -1.0 if dot(normal, direction) > 0.0 else 1.0
+    magnitude += scene.camera.extent
     return Interaction(point, scale(side, normal), magnitude + scene.camera.focus + distance)
 
 
@@ -88,24 +93,26 @@ def _triple(rows: NDArray[np.uint8], k: int) -> Vec:
 
 
 @device
-def gather_interactions(packet: Packet, scene: SceneArrays, work: Workspace) -> int:
+def gather_interactions(packet: Packet, lanes: int, scene: SceneArrays, work: Workspace) -> int:
     """Move the lanes with a hit to the front, as interactions with no light yet; return how many.
 
-    With a hierarchy they are in groups. Row ``PIXEL`` keeps where each came from.
+    With a hierarchy they are in groups. Row ``SOURCE`` keeps where each came from.
     """
-    hits = group_hits(packet, work) if has_bvh(scene) else list_hits(packet, work)
+    nowhere = (0.0, 0.0, 0.0)
+    hits = group_hits(packet, lanes, work) if has_bvh(scene) else list_hits(packet, lanes, work)
     for hit in range(hits):
         lane = work.order[hit]
         primitive = int(packet[PRIMITIVE + lane])
         direction = load(packet, DIRECTION, lane)
         slot = int(packet[SLOT + lane])
-        found = interact(scene, direction, packet[DISTANCE + lane], primitive, slot)
+        offset = load(packet, OFFSET, lane) if is_shifted(scene.camera) else nowhere
+        found = interact(scene, offset, direction, packet[DISTANCE + lane], primitive, slot)
         color, lambert = material(scene, primitive)
         store(packet, POINT, hit, found.point)
         store(packet, NORMAL, hit, found.normal)
         store(packet, COLOR, hit, color)
         store(packet, VALUE, hit, (0.0, 0.0, 0.0))
-        packet[PIXEL + hit] = lane
+        packet[SOURCE + hit] = lane
         packet[DEPTH + hit] = dot(found.point, scene.camera.forward)
         packet[MAGNITUDE + hit] = found.magnitude
         packet[LAMBERT + hit] = lambert

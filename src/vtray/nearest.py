@@ -2,16 +2,20 @@
 
 import math
 
-from vtray.camera import CameraFrame
+from vtray.camera import CameraFrame, is_shifted
 from vtray.compiled import device
+from vtray.cones import Cones, Footprint, groups_met, has_width, width_at
+from vtray.culling import MARGIN
 from vtray.packet import (
     DIRECTION,
     DISTANCE,
     FORWARD,
+    GROUP,
     LANES,
     NO_PRIMITIVE,
-    PART,
+    OFFSET,
     PRIMITIVE,
+    RIM,
     SLOT,
     Packet,
     load,
@@ -20,8 +24,8 @@ from vtray.plane import intersect_plane
 from vtray.rounding import ROUNDING
 from vtray.scene_arrays import Planes
 from vtray.sphere import intersect_sphere
-from vtray.sphere_arrays import SphereArrays, sphere_center, sphere_radius
-from vtray.vector import Vec, dot, pick, sub
+from vtray.sphere_arrays import SphereArrays, sphere_center, sphere_magnitude, sphere_radius
+from vtray.vector import Vec, add, dot, pick, scale, sub
 
 
 @device
@@ -53,40 +57,99 @@ def plane_distance(
 
 
 @device
-def clear_hits(packet: Packet) -> None:
+def clear_hits(packet: Packet, lanes: int) -> None:
     """Start with no hit in any lane."""
-    for lane in range(LANES):
+    for lane in range(lanes):
         packet[DISTANCE + lane] = math.inf
         packet[PRIMITIVE + lane] = NO_PRIMITIVE
+        packet[RIM + lane] = math.inf
+
+
+@device
+def test_sphere(
+    packet: Packet,
+    first: int,
+    camera: CameraFrame,
+    spheres: SphereArrays,
+    slot: int,
+    cones: Cones,
+    footprint: Footprint,
+) -> None:
+    """Test a sphere for those groups of a part of a packet that it may meet."""
+    place, radius = sphere_center(spheres, slot), sphere_radius(spheres, slot)
+    radius += MARGIN * (sphere_magnitude(place, radius) + camera.extent + camera.focus)
+    met = groups_met(cones, first // GROUP, sub(place, camera.eye), radius, footprint)
+    lane = first
+    while met > 0:
+        if met & 1:
+            nearest_sphere(packet, lane, camera, spheres, slot)
+            if has_width(footprint):
+                note_rim(packet, lane, camera, spheres, slot, footprint)
+        met >>= 1
+        lane += GROUP
 
 
 @device
 def nearest_sphere(
     packet: Packet, first: int, camera: CameraFrame, spheres: SphereArrays, slot: int
 ) -> None:
-    """Let a sphere take those of eight lanes in which it is nearer than the hit so far."""
-    from_center = sub(camera.eye, sphere_center(spheres, slot))
+    """Let a sphere take those of a group of lanes in which it is nearer than the hit so far."""
+    eye_from_center = sub(camera.eye, sphere_center(spheres, slot))
     radius = sphere_radius(spheres, slot)
     number = spheres.number[slot]
     # The mask tells the compiler that no index is negative.
     begin = first & (LANES - 1)
-    for lane in range(begin, begin + PART):
+    shifted = is_shifted(camera)
+    for lane in range(begin, begin + GROUP):
         direction = load(packet, DIRECTION, lane)
+        offset = load(packet, OFFSET, lane)
+        from_center = add(eye_from_center, offset) if shifted else eye_from_center
         forward = packet[FORWARD + lane]
         distance = sphere_distance(from_center, direction, radius, forward, camera.focus)
         _take_nearer(packet, lane, distance, number, slot)
 
 
 @device
+def note_rim(
+    packet: Packet,
+    first: int,
+    camera: CameraFrame,
+    spheres: SphereArrays,
+    slot: int,
+    footprint: Footprint,
+) -> None:
+    """Note the distance of a sphere's outline in those of a group of lanes that it passes near."""
+    eye_from_center = sub(camera.eye, sphere_center(spheres, slot))
+    radius = sphere_radius(spheres, slot)
+    begin = first & (LANES - 1)
+    shifted = is_shifted(camera)
+    for lane in range(begin, begin + GROUP):
+        direction = load(packet, DIRECTION, lane)
+        offset = load(packet, OFFSET, lane)
+        from_center = add(eye_from_center, offset) if shifted else eye_from_center
+        middle = -dot(from_center, direction)
+        approach = add(from_center, scale(middle, direction))
+        gap2 = dot(approach, approach)
+        width = width_at(footprint, middle)
+        outer, inner = radius + width, max(radius - width, 0.0)
+        near = (gap2 < outer * outer) & (gap2 >= inner * inner) & (middle > camera.focus)
+        entry = middle - math.sqrt(max(radius * radius - gap2, 0.0))
+        packet[RIM + lane] = min(entry, packet[RIM + lane]) if near else packet[RIM + lane]
+
+
+@device
 def nearest_plane(
-    packet: Packet, camera: CameraFrame, planes: Planes, plane: int, number: int
+    packet: Packet, lanes: int, camera: CameraFrame, planes: Planes, plane: int, number: int
 ) -> None:
     """Let a plane take the lanes in which it is nearer than the hit so far."""
     normal = pick(planes, plane)
-    height = planes.height[plane]
-    magnitude = planes.magnitude[plane]
-    for lane in range(LANES):
+    eye_height = planes.height[plane]
+    magnitude = planes.magnitude[plane] + camera.extent
+    shifted = is_shifted(camera)
+    for lane in range(lanes):
         descent = dot(load(packet, DIRECTION, lane), normal)
+        offset = load(packet, OFFSET, lane)
+        height = eye_height - dot(offset, normal) if shifted else eye_height
         forward = packet[FORWARD + lane]
         distance = plane_distance(height, descent, forward, camera.focus, magnitude)
         _take_nearer(packet, lane, distance, number, plane)

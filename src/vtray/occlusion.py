@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from vtray.compiled import device
-from vtray.packet import BLOCKED, DEPTH, LANES, MAGNITUDE, PART, POINT, Packet, load
+from vtray.packet import BLOCKED, DEPTH, GROUP, LANES, MAGNITUDE, POINT, Packet, load
 from vtray.plane import plane_blocks
 from vtray.rounding import ROUNDING
 from vtray.scene_arrays import Lights, Planes
@@ -96,9 +96,9 @@ def block_by_sphere(
     light: int,
 ) -> None:
     """Mark the points of a range that a sphere hides from a light."""
-    for chunk in range(begin // PART, (end + PART - 1) // PART):
+    for chunk in range(begin // GROUP, (end + GROUP - 1) // GROUP):
         # Points beyond the range in the same eight are only marked if they are hidden, too.
-        _block_eight(packet, chunk * PART, spheres, slot, lights, light)
+        _block_eight(packet, chunk * GROUP, spheres, slot, lights, light)
 
 
 @device
@@ -112,7 +112,7 @@ def _block_eight(
     light_depth = lights.depth[light]
     # The mask tells the compiler that no index is negative.
     begin = first & (LANES - 1)
-    for lane in range(begin, begin + PART):
+    for lane in range(begin, begin + GROUP):
         point = load(packet, POINT, lane)
         reach = ROUNDING * (packet[MAGNITUDE + lane] + magnitude)
         depth = packet[DEPTH + lane]

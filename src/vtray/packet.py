@@ -20,15 +20,18 @@ BLOCK = 16
 LANES = BLOCK * BLOCK
 """Rays in a packet: one per pixel of its block."""
 
-PART = 8
-"""Lanes that one vector instruction handles, and the side of a part of a block."""
+GROUP = 8
+"""Lanes that one vector instruction handles: rays near each other."""
+
+PART = 8 * GROUP
+"""Lanes that go through the hierarchy as one beam."""
 
 # Rows of one number a lane; a vector takes three rows.
 DIRECTION = 0 * LANES
 FORWARD = 3 * LANES  # the ray's direction along the camera's normal
 DISTANCE = 4 * LANES
 PRIMITIVE = 5 * LANES  # the number of what is hit, which decides between equal distances
-PIXEL = 6 * LANES
+SOURCE = 6 * LANES  # of a hit: the lane of its ray
 POINT = 7 * LANES
 DEPTH = 10 * LANES  # the point's distance in front of the image plane
 NORMAL = 11 * LANES
@@ -39,7 +42,14 @@ VALUE = 19 * LANES
 BLOCKED = 22 * LANES
 COSINE = 23 * LANES
 SLOT = 24 * LANES  # where the arrays have what is hit
-ROWS = 25
+OFFSET = 25 * LANES  # where the ray starts, minus the eye
+COLUMN = 28 * LANES  # the place in the image that the ray goes through, in pixels
+ROW = 29 * LANES
+WEIGHT = 30 * LANES  # what the ray counts for its pixel
+LIGHT = 31 * LANES  # the light along the ray; in the rows before, hits have moved to the front
+SHADOWS = 34 * LANES  # a number for the lights that something blocks
+RIM = 35 * LANES  # the distance of the nearest outline that passes near the ray
+ROWS = 36
 
 NO_PRIMITIVE = -1.0
 """In row ``PRIMITIVE``: the ray hits nothing. (A double as all rows: lanes stay equally wide.)"""

@@ -30,6 +30,8 @@ class TracedPixel(NamedTuple):
 
     Attributes
     ----------
+    offset
+        Where the camera ray starts, minus the eye.
     direction
         The camera ray's unit direction.
     distance
@@ -42,6 +44,7 @@ class TracedPixel(NamedTuple):
         Linear red, green and blue.
     """
 
+    offset: Vec
     direction: Vec
     distance: float
     primitive: int
@@ -70,13 +73,13 @@ def trace_pixel(
     blockers
         Out: for each light the first primitive between hit and light, or ``NOTHING``.
     """
-    direction = camera_ray(scene.camera, column, row)
-    distance, primitive, slot = _nearest_hit(scene, direction)
+    offset, direction = camera_ray(scene.camera, column, row)
+    distance, primitive, slot = _nearest_hit(scene, offset, direction)
     value = (0.0, 0.0, 0.0)
     found = Interaction(scene.camera.eye, direction, 0.0)
     if primitive == NOTHING:
-        return TracedPixel(direction, distance, primitive, found, value)
-    found = interact(scene, direction, distance, primitive, slot)
+        return TracedPixel(offset, direction, distance, primitive, found, value)
+    found = interact(scene, offset, direction, distance, primitive, slot)
     color, lambert = material(scene, primitive)
     lights = scene.lights
     for light in range(lights.x.shape[0]):
@@ -87,17 +90,17 @@ def trace_pixel(
         if blockers[light] == NOTHING:
             strength = cosines[light] * lambert * lights.intensity[light]
             value = add(value, scale(strength, color))
-    return TracedPixel(direction, distance, primitive, found, value)
+    return TracedPixel(offset, direction, distance, primitive, found, value)
 
 
 @device
-def _nearest_hit(scene: SceneArrays, direction: Vec) -> tuple[float, int, int]:
+def _nearest_hit(scene: SceneArrays, offset: Vec, direction: Vec) -> tuple[float, int, int]:
     """Return distance, primitive and slot of a camera ray's nearest hit."""
     camera, spheres, planes = scene.camera, scene.spheres, scene.planes
     forward = dot(direction, camera.forward)
     nearest, primitive, slot = math.inf, NOTHING, 0
     for k in range(sphere_count(spheres)):
-        from_center = sub(camera.eye, sphere_center(spheres, k))
+        from_center = add(sub(camera.eye, sphere_center(spheres, k)), offset)
         radius = sphere_radius(spheres, k)
         distance = sphere_distance(from_center, direction, radius, forward, camera.focus)
         number = int(spheres.number[k])
@@ -105,7 +108,8 @@ def _nearest_hit(scene: SceneArrays, direction: Vec) -> tuple[float, int, int]:
             nearest, primitive, slot = distance, number, k
     for k in range(planes.x.shape[0]):
         descent = dot(direction, pick(planes, k))
-        height, magnitude = planes.height[k], planes.magnitude[k]
+        height = planes.height[k] - dot(offset, pick(planes, k))
+        magnitude = planes.magnitude[k] + camera.extent
         distance = plane_distance(height, descent, forward, camera.focus, magnitude)
         if distance < nearest:
             nearest, primitive, slot = distance, sphere_count(spheres) + k, k

@@ -10,12 +10,14 @@ from numpy.typing import NDArray
 from vtray.acceleration import accelerate
 from vtray.compiled import loading_seconds, pinned
 from vtray.exposure import check_brightness, develop
+from vtray.film import Film, new_film
 from vtray.image import Image, Surfaces
 from vtray.integrator import trace_tile
 from vtray.memory import check_memory
 from vtray.packet import new_packet
 from vtray.pool import Progress as StepProgress
 from vtray.pool import run_tasks
+from vtray.sampling import Sampling, middle_rays
 from vtray.scene import Scene
 from vtray.scene_arrays import SceneArrays, pack
 from vtray.settings import RenderSettings
@@ -23,7 +25,6 @@ from vtray.stopwatch import Stopwatch
 from vtray.tiles import TILE, Tile, split_into_tiles
 from vtray.workspace import new_workspace
 
-Film = NDArray[np.float64]
 Progress = Callable[[str, int, int], None]
 
 
@@ -76,7 +77,11 @@ def render(
     clock.lap("pack")
     compile_kernels(arrays)
     clock.lap("compile")
-    film, peak, rays = _trace(arrays, threads, tile, _step_of(progress, "trace"))
+    width, height = arrays.camera.width, arrays.camera.height
+    light = new_film(width, height, "linear")
+    step = _step_of(progress, "trace")
+    peak, rays = _trace(arrays, middle_rays(), light, threads, tile, step)
+    film = light.linear
     clock.lap("trace")
     pixels = _develop(film, peak, threads)
     clock.lap("develop")
@@ -113,27 +118,32 @@ def available_cores() -> int:
 
 def compile_kernels(scene: SceneArrays) -> None:
     """Compile what is needed to render a scene, or load it from disk."""
-    film = np.zeros((0, 0, 3))
+    film = new_film(0, 0)
     stop = np.zeros(1, np.bool_)
-    trace_tile(scene, 0, 0, 0, 0, film, new_packet(), new_workspace(scene), stop)
-    develop(film, 0.0, np.zeros((0, 0, 3), np.uint8))
+    packet, work = new_packet(), new_workspace(scene)
+    trace_tile(scene, middle_rays(), 0, 0, 0, 0, film, packet, work, stop)
+    develop(film.linear, 0.0, np.zeros((0, 0, 3), np.uint8))
 
 
 def _trace(
-    scene: SceneArrays, threads: int, tile: int, progress: StepProgress | None
-) -> tuple[Film, float, int]:
-    """Return the film, its largest channel, and how many rays were cast."""
+    scene: SceneArrays,
+    sampling: Sampling,
+    film: Film,
+    threads: int,
+    tile: int,
+    progress: StepProgress | None,
+) -> tuple[float, int]:
+    """Trace rays and write to the film; return the largest channel, and how many rays."""
     camera = scene.camera
-    film = np.empty((camera.height, camera.width, 3))
     stop = np.zeros(1, np.bool_)
     results: list[tuple[float, int]] = []
-    world, canvas, flag = pinned(scene), pinned(film), pinned(stop)
+    world, places, canvas, flag = pinned(scene), pinned(sampling), pinned(film), pinned(stop)
 
     def new_worker() -> Callable[[Tile], None]:
         packet, work = pinned(new_packet()), pinned(new_workspace(scene))
 
         def trace(tile: Tile) -> None:
-            results.append(trace_tile(world, *tile, canvas, packet, work, flag))
+            results.append(trace_tile(world, places, *tile, canvas, packet, work, flag))
 
         return trace
 
@@ -142,10 +152,10 @@ def _trace(
 
     tiles = split_into_tiles(camera.width, camera.height, tile)
     run_tasks(tiles, new_worker, threads, stop=hurry, progress=progress)
-    return film, max(peak for peak, _ in results), sum(rays for _, rays in results)
+    return max(peak for peak, _ in results), sum(rays for _, rays in results)
 
 
-def _develop(film: Film, peak: float, threads: int) -> NDArray[np.uint8]:
+def _develop(film: NDArray[np.float64], peak: float, threads: int) -> NDArray[np.uint8]:
     """Return the exposed pixels of a film."""
     pixels = np.empty(film.shape, np.uint8)
 

@@ -175,6 +175,8 @@ def _pack_camera(camera: Camera, unit: float) -> CameraFrame:
         forward=forward,
         focus=focus,
         pixel=(math.ldexp(width, own), math.ldexp(height, own), math.ldexp(camera.focus, own)),
+        shift=(0.0, 0.0),
+        extent=0.0,
         width=int(camera.size[0]),
         height=int(camera.size[1]),
     )

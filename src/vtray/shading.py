@@ -11,6 +11,7 @@ from vtray.packet import (
     MAGNITUDE,
     NORMAL,
     POINT,
+    SHADOWS,
     VALUE,
     Packet,
     load,
@@ -19,6 +20,9 @@ from vtray.packet import (
 from vtray.rounding import ROUNDING
 from vtray.scene_arrays import Lights
 from vtray.vector import Vec, add, dot, pick, scale, sub
+
+MANTISSA = 53
+"""Bits of a double that can stand for a light each."""
 
 
 @device
@@ -68,3 +72,19 @@ def add_light(packet: Packet, hits: int, lights: Lights, light: int) -> None:
         strength = cosine * packet[LAMBERT + lane] * intensity
         added = scale(strength, load(packet, COLOR, lane))
         store(packet, VALUE, lane, add(load(packet, VALUE, lane), added))
+
+
+@device
+def clear_shadows(packet: Packet, hits: int) -> None:
+    """Start with no light blocked."""
+    for lane in range(hits):
+        packet[SHADOWS + lane] = 0.0
+
+
+@device
+def note_shadows(packet: Packet, hits: int, light: int) -> None:
+    """Add a number of a light's own in row ``SHADOWS`` where something blocks it."""
+    bit = float(1 << light % MANTISSA)
+    for lane in range(hits):
+        blocked = (packet[BLOCKED + lane] != 0.0) & (packet[COSINE + lane] > 0.0)
+        packet[SHADOWS + lane] += bit if blocked else 0.0

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.bvh import STACK
-from vtray.packet import LANES, PART
+from vtray.cones import Cones, new_cones
+from vtray.packet import BLOCK, LANES
 from vtray.scene_arrays import SceneArrays
 
 TABLE = 2 * LANES
@@ -22,14 +23,20 @@ class Workspace(NamedTuple):
         Which spheres may be met, one per sphere; nothing if there is a hierarchy.
     above, below
         Whether any point lies on that side of a plane, clear of rounding, one per plane.
-    rows
-        For each row of a part of a block the normal of the plane of its rays, and its square.
+    cones
+        The cones around the groups of rays.
     stack, stack_enter
         Nodes that wait on a way through the hierarchy, and where the beam enters them.
     order
         The lanes with a hit in the order of their groups.
     group
         How many groups there are, and then the first hit of each, and the end of the last.
+    curve
+        The pixels of a block along a curve.
+    pixels
+        Those that are traced.
+    light, covered, weight
+        The sums of the samples of the pixels of a packet; light as three rows.
     table, owner, member, size
         The hash table of what is hit: a number for each, what it is, which lanes hit it, how many.
     """
@@ -37,15 +44,32 @@ class Workspace(NamedTuple):
     near: NDArray[np.bool_]
     above: NDArray[np.bool_]
     below: NDArray[np.bool_]
-    rows: NDArray[np.float64]
+    cones: Cones
     stack: NDArray[np.int64]
     stack_enter: NDArray[np.float64]
     order: NDArray[np.int64]
     group: NDArray[np.int64]
+    curve: NDArray[np.int64]
+    pixels: NDArray[np.int64]
+    light: NDArray[np.float64]
+    covered: NDArray[np.float64]
+    weight: NDArray[np.float64]
     table: NDArray[np.int64]
     owner: NDArray[np.int64]
     member: NDArray[np.int64]
     size: NDArray[np.int64]
+
+
+def curve_of_block() -> NDArray[np.int64]:
+    """Return the pixels of a block, as row * BLOCK + column, in the order of Morton's curve.
+
+    Those of a group of lanes, and those of a part of a packet, are near each other: 4 by 2 and 8 by
+    8 pixels, if all pixels are traced.
+    """
+    code = np.arange(BLOCK * BLOCK)
+    column = code & 1 | code >> 1 & 2 | code >> 2 & 4 | code >> 3 & 8
+    row = code >> 1 & 1 | code >> 2 & 2 | code >> 3 & 4 | code >> 4 & 8
+    return row * BLOCK + column
 
 
 def new_workspace(scene: SceneArrays) -> Workspace:
@@ -60,11 +84,16 @@ def new_workspace(scene: SceneArrays) -> Workspace:
         near=np.zeros(few, np.bool_),
         above=np.zeros(planes, np.bool_),
         below=np.zeros(planes, np.bool_),
-        rows=np.zeros(4 * PART),
+        cones=new_cones(),
         stack=integers(STACK),
         stack_enter=np.zeros(STACK),
         order=integers(LANES),
         group=integers(LANES + 2),
+        curve=curve_of_block(),
+        pixels=integers(LANES),
+        light=np.zeros(3 * LANES),
+        covered=np.zeros(LANES),
+        weight=np.zeros(LANES),
         table=integers(TABLE),
         owner=integers(LANES),
         member=integers(LANES),

@@ -1,0 +1,68 @@
+"""Which pixels need more than one ray.
+
+A pixel gets samples if what its filter covers may not all look like its middle: if the outline of a
+sphere passes through it, seen or just missed by its middle ray, or if near it another surface, or
+the shadow of another thing, begins. None of these questions has a threshold for light, so the
+choice depends neither on colours nor on the strength of lights. The rays by which pixels are chosen
+are not used in those that are: their samples are as unbiased as if all pixels had them.
+
+References
+----------
+Kirk, Arvo, "Unbiased Sampling Techniques for Image Synthesis", SIGGRAPH 1991 (why not to use them).
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.compiled import device, kernel
+from vtray.film import Film
+
+
+@kernel
+def mark_rows(
+    film: Film, near: int, top: int, bottom: int, marks: NDArray[np.bool_]
+) -> tuple[int, float]:
+    """Mark the pixels of some rows that need samples.
+
+    Parameters
+    ----------
+    film
+        What the middle rays found: light, primitives, shadows and rims.
+    near
+        How many pixels away what is near begins.
+    top, bottom
+        The rows from the first to before the last.
+    marks
+        Out: the pixels that need samples, (height, width).
+
+    Returns
+    -------
+    count, peak
+        How many pixels of these rows are marked, and the largest channel of the others.
+    """
+    height, width = marks.shape
+    count = 0
+    peak = 0.0
+    for row in range(top, bottom):
+        for column in range(width):
+            marks[row, column] = film.rims[row, column]
+        for other in range(max(row - near, 0), min(row + near + 1, height)):
+            for shift in range(-near, near + 1):
+                _mark_changes(film, row, other, shift, marks)
+        for column in range(width):
+            if marks[row, column]:
+                count += 1
+            else:
+                for channel in range(3):
+                    peak = max(peak, film.linear[row, column, channel])
+    return count, peak
+
+
+@device
+def _mark_changes(film: Film, row: int, other: int, shift: int, marks: NDArray[np.bool_]) -> None:
+    """Mark the pixels of a row that differ from those of another, so many columns to the right."""
+    for column in range(max(0, -shift), marks.shape[1] - max(0, shift)):
+        differs = (film.primitive[row, column] != film.primitive[other, column + shift]) | (
+            film.shadows[row, column] != film.shadows[other, column + shift]
+        )
+        marks[row, column] = marks[row, column] | differs

@@ -1,0 +1,236 @@
+"""The film: what is recorded of each pixel, and how the samples of a pixel become its light."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.compiled import device
+from vtray.packet import (
+    BLOCK,
+    DISTANCE,
+    LANES,
+    LIGHT,
+    NO_PRIMITIVE,
+    NORMAL,
+    PRIMITIVE,
+    RIM,
+    SHADOWS,
+    SOURCE,
+    VALUE,
+    WEIGHT,
+    Block,
+    Packet,
+    load,
+    store,
+)
+from vtray.vector import add, scale
+from vtray.workspace import Workspace
+
+
+class Film(NamedTuple):
+    """What kernels write of each pixel; what is not wanted has no rows and no columns.
+
+    Attributes
+    ----------
+    linear
+        Linear light, (height, width, 3).
+    coverage
+        Share of the pixel in which something is hit, (height, width).
+    distance
+        Along the middle ray, in the unit of the arrays, infinite for no hit, (height, width).
+    normal
+        At the middle ray's hit, on its side, 0 for no hit, (height, width, 3).
+    primitive
+        What the middle ray hits, -1 for nothing, (height, width).
+    shadows
+        A number for the lights that something keeps from the middle ray's hit, (height, width).
+    rims
+        Whether the outline of a sphere passes near the middle ray, (height, width).
+    """
+
+    linear: NDArray[np.float64]
+    coverage: NDArray[np.float64]
+    distance: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    primitive: NDArray[np.int32]
+    shadows: NDArray[np.float64]
+    rims: NDArray[np.bool_]
+
+
+def new_film(width: int, height: int, *wanted: str) -> Film:
+    """Return a film for what is wanted, of no certain content."""
+    kinds = {"primitive": np.int32, "rims": np.bool_}
+    vectors = {"linear", "normal"}
+
+    def rows(name: str) -> NDArray[np.generic]:
+        size = (height, width) if name in wanted else (0, 0)
+        return np.empty(size + (3,) * (name in vectors), kinds.get(name, np.float64))
+
+    return Film(*map(rows, Film._fields))
+
+
+@device
+def is_wanted(rows: NDArray[np.generic]) -> bool:
+    """Tell whether a part of a film is to be written."""
+    return rows.shape[0] > 0
+
+
+@device
+def clear_sums(work: Workspace, pixels: int) -> None:
+    """Start to add up the samples of some pixels."""
+    for k in range(pixels):
+        work.light[k] = 0.0
+        work.light[k + LANES] = 0.0
+        work.light[k + 2 * LANES] = 0.0
+        work.covered[k] = 0.0
+        work.weight[k] = 0.0
+
+
+@device
+def add_samples(packet: Packet, lanes: int, hits: int, samples: int, work: Workspace) -> None:
+    """Add the samples of a packet to their pixels, always in the order of their numbers."""
+    _bring_back(packet, lanes, hits)
+    for k in range(lanes // samples):
+        light = load(work.light, 0, k)
+        covered = work.covered[k]
+        total = work.weight[k]
+        for lane in range(k * samples, (k + 1) * samples):
+            weight = packet[WEIGHT + lane]
+            light = add(light, scale(weight, load(packet, LIGHT, lane)))
+            covered += weight if packet[PRIMITIVE + lane] != NO_PRIMITIVE else 0.0
+            total += weight
+        store(work.light, 0, k, light)
+        work.covered[k] = covered
+        work.weight[k] = total
+
+
+@device
+def _bring_back(packet: Packet, lanes: int, hits: int) -> None:
+    """Bring the light of the hits back to the lanes of their rays."""
+    for lane in range(lanes):
+        store(packet, LIGHT, lane, (0.0, 0.0, 0.0))
+    for hit in range(hits):
+        store(packet, LIGHT, int(packet[SOURCE + hit]), load(packet, VALUE, hit))
+
+
+@device
+def write_pixels(block: Block, begin: int, end: int, work: Workspace, film: Film) -> float:
+    """Write the sums of pixels of a block's list to the film; return their largest channel."""
+    peak = 0.0
+    for k in range(end - begin):
+        row, column = _place(block, work.pixels[begin + k])
+        weight = work.weight[k]
+        if is_wanted(film.linear):
+            red, green, blue = load(work.light, 0, k)
+            film.linear[row, column, 0] = red / weight
+            film.linear[row, column, 1] = green / weight
+            film.linear[row, column, 2] = blue / weight
+            peak = max(peak, red / weight, green / weight, blue / weight)
+        if is_wanted(film.coverage):
+            film.coverage[row, column] = work.covered[k] / weight
+    return peak
+
+
+@device
+def write_middles(
+    packet: Packet, block: Block, begin: int, end: int, hits: int, work: Workspace, film: Film
+) -> float:
+    """Write what is wanted of pixels with one ray, a lane for each; return the largest channel."""
+    peak = 0.0
+    if is_wanted(film.linear):
+        if hits < end - begin:
+            _clear(block, begin, end, work, film.linear)
+        peak = _write_light(packet, block, begin, hits, work, film.linear)
+    if is_wanted(film.normal):
+        _clear(block, begin, end, work, film.normal)
+        _write_normals(packet, block, begin, hits, work, film.normal)
+    if is_wanted(film.distance):
+        for lane in range(end - begin):
+            row, column = _place(block, work.pixels[begin + lane])
+            film.distance[row, column] = packet[DISTANCE + lane]
+    if is_wanted(film.primitive):
+        for lane in range(end - begin):
+            row, column = _place(block, work.pixels[begin + lane])
+            film.primitive[row, column] = int(packet[PRIMITIVE + lane])
+    if is_wanted(film.rims):
+        for lane in range(end - begin):
+            row, column = _place(block, work.pixels[begin + lane])
+            film.rims[row, column] = packet[RIM + lane] <= packet[DISTANCE + lane]
+    if is_wanted(film.shadows):
+        _write_shadows(packet, block, begin, end, hits, work, film.shadows)
+    return peak
+
+
+@device
+def _place(block: Block, pixel: int) -> tuple[int, int]:
+    """Return row and column of a pixel of a block in the image."""
+    return block.top + pixel // BLOCK, block.left + (pixel & (BLOCK - 1))
+
+
+@device
+def _clear(
+    block: Block, begin: int, end: int, work: Workspace, vectors: NDArray[np.float64]
+) -> None:
+    """Write zeros for pixels of a block's list."""
+    for lane in range(end - begin):
+        row, column = _place(block, work.pixels[begin + lane])
+        vectors[row, column, 0] = 0.0
+        vectors[row, column, 1] = 0.0
+        vectors[row, column, 2] = 0.0
+
+
+@device
+def _write_light(
+    packet: Packet,
+    block: Block,
+    begin: int,
+    hits: int,
+    work: Workspace,
+    linear: NDArray[np.float64],
+) -> float:
+    """Write the light of the hits; return the largest channel."""
+    peak = 0.0
+    for hit in range(hits):
+        row, column = _place(block, work.pixels[begin + int(packet[SOURCE + hit])])
+        red, green, blue = load(packet, VALUE, hit)
+        linear[row, column, 0] = red
+        linear[row, column, 1] = green
+        linear[row, column, 2] = blue
+        peak = max(peak, red, green, blue)
+    return peak
+
+
+@device
+def _write_normals(
+    packet: Packet,
+    block: Block,
+    begin: int,
+    hits: int,
+    work: Workspace,
+    normals: NDArray[np.float64],
+) -> None:
+    """Write the normals of the hits."""
+    for hit in range(hits):
+        row, column = _place(block, work.pixels[begin + int(packet[SOURCE + hit])])
+        for axis in range(3):
+            normals[row, column, axis] = packet[NORMAL + axis * LANES + hit]
+
+
+@device
+def _write_shadows(
+    packet: Packet,
+    block: Block,
+    begin: int,
+    end: int,
+    hits: int,
+    work: Workspace,
+    shadows: NDArray[np.float64],
+) -> None:
+    """Write the numbers of the lights that something keeps from the hits."""
+    for lane in range(end - begin):
+        row, column = _place(block, work.pixels[begin + lane])
+        shadows[row, column] = 0.0
+    for hit in range(hits):
+        row, column = _place(block, work.pixels[begin + int(packet[SOURCE + hit])])
+        shadows[row, column] = packet[SHADOWS + hit]
