@@ -25,3 +25,19 @@ Size = Annotated[
 SizePair = Annotated[tuple[Size, Size], Meta(description="an array of two integers > 0")]
 PositivePair = Annotated[tuple[Positive, Positive], Meta(description="an array of two numbers > 0")]
 DataPath = Annotated[str, Meta(pattern=r"\.np[yz]$", description="the path of a .npz or .npy file")]
+
+
+class FieldError(ValueError):
+    """Says that one field does not fit the others, where a type looks at them together.
+
+    Parameters
+    ----------
+    field : str
+        The field.
+    message : str
+        What was expected of it.
+    """
+
+    def __init__(self, field: str, message: str) -> None:
+        super().__init__(message)
+        self.field = field
