@@ -155,7 +155,9 @@ def test_integers_may_be_written_as_floats() -> None:
             (CAMERA, [], [LIGHT]),
             "Scene.objects[0]: expected Sphere, Plane or Spheres, got Light(",
         ),
-        (Scene, (None, [], []), "Scene.camera: expected Camera, got None"),
+        (Scene, (1, [], []), "Scene.camera: expected Camera, got 1"),
+        (Scene, (CAMERA, [], [], 4), "Scene.render: expected RenderSettings, got 4"),
+        (Scene, (CAMERA, None, []), "Scene.lights: expected a list, got None"),
     ],
 )
 def test_wrong_arguments(cls: Any, arguments: tuple[Any, ...], message: str) -> None:

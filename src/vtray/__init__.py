@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from vtray.errors import OutputError, RenderError, SceneError, VtrayError
 from vtray.scene import Camera, Color, Direction, Light, Plane, Scene, Sphere, Vector
 from vtray.scene_file import load, loads
+from vtray.settings import RenderSettings
 from vtray.spheres import Spheres
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ __all__ = [
     "OutputError",
     "Plane",
     "RenderError",
+    "RenderSettings",
     "Scene",
     "SceneError",
     "Sphere",

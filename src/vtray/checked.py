@@ -32,7 +32,10 @@ def make_unchecked(cls: type, **values: object) -> Any:  # noqa: ANN401
 
 
 def bind(cls: type, args: tuple[object, ...], kwargs: dict[str, object]) -> dict[str, object]:
-    """Name the positional arguments, and raise TypeError as a call does."""
+    """Name the positional arguments, and raise TypeError as a call does.
+
+    What is left to a default is not among the result.
+    """
     names: tuple[str, ...] = cls.__struct_fields__  # type: ignore[attr-defined]
     if len(args) > len(names):
         message = f"{cls.__name__}() takes {len(names)} arguments, got {len(args)}"
@@ -44,7 +47,8 @@ def bind(cls: type, args: tuple[object, ...], kwargs: dict[str, object]) -> dict
             message = f"{cls.__name__}() argument {name!r} is {problem}"
             raise TypeError(message)
         values[name] = value
-    missing = [name for name in names if name not in values]
+    required = names[: len(names) - len(cls.__struct_defaults__)]  # type: ignore[attr-defined]
+    missing = [name for name in required if name not in values]
     if missing:
         message = f"{cls.__name__}() lacks the arguments {', '.join(missing)}"
         raise TypeError(message)
@@ -57,7 +61,7 @@ def _is_plain(value: object) -> bool:
         if all(issubclass(kind, msgspec.Struct) for kind in set(map(type, value))):
             return True
         return all(map(_is_plain_number, value))
-    return _is_plain_number(value) or isinstance(value, (str, msgspec.Struct))
+    return value is None or _is_plain_number(value) or isinstance(value, (str, msgspec.Struct))
 
 
 def _is_plain_number(value: object) -> bool:

@@ -3,7 +3,7 @@
 Each description completes "expected ..." in an error message.
 """
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from msgspec import Meta
 
@@ -24,4 +24,23 @@ Size = Annotated[
 ]
 SizePair = Annotated[tuple[Size, Size], Meta(description="an array of two integers > 0")]
 PositivePair = Annotated[tuple[Positive, Positive], Meta(description="an array of two numbers > 0")]
+Projection = Literal["perspective", "orthographic"]
+Margin = Annotated[float, Meta(ge=0, lt=0.5, description="a number from 0 to less than 0.5")]
+FieldOfView = Annotated[float, Meta(gt=0, lt=180, description="a number of degrees > 0 and < 180")]
 DataPath = Annotated[str, Meta(pattern=r"\.np[yz]$", description="the path of a .npz or .npy file")]
+
+
+class FieldError(ValueError):
+    """Says that one field does not fit the others, where a type looks at them together.
+
+    Parameters
+    ----------
+    field : str
+        The field.
+    message : str
+        What was expected of it.
+    """
+
+    def __init__(self, field: str, message: str) -> None:
+        super().__init__(message)
+        self.field = field

@@ -13,228 +13,39 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import msgspec
 from msgspec import UNSET, UnsetType
 
+from vtray.cameras import Camera
 from vtray.checked import Checked
-from vtray.errors import OutputError
-from vtray.kinds import (
-    Byte,
-    DataPath,
-    Fraction,
-    NonNegative,
-    Positive,
-    PositivePair,
-    Real,
-    SizePair,
-)
+from vtray.colors import to_rgb
+from vtray.errors import OutputError, SceneError
+from vtray.objects import Light, Object, Plane, Sphere, SpheresInFile
+from vtray.settings import RenderSettings
 from vtray.spheres import Spheres
+from vtray.triples import Color, Direction, Vector
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike
+
+    from vtray.color_scale import ColorMap
+    from vtray.colors import AnyColor
+    from vtray.triples import Triple
+
+__all__ = [
+    "Camera",
+    "Color",
+    "Direction",
+    "Light",
+    "Object",
+    "Plane",
+    "Scene",
+    "SceneInFile",
+    "Sphere",
+    "Spheres",
+    "SpheresInFile",
+    "Vector",
+]
 
 
-class Vector(msgspec.Struct, metaclass=Checked, frozen=True, gc=False):
-    """A point or a displacement in world space.
-
-    Wherever a `Vector`, `Direction` or `Color` is expected, code may also give a tuple, a
-    list or a NumPy array of three numbers.
-
-    Attributes
-    ----------
-    x, y, z : float
-        Coordinates in scene units, finite.
-    """
-
-    x: Real
-    y: Real
-    z: Real
-
-
-class Direction(msgspec.Struct, metaclass=Checked, frozen=True, gc=False):
-    """A direction in world space, of any length but zero.
-
-    Attributes
-    ----------
-    x, y, z : float
-        Components, finite and not all zero.
-    """
-
-    x: Real
-    y: Real
-    z: Real
-
-    def __post_init__(self) -> None:
-        """Refuse the zero vector, which points nowhere."""
-        if self.x == self.y == self.z == 0:
-            message = "numbers x, y and z that are not all zero"
-            raise ValueError(message)
-
-
-class Color(msgspec.Struct, metaclass=Checked, frozen=True, gc=False):
-    """The colour of a surface, in linear light.
-
-    Attributes
-    ----------
-    r, g, b : int
-        Red, green and blue, from 0 to 255.
-    """
-
-    r: Byte
-    g: Byte
-    b: Byte
-
-
-class Camera(msgspec.Struct, metaclass=Checked, frozen=True, gc=False):
-    """A pinhole camera: an image plane and an eye behind it.
-
-    Attributes
-    ----------
-    center : Vector
-        Centre of the image plane, in world space.
-    normal : Direction
-        Where the camera looks, in world space, square to the image plane.
-    focus : float
-        Distance from the eye to the image plane, in scene units, > 0.
-    size : tuple of int
-        Width and height of the image, in pixels.
-    resolution : tuple of float
-        Width and height of one pixel on the image plane, in scene units, > 0.
-    """
-
-    center: Vector
-    normal: Direction
-    focus: Positive
-    size: SizePair
-    resolution: PositivePair
-
-    if TYPE_CHECKING:  # what code may give, beside what the attributes hold
-
-        def __init__(
-            self,
-            center: "Vector | Triple",
-            normal: "Direction | Vector | Triple",
-            focus: float,
-            size: tuple[int, int],
-            resolution: tuple[float, float],
-        ) -> None: ...
-
-    def __post_init__(self) -> None:
-        """Hold the size as integers, also where it was written as 256.0."""
-        width, height = self.size
-        msgspec.structs.force_setattr(self, "size", (int(width), int(height)))
-
-
-class Light(msgspec.Struct, metaclass=Checked, frozen=True, gc=False):
-    """A point light; its light does not fall off with distance.
-
-    Attributes
-    ----------
-    location : Vector
-        Position in world space.
-    intensity : float
-        Strength, relative to the other lights, ≥ 0.
-    """
-
-    location: Vector
-    intensity: NonNegative
-
-    if TYPE_CHECKING:
-
-        def __init__(self, location: "Vector | Triple", intensity: float) -> None: ...
-
-
-class Sphere(
-    msgspec.Struct, metaclass=Checked, frozen=True, gc=False, tag_field="type", tag="sphere"
-):
-    """A sphere with a matt surface, which can also be seen from inside.
-
-    Attributes
-    ----------
-    center : Vector
-        Centre in world space.
-    radius : float
-        Radius in scene units, ≥ 0; a sphere of radius 0 is never hit.
-    color : Color
-        Colour of the surface.
-    lambert : float
-        Share of the light that the surface scatters, from 0 to 1.
-    """
-
-    center: Vector
-    radius: NonNegative
-    color: Color
-    lambert: Fraction
-
-    if TYPE_CHECKING:
-
-        def __init__(
-            self, center: "Vector | Triple", radius: float, color: "Color | Triple", lambert: float
-        ) -> None: ...
-
-
-class Plane(
-    msgspec.Struct, metaclass=Checked, frozen=True, gc=False, tag_field="type", tag="plane"
-):
-    """A plane without edges and with two matt sides.
-
-    Attributes
-    ----------
-    center : Vector
-        Any point of the plane, in world space.
-    normal : Direction
-        Direction square to the plane, in world space.
-    color : Color
-        Colour of the surface.
-    lambert : float
-        Share of the light that the surface scatters, from 0 to 1.
-    """
-
-    center: Vector
-    normal: Direction
-    color: Color
-    lambert: Fraction
-
-    if TYPE_CHECKING:
-
-        def __init__(
-            self,
-            center: "Vector | Triple",
-            normal: "Direction | Vector | Triple",
-            color: "Color | Triple",
-            lambert: float,
-        ) -> None: ...
-
-
-class SpheresInFile(
-    msgspec.Struct, frozen=True, tag_field="type", tag="spheres", omit_defaults=True
-):
-    """Many spheres, whose numbers stand in a file of NumPy arrays.
-
-    Attributes
-    ----------
-    data : str
-        Path of the arrays, relative to the scene file: a .npz file with the arrays center
-        and, where they are not keys of this object, radius, color and lambert; or a .npy
-        file with the centres alone.
-    radius : float, optional
-        Radius of all spheres, in scene units; for a .npz file, it may stand there.
-    color : Color, optional
-        Colour of all spheres; for a .npz file, it may stand there.
-    lambert : float, optional
-        Share of the light that the surfaces scatter; for a .npz file, it may stand there.
-    """
-
-    data: DataPath
-    radius: NonNegative | UnsetType = UNSET
-    color: Color | UnsetType = UNSET
-    lambert: Fraction | UnsetType = UNSET
-
-
-Object = Sphere | Plane | Spheres
-
-if TYPE_CHECKING:
-    Triple = Sequence[float] | NDArray[Any]
-
-
-class SceneInFile(msgspec.Struct):
+class SceneInFile(msgspec.Struct, omit_defaults=True):
     """All that a picture is made from.
 
     Attributes
@@ -245,11 +56,14 @@ class SceneInFile(msgspec.Struct):
         The lights; may be empty.
     objects : list of Sphere, Plane or SpheresInFile
         The objects; may be empty.
+    render : RenderSettings, optional
+        How the picture is taken.
     """
 
     camera: Camera
     lights: list[Light]
     objects: list[Sphere | Plane | SpheresInFile]
+    render: RenderSettings | UnsetType = UNSET
 
 
 class Scene(msgspec.Struct, metaclass=Checked, dict=True):
@@ -261,16 +75,183 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
     Attributes
     ----------
     camera : Camera
-        Where the picture is taken from.
+        Where the picture is taken from; None until it is set.
     lights : list of Light
         The lights; may be empty.
     objects : list of Sphere, Plane or Spheres
         The objects; may be empty.
+    render : RenderSettings
+        How the picture is taken, unless `vtray.render` is told otherwise.
+
+    Examples
+    --------
+    >>> scene = Scene()
+    >>> spheres = scene.add_spheres([(0, 0, 5), (1, 0, 5)], radius=0.5, color=["red", "#00f"])
+    >>> scene.camera = Camera.fit(scene)
     """
 
-    camera: Camera
-    lights: list[Light]
-    objects: list[Object]
+    if TYPE_CHECKING:  # what code may give, beside what the attributes hold
+        camera: Camera  # where None is left, `check` raises
+        lights: list[Light]
+        objects: list[Object]
+        render: RenderSettings
+
+        def __init__(
+            self,
+            camera: Camera | None = None,
+            lights: Sequence[Light] = (),
+            objects: Sequence[Object] = (),
+            render: RenderSettings = ...,
+        ) -> None: ...
+    else:
+        camera: Camera | None = None
+        lights: list[Light] = msgspec.field(default_factory=list)
+        objects: list[Object] = msgspec.field(default_factory=list)
+        render: RenderSettings = msgspec.field(default_factory=RenderSettings)
+
+    def add_sphere(
+        self,
+        center: "Vector | Triple",
+        radius: float,
+        color: "AnyColor" = "white",
+        lambert: float = 1.0,
+    ) -> Sphere:
+        """Add a sphere to the objects.
+
+        Parameters
+        ----------
+        center
+            Centre in world space.
+        radius
+            Radius in scene units, ≥ 0.
+        color
+            A colour, in any of the ways of `vtray.colors.to_rgb`.
+        lambert
+            Share of the light that the surface scatters, from 0 to 1.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right.
+        """
+        place = _argument("add_sphere", "center", center, Vector)
+        sphere = Sphere(place, radius, Color(*to_rgb(color, "add_sphere: color")), lambert)
+        self.objects.append(sphere)
+        return sphere
+
+    def add_spheres(
+        self,
+        positions: "ArrayLike",
+        radius: "ArrayLike",
+        color: "AnyColor | ArrayLike | Sequence[AnyColor]" = "white",
+        lambert: "ArrayLike" = 1.0,
+        *,
+        cmap: "ColorMap | None" = None,
+        clim: tuple[float, float] | None = None,
+        nan_color: "AnyColor" = "gray",
+    ) -> Spheres:
+        """Add many spheres to the objects.
+
+        Arrays may be of any package that NumPy understands: its own, lists, data frames of Pandas
+        or Polars, and what speaks DLPack. Of positions, radii and Lambert coefficients, arrays of
+        float32 and float64 are not copied.
+
+        Parameters
+        ----------
+        positions
+            Centres in world space, (n, 3).
+        radius
+            Radii in scene units, (n,), or one for all, ≥ 0.
+        color
+            One colour for all, in any of the ways of `vtray.colors.to_rgb`; or one for each, as a
+            list of such or as numbers of shape (n, 3), integers from 0 to 255 or floats from 0 to
+            1; or, with `cmap`, n values.
+        lambert
+            Share of the light that the surfaces scatter, from 0 to 1, (n,), or one for all.
+        cmap
+            Turns values into colours: the name of a colour map of Matplotlib, such as "viridis" or,
+            reversed, "viridis_r", or a colour map of Matplotlib or of the package ``cmap``. A name
+            needs one of these two installed: ``pip install 'vtray[color]'``.
+        clim
+            The values of the map's first and last colour; by default the least and the largest of
+            all finite values.
+        nan_color
+            The colour of values that are NaN.
+
+        Returns
+        -------
+        Spheres
+            What was added; its `color_scale` tells how values became colours.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right. The message names the place, for instance
+            ``add_spheres: radius[17]``.
+        """
+        from vtray.color_arrays import color_array
+        from vtray.spheres import from_arrays
+
+        place, called = "add_spheres: ", {"center": "positions"}
+        plain = {"center": positions, "radius": radius, "lambert": lambert}
+        spheres = from_arrays({**plain, "color": (0, 0, 0)}, place, called)
+        colors, scale = color_array(
+            color, len(spheres), place, cmap=cmap, clim=clim, nan_color=nan_color
+        )
+        checked = {**msgspec.structs.asdict(spheres), "color": colors}
+        spheres = from_arrays(checked, place, called).with_scale(scale)
+        self.objects.append(spheres)
+        return spheres
+
+    def add_plane(
+        self,
+        point: "Vector | Triple",
+        normal: "Direction | Vector | Triple",
+        color: "AnyColor" = "white",
+        lambert: float = 1.0,
+    ) -> Plane:
+        """Add a plane to the objects.
+
+        Parameters
+        ----------
+        point
+            Any point of the plane, in world space.
+        normal
+            Direction square to the plane, in world space, of any length but zero.
+        color
+            A colour, in any of the ways of `vtray.colors.to_rgb`.
+        lambert
+            Share of the light that the surface scatters, from 0 to 1.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right.
+        """
+        place = _argument("add_plane", "point", point, Vector)
+        square = _argument("add_plane", "normal", normal, Direction)
+        plane = Plane(place, square, Color(*to_rgb(color, "add_plane: color")), lambert)
+        self.objects.append(plane)
+        return plane
+
+    def add_light(self, location: "Vector | Triple", intensity: float = 1.0) -> Light:
+        """Add a point light.
+
+        Parameters
+        ----------
+        location
+            Position in world space.
+        intensity
+            Strength, relative to the other lights, ≥ 0.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right.
+        """
+        light = Light(_argument("add_light", "location", location, Vector), intensity)
+        self.lights.append(light)
+        return light
 
     def check(self) -> None:
         """Check the scene after changes made in code.
@@ -278,9 +259,13 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
         Raises
         ------
         SceneError
-            If the camera, a light or an object is not of its type.
+            If the camera is missing, or if it, a light, an object or the settings are not of their
+            type.
         """
-        Scene(self.camera, self.lights, self.objects)
+        Scene(self.camera, self.lights, self.objects, self.render)
+        if _is_none(self.camera):
+            remedy = "set one, for instance vtray.Camera.fit(scene)"
+            raise SceneError(f"Scene.camera: there is none; {remedy}")
         if Spheres in map(type, self.objects):
             for index, item in enumerate(self.objects):
                 if isinstance(item, Spheres):
@@ -319,6 +304,8 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
             else:
                 objects.append(item)
         found = SceneInFile(self.camera, self.lights, objects)
+        if self.render != RenderSettings():
+            found.render = self.render
         data = msgspec.json.format(_encode(found, target), indent=2) + b"\n"
 
         def write(file: BinaryIO) -> None:
@@ -329,6 +316,17 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
 
             write_arrays(target.with_name(name), columns)
         write_whole(target, write)
+
+
+def _is_none(value: object) -> bool:
+    return value is None
+
+
+def _argument(call: str, name: str, value: object, kind: Any) -> Any:  # noqa: ANN401
+    """Return an argument of a call as an object of a kind, or raise SceneError naming it."""
+    from vtray.scene_check import from_code
+
+    return value if isinstance(value, kind) else from_code(value, kind, f"{call}: {name}")
 
 
 def _unused_name(scene: Path, used: Container[str]) -> str:

@@ -15,15 +15,19 @@ import msgspec
 
 from vtray.errors import SceneError
 from vtray.json_tree import CLEAN, Members, Tree, Written
+from vtray.kinds import FieldError
 from vtray.scene_words import (
     Struct,
     either,
     expected,
+    given_kind,
+    is_optional,
     join,
     nearest,
     quoted,
     show,
     struct_kinds,
+    struct_options,
     tag_field,
     tags,
 )
@@ -52,14 +56,14 @@ class FileChecker:
 
     def check(self, found: Tree, kind: Kind, place: str = "") -> Any:  # noqa: ANN401
         """Convert a value to a kind; raise SceneError where that cannot be done."""
-        if found is CLEAN:
+        if found is CLEAN or (found == b"null" and is_optional(kind)):
             return None
-        structs = struct_kinds(kind)
-        if structs and isinstance(found, Members):
-            return self._struct(found, structs, place)
+        kind = given_kind(kind)
+        if struct_options(kind) and isinstance(found, Members):
+            return self._struct(found, struct_options(kind), place)
         if origin_of(kind) in (list, tuple) and type(found) is list:
             return self._array(found, kind, place)
-        if structs or not isinstance(found, Written):
+        if struct_kinds(kind) or not isinstance(found, Written):
             raise wrong(place, kind, show(found))
         self._check_range(found, place)
         return _convert_leaf(found, kind, place)
@@ -140,12 +144,25 @@ def construct(cls: Struct, values: dict[str, object], place: str = "") -> Any:  
     """
     place = place or cls.__name__
     hints = hints_of(cls)
-    made = {name: _from_code(values[name], hints[name], f"{place}.{name}") for name in hints}
+    made = {
+        name: from_code(values[name], hints[name], f"{place}.{name}")
+        for name in hints
+        if name in values
+    }
     return _make(cls, made, place, tuple(made.values()))
 
 
-def _from_code(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401
-    """Convert one value given in code: also tuples and what NumPy makes."""
+def from_code(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401
+    """Convert one value given in code: also tuples and what NumPy makes.
+
+    Raises
+    ------
+    SceneError
+        If the value is not of the kind; the message begins with the place.
+    """
+    if found is None and is_optional(kind):
+        return None
+    kind = given_kind(kind)
     # NumPy is not imported here; its arrays and scalars turn into Python's with tolist.
     if hasattr(found, "tolist"):
         found = found.tolist()
@@ -165,7 +182,7 @@ def _from_code(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401
     elif len(found) != len(kinds):
         raise wrong(place, kind, show(found), in_code=True)
     pairs = enumerate(zip(found, kinds, strict=True))
-    return [_from_code(item, item_kind, f"{place}[{i}]") for i, (item, item_kind) in pairs]
+    return [from_code(item, item_kind, f"{place}[{i}]") for i, (item, item_kind) in pairs]
 
 
 def _struct_from_code(found: Any, structs: tuple[Struct, ...], kind: Kind, place: str) -> Any:  # noqa: ANN401
@@ -189,14 +206,7 @@ def _is_triple(structs: tuple[Struct, ...]) -> bool:
 @functools.cache
 def hints_of(cls: Struct) -> dict[str, Kind]:
     """Give the annotations of a Struct's fields, in their order."""
-    hints = typing.get_type_hints(cls, include_extras=True)
-    return {key: _without_unset(kind) for key, kind in hints.items()}
-
-
-def _without_unset(kind: Kind) -> Kind:
-    """Give the kind that the value of an optional key has where it is given."""
-    kinds = typing.get_args(kind)
-    return kinds[0] if kinds[1:] == (msgspec.UnsetType,) else kind
+    return typing.get_type_hints(cls, include_extras=True)
 
 
 @functools.cache
@@ -265,4 +275,17 @@ def _make(cls: Struct, values: dict[str, Any], place: str, found: object) -> Any
     try:
         return msgspec.convert(values, cls)
     except msgspec.ValidationError as error:
+        cause = error.__cause__
+        if isinstance(cause, FieldError):
+            place = join(place, cause.field)
+            found = _field_of(found, cause.field, values)
+            raise SceneError(f"{place}: expected {cause}, got {show(found)}") from None
         raise SceneError(f"{place}: expected {error}, got {show(found)}") from None
+
+
+def _field_of(found: object, field: str, values: dict[str, Any]) -> object:
+    """Give one field as it was written, or as it was given in code."""
+    if isinstance(found, Members):
+        return next(member.value for member in found if member.key == field)
+    value = values[field]
+    return msgspec.structs.astuple(value) if isinstance(value, msgspec.Struct) else value

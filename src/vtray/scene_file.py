@@ -15,7 +15,6 @@ from msgspec import UNSET
 from vtray.checked import make_unchecked
 from vtray.errors import SceneError, why_unreadable
 from vtray.scene import (
-    Camera,
     Color,
     Direction,
     Light,
@@ -136,7 +135,8 @@ def _keys(*classes: type[msgspec.Struct]) -> int:
     return fields + sum(cls.__struct_config__.tag is not None for cls in classes)
 
 
-_KEYS_ONCE = _keys(SceneInFile, Camera, Vector, Direction)
+# The required keys that a file has once.
+_KEYS_ONCE = 3 + 5 + _keys(Vector, Direction)
 _KEYS_OF: dict[type[msgspec.Struct], int] = {
     Light: _keys(Light, Vector),
     Sphere: _keys(Sphere, Vector, Color),
@@ -147,7 +147,7 @@ _KEYS_OF: dict[type[msgspec.Struct], int] = {
 
 def _has_only_known_keys(raw: bytes, found: SceneInFile, kinds: Counter[Any]) -> bool:
     """Tell whether a file has as many colons as what was read of it, so no unknown keys."""
-    keys = _KEYS_ONCE + _KEYS_OF[Light] * len(found.lights)
+    keys = _KEYS_ONCE + _count_optional(found) + _KEYS_OF[Light] * len(found.lights)
     keys += sum(_KEYS_OF[kind] * count for kind, count in kinds.items())
     if SpheresInFile in kinds:
         spheres = [item for item in found.objects if isinstance(item, SpheresInFile)]
@@ -157,6 +157,19 @@ def _has_only_known_keys(raw: bytes, found: SceneInFile, kinds: Counter[Any]) ->
             return False
     # A colon inside any other string is that of an unknown key or its value.
     return raw.count(b":") == keys
+
+
+def _count_optional(found: SceneInFile) -> int:
+    """Count the optional keys of a file, but for those that are given with their default.
+
+    With such a key there are more colons, which costs a slow look, but misses nothing.
+    """
+    camera = found.camera
+    keys = (camera.projection != "perspective") + (camera.up is not None) * (1 + _keys(Direction))
+    if found.render is not UNSET:
+        keys += 1 + len(msgspec.to_builtins(found.render))
+        keys += _keys(Color) * isinstance(found.render.background, Color)
+    return keys
 
 
 def _count_colons(item: SpheresInFile) -> int:

@@ -20,9 +20,15 @@ _SHOWN_DEPTH = 2
 
 def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
     """Say what a kind of value is, to follow the word "expected"."""
+    kind = given_kind(kind)
     if hasattr(kind, "__metadata__"):
         return str(kind.__metadata__[-1].description)
+    if typing.get_origin(kind) is typing.Literal:
+        return either(map(repr if in_code else quoted, typing.get_args(kind)))
     structs = struct_kinds(kind)
+    if not structs and len(options(kind)) > 1:
+        words = [expected(option, in_code=in_code) for option in options(kind)]
+        return either(word for option in words for word in option.split(" or ", 1))
     if not structs:
         return "a list" if in_code else "an array"
     if in_code:
@@ -32,7 +38,8 @@ def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
     if tags(structs):
         (field,) = tag_field(structs[0])
         return f"an object with {quoted(field)}: {either(map(quoted, tags(structs)))}"
-    *most, last = structs[0].__struct_fields__
+    fields = structs[0].__struct_fields__
+    *most, last = fields[: len(fields) - len(structs[0].__struct_defaults__)] or fields
     return f"an object with the keys {', '.join(most)} and {last}"
 
 
@@ -42,10 +49,34 @@ def either(words: Iterable[str]) -> str:
     return f"{', '.join(most)} or {last}" if most else last
 
 
+def options(kind: Any) -> tuple[Any, ...]:  # noqa: ANN401
+    """Give the kinds that a union allows, or the only one."""
+    return typing.get_args(kind) if typing.get_origin(kind) in _UNIONS else (kind,)
+
+
+def is_optional(kind: Any) -> bool:  # noqa: ANN401
+    """Tell whether a kind allows None, which a file writes as null or leaves out."""
+    return type(None) in options(kind)
+
+
+def given_kind(kind: Any) -> Any:  # noqa: ANN401
+    """Give the kind that a value has where one is given: neither None nor left out."""
+    absent = (type(None), msgspec.UnsetType)
+    found = options(kind)
+    given = tuple(option for option in found if option not in absent)
+    return kind if len(given) == len(found) else typing.Union[given]  # noqa: UP007
+
+
 def struct_kinds(kind: Any) -> tuple[Struct, ...]:  # noqa: ANN401
-    """Give the Structs that a kind allows; empty if it is none of Structs."""
-    options = typing.get_args(kind) if typing.get_origin(kind) in _UNIONS else (kind,)
-    return options if all(isinstance(item, msgspec.StructMeta) for item in options) else ()
+    """Give the Structs that a kind allows; empty if it allows anything else but None."""
+    found = options(given_kind(kind))
+    return found if all(isinstance(item, msgspec.StructMeta) for item in found) else ()
+
+
+def struct_options(kind: Any) -> tuple[Struct, ...]:  # noqa: ANN401
+    """Give the Structs that a kind allows, maybe beside other values."""
+    found: tuple[Struct, ...] = options(kind)
+    return tuple(item for item in found if isinstance(item, msgspec.StructMeta))
 
 
 def tags(structs: Iterable[Struct]) -> list[str]:

@@ -22,6 +22,7 @@ from vtray.scene import (
     SpheresInFile,
     Vector,
 )
+from vtray.settings import RenderSettings
 
 _FIELD = re.compile(r"^(\w+(?:, \w+)*) : .*\n((?:    .+\n?)+)", re.MULTILINE)
 
@@ -35,7 +36,8 @@ def scene_schema() -> dict[str, Any]:
         A schema of draft 2020-12. It checks all that a schema can; that a key is given only
         once, for instance, it cannot.
     """
-    classes = (SceneInFile, Camera, Light, Sphere, Plane, SpheresInFile, Vector, Direction, Color)
+    objects = (Sphere, Plane, SpheresInFile)
+    classes = (SceneInFile, Camera, Light, *objects, RenderSettings, Vector, Direction, Color)
     (_, parts) = msgspec.json.schema_components(classes, ref_template="#/$defs/{name}")
     for cls in classes:
         _describe(parts[cls.__name__], inspect.getdoc(cls) or "")

@@ -1,29 +1,53 @@
 """How a picture is taken of a scene, beside its camera: the settings of a render."""
 
-from typing import Annotated, Literal
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
 
 import msgspec
 from msgspec import Meta
 
-from vtray.kinds import Byte, Positive, SizePair
-
-FILTERS = ("box", "tent", "gaussian", "mitchell", "blackman-harris")
-"""The names of the reconstruction filters."""
+from vtray.checked import Checked, bind
+from vtray.colors import to_rgb
+from vtray.kinds import Positive, SizePair
+from vtray.triples import Color
 
 MAX_SAMPLES = 2**16
 MAX_SEED = 2**32 - 1
 
+# An integer may be written 16 or 16.0: JSON knows only numbers.
 Samples = Annotated[
-    int,
-    Meta(ge=1, le=MAX_SAMPLES, description=f"an integer from 1 to {MAX_SAMPLES}"),
+    Annotated[int, Meta(ge=1, le=MAX_SAMPLES)]
+    | Annotated[float, Meta(ge=1, le=MAX_SAMPLES, multiple_of=1)],
+    Meta(description=f"an integer from 1 to {MAX_SAMPLES}"),
 ]
-Seed = Annotated[int, Meta(ge=0, le=MAX_SEED, description=f"an integer from 0 to {MAX_SEED}")]
+Seed = Annotated[
+    Annotated[int, Meta(ge=0, le=MAX_SEED)]
+    | Annotated[float, Meta(ge=0, le=MAX_SEED, multiple_of=1)],
+    Meta(description=f"an integer from 0 to {MAX_SEED}"),
+]
 FilterName = Literal["box", "tent", "gaussian", "mitchell", "blackman-harris"]
 Exposure = Literal["max"] | Positive
-Background = Literal["black", "transparent"] | tuple[Byte, Byte, Byte]
+Background = Literal["black", "transparent"] | Color
+
+FILTERS: tuple[str, ...] = get_args(FilterName)
+"""The names of the reconstruction filters."""
 
 
-class RenderSettings(msgspec.Struct, frozen=True, omit_defaults=True):
+class _CheckedSettings(Checked):
+    """Makes construction in code take a background in all ways to write a colour."""
+
+    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
+        """Bind the arguments, check and convert them, and make the object."""
+        values = bind(cls, args, kwargs)
+        background: Any = values.get("background")
+        if background is not None and background not in ("black", "transparent"):
+            values["background"] = Color(*to_rgb(background, f"{cls.__name__}.background"))
+        return super().__call__(**values)
+
+
+class RenderSettings(
+    msgspec.Struct, metaclass=_CheckedSettings, frozen=True, omit_defaults=True, gc=False
+):
     """How a picture is taken of a scene.
 
     Attributes
@@ -40,8 +64,9 @@ class RenderSettings(msgspec.Struct, frozen=True, omit_defaults=True):
     exposure : "max" or float
         "max": the brightest channel of the picture becomes 255. A number: light is multiplied by
         it, so that for 1 a surface that a light of intensity 1 shines on squarely gets its color.
-    background : "black", "transparent", or three integers
-        What is seen where there is nothing.
+    background : "black", "transparent" or Color
+        What is seen where there is nothing. Code may write a colour in all ways of
+        `vtray.colors.to_rgb`.
     """
 
     samples: Samples = 1
@@ -50,3 +75,38 @@ class RenderSettings(msgspec.Struct, frozen=True, omit_defaults=True):
     size: SizePair | None = None
     exposure: Exposure = "max"
     background: Background = "black"
+
+    if TYPE_CHECKING:  # what code may give, beside what the attributes hold
+
+        def __init__(
+            self,
+            samples: int = 1,
+            filter: str = "blackman-harris",  # noqa: A002
+            seed: int = 0,
+            size: tuple[int, int] | None = None,
+            exposure: Literal["max"] | float = "max",
+            background: "str | Color | Sequence[float]" = "black",
+        ) -> None: ...
+
+    def __post_init__(self) -> None:
+        """Hold equal settings equally: integers as such, and the colour black as "black"."""
+        for name in ("samples", "seed"):
+            msgspec.structs.force_setattr(self, name, int(getattr(self, name)))
+        if self.size is not None:
+            width, height = self.size
+            msgspec.structs.force_setattr(self, "size", (int(width), int(height)))
+        if self.background == Color(0, 0, 0):
+            msgspec.structs.force_setattr(self, "background", "black")
+
+    def replace(self, **changes: Any) -> "RenderSettings":  # noqa: ANN401
+        """Return these settings with others in place of some; None means as here.
+
+        Raises
+        ------
+        SceneError
+            If a value is not right.
+        TypeError
+            If there is no setting of a name.
+        """
+        given = {name: value for name, value in changes.items() if value is not None}
+        return RenderSettings(**{**msgspec.structs.asdict(self), **given})

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
+    from vtray.color_scale import ColorScale
+
     AnyArray = NDArray[Any]
     Floats = NDArray[np.float64] | NDArray[np.float32]
     Bytes = NDArray[np.uint8]
@@ -53,6 +55,9 @@ COLUMNS = {
 }
 
 
+_NO_NAMES: Mapping[str, str] = {}
+
+
 class _CheckedArrays(Checked):
     """Makes construction in code check and convert arrays."""
 
@@ -67,6 +72,7 @@ class Spheres(
     metaclass=_CheckedArrays,
     frozen=True,
     eq=False,
+    dict=True,
     tag_field="type",
     tag="spheres",
 ):
@@ -116,6 +122,23 @@ class Spheres(
 
     __hash__ = None  # type: ignore[assignment]  # arrays are compared, and may change
 
+    @property
+    def color_scale(self) -> "ColorScale | None":
+        """How values became the colours, for a colour bar; None if they are no such colours.
+
+        It is not a part of what makes spheres equal, nor of a scene file.
+        """
+        return self.__dict__.get("color_scale_")
+
+    def with_scale(self, scale: "ColorScale | None") -> "Spheres":
+        """Return the same spheres, which remember how values became their colours."""
+        spheres: Spheres = make_unchecked(Spheres, **msgspec.structs.asdict(self))
+        spheres.__dict__["color_scale_"] = scale
+        return spheres
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _rebuild, (msgspec.structs.astuple(self), self.color_scale)
+
     def __len__(self) -> int:
         return len(self.center)
 
@@ -157,7 +180,14 @@ class Spheres(
         check_arrays(msgspec.structs.asdict(self), f"{place}.")
 
 
-def from_arrays(values: Mapping[str, object], place: str) -> Spheres:
+def _rebuild(values: tuple[Any, ...], scale: "ColorScale | None") -> Spheres:
+    """Make spheres again after copying or pickling."""
+    return Spheres(*values).with_scale(scale)
+
+
+def from_arrays(
+    values: Mapping[str, object], place: str, called: Mapping[str, str] = _NO_NAMES
+) -> Spheres:
     """Make `Spheres` as calling the class does, with other places in the messages.
 
     Parameters
@@ -166,12 +196,16 @@ def from_arrays(values: Mapping[str, object], place: str) -> Spheres:
         What was given for center, radius, color and lambert.
     place
         What messages begin with, right before the name of an array.
+    called
+        The names of arrays in messages, where they differ.
     """
-    spheres: Spheres = make_unchecked(Spheres, **check_arrays(values, place))
+    spheres: Spheres = make_unchecked(Spheres, **check_arrays(values, place, called))
     return spheres
 
 
-def check_arrays(values: Mapping[str, object], place: str) -> dict[str, Any]:
+def check_arrays(
+    values: Mapping[str, object], place: str, called: Mapping[str, str] = _NO_NAMES
+) -> dict[str, Any]:
     """Check and convert the arrays of spheres.
 
     Parameters
@@ -180,6 +214,8 @@ def check_arrays(values: Mapping[str, object], place: str) -> dict[str, Any]:
         What was given for center, radius, color and lambert.
     place
         What messages begin with, right before the name of an array.
+    called
+        The names of arrays in messages, where they differ.
 
     Returns
     -------
@@ -191,12 +227,14 @@ def check_arrays(values: Mapping[str, object], place: str) -> dict[str, Any]:
     SceneError
         If one of them is not right.
     """
-    found = {name: _to_array(values[name], name, place) for name in COLUMNS}
-    center = _check_center(found["center"], place)
+    at = {name: place + called.get(name, name) for name in COLUMNS}
+    found = {name: _to_array(values[name], name, at[name]) for name in COLUMNS}
+    center = _check_center(found["center"], at["center"])
     shaped = {"center": center}
     for name in ("radius", "color", "lambert"):
-        shaped[name] = _check_shape(found[name], name, center, place)
-    return {name: _check_numbers(array, name, place) for name, array in shaped.items()}
+        as_center = f"as {called.get('center', 'center')} has shape {center.shape}"
+        shaped[name] = _check_shape(found[name], name, center, at[name], as_center)
+    return {name: _check_numbers(array, name, at[name]) for name, array in shaped.items()}
 
 
 def _to_array(found: Any, name: str, place: str) -> AnyArray:  # noqa: ANN401
@@ -221,7 +259,7 @@ def _to_array(found: Any, name: str, place: str) -> AnyArray:  # noqa: ANN401
             got = "an array with masked numbers"
         else:
             got = f"an array of dtype {array.dtype}" if hasattr(given, "dtype") else show(given)
-    raise SceneError(f"{place}{name}: expected {array_words(name)}, got {got}")
+    raise SceneError(f"{place}: expected {array_words(name)}, got {got}")
 
 
 def array_words(name: str, count: object = "n") -> str:
@@ -240,10 +278,12 @@ def _check_center(center: AnyArray, place: str) -> AnyArray:
         return center
     hint = " (transpose it)" if center.ndim == 2 and center.shape[0] == 3 else ""
     message = f"expected {array_words('center')}, got shape {center.shape}{hint}"
-    raise SceneError(f"{place}center: {message}")
+    raise SceneError(f"{place}: {message}")
 
 
-def _check_shape(array: AnyArray, name: str, center: AnyArray, place: str) -> AnyArray:
+def _check_shape(
+    array: AnyArray, name: str, center: AnyArray, place: str, as_center: str
+) -> AnyArray:
     """Return an array with a row for each centre, or with one for all."""
     row = COLUMNS[name].row
     shape = (len(center), *row)
@@ -251,8 +291,8 @@ def _check_shape(array: AnyArray, name: str, center: AnyArray, place: str) -> An
         return array
     if array.shape == (0,) and len(center) == 0:
         return array.reshape(shape)
-    words = f"{array_words(name, len(center))}, as center has shape {center.shape}"
-    raise SceneError(f"{place}{name}: expected {words}, got shape {array.shape}")
+    words = f"{array_words(name, len(center))}, {as_center}"
+    raise SceneError(f"{place}: expected {words}, got shape {array.shape}")
 
 
 def _check_numbers(given: AnyArray, name: str, place: str) -> Any:  # noqa: ANN401
@@ -269,8 +309,8 @@ def _check_numbers(given: AnyArray, name: str, place: str) -> Any:  # noqa: ANN4
 
             index = _first_wrong(array, kind)
             words = expected(kind if math.isfinite(array[index]) else Real)
-            where = f"{name}[{', '.join(map(str, index))}]" if index else name
-            raise SceneError(f"{place}{where}: expected {words}, got {given[index]!s}")
+            where = f"{place}[{', '.join(map(str, index))}]" if index else place
+            raise SceneError(f"{where}: expected {words}, got {given[index]!s}")
     if kind is Byte:
         array = array.astype(np.uint8, copy=False)
     if array.ndim == 0:

@@ -1,0 +1,161 @@
+"""The colours of many spheres: one, one for each, or values that a colour map turns into them."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.color_scale import ColorScale, scale_of
+from vtray.colors import ALPHA, WORDS, ambiguous, to_rgb
+from vtray.errors import SceneError
+from vtray.scene_words import show
+from vtray.triples import Color
+
+if TYPE_CHECKING:
+    from vtray.color_scale import ColorMap
+    from vtray.colors import AnyColor
+
+Bytes = NDArray[np.uint8]
+
+
+def color_array(
+    color: Any,  # noqa: ANN401
+    count: int,
+    place: str,
+    *,
+    cmap: "ColorMap | None",
+    clim: object,
+    nan_color: "AnyColor",
+) -> tuple[Bytes, ColorScale | None]:
+    """Return the colours of `count` spheres.
+
+    Parameters
+    ----------
+    color
+        Without `cmap`: a colour as `vtray.colors.to_rgb` takes it, a list of such, or numbers of
+        shape (count, 3). With `cmap`: numbers of shape (count,).
+    count
+        How many spheres there are.
+    place
+        What messages begin with, right before the name of an argument.
+    cmap, clim, nan_color
+        As for `Scene.add_spheres`.
+
+    Returns
+    -------
+    colors : array
+        uint8, (count, 3), or (3,) for one colour.
+    scale : ColorScale or None
+        How values became colours, if they did.
+
+    Raises
+    ------
+    SceneError
+        If an argument is not right.
+    """
+    if cmap is not None:
+        values = _values(color, count, f"{place}color")
+        scale = scale_of(values, cmap, clim, nan_color, place)
+        return scale.colors(values), scale
+    if clim is not None:
+        hint = 'give a colour map too, for instance cmap="viridis"'
+        raise SceneError(f"{place}clim: expected None without cmap, got {show(clim)}; {hint}")
+    return _colors(color, count, f"{place}color"), None
+
+
+def _values(given: Any, count: int, place: str) -> NDArray[np.float64]:  # noqa: ANN401
+    """Return the numbers that a colour map is for, as doubles; what is masked is NaN."""
+    words = f"with cmap: expected numbers of shape ({count},), one for each position"
+    masked = isinstance(given, np.ma.MaskedArray)
+    try:
+        array = np.asarray(given)
+        right = array.dtype.kind in "biuf" or (array.dtype == object and array.ndim == 1)
+        values = np.array(given.data if masked else array, np.float64) if right else None
+    except (TypeError, ValueError, RuntimeError, OverflowError):
+        values = None
+    if values is None:
+        raise SceneError(f"{place}: {words}, got {_shown(given)}")
+    if values.shape != (count,):
+        raise SceneError(f"{place}: {words}, got shape {values.shape}")
+    if masked:
+        values[np.ma.getmaskarray(given)] = np.nan
+    return values
+
+
+def _colors(given: Any, count: int, place: str) -> Bytes:  # noqa: ANN401
+    """Return one colour or one for each sphere."""
+    if isinstance(given, (str, Color)):
+        return np.array(to_rgb(given, place), np.uint8)
+    if isinstance(given, (list, tuple)) and any(isinstance(item, (str, Color)) for item in given):
+        return _listed(given, count, place)
+    try:
+        array = np.asarray(given)
+    except (TypeError, ValueError, RuntimeError, OverflowError):
+        # Rows of different length, or of integers too large.
+        if isinstance(given, (list, tuple)):
+            return _listed(given, count, place)
+        raise SceneError(f"{place}: expected {WORDS}, got {_shown(given)}") from None
+    if array.dtype.kind in "OUT" and array.ndim == 1:
+        return _listed(array.tolist(), count, place)
+    if array.dtype.kind not in "iuf":
+        raise SceneError(f"{place}: expected {WORDS}, got {_shown(given)}")
+    if array.shape in ((3,), (4,)):
+        return np.array(to_rgb(given if isinstance(given, (list, tuple)) else array, place), "u1")
+    if array.shape == (0,) and count == 0:
+        return np.zeros((0, 3), np.uint8)
+    if array.shape != (count, 3):
+        raise SceneError(f"{place}: {_wrong_shape(array.shape, count)}")
+    return _rows(array, place)
+
+
+def _wrong_shape(shape: tuple[int, ...], count: int) -> str:
+    """Say what is wrong with the shape of colours."""
+    if shape == (count, 4):
+        return f"{ALPHA}, got shape {shape}; give color[:, :3]"
+    words = f"expected one colour, or numbers of shape ({count}, 3), got shape {shape}"
+    if shape == (count,):
+        return f'{words}; to colour by values, give a colour map too, for instance cmap="viridis"'
+    return words
+
+
+def _listed(items: Any, count: int, place: str) -> Bytes:  # noqa: ANN401
+    """Return colours of which each may be written in another way."""
+    if len(items) != count:
+        words = f"one colour, or {count}, one for each position"
+        raise SceneError(f"{place}: expected {words}, got {len(items)}")
+    # The same name often stands for many.
+    texts = [item for item in items if isinstance(item, str)]
+    named = {text: to_rgb(text, f"{place}[{items.index(text)}]") for text in dict.fromkeys(texts)}
+    return np.array(
+        [
+            named[item] if isinstance(item, str) else to_rgb(item, f"{place}[{index}]")
+            for index, item in enumerate(items)
+        ],
+        np.uint8,
+    ).reshape(-1, 3)
+
+
+def _rows(array: NDArray[Any], place: str) -> Bytes:
+    """Return numbers of shape (n, 3) as bytes: integers as they are, floats times 255."""
+    if array.dtype == np.uint8 or array.size == 0:
+        return array.astype(np.uint8, copy=False)
+    is_float = array.dtype.kind == "f"
+    low, high = array.min(), array.max()
+    # Not the other way round, so that NaN is wrong.
+    if not (low >= 0 and high <= (1 if is_float else 255)):
+        wrong = ~((array >= 0) & (array <= (1 if is_float else 255)))
+        row = int(np.flatnonzero(wrong.any(axis=1))[0])
+        to_rgb(array[row], f"{place}[{row}]")  # which raises
+    if is_float:
+        return np.floor(array * 255.0 + 0.5).astype(np.uint8)
+    if high == 1:
+        row = int(np.flatnonzero((array == 1).any(axis=1))[0])
+        raise SceneError(f"{place}[{row}]: {ambiguous(array[row].tolist())}")
+    return array.astype(np.uint8)
+
+
+def _shown(given: Any) -> str:  # noqa: ANN401
+    """Write what was given, in short."""
+    if hasattr(given, "dtype") and hasattr(given, "shape"):
+        return f"an array of dtype {given.dtype} and shape {given.shape}"
+    return show(given)
