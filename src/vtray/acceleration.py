@@ -105,7 +105,7 @@ def accelerate(scene: Scene, threads: int = 1, progress: Progress | None = None)
     RenderError
         There are more spheres than a hierarchy or the memory can hold.
     """
-    items: list[Item] = [item for item in scene.objects if not isinstance(item, Plane)]
+    items = spheres_of(scene)
     fingerprint = _fingerprint(items, threads)
     kept: Acceleration | None = scene.__dict__.get(_KEPT)
     if kept and kept.fingerprint == fingerprint and _are_same(kept.items, items):
@@ -115,11 +115,46 @@ def accelerate(scene: Scene, threads: int = 1, progress: Progress | None = None)
     return made
 
 
+def spheres_of(scene: Scene) -> list[Item]:
+    """Return the objects of a scene that have spheres."""
+    return [item for item in scene.objects if not isinstance(item, Plane)]
+
+
 def locate(scene: Scene, kept: Acceleration, number: int) -> tuple[int, int]:
     """Return the place in ``scene.objects`` that a sphere belongs to, and its index there."""
     item = int(np.searchsorted(kept.first, number, side="right")) - 1
     places = [place for place, other in enumerate(scene.objects) if not isinstance(other, Plane)]
     return places[item], number - int(kept.first[item])
+
+
+def locate_all(
+    scene: Scene, kept: Acceleration, primitives: NDArray[np.int32]
+) -> NDArray[np.int32]:
+    """Return place and index, as `locate` does, of spheres and planes by their numbers.
+
+    Parameters
+    ----------
+    scene, kept
+        The scene, and what is kept with it.
+    primitives
+        Numbers of primitives, -1 for none, of any shape.
+
+    Returns
+    -------
+    array
+        int32, of the same shape with two numbers for each: place and index; -1 for none.
+    """
+    count = len(kept.leaves.number)
+    order = sorted(range(len(scene.objects)), key=lambda k: isinstance(scene.objects[k], Plane))
+    # Each object with spheres has a range of numbers, and each plane one of its own.
+    planes = np.arange(count, count + len(order) - len(kept.first))
+    first = np.concatenate([kept.first, planes])
+    places = np.array([*order, -1], np.int32)
+    which = np.searchsorted(first, primitives, side="right") - 1
+    ids = np.empty((*primitives.shape, 2), np.int32)
+    ids[..., 0] = places[which]
+    ids[..., 1] = np.where(which < 0, -1, primitives - np.append(first, 0)[which])
+    return ids
 
 
 _KEPT = "_acceleration"
@@ -137,7 +172,7 @@ def _make(
     sizes = [len(item) if isinstance(item, Spheres) else 1 for item in items]
     count = sum(sizes)
     check_memory_of_spheres(count)
-    source = _collect(items)
+    source = collect(items)
     if count > MAX_SPHERES:
         message = f"objects: expected at most {MAX_SPHERES} spheres, got {count}"
         raise RenderError(message)
@@ -171,7 +206,7 @@ def _largest(source: Source) -> float:
     return max(coordinates, float(source.radius.max()))
 
 
-def _collect(items: list[Item]) -> Source:
+def collect(items: list[Item]) -> Source:
     """Return the spheres of all objects."""
     parts = []
     for kind, group in groupby(items, type):

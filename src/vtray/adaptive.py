@@ -21,7 +21,7 @@ from vtray.film import Film
 @kernel
 def mark_rows(
     film: Film, near: int, top: int, bottom: int, marks: NDArray[np.bool_]
-) -> tuple[int, float]:
+) -> float:
     """Mark the pixels of some rows that need samples.
 
     Parameters
@@ -37,11 +37,10 @@ def mark_rows(
 
     Returns
     -------
-    count, peak
-        How many pixels of these rows are marked, and the largest channel of the others.
+    float
+        The largest channel of the pixels that are not marked.
     """
     height, width = marks.shape
-    count = 0
     peak = 0.0
     for row in range(top, bottom):
         for column in range(width):
@@ -50,12 +49,10 @@ def mark_rows(
             for shift in range(-near, near + 1):
                 _mark_changes(film, row, other, shift, marks)
         for column in range(width):
-            if marks[row, column]:
-                count += 1
-            else:
+            if not marks[row, column]:
                 for channel in range(3):
                     peak = max(peak, film.linear[row, column, channel])
-    return count, peak
+    return peak
 
 
 @device

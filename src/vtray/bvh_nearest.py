@@ -1,14 +1,12 @@
 """Through the hierarchy with camera rays: those of a part of a packet, as one beam."""
 
-import numpy as np
-
 from vtray.beam import Beam, beam_margin, children_met, enter_child, make_beam
 from vtray.bvh import WIDTH, Bvh, leaf_range
 from vtray.compiled import device
-from vtray.cones import Footprint, part_directions, part_starts
+from vtray.cones import Footprint, farthest_of, part_directions, part_starts
 from vtray.culling import MARGIN
 from vtray.nearest import test_sphere
-from vtray.packet import DISTANCE, LANES, PART, Packet
+from vtray.packet import GROUP, Packet
 from vtray.scene_arrays import SceneArrays
 from vtray.vector import add, scale, sub
 from vtray.workspace import Workspace
@@ -16,22 +14,33 @@ from vtray.workspace import Workspace
 
 @device
 def nearest_in_bvh(
-    packet: Packet, lanes: int, scene: SceneArrays, footprint: Footprint, work: Workspace
+    packet: Packet,
+    lanes: int,
+    part: int,
+    scene: SceneArrays,
+    footprint: Footprint,
+    work: Workspace,
 ) -> None:
     """Let the spheres take the lanes in which they are nearer than the hits so far."""
-    for first in range(0, lanes, PART):
-        _search_part(packet, first, scene, footprint, work)
+    for first in range(0, lanes, part):
+        _search_part(packet, first, min(part, lanes - first), scene, footprint, work)
 
 
 @device
 def _search_part(
-    packet: Packet, first: int, scene: SceneArrays, footprint: Footprint, work: Workspace
+    packet: Packet,
+    first: int,
+    lanes: int,
+    scene: SceneArrays,
+    footprint: Footprint,
+    work: Workspace,
 ) -> None:
     """Search the hierarchy for a part of a packet, nearest boxes first."""
     bvh, ratio = scene.bvh, scene.to_boxes.ratio
-    beam = _part_beam(first, scene, footprint, work)
+    group, groups = first // GROUP, lanes // GROUP
+    beam = _part_beam(group, groups, scene, footprint, work)
     start = scene.camera.focus * ratio * (1.0 - MARGIN)
-    far = _farthest(packet, first) * ratio
+    far = farthest_of(work.cones, group, groups) * ratio
     waiting = _push_met(bvh, 0, beam, start, far, work, 0)
     while waiting > 0:
         waiting -= 1
@@ -44,18 +53,25 @@ def _search_part(
             begin, end = leaf_range(child)
             for slot in range(begin, end):
                 test_sphere(
-                    packet, first, scene.camera, scene.spheres, slot, work.cones, footprint
+                    packet,
+                    group,
+                    groups,
+                    scene.camera,
+                    scene.spheres,
+                    slot,
+                    work.cones,
+                    footprint,
                 )
-            far = _farthest(packet, first) * ratio
+            far = farthest_of(work.cones, group, groups) * ratio
 
 
 @device
 def _part_beam(
-    first: int, scene: SceneArrays, footprint: Footprint, work: Workspace
+    first: int, count: int, scene: SceneArrays, footprint: Footprint, work: Workspace
 ) -> Beam:
     """Return the beam of a part's rays and their footprints."""
-    low, high = part_directions(work.cones, first)
-    near, far = part_starts(work.cones, first)
+    low, high = part_directions(work.cones, first, count)
+    near, far = part_starts(work.cones, first, count)
     camera, ratio, offset = scene.camera, scene.to_boxes.ratio, scene.to_boxes.offset
     apex = add(scale(ratio, camera.eye), offset)
     margin = beam_margin(apex, offset) + MARGIN * (camera.extent + camera.focus) * ratio
@@ -63,19 +79,6 @@ def _part_beam(
     wider = footprint.growth, footprint.growth, footprint.growth
     start, end = add(apex, scale(ratio, near)), add(apex, scale(ratio, far))
     return make_beam(start, end, sub(low, wider), add(high, wider), margin)
-
-
-@device
-def _farthest(packet: Packet, first: int) -> float:
-    """Return the largest distance of the hits so far in a part of a packet."""
-    # Doubles ≥ 0 are in the order of their bits, and a maximum of integers can be vectorised.
-    bits = packet.view(np.int64)
-    far = 0
-    begin = first & (LANES - 1)
-    for lane in range(begin, begin + PART):
-        far = max(far, bits[DISTANCE + lane])
-    largest: float = np.int64(far).view(np.float64)
-    return largest
 
 
 @device

@@ -1,16 +1,30 @@
 """Through the hierarchy with shadow rays: those of a group of points, one beam from the light."""
 
 import math
+from typing import NamedTuple
 
 from vtray.beam import Beam, beam_margin, children_met, make_beam
 from vtray.bvh import WIDTH, leaf_range
 from vtray.compiled import device
-from vtray.culling import MARGIN
+from vtray.culling import MARGIN, outside_shaft
 from vtray.occlusion import block_by_sphere
 from vtray.packet import BLOCKED, MAGNITUDE, POINT, Packet, load
 from vtray.scene_arrays import SceneArrays
-from vtray.vector import add, lower, pick, scale, sub, upper
+from vtray.sphere_arrays import sphere_center, sphere_magnitude, sphere_radius
+from vtray.vector import Vec, add, lower, pick, scale, sub, upper
 from vtray.workspace import Workspace
+
+
+FEW = 16
+"""So few points are tested sooner than a sphere is found to be outside their shaft."""
+
+
+class Box(NamedTuple):
+    """A box of points, relative to a light, and their largest magnitude."""
+
+    low: Vec
+    high: Vec
+    magnitude: float
 
 
 @device
@@ -37,7 +51,8 @@ def _search_group(
 ) -> None:
     """Search the hierarchy until all points of a group are blocked."""
     bvh, stack = scene.bvh, work.stack
-    beam = _group_beam(packet, begin, end, scene, light)
+    box = _group_box(packet, begin, end, scene, light)
+    beam = _group_beam(box, scene, light)
     waiting = 1
     stack[0] = 0
     while waiting > 0:
@@ -54,9 +69,10 @@ def _search_group(
                 else:
                     first, after = leaf_range(child)
                     for slot in range(first, after):
-                        block_by_sphere(
-                            packet, begin, end, scene.spheres, slot, scene.lights, light
-                        )
+                        if end - begin <= FEW or _in_shaft(scene, slot, light, box):
+                            block_by_sphere(
+                                packet, begin, end, scene.spheres, slot, scene.lights, light
+                            )
                     begin = _first_open(packet, begin, end)
                     if begin == end:
                         return
@@ -65,8 +81,8 @@ def _search_group(
 
 
 @device
-def _group_beam(packet: Packet, begin: int, end: int, scene: SceneArrays, light: int) -> Beam:
-    """Return the beam from a light to the points of a group that nothing blocks so far."""
+def _group_box(packet: Packet, begin: int, end: int, scene: SceneArrays, light: int) -> Box:
+    """Return the box of the points of a group that nothing blocks so far."""
     place = pick(scene.lights, light)
     low = math.inf, math.inf, math.inf
     high = -math.inf, -math.inf, -math.inf
@@ -76,7 +92,24 @@ def _group_beam(packet: Packet, begin: int, end: int, scene: SceneArrays, light:
             from_light = sub(load(packet, POINT, lane), place)
             low, high = lower(low, from_light), upper(high, from_light)
             magnitude = max(magnitude, packet[MAGNITUDE + lane])
+    return Box(low, high, magnitude)
+
+
+@device
+def _group_beam(box: Box, scene: SceneArrays, light: int) -> Beam:
+    """Return the beam from a light to a box of points."""
     ratio, offset = scene.to_boxes.ratio, scene.to_boxes.offset
-    apex = add(scale(ratio, place), offset)
-    margin = beam_margin(apex, offset) + MARGIN * magnitude * ratio
-    return make_beam(apex, apex, scale(ratio, low), scale(ratio, high), margin)
+    apex = add(scale(ratio, pick(scene.lights, light)), offset)
+    margin = beam_margin(apex, offset) + MARGIN * box.magnitude * ratio
+    return make_beam(apex, apex, scale(ratio, box.low), scale(ratio, box.high), margin)
+
+
+@device
+def _in_shaft(scene: SceneArrays, slot: int, light: int, box: Box) -> bool:
+    """Tell whether a sphere may stand between any point of a box and a light."""
+    center, radius = sphere_center(scene.spheres, slot), sphere_radius(scene.spheres, slot)
+    magnitude = box.magnitude + scene.lights.magnitude[light]
+    radius += MARGIN * (sphere_magnitude(center, radius) + magnitude)
+    tip = pick(scene.lights, light)
+    middle = add(tip, scale(0.5, add(box.low, box.high)))
+    return not outside_shaft(center, radius, tip, middle, scale(0.5, sub(box.high, box.low)))

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from vtray.compiled import device
-from vtray.vector import Vec, add, dot, scale
+from vtray.vector import Vec, add, cross, dot, scale, sub
 
 
 class CameraFrame(NamedTuple):
@@ -61,6 +61,18 @@ def camera_axes(forward: Vec) -> tuple[Vec, Vec]:
         return (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
     a, b, turn = x / side, y / side, 1.0 - z
     return (1.0 - a * a * turn, -a * b * turn, -x), (-a * b * turn, 1.0 - b * b * turn, -y)
+
+
+def upright_axes(forward: Vec, up: Vec) -> tuple[Vec, Vec]:
+    """Return the axes right and down for a camera that looks along the unit vector `forward`.
+
+    Down is opposite to that part of the unit vector `up` that is square to `forward`.
+    """
+    along = dot(up, forward)
+    upward = sub(up, scale(along, forward))
+    length = math.sqrt(dot(upward, upward))
+    down = -upward[0] / length, -upward[1] / length, -upward[2] / length
+    return cross(down, forward), down
 
 
 @device

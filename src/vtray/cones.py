@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.compiled import device
-from vtray.packet import DIRECTION, GROUP, LANES, OFFSET, PART, Packet, load
+from vtray.packet import DIRECTION, DISTANCE, GROUP, LANES, OFFSET, Packet
 from vtray.vector import Vec, add, cross, dot, lower, scale, sub, upper
 
 GROUPS = LANES // GROUP
@@ -26,7 +26,8 @@ LOW = 8 * GROUPS  # the least and the greatest components of the directions
 HIGH = 11 * GROUPS
 NEAR = 14 * GROUPS  # the least and the greatest components of the starts
 FAR = 17 * GROUPS
-ROWS = 20
+FARTHEST = 20 * GROUPS  # the largest distance of the hits so far
+ROWS = 21
 
 Cones = NDArray[np.float64]
 
@@ -103,37 +104,62 @@ def _bound_groups(packet: Packet, row: int, lanes: int, cones: Cones, to: int) -
 
 
 @device
-def part_directions(cones: Cones, first: int) -> tuple[Vec, Vec]:
-    """Return the least and the greatest components of the directions of a part of a packet."""
-    return _bound_part(cones, LOW, HIGH, first // GROUP)
+def part_directions(cones: Cones, first: int, count: int) -> tuple[Vec, Vec]:
+    """Return the least and the greatest components of the directions of some groups."""
+    return _bound_part(cones, LOW, HIGH, first, count)
 
 
 @device
-def part_starts(cones: Cones, first: int) -> tuple[Vec, Vec]:
-    """Return the least and the greatest components of the starts of a part, relative to the eye."""
-    return _bound_part(cones, NEAR, FAR, first // GROUP)
+def part_starts(cones: Cones, first: int, count: int) -> tuple[Vec, Vec]:
+    """Return the least and the greatest components of the starts of some groups, minus the eye."""
+    return _bound_part(cones, NEAR, FAR, first, count)
 
 
 @device
-def _bound_part(cones: Cones, least: int, greatest: int, begin: int) -> tuple[Vec, Vec]:
+def _bound_part(
+    cones: Cones, least: int, greatest: int, begin: int, count: int
+) -> tuple[Vec, Vec]:
     low, high = _load(cones, least, begin), _load(cones, greatest, begin)
-    for group in range(begin + 1, begin + PART // GROUP):
+    for group in range(begin + 1, begin + count):
         low, high = lower(low, _load(cones, least, group)), upper(high, _load(cones, greatest, group))
     return low, high
 
 
 @device
+def farthest_of(cones: Cones, first: int, count: int) -> float:
+    """Return the largest distance of the hits so far of some groups."""
+    begin = first & (GROUPS - 1)
+    far = 0.0
+    for group in range(begin, begin + count):
+        far = max(far, cones[FARTHEST + group])
+    return far
+
+
+@device
+def find_farthest(packet: Packet, first: int, count: int, cones: Cones) -> None:
+    """Find the largest distance of the hits so far in each of some groups."""
+    for group in range(first, first + count):
+        # Doubles ≥ 0 are in the order of their bits, and a maximum of integers can be vectorised.
+        bits = packet.view(np.int64)
+        far = 0
+        begin = group * GROUP & (LANES - 1)
+        for lane in range(begin, begin + GROUP):
+            far = max(far, bits[DISTANCE + lane])
+        cones[FARTHEST + group] = np.int64(far).view(np.float64)
+
+
+@device
 def groups_met(
-    cones: Cones, first: int, from_eye: Vec, radius: float, footprint: Footprint
+    cones: Cones, first: int, count: int, from_eye: Vec, radius: float, footprint: Footprint
 ) -> int:
-    """Return a bit for each of eight groups whose rays or footprints a sphere may meet.
+    """Return a bit for each of some groups whose rays or footprints a sphere may meet.
 
     Parameters
     ----------
     cones
         The cones of a packet.
-    first
-        The first of the groups.
+    first, count
+        The first of the groups, and how many there are.
     from_eye
         The sphere's centre minus the eye.
     radius
@@ -146,11 +172,14 @@ def groups_met(
     # The mask tells the compiler that no index is negative.
     begin = first & (GROUPS - 1)
     met = 0
-    for k in range(PART // GROUP):
+    for k in range(count):
         group = begin + k
-        moment = cross(sub(from_eye, _load(cones, START, group)), _load(cones, AXIS, group))
+        start, axis = sub(from_eye, _load(cones, START, group)), _load(cones, AXIS, group)
+        moment = cross(start, axis)
         limit = radius + cones[WIDTH + group] + reach * cones[SPREAD + group]
-        met |= 0 if dot(moment, moment) > limit * limit else 1 << k
+        beside = dot(moment, moment) > limit * limit
+        behind = dot(start, axis) - limit > cones[FARTHEST + group]
+        met |= 0 if beside | behind else 1 << k
     return met
 
 

@@ -2,14 +2,18 @@
 
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.compiled import kernel
 from vtray.errors import RenderError
+from vtray.pool import run_tasks
 from vtray.scene import Light
+from vtray.settings import Background, Exposure
+from vtray.tiles import TILE
+from vtray.triples import Color
 
 BRIGHTEST = sys.float_info.max / 2.0**17
 """The largest sum of intensities: times a colour of 255 and the 255 of exposure it is a double."""
@@ -23,27 +27,89 @@ def check_brightness(lights: Sequence[Light]) -> None:
         raise RenderError(message)
 
 
-def develop(film: NDArray[np.float64], peak: float, pixels: NDArray[np.uint8]) -> None:
-    """Expose rows of a film so that the brightest channel of the image becomes 255.
+def develop(
+    linear: NDArray[np.float64],
+    white: float,
+    background: Background,
+    alpha: Callable[[], NDArray[np.float64]],
+    threads: int = 1,
+) -> NDArray[np.uint8]:
+    """Expose the light of an image: a channel v becomes ``floor(255 * v / white)``.
 
     Parameters
     ----------
-    film
+    linear
         Linear light, (height, width, 3).
-    peak
-        The largest channel of the whole image; if it is 0, the pixels become black.
-    pixels
-        Where the result is written, (height, width, 3).
+    white
+        What becomes 255, as does what is more; if it is 0, the picture is black.
+    background
+        What is seen where nothing is.
+    alpha
+        Gives how much of each pixel is covered, (height, width); called only where it matters.
+    threads
+        How many threads to use at the most.
+
+    Returns
+    -------
+    array
+        The pixels, (height, width, 3), or with alpha, not premultiplied, (height, width, 4).
     """
-    # Not in the kernel: there it would call a library of Numba's, which takes 3 ms to load.
-    _expose(film.reshape(film.size), float(peak), pixels.reshape(pixels.size))
+    pixels = np.empty(linear.shape, np.uint8)
+
+    def develop_rows(top: int) -> None:
+        # Not in the kernel: there it would call a library of Numba's, which takes 3 ms to load.
+        light, bytes_ = linear[top : top + TILE], pixels[top : top + TILE]
+        _expose(light.reshape(light.size), float(white), bytes_.reshape(bytes_.size))
+
+    run_tasks(range(0, len(linear), TILE), lambda: develop_rows, threads)
+    if background == "black":
+        return pixels
+    return put_on_background(linear, white, background, alpha(), 255).astype(np.uint8)
+
+
+def put_on_background(
+    linear: NDArray[np.float64],
+    white: float,
+    background: Background,
+    alpha: NDArray[np.float64],
+    maximum: int,
+) -> NDArray[np.float64]:
+    """Expose the light of an image, up to a maximum, over or without a background.
+
+    What is covered in part is blended with the background after exposure, so that the background
+    has exactly its colour. For a transparent one, colours are those of what covers the pixel, and
+    its share is the fourth channel.
+    """
+    cover = alpha.clip(0.0, 1.0)[..., None]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        light = maximum * linear / white if white > 0.0 else np.zeros_like(linear)
+        if background == "transparent":
+            light = np.where(cover > 0.0, light / cover, 0.0)
+    light[linear == white] = maximum if white > 0.0 else 0.0
+    if background == "transparent":
+        return np.concatenate([np.floor(light).clip(0, maximum), np.rint(maximum * cover)], axis=2)
+    if isinstance(background, Color):
+        behind = np.array([background.r, background.g, background.b]) * (maximum / 255)
+        light = light + (1.0 - cover) * behind
+    return np.floor(light).clip(0, maximum)
+
+
+def warm_up() -> None:
+    """Load the kernel of this module, or compile it."""
+    _expose(np.zeros(0), 0.0, np.zeros(0, np.uint8))
 
 
 @kernel
-def _expose(linear: NDArray[np.float64], peak: float, bytes_: NDArray[np.uint8]) -> None:
+def _expose(linear: NDArray[np.float64], white: float, bytes_: NDArray[np.uint8]) -> None:
     """Expose the channels of any number of pixels, all (n,)."""
     for k in range(linear.size):
-        exposed = math.floor((255.0 * linear[k]) / peak) if peak > 0.0 else 0.0
+        share = (255.0 * linear[k]) / white if white > 0.0 else 0.0
+        exposed = math.floor(min(max(share, 0.0), 255.0))
         # For one peak in seven, 255 * peak / peak rounds to just below 255.
-        exposed = 255.0 if linear[k] == peak > 0.0 else exposed
+        exposed = 255.0 if linear[k] == white > 0.0 else exposed
         bytes_[k] = np.uint8(exposed)
+
+
+def white_of(exposure: Exposure, peak: float) -> float:
+    """Return the light that becomes 255 in an image whose largest channel is `peak`."""
+    return peak if exposure == "max" else 255.0 / exposure

@@ -8,7 +8,7 @@ from vtray.cones import Footprint
 from vtray.culling import MARGIN, outside_shaft
 from vtray.nearest import test_sphere
 from vtray.occlusion import Bounds, block_by_sphere
-from vtray.packet import PART, Packet
+from vtray.packet import GROUP, PART, Packet
 from vtray.scene_arrays import Lights, SceneArrays
 from vtray.sphere_arrays import (
     SphereArrays,
@@ -31,7 +31,14 @@ def nearest_of_few(
     for first in range(0, lanes, PART):
         for slot in range(sphere_count(scene.spheres)):
             test_sphere(
-                packet, first, scene.camera, scene.spheres, slot, work.cones, footprint
+                packet,
+                first // GROUP,
+                PART // GROUP,
+                scene.camera,
+                scene.spheres,
+                slot,
+                work.cones,
+                footprint,
             )
 
 

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.compiled import device
+from vtray.kept_light import KeptLight, keep_ray, nothing_kept
 from vtray.packet import (
     BLOCK,
     DISTANCE,
@@ -47,6 +48,8 @@ class Film(NamedTuple):
         A number for the lights that something keeps from the middle ray's hit, (height, width).
     rims
         Whether the outline of a sphere passes near the middle ray, (height, width).
+    kept
+        What is kept of all rays to change lights and colours afterwards.
     """
 
     linear: NDArray[np.float64]
@@ -56,6 +59,7 @@ class Film(NamedTuple):
     primitive: NDArray[np.int32]
     shadows: NDArray[np.float64]
     rims: NDArray[np.bool_]
+    kept: KeptLight
 
 
 def new_film(width: int, height: int, *wanted: str) -> Film:
@@ -67,13 +71,31 @@ def new_film(width: int, height: int, *wanted: str) -> Film:
         size = (height, width) if name in wanted else (0, 0)
         return np.empty(size + (3,) * (name in vectors), kinds.get(name, np.float64))
 
-    return Film(*map(rows, Film._fields))
+    return Film(*map(rows, Film._fields[:-1]), nothing_kept())
 
 
 @device
 def is_wanted(rows: NDArray[np.generic]) -> bool:
     """Tell whether a part of a film is to be written."""
     return rows.shape[0] > 0
+
+
+@device
+def keep_rays(
+    packet: Packet,
+    block: Block,
+    begin: int,
+    end: int,
+    first: int,
+    last: int,
+    work: Workspace,
+    kept: KeptLight,
+) -> None:
+    """Keep what the samples from `first` to before `last` of pixels of a block's list hit."""
+    samples = last - first
+    for lane in range((end - begin) * samples):
+        row, column = _place(block, work.pixels[begin + lane // samples])
+        keep_ray(packet, lane, kept.first[row, column] + first + lane % samples, kept)
 
 
 @device

@@ -23,15 +23,15 @@ def list_hits(packet: Packet, lanes: int, work: Workspace) -> int:
 
 
 @device
-def group_hits(packet: Packet, lanes: int, work: Workspace) -> int:
-    """List the lanes with a hit, in groups that hit the same; return how many lanes there are."""
+def group_hits(packet: Packet, lanes: int, most: int, work: Workspace) -> int:
+    """List the lanes with a hit, in groups of at most so many that hit the same; return how many."""
     owners = _find_members(packet, lanes, work)
     hits = 0
     groups = 0
     for k in range(owners):
         count = work.size[k]
         work.size[k] = hits  # from now on, where the next member goes
-        for begin in range(hits, hits + count, GROUP):
+        for begin in range(hits, hits + count, most):
             groups += 1
             work.group[groups] = begin
         hits += count

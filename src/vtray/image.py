@@ -1,39 +1,24 @@
 """The picture that a render gives."""
 
 import io
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.errors import RenderError, SceneError
+from vtray.exposure import check_brightness, develop, put_on_background, white_of
 from vtray.image_file import write_image, write_png
-from vtray.scene import Scene
+from vtray.look import Surfaces
+from vtray.relighting import Relighting
+from vtray.scene import Light, Scene
 from vtray.settings import RenderSettings
 
 Floats = NDArray[np.float64]
-
-
-class Surfaces(NamedTuple):
-    """What the ray through the middle of each pixel meets.
-
-    Attributes
-    ----------
-    depth
-        Distance along the ray in scene units, infinite where nothing is, (height, width).
-    normals
-        Unit normals in world space on the ray's side, 0 where nothing is, (height, width, 3).
-    ids
-        Place in ``scene.objects``, and place in the arrays of that object, 0 if it has none; both
-        -1 where nothing is; int32, (height, width, 2).
-    """
-
-    depth: Floats
-    normals: Floats
-    ids: NDArray[np.int32]
 
 
 class Image:
@@ -44,9 +29,6 @@ class Image:
     linear
         Light before exposure, float64, (height, width, 3): the sums of cosine, Lambert
         coefficient, intensity and colour (0 to 255).
-    pixels
-        Light after exposure, uint8, (height, width, 3), or with alpha (height, width, 4) if the
-        background is transparent.
     white
         The light that becomes 255; 0 if the whole picture is black.
     scene
@@ -62,7 +44,7 @@ class Image:
     def __init__(
         self,
         linear: Floats,
-        pixels: NDArray[np.uint8],
+        pixels: NDArray[np.uint8] | None,
         white: float,
         scene: Scene,
         settings: RenderSettings,
@@ -70,15 +52,42 @@ class Image:
         *,
         look: Callable[[], Surfaces],
         alpha: Floats | None = None,
+        relighting: Relighting | None = None,
+        threads: int = 1,
     ) -> None:
         self.linear = linear
-        self.pixels = pixels
         self.white = white
         self.scene = scene
         self.settings = settings
         self.stats = stats
         self._look = look
+        self._pixels = pixels
         self._alpha = alpha
+        self._relighting = relighting
+        self._threads = threads
+
+    @property
+    def pixels(self) -> NDArray[np.uint8]:
+        """Light after exposure, uint8, (height, width, 3), or with alpha (height, width, 4)."""
+        return self.develop()
+
+    def develop(self, bits: int = 8) -> NDArray[Any]:
+        """Return light after exposure with 8 or 16 bits for each channel.
+
+        A channel v of light becomes ``floor(maximum * v / white)``, where the maximum is 255 or
+        65535. With a transparent background there is a fourth channel, alpha, and colours are not
+        multiplied by it.
+        """
+        background = self.settings.background
+        if bits != 8:
+            alpha = self.alpha if background != "black" else np.ones(self.linear.shape[:2])
+            maximum = 2**bits - 1
+            return put_on_background(self.linear, self.white, background, alpha, maximum)
+        if self._pixels is None:
+            self._pixels = develop(
+                self.linear, self.white, background, lambda: self.alpha, self._threads
+            )
+        return self._pixels
 
     @cached_property
     def _surfaces(self) -> Surfaces:
@@ -108,6 +117,107 @@ class Image:
         if self._alpha is not None:
             return self._alpha
         return (self.ids[..., 0] >= 0).astype(np.float64)
+
+    def expose(self, exposure: Literal["max"] | float = "max", *, lock: "Image | None" = None) -> "Image":
+        """Return the same light with another exposure.
+
+        Parameters
+        ----------
+        exposure
+            ``"max"``, or what light is multiplied by, > 0, as in `render`.
+        lock
+            A picture whose exposure is taken instead.
+
+        Raises
+        ------
+        SceneError
+            The exposure is neither.
+        """
+        return self._with(self.linear, self.scene, self.settings.replace(exposure=exposure), lock)
+
+    def relight(self, intensities: Sequence[float], *, lock: "Image | None" = None) -> "Image":
+        """Return the picture with other intensities of its lights, exactly as a new render.
+
+        Parameters
+        ----------
+        intensities
+            One for each of ``scene.lights``, ≥ 0.
+        lock
+            A picture whose exposure is taken, instead of what ``settings.exposure`` says.
+
+        Raises
+        ------
+        RenderError
+            The picture was rendered without ``keep_lights=True``.
+        SceneError
+            An intensity is wrong, or there are too many or too few.
+        """
+        lights = self.scene.lights
+        if len(intensities) != len(lights):
+            message = f"intensities: expected {len(lights)}, one for each light, got {len(intensities)}"
+            raise SceneError(message)
+        pairs = zip(lights, intensities, strict=True)
+        changed = [Light(light.location, intensity) for light, intensity in pairs]
+        scene = Scene(self.scene.camera, changed, self.scene.objects, self.scene.render)
+        return self._relit(scene, lock)
+
+    def recolor(
+        self,
+        index: int,
+        color: Any,  # noqa: ANN401
+        *,
+        lock: "Image | None" = None,
+        **scale: Any,  # noqa: ANN401
+    ) -> "Image":
+        """Return the picture with other colours of an object, exactly as a new render.
+
+        Parameters
+        ----------
+        index
+            The place of the object in ``scene.objects``.
+        color
+            The colour or colours, in all ways of `Scene.add_spheres`.
+        lock
+            A picture whose exposure is taken, instead of what ``settings.exposure`` says.
+        **scale
+            ``cmap``, ``clim`` and ``nan_color``, as for `Scene.add_spheres`.
+
+        Raises
+        ------
+        RenderError
+            The picture was rendered without ``keep_lights=True``.
+        SceneError
+            There is no such object, or a colour is wrong.
+        """
+        objects = self.scene.recolored(index, color, **scale)
+        scene = Scene(self.scene.camera, self.scene.lights, objects, self.scene.render)
+        return self._relit(scene, lock)
+
+    def _relit(self, scene: Scene, lock: "Image | None") -> "Image":
+        """Return the picture of a scene that differs in lights and colours alone."""
+        if self._relighting is None:
+            message = "image: its lights were not kept; render it with keep_lights=True"
+            raise RenderError(message)
+        check_brightness(scene.lights)
+        return self._with(self._relighting.light(scene), scene, self.settings, lock)
+
+    def _with(
+        self, linear: Floats, scene: Scene, settings: RenderSettings, lock: "Image | None"
+    ) -> "Image":
+        """Return a picture of the same view with other light or exposure."""
+        white = lock.white if lock else white_of(settings.exposure, max(float(linear.max()), 0.0))
+        return Image(
+            linear,
+            None,
+            white,
+            scene,
+            settings,
+            self.stats,
+            look=lambda: self._surfaces,
+            alpha=self._alpha,
+            relighting=self._relighting,
+            threads=self._threads,
+        )
 
     def save(
         self, path: str | PathLike[str], *, bits: int = 8, aov: Collection[str] = ()

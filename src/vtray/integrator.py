@@ -7,10 +7,19 @@ from vtray.bvh_nearest import nearest_in_bvh
 from vtray.bvh_occlusion import block_in_bvh
 from vtray.camera import CameraFrame, camera_ray, is_shifted
 from vtray.compiled import device, kernel
-from vtray.cones import Footprint, find_cones
+from vtray.cones import find_cones, find_farthest
 from vtray.few_spheres import block_by_few, nearest_of_few
-from vtray.film import Film, add_samples, clear_sums, is_wanted, write_middles, write_pixels
+from vtray.film import (
+    Film,
+    add_samples,
+    clear_sums,
+    is_wanted,
+    keep_rays,
+    write_middles,
+    write_pixels,
+)
 from vtray.interaction import gather_interactions
+from vtray.kept_light import is_kept, keep_cosines
 from vtray.nearest import clear_hits, nearest_plane
 from vtray.occlusion import Bounds, block_by_planes, bound_points, find_sides
 from vtray.packet import (
@@ -18,6 +27,7 @@ from vtray.packet import (
     COLUMN,
     DIRECTION,
     FORWARD,
+    GROUP,
     LANES,
     OFFSET,
     PART,
@@ -85,10 +95,12 @@ def trace_tile(
                 for first in range(0, sampling.count, LANES):
                     last = min(first + LANES, sampling.count)
                     lanes = place_samples(packet, block, begin, end, sampling, first, last, work)
-                    hits, shadow_rays = _trace_packet(
-                        scene, sampling, lanes, film, packet, work, stop
-                    )
-                    rays += lanes + shadow_rays
+                    hits = _find_surfaces(packet, lanes, scene, sampling, work)
+                    if is_kept(film.kept):
+                        keep_rays(packet, block, begin, end, first, last, work, film.kept)
+                    if is_wanted(film.linear) and hits > 0:
+                        rays += _light_hits(scene, hits, film, packet, work, stop)
+                    rays += lanes
                     if stop[0]:
                         return peak, rays
                     if sampling.count > 1:
@@ -101,25 +113,15 @@ def trace_tile(
 
 
 @device
-def _trace_packet(
-    scene: SceneArrays,
-    sampling: Sampling,
-    lanes: int,
-    film: Film,
-    packet: Packet,
-    work: Workspace,
-    stop: NDArray[np.bool_],
-) -> tuple[int, int]:
-    """Trace a packet: rays, hits, light; return how many hits and how many shadow rays."""
+def _find_surfaces(
+    packet: Packet, lanes: int, scene: SceneArrays, sampling: Sampling, work: Workspace
+) -> int:
+    """Cast the rays of a packet, and bring what they hit to its front; return how many hits."""
     whole = (lanes + PART - 1) // PART * PART
     _cast_rays(packet, whole, scene.camera)
     find_cones(packet, whole, is_shifted(scene.camera), work.cones)
-    rays = 0
-    _find_hits(packet, whole, scene, sampling.footprint, work)
-    hits = gather_interactions(packet, lanes, scene, work)
-    if is_wanted(film.linear) and hits > 0:
-        rays = _light_hits(scene, hits, film, packet, work, stop)
-    return hits, rays
+    _find_hits(packet, whole, sampling, scene, work)
+    return gather_interactions(packet, lanes, sampling.count, scene, work)
 
 
 @device
@@ -146,6 +148,8 @@ def _light_hits(
             add_light(packet, hits, scene.lights, light)
             if is_wanted(film.shadows):
                 note_shadows(packet, hits, light)
+            if is_kept(film.kept):
+                keep_cosines(packet, hits, light, film.kept)
             rays += facing
     return rays
 
@@ -164,17 +168,19 @@ def _cast_rays(packet: Packet, lanes: int, camera: CameraFrame) -> None:
 
 @device
 def _find_hits(
-    packet: Packet, lanes: int, scene: SceneArrays, footprint: Footprint, work: Workspace
+    packet: Packet, lanes: int, sampling: Sampling, scene: SceneArrays, work: Workspace
 ) -> None:
     """Find each lane's nearest hit; planes first, so that less of the hierarchy is searched."""
     clear_hits(packet, lanes)
     for plane in range(scene.planes.x.shape[0]):
         number = sphere_count(scene.spheres) + plane
         nearest_plane(packet, lanes, scene.camera, scene.planes, plane, number)
+    find_farthest(packet, 0, lanes // GROUP, work.cones)
     if has_bvh(scene):
-        nearest_in_bvh(packet, lanes, scene, footprint, work)
+        part = PART if sampling.count == 1 else LANES
+        nearest_in_bvh(packet, lanes, part, scene, sampling.footprint, work)
     else:
-        nearest_of_few(packet, lanes, scene, footprint, work)
+        nearest_of_few(packet, lanes, scene, sampling.footprint, work)
 
 
 @device

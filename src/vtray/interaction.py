@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from vtray.camera import is_shifted
 from vtray.compiled import device
-from vtray.grouping import group_hits, list_hits
+from vtray.grouping import GROUP, group_hits, list_hits
 from vtray.packet import (
     COLOR,
     DEPTH,
@@ -93,13 +93,15 @@ def _triple(rows: NDArray[np.uint8], k: int) -> Vec:
 
 
 @device
-def gather_interactions(packet: Packet, lanes: int, scene: SceneArrays, work: Workspace) -> int:
+def gather_interactions(
+    packet: Packet, lanes: int, samples: int, scene: SceneArrays, work: Workspace
+) -> int:
     """Move the lanes with a hit to the front, as interactions with no light yet; return how many.
 
     With a hierarchy they are in groups. Row ``SOURCE`` keeps where each came from.
     """
     nowhere = (0.0, 0.0, 0.0)
-    hits = group_hits(packet, lanes, work) if has_bvh(scene) else list_hits(packet, lanes, work)
+    hits = group_hits(packet, lanes, GROUP * min(samples, 8), work) if has_bvh(scene) else list_hits(packet, lanes, work)
     for hit in range(hits):
         lane = work.order[hit]
         primitive = int(packet[PRIMITIVE + lane])

@@ -4,7 +4,7 @@ import math
 
 from vtray.camera import CameraFrame, is_shifted
 from vtray.compiled import device
-from vtray.cones import Cones, Footprint, groups_met, has_width, width_at
+from vtray.cones import Cones, Footprint, find_farthest, groups_met, has_width, width_at
 from vtray.culling import MARGIN
 from vtray.packet import (
     DIRECTION,
@@ -69,22 +69,24 @@ def clear_hits(packet: Packet, lanes: int) -> None:
 def test_sphere(
     packet: Packet,
     first: int,
+    count: int,
     camera: CameraFrame,
     spheres: SphereArrays,
     slot: int,
     cones: Cones,
     footprint: Footprint,
 ) -> None:
-    """Test a sphere for those groups of a part of a packet that it may meet."""
+    """Test a sphere for those of some groups of a packet that it may meet."""
     place, radius = sphere_center(spheres, slot), sphere_radius(spheres, slot)
     radius += MARGIN * (sphere_magnitude(place, radius) + camera.extent + camera.focus)
-    met = groups_met(cones, first // GROUP, sub(place, camera.eye), radius, footprint)
-    lane = first
+    met = groups_met(cones, first, count, sub(place, camera.eye), radius, footprint)
+    lane = first * GROUP
     while met > 0:
         if met & 1:
             nearest_sphere(packet, lane, camera, spheres, slot)
             if has_width(footprint):
                 note_rim(packet, lane, camera, spheres, slot, footprint)
+            find_farthest(packet, lane // GROUP, 1, cones)
         met >>= 1
         lane += GROUP
 

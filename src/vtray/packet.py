@@ -49,7 +49,8 @@ WEIGHT = 30 * LANES  # what the ray counts for its pixel
 LIGHT = 31 * LANES  # the light along the ray; in the rows before, hits have moved to the front
 SHADOWS = 34 * LANES  # a number for the lights that something blocks
 RIM = 35 * LANES  # the distance of the nearest outline that passes near the ray
-ROWS = 36
+KEPT = 36 * LANES  # the place of what is kept of the ray
+ROWS = 37
 
 NO_PRIMITIVE = -1.0
 """In row ``PRIMITIVE``: the ray hits nothing. (A double as all rows: lanes stay equally wide.)"""

@@ -1,39 +1,48 @@
 """From a scene to its picture: the steps in their order."""
 
-import os
 from collections.abc import Callable
 from functools import partial
+from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vtray.acceleration import accelerate
-from vtray.compiled import loading_seconds, pinned
-from vtray.exposure import check_brightness, develop
-from vtray.film import Film, new_film
-from vtray.image import Image, Surfaces
-from vtray.integrator import trace_tile
+from vtray.compiled import loading_seconds
+from vtray.exposure import check_brightness, warm_up, white_of
+from vtray.image import Image
 from vtray.memory import check_memory
-from vtray.packet import new_packet
+from vtray.look import Look
 from vtray.pool import Progress as StepProgress
-from vtray.pool import run_tasks
-from vtray.sampling import Sampling, middle_rays
+from vtray.relighting import Relighting
 from vtray.scene import Scene
-from vtray.scene_arrays import SceneArrays, pack
+from vtray.scene_arrays import pack
 from vtray.settings import RenderSettings
 from vtray.stopwatch import Stopwatch
-from vtray.tiles import TILE, Tile, split_into_tiles
-from vtray.workspace import new_workspace
+from vtray.tiles import TILE
+from vtray.tracing import Tracer, available_cores, compile_kernels
 
 Progress = Callable[[str, int, int], None]
 
 
 def render(
-    scene: Scene, threads: int | None = None, progress: Progress | None = None, *, tile: int = TILE
+    scene: Scene,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    *,
+    samples: int | None = None,
+    filter: str | None = None,  # noqa: A002 - as in the scene file
+    seed: int | None = None,
+    size: tuple[int, int] | None = None,
+    exposure: Literal["max"] | float | None = None,
+    background: Any = None,  # noqa: ANN401
+    lock: Image | None = None,
+    keep_lights: bool = False,
+    tile: int = TILE,
 ) -> Image:
     """Render a scene.
 
-    The picture depends on the scene alone: not on threads, tiles or the machine.
+    The picture depends on the scene and the settings alone: not on threads, tiles or the machine.
+    Settings that are not given are those of ``scene.render``.
 
     Parameters
     ----------
@@ -44,6 +53,26 @@ def render(
     progress
         Called from time to time with what is being done, ``"build"`` or ``"trace"``, how many of
         its tasks are done, and how many there are.
+    samples
+        Rays for each pixel in which more than one surface or shadow may be seen; 1 for exactly the
+        picture that the format defines, which is the default.
+    filter
+        How the samples of a pixel are weighted: ``"box"``, ``"tent"``, ``"gaussian"``,
+        ``"mitchell"`` or ``"blackman-harris"``, the default.
+    seed
+        Chooses among equally good places of the samples.
+    size
+        Width and height of the picture in pixels, of the same view, instead of the camera's.
+    exposure
+        ``"max"``, the default: the brightest channel becomes 255. A number: light is multiplied by
+        it, so that for 1 a surface that a light of intensity 1 shines on squarely gets its colour.
+    background
+        What is seen where nothing is: ``"black"``, the default, ``"transparent"``, or a colour in
+        any of the ways of `vtray.colors.to_rgb`.
+    lock
+        A picture whose exposure is taken instead, so that a sequence does not flicker.
+    keep_lights
+        Keep the light of each lamp apart, for `Image.relight` and `Image.recolor`.
     tile
         Side of a tile in pixels.
 
@@ -55,7 +84,7 @@ def render(
     Raises
     ------
     SceneError
-        The scene holds something that no scene may hold.
+        The scene or a setting holds something that none may hold.
     RenderError
         The image does not fit into memory, or its light is too bright for a double.
     ValueError
@@ -66,105 +95,61 @@ def render(
     threads = _count("threads", threads if threads is not None else available_cores())
     tile = _count("tile", tile)
     scene.check()
-    check_memory(*(int(side) for side in scene.camera.size))
-    check_brightness(scene.lights)
+    settings = scene.render.replace(
+        samples=samples,
+        filter=filter,
+        seed=seed,
+        size=size,
+        exposure=exposure,
+        background=background,
+    )
+    shown = _as_shown(scene, settings)
+    check_memory(*shown.camera.size)
+    check_brightness(shown.lights)
     clock = Stopwatch()
     loaded = loading_seconds()
     kept = accelerate(scene, threads, _step_of(progress, "build"))
     clock.lap("build")
     loading = loading_seconds() - loaded
-    arrays = pack(scene, kept).arrays
+    packed = pack(shown, kept)
     clock.lap("pack")
-    compile_kernels(arrays)
+    compile_kernels(packed.arrays)
+    warm_up()
     clock.lap("compile")
-    width, height = arrays.camera.width, arrays.camera.height
-    light = new_film(width, height, "linear")
-    step = _step_of(progress, "trace")
-    peak, rays = _trace(arrays, middle_rays(), light, threads, tile, step)
-    film = light.linear
+    tracer = Tracer(packed.arrays, threads, tile, _step_of(progress, "trace"))
+    traced = tracer.light(settings, keep=keep_lights)
     clock.lap("trace")
-    pixels = _develop(film, peak, threads)
+    stats = {"rays": traced.rays, "nodes": kept.nodes, "depth": kept.depth, "memory": kept.memory}
+    image = Image(
+        traced.film.linear,
+        None,
+        lock.white if lock is not None else white_of(settings.exposure, traced.peak),
+        shown,
+        settings,
+        {},
+        look=Look(shown, kept, packed, threads),
+        alpha=traced.film.coverage if settings.samples > 1 else None,
+        relighting=Relighting(kept, traced.kept, settings.samples, threads) if keep_lights else None,
+        threads=threads,
+    )
+    image.develop()
     clock.lap("develop")
     # Kernels are loaded when they are first called; that is no part of the build.
     clock.seconds["build"] -= loading
     clock.seconds["compile"] += loading
-    stats = {"rays": rays, "nodes": kept.nodes, "depth": kept.depth, "memory": kept.memory}
-    return Image(
-        film,
-        pixels,
-        peak,
-        Scene(scene.camera, list(scene.lights), list(scene.objects)),
-        RenderSettings(),
-        {**clock.seconds, **stats},
-        look=_look,
-    )
+    image.stats = {**clock.seconds, **stats}
+    return image
 
 
-def _look() -> Surfaces:
-    raise NotImplementedError
+def _as_shown(scene: Scene, settings: RenderSettings) -> Scene:
+    """Return the scene as it is now, with a camera of the size asked for."""
+    camera = scene.camera if settings.size is None else scene.camera.resized(settings.size)
+    return Scene(camera, list(scene.lights), list(scene.objects), settings)
 
 
 def _step_of(progress: Progress | None, step: str) -> StepProgress | None:
     """Return what shows the progress of one step."""
     return None if progress is None else partial(progress, step)
-
-
-def available_cores() -> int:
-    """Return how many cores this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
-
-
-def compile_kernels(scene: SceneArrays) -> None:
-    """Compile what is needed to render a scene, or load it from disk."""
-    film = new_film(0, 0)
-    stop = np.zeros(1, np.bool_)
-    packet, work = new_packet(), new_workspace(scene)
-    trace_tile(scene, middle_rays(), 0, 0, 0, 0, film, packet, work, stop)
-    develop(film.linear, 0.0, np.zeros((0, 0, 3), np.uint8))
-
-
-def _trace(
-    scene: SceneArrays,
-    sampling: Sampling,
-    film: Film,
-    threads: int,
-    tile: int,
-    progress: StepProgress | None,
-) -> tuple[float, int]:
-    """Trace rays and write to the film; return the largest channel, and how many rays."""
-    camera = scene.camera
-    stop = np.zeros(1, np.bool_)
-    results: list[tuple[float, int]] = []
-    world, places, canvas, flag = pinned(scene), pinned(sampling), pinned(film), pinned(stop)
-
-    def new_worker() -> Callable[[Tile], None]:
-        packet, work = pinned(new_packet()), pinned(new_workspace(scene))
-
-        def trace(tile: Tile) -> None:
-            results.append(trace_tile(world, places, *tile, canvas, packet, work, flag))
-
-        return trace
-
-    def hurry() -> None:
-        stop[0] = True
-
-    tiles = split_into_tiles(camera.width, camera.height, tile)
-    run_tasks(tiles, new_worker, threads, stop=hurry, progress=progress)
-    return max(peak for peak, _ in results), sum(rays for _, rays in results)
-
-
-def _develop(film: NDArray[np.float64], peak: float, threads: int) -> NDArray[np.uint8]:
-    """Return the exposed pixels of a film."""
-    pixels = np.empty(film.shape, np.uint8)
-
-    def develop_rows(top: int) -> None:
-        rows = slice(top, top + TILE)
-        develop(film[rows], peak, pixels[rows])
-
-    run_tasks(range(0, len(film), TILE), lambda: develop_rows, threads)
-    return pixels
 
 
 def _count(name: str, value: int) -> int:

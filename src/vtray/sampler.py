@@ -25,7 +25,7 @@ UNIT = 2.0**-32
 
 
 def sobol_points(count: int) -> NDArray[np.int64]:
-    """Return the first points of Sobol's sequence as integers with their bits reversed, (count, 2).
+    """Return the first points of Sobol's sequence as integers with their bits reversed, (2, count).
 
     The first coordinate is the sample's number with its 32 bits reversed, so it stands here as the
     number itself; the second takes the rows of Pascal's triangle modulo 2.
@@ -36,7 +36,7 @@ def sobol_points(count: int) -> NDArray[np.int64]:
     for bit in range(count.bit_length()):
         second ^= np.where(number >> bit & 1, row, 0)
         row ^= row << 1 & BITS
-    return np.stack([number, second], axis=1)
+    return np.stack([number, second])
 
 
 @device

@@ -26,7 +26,7 @@ class Sampling(NamedTuple):
     seed
         Chooses among equally good places.
     points
-        Their places before they are scrambled, (count, 2).
+        Their places before they are scrambled, (2, count).
     places
         The table of the filter.
     positive
@@ -128,6 +128,7 @@ def place_samples(
             pixel = work.pixels[begin + lane]
             packet[COLUMN + lane] = block.left + (pixel & (BLOCK - 1))
             packet[ROW + lane] = block.top + pixel // BLOCK
+            packet[WEIGHT + lane] = 1.0
     else:
         for k in range(begin, end):
             pixel = work.pixels[k]
@@ -147,15 +148,40 @@ def _place_in_pixel(
 ) -> None:
     """Set the places and weights of samples of one pixel."""
     key_x, key_y = pixel_keys(column, row, IMAGE_PLACE, sampling.seed)
+    # A loop for each step: only so are they vectorised.
+    _scramble(packet, COLUMN + lane, sampling.points, 0, first, last, key_x)
+    _scramble(packet, ROW + lane, sampling.points, 1, first, last, key_y)
+    _put_in_filter(packet, lane, last - first, sampling)
+    for k in range(lane, lane + last - first):
+        packet[COLUMN + k] += column
+        packet[ROW + k] += row
+
+
+@device
+def _scramble(
+    packet: Packet,
+    to: int,
+    points: NDArray[np.int64],
+    axis: int,
+    first: int,
+    last: int,
+    key: int,
+) -> None:
+    """Set a coordinate of samples from `first` to before `last`, from 0 to below 1."""
     for k in range(last - first):
-        share_x = scrambled(sampling.points[first + k, 0], key_x)
-        share_y = scrambled(sampling.points[first + k, 1], key_y)
-        x = place_in_filter(sampling.places, share_x)
-        y = place_in_filter(sampling.places, share_y)
-        packet[COLUMN + lane + k] = column + x
-        packet[ROW + lane + k] = row + y
+        packet[to + k] = scrambled(points[axis, first + k], key)
+
+
+@device
+def _put_in_filter(packet: Packet, lane: int, samples: int, sampling: Sampling) -> None:
+    """Turn coordinates from 0 to 1 into distances from the pixel; set what each sample weighs."""
+    for k in range(lane, lane + samples):
+        x = place_in_filter(sampling.places, packet[COLUMN + k])
+        y = place_in_filter(sampling.places, packet[ROW + k])
+        packet[COLUMN + k] = x
+        packet[ROW + k] = y
         counts = (abs(x) <= sampling.positive) == (abs(y) <= sampling.positive)
-        packet[WEIGHT + lane + k] = 1.0 if counts else -1.0
+        packet[WEIGHT + k] = 1.0 if counts else -1.0
 
 
 @device

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from vtray.acceleration import Acceleration
 from vtray.bvh import Bvh, no_bvh
-from vtray.camera import CameraFrame, camera_axes
+from vtray.camera import CameraFrame, camera_axes, upright_axes
 from vtray.compiled import device
 from vtray.scene import Camera, Direction, Plane, Scene, Vector
 from vtray.sphere_arrays import SphereArrays
@@ -164,21 +164,31 @@ def _camera_exponent(camera: Camera) -> int:
 def _pack_camera(camera: Camera, unit: float) -> CameraFrame:
     """Return the camera's frame, lengths in units."""
     forward = unit_vector(camera.normal)
-    right, down = camera_axes(forward)
+    if camera.up is None:
+        right, down = camera_axes(forward)
+    else:
+        right, down = uncompiled(upright_axes)(forward, unit_vector(camera.up))
     focus = camera.focus / unit
-    own = -_camera_exponent(camera)
     width, height = camera.resolution
+    if camera.projection == "orthographic":
+        shift = width / unit, height / unit
+        extent = camera.size[0] * shift[0] + camera.size[1] * shift[1]
+        pixel = 0.0, 0.0, 1.0
+    else:
+        own = -_camera_exponent(camera)
+        shift, extent = (0.0, 0.0), 0.0
+        pixel = math.ldexp(width, own), math.ldexp(height, own), math.ldexp(camera.focus, own)
     return CameraFrame(
         eye=(-focus * forward[0], -focus * forward[1], -focus * forward[2]),
         right=right,
         down=down,
         forward=forward,
         focus=focus,
-        pixel=(math.ldexp(width, own), math.ldexp(height, own), math.ldexp(camera.focus, own)),
-        shift=(0.0, 0.0),
-        extent=0.0,
-        width=int(camera.size[0]),
-        height=int(camera.size[1]),
+        pixel=pixel,
+        shift=shift,
+        extent=extent,
+        width=camera.size[0],
+        height=camera.size[1],
     )
 
 
