@@ -187,8 +187,12 @@ def test_three_names_and_no_spheres() -> None:
             "color: expected one colour, or 4, one for each position, got 2",
         ),
         (["red", "gren", "b", "k"], {}, f"color[1]: {KINDS} 'gren'; did you mean \"green\"?"),
-        (["red", (1, 0, 0), "b", "k"], {}, "color[1]: (1, 0, 0) may mean floats from 0 to 1 or "
-         "integers from 0 to 255; write (1.0, 0.0, 0.0) or (255, 0, 0)"),
+        (
+            ["red", (1, 0, 0), "b", "k"],
+            {},
+            "color[1]: (1, 0, 0) may mean floats from 0 to 1 or "
+            "integers from 0 to 255; write (1.0, 0.0, 0.0) or (255, 0, 0)",
+        ),
         (
             np.zeros((4, 4)),
             {},
@@ -218,8 +222,12 @@ def test_three_names_and_no_spheres() -> None:
             "write (1.0, 0.0, 0.0) or (255, 0, 0)",
         ),
         (np.zeros((4, 3), bool), {}, f"color: {KINDS} an array of dtype bool and shape (4, 3)"),
-        (np.zeros(4), {"clim": (0, 1)}, "clim: expected None without cmap, got (0, 1); "
-         'give a colour map too, for instance cmap="viridis"'),
+        (
+            np.zeros(4),
+            {"clim": (0, 1)},
+            "clim: expected None without cmap, got (0, 1); "
+            'give a colour map too, for instance cmap="viridis"',
+        ),
         (
             np.zeros(3),
             {"cmap": "viridis"},
@@ -234,7 +242,7 @@ def test_three_names_and_no_spheres() -> None:
         (
             np.zeros(4),
             {"cmap": "virdis"},
-            'cmap: expected the name of a colour map such as "viridis", got \'virdis\'; '
+            "cmap: expected the name of a colour map such as \"viridis\", got 'virdis'; "
             'did you mean "viridis"?',
         ),
         (
@@ -264,7 +272,7 @@ def test_three_names_and_no_spheres() -> None:
             f"nan_color: {KINDS} 'nothing'",
         ),
     ],
-)  # fmt: skip
+)
 def test_wrong_colors(color: Any, options: Any, message: str) -> None:
     assert refusal(color, **options) == message
 
