@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.bounds import Balls, balls_of, first_plane, middle_of
+from vtray.bounds import Balls, balls_of, first_plane, from_middle, middle_of
 from vtray.directions import Vec, along, are_parallel, dot, unit, view_axes
 from vtray.errors import SceneError
 from vtray.kinds import FieldOfView, Margin, Projection, SizePair
@@ -77,7 +77,7 @@ def fitting(
     middle = middle_of(balls.center)
     upward = _choose_up(subject, up, forward, middle)
     right, down = view_axes(forward, unit(upward))
-    seen = _look(balls, middle, np.array([right, down, forward]))
+    seen = _look(balls, middle, (right, down, forward))
     across, below = _frame(int(width), share), _frame(int(height), share)
     front = float((seen.z - seen.radius).min())
     if kind == "perspective":
@@ -115,9 +115,11 @@ def _choose_up(subject: object, up: object, forward: Vec, middle: Floats) -> Dir
     return Direction(*free[0])
 
 
-def _look(balls: Balls, middle: Floats, axes: Floats) -> Seen:
+def _look(balls: Balls, middle: Floats, axes: tuple[Vec, Vec, Vec]) -> Seen:
     """Bring spheres into the space of a camera."""
-    x, y, z = axes @ (balls.center - middle).T
+    columns = from_middle(balls.center, middle)
+    # Not by a product of matrices: for three rows, BLAS is slower.
+    x, y, z = (columns[0] * a + columns[1] * b + columns[2] * c for a, b, c in axes)
     radius = balls.radius
     return Seen(x, y, z, radius if isinstance(radius, float) else radius.astype(float, copy=False))
 
