@@ -17,6 +17,7 @@ import polars as pl
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from PIL import ImageColor
 
 import vtray
 from vtray import Color, ColorScale, Scene, SceneError
@@ -277,6 +278,26 @@ def test_wrong_colors(color: Any, options: Any, message: str) -> None:
     assert refusal(color, **options) == message
 
 
+def test_arrays_that_are_none() -> None:
+    class OnGraphicsCard:
+        def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
+            raise RuntimeError("it lies on a graphics card")
+
+        def __repr__(self) -> str:
+            return "<device array>"
+
+    words = "with cmap: expected numbers of shape (4,), one for each position, got"
+    assert refusal(OnGraphicsCard(), cmap="viridis") == f"color: {words} <device array>"
+    assert refusal(OnGraphicsCard()) == f"color: {KINDS} <device array>"
+    assert refusal([1, "x", 3, 4], cmap="viridis") == f"color: {words} [1, 'x', 3, 4]"
+    ragged = [(1, 2, 3), (1, 2), (1, 2, 3), (1, 2, 3)]
+    assert refusal(ragged) == f"color[1]: {KINDS} (1, 2)"
+
+
+def test_names_that_pillow_has_looked_up() -> None:
+    assert ImageColor.getrgb("plum") == to_rgb("plum") == (221, 160, 221)
+
+
 def test_values_without_a_map() -> None:
     with pytest.raises(SceneError, match=r'colour by values, give a colour map too, .*"viridis"$'):
         Scene().add_spheres([(0, 0, 0)] * 5, 1, np.arange(5.0))
@@ -344,6 +365,7 @@ def test_values_through_a_map() -> None:
     limits = colors_of([-INF, INF, -1, 5], cmap="viridis", clim=(0, 1))
     assert limits == [table[0], table[255], table[0], table[255]]
     assert colors_of([False, True, False, True], cmap="viridis")[:2] == [table[0], table[255]]
+    assert colors_of([0, 1, None, 0.5], cmap="viridis", nan_color=(1, 2, 3)) == expected
     assert colors_of([3, 3, 3, 3], cmap="viridis") == [table[0]] * 4
     assert colors_of([NAN] * 4, cmap="viridis") == [[128] * 3] * 4
     assert colors_of([0, 1, 2, 3], cmap="viridis_r")[0] == table[255]

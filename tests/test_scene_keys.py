@@ -482,3 +482,4 @@ def test_import_is_light() -> None:
         text=True,
     )
     assert "vtray.lights" in listed.stdout
+    assert set(vtray.__all__) <= set(dir(vtray))

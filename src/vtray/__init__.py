@@ -67,3 +67,8 @@ def __getattr__(name: str) -> object:
         return import_module(f"vtray.{name}")
     message = f"module 'vtray' has no attribute {name!r}"
     raise AttributeError(message)
+
+
+def __dir__() -> list[str]:
+    """List what there is, loaded or not."""
+    return sorted({*globals(), *__all__})
