@@ -14,6 +14,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import vtray
+from conftest import compiled_only
 from vtray import Camera, Scene, SceneError, Spheres
 
 TURN = np.linspace(0, 2 * np.pi, 720, endpoint=False)
@@ -251,6 +252,28 @@ def test_resized_shows_the_whole_view(size: Any, other: Any) -> None:
     assert resized.resolution[1] == pytest.approx(2 * resized.resolution[0])
 
 
+@compiled_only
+def test_no_picture_feels_how_near_the_image_plane_is() -> None:
+    scene = Scene()
+    random = np.random.default_rng(3)
+    scene.add_spheres(random.uniform(-3, 3, (200, 3)), 0.4, random.random((200, 3)))
+    scene.add_plane((0, 4, 0), (0, -1, 0))
+    scene.add_light((5, -9, -9))
+    # The axes of the format's first rule for this direction are those of this up.
+    near = Camera.look_at((1, 1, -12), (1, 1, 0), up=(0, -1, 0), size=(80, 60))
+    fields = {name: getattr(near, name) for name in ("normal", "size")}
+    pictures = []
+    for factor in (1, 2.0**10, 2.0**18):
+        focus, pixel = near.focus * factor, near.resolution[0] * factor
+        scene.camera = Camera((1, 1, focus - 12), focus=focus, resolution=(pixel, pixel), **fields)
+        pictures.append(vtray.render(scene, 1).linear)
+    assert pictures[0].max() > 200
+    for picture in pictures[1:]:
+        close = np.isclose(picture, pictures[0], rtol=1e-6, atol=1e-6)
+        # But for edges of shadows and spheres, where the last digit decides.
+        assert close.mean() > 0.999
+
+
 def test_resized_by_two_keeps_every_digit() -> None:
     camera = Camera.look_at((1, 2, 3), (0, 0, 0), size=(800, 600))
     twice = camera.resized((1600, 1200))
@@ -317,6 +340,13 @@ CALLS: list[tuple[str, tuple[Any, ...], dict[str, Any], str]] = [
         (ONE,),
         {"projection": "iso"},
         'projection: expected "perspective" or "orthographic", got \'iso\'',
+    ),
+    (
+        "fit",
+        ([(1e308, 0, 0), (-1e308, 0, 0)],),
+        {},
+        "the spheres reach too far; expected coordinates and radii whose sums and products are "
+        "doubles, up to about 1e307",
     ),
     ("fit", (ONE,), {"fov_degrees": math.nan}, "fov_degrees: expected a finite number, got nan"),
 ]

@@ -17,14 +17,18 @@ from vtray.settings import RenderSettings
 from vtray.spheres import Spheres
 
 if TYPE_CHECKING:
+    from vtray import colors, lights
+    from vtray.color_scale import ColorScale
     from vtray.image import Image
     from vtray.renderer import render
+    from vtray.scene_dict import load_dict
 
 __version__ = "0.1.0"
 
 __all__ = [
     "Camera",
     "Color",
+    "ColorScale",
     "Direction",
     "Image",
     "Light",
@@ -38,17 +42,33 @@ __all__ = [
     "Spheres",
     "Vector",
     "VtrayError",
+    "colors",
+    "lights",
     "load",
+    "load_dict",
     "loads",
     "render",
 ]
 
-# The compiler is loaded when the first picture is rendered, not before.
-_LAZY = {"Image": "vtray.image", "render": "vtray.renderer"}
+# NumPy is loaded when it is first needed, and the compiler when the first picture is rendered.
+_LAZY = {
+    "ColorScale": "vtray.color_scale",
+    "Image": "vtray.image",
+    "load_dict": "vtray.scene_dict",
+    "render": "vtray.renderer",
+}
+_LAZY_MODULES = ("colors", "lights")
 
 
 def __getattr__(name: str) -> object:
     if name in _LAZY:
         return getattr(import_module(_LAZY[name]), name)
+    if name in _LAZY_MODULES:
+        return import_module(f"vtray.{name}")
     message = f"module 'vtray' has no attribute {name!r}"
     raise AttributeError(message)
+
+
+def __dir__() -> list[str]:
+    """List what there is, loaded or not."""
+    return sorted({*globals(), *__all__})

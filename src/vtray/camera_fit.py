@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.bounds import Balls, balls_of, first_plane, middle_of
+from vtray.bounds import Balls, balls_of, first_plane, from_middle, middle_of
 from vtray.directions import Vec, along, are_parallel, dot, unit, view_axes
 from vtray.errors import SceneError
 from vtray.kinds import FieldOfView, Margin, Projection, SizePair
@@ -32,6 +32,10 @@ eye that sees them in the narrowest cone may lie in one of them."""
 CLEARANCE = 16.0
 """Distance from an orthographic camera to the first sphere, relative to the size of what is seen:
 enough to see a floor before the spheres, if it is looked at from more than 4 degrees above."""
+
+
+Frames = tuple[tuple[float, float], tuple[float, float]]
+"""Where silhouettes may begin and end, across and down, in pixels from the axis."""
 
 
 class Seen(NamedTuple):
@@ -77,21 +81,23 @@ def fitting(
     middle = middle_of(balls.center)
     upward = _choose_up(subject, up, forward, middle)
     right, down = view_axes(forward, unit(upward))
-    seen = _look(balls, middle, np.array([right, down, forward]))
-    across, below = _frame(int(width), share), _frame(int(height), share)
-    front = float((seen.z - seen.radius).min())
-    if kind == "perspective":
-        slope = pixel_slope(fov, pixels)
-        eye = _place_eye(seen, across, below, slope, front)
-        depth = float(seen.z.min() / 2 + seen.z.max() / 2) - eye[2]
-        focus = min(NEAR * depth, (front - eye[2]) / 2)
-        place = _to_world(eye, middle, right, down, forward)
-        return perspective(place, forward, upward, focus, slope, pixels)
-    left, top, pixel = _place_frame(seen, across, below)
-    extent = max(pixel * width, pixel * height, float((seen.z + seen.radius).max()) - front)
-    back = CLEARANCE * extent
-    place = _to_world((left, top, front - back), middle, right, down, forward)
-    return orthographic(place, forward, upward, NEAR * back, pixel, pixels)
+    axes = (right, down, forward)
+    frames = _frame(int(width), share), _frame(int(height), share)
+    with np.errstate(over="ignore", invalid="ignore"):
+        seen = _look(balls, middle, axes)
+        if kind == "perspective":
+            slope = pixel_slope(fov, pixels)
+            place, focus = _stand(seen, frames, slope)
+            eye = _to_world(place, middle, axes)
+            fields = perspective(eye, forward, upward, focus, slope, pixels)
+        else:
+            place, focus, pixel = _stand_back(seen, frames, pixels)
+            eye = _to_world(place, middle, axes)
+            fields = orthographic(eye, forward, upward, focus, pixel, pixels)
+    if not all(map(math.isfinite, fields["center"])):
+        words = "expected coordinates and radii whose sums and products are doubles"
+        raise SceneError(f"{call}: the spheres reach too far; {words}, up to about 1e307")
+    return fields
 
 
 def _choose_up(subject: object, up: object, forward: Vec, middle: Floats) -> Direction:
@@ -115,17 +121,20 @@ def _choose_up(subject: object, up: object, forward: Vec, middle: Floats) -> Dir
     return Direction(*free[0])
 
 
-def _look(balls: Balls, middle: Floats, axes: Floats) -> Seen:
+def _look(balls: Balls, middle: Floats, axes: tuple[Vec, Vec, Vec]) -> Seen:
     """Bring spheres into the space of a camera."""
-    x, y, z = axes @ (balls.center - middle).T
+    columns = from_middle(balls.center, middle)
+    # Not by a product of matrices: for three rows, BLAS is slower.
+    x, y, z = (columns[0] * a + columns[1] * b + columns[2] * c for a, b, c in axes)
     radius = balls.radius
     return Seen(x, y, z, radius if isinstance(radius, float) else radius.astype(float, copy=False))
 
 
-def _to_world(point: Vec, middle: Floats, right: Vec, down: Vec, forward: Vec) -> Vec:
+def _to_world(point: Vec, middle: Floats, axes: tuple[Vec, Vec, Vec]) -> Vec:
     """Bring a point from the space of the camera into the world."""
-    x, y, z = point
-    place = along(along(along((0.0, 0.0, 0.0), z, forward), y, down), x, right)
+    place = (0.0, 0.0, 0.0)
+    for part, axis in zip(point, axes, strict=True):
+        place = along(place, part, axis)
     return place[0] + float(middle[0]), place[1] + float(middle[1]), place[2] + float(middle[2])
 
 
@@ -139,24 +148,19 @@ def _frame(count: int, margin: float) -> tuple[float, float]:
     return first + margin * length, first + (1 - margin) * length
 
 
-def _place_eye(
-    seen: Seen,
-    across: tuple[float, float],
-    below: tuple[float, float],
-    slope: float,
-    front: float,
-) -> Vec:
-    """Return the eye that is as near to the spheres as can be."""
-    sides = [(seen.x, *across), (seen.y, *below)]
-    gap = _least_gap(seen, front)
-    depths = [front - gap]
+def _stand(seen: Seen, frames: Frames, slope: float) -> tuple[Vec, float]:
+    """Return the eye that is as near to the spheres as can be, and the focus."""
+    front = float((seen.z - seen.radius).min())
+    sides = [(seen.x, *frames[0]), (seen.y, *frames[1])]
+    depths = [front - _least_gap(seen, front)]
     for place, first, last in sides:
         low, high = first * slope, last * slope
         room = _room(place, seen, low, -1)[0] + _room(place, seen, high, 1)[0]
         depths.append(room / (high - low))
     depth = min(depths)
     x, y = (_middle(place, seen, (a * slope, b * slope), depth) for place, a, b in sides)
-    return x, y, depth
+    distance = float(seen.z.min() / 2 + seen.z.max() / 2) - depth
+    return (x, y, depth), min(NEAR * distance, (front - depth) / 2)
 
 
 def _least_gap(seen: Seen, front: float) -> float:
@@ -206,22 +210,20 @@ def _middle(place: Floats, seen: Seen, slopes: tuple[float, float], depth: float
     return ((axis + half) * depth - right) / 2 + ((axis - half) * depth + left) / 2
 
 
-def _place_frame(
-    seen: Seen, across: tuple[float, float], below: tuple[float, float]
-) -> tuple[float, float, float]:
-    """Return where an orthographic picture has its axis, across and down, and its pixel's width."""
+def _stand_back(seen: Seen, frames: Frames, size: tuple[int, int]) -> tuple[Vec, float, float]:
+    """Return the eye, the focus and the width of a pixel of an orthographic picture."""
     ranges = [
         (float((place - seen.radius).min()), float((place + seen.radius).max()))
         for place in (seen.x, seen.y)
     ]
-    frames = (across, below)
-    pixel = max(
-        (high - low) / (last - first)
-        for (low, high), (first, last) in zip(ranges, frames, strict=True)
+    pairs = list(zip(ranges, frames, strict=True))
+    pixel = max((high - low) / (last - first) for (low, high), (first, last) in pairs)
+    # Points on a line along the view have no extent: any pixel will do.
+    pixel = pixel or 1.0 / max(size)
+    x, y = (
+        (low / 2 + high / 2) - pixel * (first + last) / 2 for (low, high), (first, last) in pairs
     )
-    pixel = pixel or 1.0 / max(across[1] - across[0], below[1] - below[0])
-    left, top = (
-        (low / 2 + high / 2) - pixel * (first + last) / 2
-        for (low, high), (first, last) in zip(ranges, frames, strict=True)
-    )
-    return left, top, pixel
+    front = float((seen.z - seen.radius).min())
+    extent = max(pixel * max(size), float((seen.z + seen.radius).max()) - front)
+    back = CLEARANCE * extent
+    return (x, y, front - back), NEAR * back, pixel

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.color_scale import ColorScale, scale_of
-from vtray.colors import ALPHA, WORDS, ambiguous, to_rgb
+from vtray.colors import ALPHA, WORDS, Rgb, ambiguous, to_rgb
 from vtray.errors import SceneError
 from vtray.scene_words import show
 from vtray.triples import Color
@@ -124,15 +124,18 @@ def _listed(items: Any, count: int, place: str) -> Bytes:  # noqa: ANN401
         words = f"one colour, or {count}, one for each position"
         raise SceneError(f"{place}: expected {words}, got {len(items)}")
     # The same name often stands for many.
-    texts = [item for item in items if isinstance(item, str)]
-    named = {text: to_rgb(text, f"{place}[{items.index(text)}]") for text in dict.fromkeys(texts)}
-    return np.array(
-        [
-            named[item] if isinstance(item, str) else to_rgb(item, f"{place}[{index}]")
-            for index, item in enumerate(items)
-        ],
-        np.uint8,
-    ).reshape(-1, 3)
+    numbers: dict[str, int] = {}
+    palette: list[Rgb] = []
+    picked = np.empty(count, np.intp)
+    for index, item in enumerate(items):
+        number = numbers.get(item) if isinstance(item, str) else None
+        if number is None:
+            number = len(palette)
+            palette.append(to_rgb(item, f"{place}[{index}]"))
+            if isinstance(item, str):
+                numbers[item] = number
+        picked[index] = number
+    return np.array(palette, np.uint8).reshape(-1, 3)[picked]
 
 
 def _rows(array: NDArray[Any], place: str) -> Bytes:

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from vtray.errors import SceneError
-from vtray.scene_words import nearest, show
 from vtray.triples import Color
 
 if TYPE_CHECKING:
@@ -22,6 +21,14 @@ if TYPE_CHECKING:
     AnyColor: TypeAlias = str | Color | Sequence[float] | NDArray[Any]
 
 Rgb = tuple[int, int, int]
+
+
+def show(found: object) -> str:
+    """Write a value for a message."""
+    from vtray import scene_words
+
+    return scene_words.show(found)
+
 
 # Matplotlib's own names, beside those of CSS: single letters, and the colours of its cycle.
 _LETTERS = {
@@ -189,6 +196,8 @@ def _unknown(text: str, name: str, names: list[str]) -> str:
     if _HEX_WITH_ALPHA.fullmatch(text):
         short = text[:4] if len(text) == 5 else text[:7]
         return f'{ALPHA}, got {show(name)}; write "{short}"'
+    from vtray.scene_words import nearest
+
     close = nearest(text, names, cutoff=0.7)
     hint = f"; did you mean {close}?" if close else ""
     return f"expected {WORDS}, got {show(name)}{hint}"

@@ -271,6 +271,29 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
                 if isinstance(item, Spheres):
                     item.check(f"Scene.objects[{index}]")
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the scene as a dictionary that `vtray.load_dict` makes an equal scene of.
+
+        Returns
+        -------
+        dict
+            What a scene file says, in Python's own types; `Spheres` are
+            ``{"type": "spheres", "center": array, ...}`` with their read-only arrays, not copied.
+
+        Raises
+        ------
+        SceneError
+            If the scene is not valid.
+        """
+        self.check()
+        data: dict[str, Any] = {
+            "camera": msgspec.to_builtins(self.camera),
+            "lights": [msgspec.to_builtins(light) for light in self.lights],
+            "objects": [_object_to_dict(item) for item in self.objects],
+        }
+        settings = msgspec.to_builtins(self.render)
+        return {**data, "render": settings} if settings else data
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the scene as indented JSON that `vtray.load` reads back as an equal scene.
 
@@ -327,6 +350,17 @@ def _argument(call: str, name: str, value: object, kind: Any) -> Any:  # noqa: A
     from vtray.scene_check import from_code
 
     return value if isinstance(value, kind) else from_code(value, kind, f"{call}: {name}")
+
+
+def _object_to_dict(item: Object) -> dict[str, Any]:
+    """Return an object as what a scene file says of it, or with its arrays."""
+    if not isinstance(item, Spheres):
+        plain: dict[str, Any] = msgspec.to_builtins(item)
+        return plain
+    columns = msgspec.structs.asdict(item)
+    if item.color.ndim == 1:
+        columns["color"] = dict(zip("rgb", item.color.tolist(), strict=True))
+    return {"type": "spheres", **columns}
 
 
 def _unused_name(scene: Path, used: Container[str]) -> str:

@@ -116,7 +116,10 @@ def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
     objects: list[Any] = found.objects
     if SpheresInFile in kinds:
         objects = _read_spheres(found, name, folder, warn)
-    scene: Scene = make_unchecked(Scene, camera=found.camera, lights=found.lights, objects=objects)
+    parts: dict[str, object] = {} if found.render is UNSET else {"render": found.render}
+    scene: Scene = make_unchecked(
+        Scene, camera=found.camera, lights=found.lights, objects=objects, **parts
+    )
     return scene
 
 

@@ -40,7 +40,8 @@ class _CheckedSettings(Checked):
         """Bind the arguments, check and convert them, and make the object."""
         values = bind(cls, args, kwargs)
         background: Any = values.get("background")
-        if background is not None and background not in ("black", "transparent"):
+        is_kept = isinstance(background, str) and background in ("black", "transparent")
+        if background is not None and not is_kept:
             values["background"] = Color(*to_rgb(background, f"{cls.__name__}.background"))
         return super().__call__(**values)
 

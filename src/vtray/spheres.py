@@ -136,6 +136,9 @@ class Spheres(
         spheres.__dict__["color_scale_"] = scale
         return spheres
 
+    def __copy__(self) -> "Spheres":
+        return self.with_scale(self.color_scale)
+
     def __reduce__(self) -> tuple[Any, ...]:
         return _rebuild, (msgspec.structs.astuple(self), self.color_scale)
 

@@ -6,8 +6,6 @@ from typing import Any
 from vtray.directions import Vec, along, are_parallel, unit
 from vtray.errors import SceneError
 from vtray.kinds import FieldOfView, Positive, SizePair
-from vtray.scene_check import from_code
-from vtray.scene_words import show
 from vtray.triples import Direction, Vector
 
 NEAR = 2.0**-20
@@ -27,6 +25,8 @@ def argument(call: str, name: str, value: object, kind: Any) -> Any:  # noqa: AN
     SceneError
         If it is not of the kind.
     """
+    from vtray.scene_check import from_code
+
     is_kind = isinstance(kind, type) and isinstance(value, kind)
     return value if is_kind else from_code(value, kind, f"{call}: {name}")
 
@@ -65,17 +65,17 @@ def looking(
     offset = (end.x - start.x, end.y - start.y, end.z - start.z)
     distance = math.hypot(*offset)
     if distance == 0:
-        words = f"expected a point other than eye, got {show(_triple(end))}"
+        words = f"expected a point other than eye, got {_triple(end)}"
         raise SceneError(f"{call}: target: {words}")
     if not math.isfinite(distance):
         words = "a point at a distance from eye that is a double"
-        raise SceneError(f"{call}: target: expected {words}, got {show(_triple(end))}")
+        raise SceneError(f"{call}: target: expected {words}, got {_triple(end)}")
     forward = unit(Direction(*offset))
     if are_parallel(forward, unit(upward)):
         words = "expected a direction that is not parallel to the line from eye to target"
         remedy = "(0, 0, 1)" if abs(forward[2]) < 0.5 else "(0, 1, 0)"
-        shown = show(_triple(upward))
-        raise SceneError(f"{call}: up: {words}, got {shown}; take for instance {remedy}")
+        got = f"got {_triple(upward)}; take for instance {remedy}"
+        raise SceneError(f"{call}: up: {words}, {got}")
     if height is None:
         angle = argument(call, "fov_degrees", fov_degrees, FieldOfView)
         return perspective(
