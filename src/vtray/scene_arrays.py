@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from vtray.acceleration import Acceleration
 from vtray.bvh import Bvh, no_bvh
 from vtray.camera import CameraFrame, camera_axes, upright_axes
-from vtray.compiled import device
+from vtray.compiled import device, uncompiled
 from vtray.scene import Camera, Direction, Plane, Scene, Vector
 from vtray.sphere_arrays import SphereArrays
 from vtray.vector import Vec
