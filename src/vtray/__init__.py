@@ -10,17 +10,17 @@ image.save("scene.png")
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from vtray.errors import OutputError, RenderError, SceneError, VtrayError
+from vtray.errors import OutputError, ProvenanceError, RenderError, SceneError, VtrayError
 from vtray.scene import Camera, Color, Direction, Light, Plane, Scene, Sphere, Vector
 from vtray.scene_file import load, loads
 from vtray.settings import RenderSettings
 from vtray.spheres import Spheres
+from vtray.version import __version__
 
 if TYPE_CHECKING:
     from vtray.image import Image
+    from vtray.provenance import Provenance, read_provenance
     from vtray.renderer import render
-
-__version__ = "0.1.0"
 
 __all__ = [
     "Camera",
@@ -30,6 +30,8 @@ __all__ = [
     "Light",
     "OutputError",
     "Plane",
+    "Provenance",
+    "ProvenanceError",
     "RenderError",
     "RenderSettings",
     "Scene",
@@ -38,13 +40,20 @@ __all__ = [
     "Spheres",
     "Vector",
     "VtrayError",
+    "__version__",
     "load",
     "loads",
+    "read_provenance",
     "render",
 ]
 
 # The compiler is loaded when the first picture is rendered, not before.
-_LAZY = {"Image": "vtray.image", "render": "vtray.renderer"}
+_LAZY = {
+    "Image": "vtray.image",
+    "Provenance": "vtray.provenance",
+    "read_provenance": "vtray.provenance",
+    "render": "vtray.renderer",
+}
 
 
 def __getattr__(name: str) -> object:

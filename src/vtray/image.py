@@ -5,12 +5,17 @@ from collections.abc import Callable, Collection, Mapping
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.image_file import write_image, write_png
+from vtray.fingerprint import scene_hash
+from vtray.image_file import write_picture
+from vtray.image_format import check_format
+from vtray.picture import How, has_alpha
+from vtray.png_file import write_8_bits
+from vtray.provenance import describe
 from vtray.scene import Scene
 from vtray.settings import RenderSettings
 
@@ -109,25 +114,60 @@ class Image:
             return self._alpha
         return (self.ids[..., 0] >= 0).astype(np.float64)
 
+    @cached_property
+    def scene_hash(self) -> str:
+        """A hash of the scene, 24 hexadecimal digits: that of the same scene loaded again."""
+        return scene_hash(self.scene)
+
+    def develop(self, bits: int = 8) -> NDArray[Any]:
+        """Return the picture after exposure with 8 or 16 bits a channel."""
+        if bits == 8:
+            return self.pixels
+        maximum = 2**bits - 1
+        light, cover = self.linear, None
+        with np.errstate(divide="ignore", invalid="ignore"):
+            if has_alpha(self.settings.background):
+                cover = self.alpha[..., None]
+                light = light / cover
+            exposed = np.nan_to_num(np.floor((maximum * light) / self.white))
+        exposed[light == self.white] = maximum if self.white > 0 else 0
+        if cover is not None:
+            exposed = np.concatenate([exposed, np.rint(maximum * cover)], axis=2)
+        developed: NDArray[Any] = exposed.clip(0, maximum).astype(np.uint16)
+        return developed
+
     def save(
-        self, path: str | PathLike[str], *, bits: int = 8, aov: Collection[str] = ()
+        self, path: str | PathLike[str], *, bits: int | None = None, aov: Collection[str] = ()
     ) -> None:
         """Write the picture to a file, whole or not at all.
+
+        All formats but JPEG hold the pixels exactly. A file also says how the picture was made,
+        which `read_provenance` and ``vtray --replay`` read.
 
         Parameters
         ----------
         path
-            The file. Its ending chooses the format: ``.png``, also without an ending.
+            The file. Its ending chooses the format: ``.png``, also without an ending, ``.tif``,
+            ``.jpg`` and ``.webp`` for pixels; ``.exr`` for light before exposure, divided by 255;
+            ``.npz`` for the arrays of this object.
+        bits
+            Bits of each channel: 8, or 16 in ``.png``, ``.tif`` and ``.npz``; ``.exr`` has 32.
+        aov
+            What to write beside the picture in ``.exr`` and ``.npz``: ``"depth"``, ``"normals"``,
+            ``"ids"``.
 
         Raises
         ------
         OutputError
-            The ending is unknown, or the file cannot be written.
+            The ending is unknown, the format cannot hold what is asked for, the package for it is
+            missing, or the file cannot be written.
         """
-        write_image(self.pixels, Path(path))
+        path = Path(path)
+        how = check_format(path, bits, aov, self.settings.background)
+        write_picture(self, path, how._replace(provenance=describe(self, how).to_text()))
 
     def _repr_png_(self) -> bytes:
         """Return the picture as a PNG, by which notebooks show it."""
         buffer = io.BytesIO()
-        write_png(self.pixels, buffer)
+        write_8_bits(self.pixels, buffer, {})
         return buffer.getvalue()
