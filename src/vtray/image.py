@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vtray.fingerprint import scene_hash
 from vtray.image_file import write_picture
 from vtray.image_format import check_format
-from vtray.picture import How, has_alpha
+from vtray.picture import has_alpha
 from vtray.png_file import write_8_bits
 from vtray.provenance import describe
 from vtray.scene import Scene
@@ -163,7 +163,8 @@ class Image:
             missing, or the file cannot be written.
         """
         path = Path(path)
-        how = check_format(path, bits, aov, self.settings.background)
+        size = self.linear.shape[:2]
+        how = check_format(path, bits, aov, self.settings.background, size)
         write_picture(self, path, how._replace(provenance=describe(self, how).to_text()))
 
     def _repr_png_(self) -> bytes:

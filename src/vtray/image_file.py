@@ -1,18 +1,17 @@
 """Image files: pictures written whole or not at all."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from vtray.atomic_file import write_whole
 from vtray.errors import OutputError
 from vtray.image_format import find_format, needs_package
 from vtray.picture import How, Picture
 
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    Pixels = NDArray[np.uint8]
+Pixels = NDArray[np.uint8]
 
 
 def write_picture(picture: Picture, path: Path, how: How) -> None:
@@ -30,7 +29,7 @@ def write_picture(picture: Picture, path: Path, how: How) -> None:
         raise OutputError(needs_package(path, error.name or "more")) from error
 
 
-def write_image(pixels: "Pixels", path: Path) -> None:
+def write_image(pixels: Pixels, path: Path) -> None:
     """Write pixels, (height, width, 3), that no render has made, in a format for pixels alone."""
     write_picture(_Plain(pixels), path, How())
 
@@ -38,10 +37,10 @@ def write_image(pixels: "Pixels", path: Path) -> None:
 class _Plain:
     """Pixels alone, for those formats that hold nothing else."""
 
-    def __init__(self, pixels: "Pixels") -> None:
+    def __init__(self, pixels: Pixels) -> None:
         self._pixels = pixels
 
-    def develop(self, bits: int) -> "NDArray[Any]":  # noqa: ARG002
+    def develop(self, bits: int) -> NDArray[Any]:  # noqa: ARG002
         return self._pixels
 
     def __getattr__(self, name: str) -> Any:  # noqa: ANN401

@@ -8,6 +8,7 @@ from typing import BinaryIO, NamedTuple
 
 from vtray.errors import OutputError
 from vtray.exr_file import read_exr, write_exr
+from vtray.kinds import MAX_SIZE
 from vtray.npz_file import read_npz, write_npz
 from vtray.picture import AOVS, How, Picture, has_alpha
 from vtray.pillow_file import read_exif, write_jpeg, write_webp
@@ -32,6 +33,8 @@ class Format(NamedTuple):
         Whether it holds depth, normals and ids too.
     needs
         The module of another package that is needed, by the bits of a channel.
+    side
+        The largest width and height.
     """
 
     write: Callable[[Picture, How, BinaryIO], None]
@@ -40,10 +43,11 @@ class Format(NamedTuple):
     alpha: bool
     aov: bool
     needs: Mapping[int, str] = MappingProxyType({})
+    side: int = MAX_SIZE
 
 
 _TIFF = Format(write_tiff, read_exif, (8, 16), alpha=True, aov=False, needs={16: "tifffile"})
-_JPEG = Format(write_jpeg, read_exif, (8,), alpha=False, aov=False)
+_JPEG = Format(write_jpeg, read_exif, (8,), alpha=False, aov=False, side=65500)
 
 FORMATS = {
     ".png": Format(write_png, read_png, (8, 16), alpha=True, aov=False),
@@ -51,7 +55,7 @@ FORMATS = {
     ".tiff": _TIFF,
     ".jpg": _JPEG,
     ".jpeg": _JPEG,
-    ".webp": Format(write_webp, read_exif, (8,), alpha=True, aov=False),
+    ".webp": Format(write_webp, read_exif, (8,), alpha=True, aov=False, side=16383),
     ".exr": Format(write_exr, read_exr, (32,), alpha=True, aov=True, needs={32: "OpenEXR"}),
     ".npz": Format(write_npz, read_npz, (8, 16), alpha=True, aov=True),
 }
@@ -71,7 +75,11 @@ def find_format(path: Path) -> Format:
 
 
 def check_format(
-    path: Path, bits: int | None = None, aov: Collection[str] = (), background: object = "black"
+    path: Path,
+    bits: int | None = None,
+    aov: Collection[str] = (),
+    background: object = "black",
+    size: Collection[float] = (),
 ) -> How:
     """Check, before any work is done, that a format can hold what is asked for.
 
@@ -85,6 +93,8 @@ def check_format(
         What to write beside the picture: "depth", "normals", "ids".
     background
         The background of the picture.
+    size
+        Its width and height.
 
     Returns
     -------
@@ -114,6 +124,13 @@ def check_format(
         message = (
             f"{path}: background: this format cannot be transparent; {able} can, "
             "or choose a color as the background"
+        )
+        raise OutputError(message)
+    if max(size, default=1) > form.side:
+        able = _endings(lambda other: max(size) <= other.side)
+        message = (
+            f"{path}: size: this format holds up to {form.side} pixels across and down, "
+            f"got {max(size):.0f}; {able} can"
         )
         raise OutputError(message)
     _check_package(path, form.needs.get(bits))

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 import msgspec
 from msgspec import Meta
 
-from vtray.errors import ProvenanceError, why_unreadable
+from vtray.errors import OutputError, ProvenanceError, why_unreadable
 from vtray.image_format import FORMATS, find_format, needs_package
 from vtray.kinds import NonNegative, SizePair
 from vtray.picture import How, Picture
@@ -100,8 +100,6 @@ def read_provenance(path: str | Path) -> Provenance:
     ProvenanceError
         If the file cannot be read, says nothing of how it was made, or something that this
         version of vtray does not know.
-    OutputError
-        If its ending is none of those that vtray writes.
     """
     path = Path(path)
     text = _read_text(path)
@@ -119,7 +117,11 @@ def read_provenance(path: str | Path) -> Provenance:
 
 def _read_text(path: Path) -> str | None:
     """Return what a file says of how it was made."""
-    form = find_format(path)
+    try:
+        form = find_format(path)
+    except OutputError:
+        message = f"{path}: expected a picture that vtray has written, one of {', '.join(FORMATS)}"
+        raise ProvenanceError(message) from None
     try:
         with path.open("rb") as file:
             return form.read(file)
