@@ -45,6 +45,15 @@ def test_save_to_an_unknown_format(image: vtray.Image, name: str, tmp_path: Path
     assert list(tmp_path.iterdir()) == []
 
 
+def test_16_bits(image: vtray.Image) -> None:
+    pixels = image.develop(16)
+    assert (pixels.dtype, pixels.shape, pixels.max()) == (np.uint16, (18, 24, 3), 65535)
+    expected = np.floor(65535 * image.linear / image.white)
+    expected[image.linear == image.white] = 65535
+    np.testing.assert_array_equal(pixels, expected)
+    np.testing.assert_array_equal(image.develop(8), image.pixels)
+
+
 def test_notebook(image: vtray.Image) -> None:
     with PillowImage.open(io.BytesIO(image._repr_png_())) as read:
         np.testing.assert_array_equal(np.asarray(read), image.pixels)

@@ -23,7 +23,7 @@ SETTINGS = {
     "seed": 7,
     "size": (9, 7),
     "exposure": 0.1 + 0.2,
-    "background": (1, 2, 3),
+    "background": vtray.Color(1, 2, 3),
 }
 
 

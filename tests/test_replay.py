@@ -58,7 +58,7 @@ def test_all_settings_reach_the_render(small: Path, asked: list[dict]) -> None:
             "seed": 2**32 - 1,
             "size": (8, 6),
             "exposure": 0.3,
-            "background": (10, 20, 30),
+            "background": vtray.Color(10, 20, 30),
         }
     ]
     assert cli.run([str(small), str(small.with_name("a.png")), "--alpha"]) == 0
@@ -68,6 +68,7 @@ def test_all_settings_reach_the_render(small: Path, asked: list[dict]) -> None:
         assert asked[-1] == {"exposure": value}
 
 
+COLOR = 'a name such as "orange", or digits such as "#e0e8ff"'
 WRONG = [
     *(("--samples", bad, "an integer from 1 to 65536") for bad in ("0", "65537", "1.5", "x", "")),
     *(("--seed", bad, "an integer from 0 to 4294967295") for bad in ("-1", "4294967296", "1e3")),
@@ -80,7 +81,7 @@ WRONG = [
         for bad in ("0", "-1", "inf", "nan", "1e999", "MAX", "", "1_0")
     ),
     *(
-        ("--background", bad, 'black, transparent, or a color such as "#e0e8ff"')
+        ("--background", bad, f"black, transparent, {COLOR}")
         for bad in ("#12345", "#12345g", "", "(1,2,3)")
     ),
     *(("--bits", bad, "8 or 16") for bad in ("7", "0", "", "16.0")),
@@ -107,6 +108,11 @@ def test_wrong_values(
     ("arguments", "message"),
     [
         (["--filter", "sinc"], "argument --filter: invalid choice: 'sinc' (choose from"),
+        (
+            ["--background", "oramge"],
+            f"argument --background: expected black, transparent, {COLOR}, got oramge; did you "
+            'mean "orange"?; usage: ',
+        ),
         (["--alpha", "--background", "black"], "argument --background: not allowed with"),
     ],
 )
@@ -199,7 +205,7 @@ def test_settings_of_the_picture_reach_the_render(
             "seed": 5,
             "size": (9, 7),
             "exposure": 2.0,
-            "background": (1, 2, 3),
+            "background": vtray.Color(1, 2, 3),
         }
     ]
     warning = "was made from another scene, or this one has changed since: the picture will differ"

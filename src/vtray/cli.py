@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, NoReturn
 from vtray.command import SUCCESS, leave, print_result, run_command
 from vtray.errors import OutputError
 from vtray.options import parse, settings_of
-from vtray.settings import RenderSettings
 
 if TYPE_CHECKING:
     from vtray.image import Image
@@ -90,9 +89,8 @@ def _check_picture(scene: "Scene", options: argparse.Namespace) -> None:
     """Raise OutputError if the output cannot hold the picture that the scene asks for."""
     from vtray.image_format import check_format
 
-    settings = getattr(scene, "render", None) or RenderSettings()
-    background = options.background or settings.background
-    size = options.size or settings.size or scene.camera.size
+    background = options.background or scene.render.background
+    size = options.size or scene.render.size or scene.camera.size
     check_format(options.output, options.bits, options.aov or (), background, size)
 
 

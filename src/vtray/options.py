@@ -8,9 +8,12 @@ from typing import Any
 
 import msgspec
 
+from vtray.colors import to_rgb
 from vtray.command import Parser
+from vtray.errors import SceneError
 from vtray.picture import AOVS
 from vtray.settings import FILTERS, Exposure, Samples, Seed
+from vtray.triples import Color
 
 HINT = "usage: vtray [-t THREADS] SCENE OUTPUT (more: vtray --help)"
 
@@ -82,7 +85,7 @@ def _add_settings(parser: Parser) -> None:
         "--background",
         metavar="COLOR",
         type=_background,
-        help='what is seen where nothing is: black, transparent, or a color such as "#e0e8ff"',
+        help='what is seen where nothing is: black, transparent, "orange", "#e0e8ff", ...',
     )
     behind.add_argument(
         "--alpha",
@@ -185,13 +188,18 @@ def _exposure(text: str) -> Any:  # noqa: ANN401
     raise _wrong("max or a number > 0", text)
 
 
-def _background(text: str) -> Any:  # noqa: ANN401
+_COLOR = 'black, transparent, a name such as "orange", or digits such as "#e0e8ff"'
+
+
+def _background(text: str) -> str | Color:
     """Return the value of ``--background``."""
     if text in ("black", "transparent"):
         return text
-    if not re.fullmatch(r"#[0-9a-fA-F]{6}", text):
-        raise _wrong('black, transparent, or a color such as "#e0e8ff"', text)
-    return tuple(bytes.fromhex(text[1:]))
+    try:
+        return Color(*to_rgb(text, "background"))
+    except SceneError as error:
+        _, semicolon, hint = str(error).partition("; ")
+        raise _wrong(_COLOR, f"{text}{semicolon}{hint}") from None
 
 
 def _bits(text: str) -> int:
