@@ -81,6 +81,8 @@ def changed() -> list[vtray.Scene]:
         many(center=center, radius=1.0),
         many(center=center, radius=np.ones(50)),
         many(center=center * 2),
+        many(center=np.zeros((50, 3)), radius=1, color=(0, 0, 0), lambert=1),
+        many(center=np.zeros((100, 3), np.float32), radius=1, color=(0, 0, 0), lambert=1),
         vtray.Scene(wider, base.lights, base.objects),
         vtray.Scene(CAMERA, [light], base.objects),
         vtray.Scene(CAMERA, base.lights * 2, base.objects),

@@ -95,6 +95,15 @@ def test_picture_of_many_pixels(tmp_path: Path) -> None:
     assert vtray.read_provenance(path).size == (9, 7)
 
 
+@pytest.mark.parametrize("bits", [8, 16])
+def test_png_that_has_been_changed(bits: int, tmp_path: Path) -> None:
+    path = tmp_path / "a.png"
+    hand_made().save(path, bits=bits)
+    path.write_bytes(path.read_bytes().replace(b'"samples":1', b'"samples":2'))
+    with pytest.raises(vtray.ProvenanceError, match="is damaged"):
+        vtray.read_provenance(path)
+
+
 def write(path: Path, text: str) -> Path:
     """Write a picture that says something else of how it was made."""
     from PIL.PngImagePlugin import PngInfo

@@ -109,7 +109,7 @@ def check_format(
     form = find_format(path)
     names = _check_aov(aov)
     bits = form.bits[0] if bits is None else bits
-    if isinstance(bits, bool) or bits not in form.bits:
+    if bits not in form.bits:
         expected = " or ".join(map(str, form.bits))
         others = _endings(lambda other: bits in other.bits)
         hint = f"; {others} can hold {bits}" if others else ""
