@@ -1,8 +1,9 @@
 """PNG: 8 bits a channel by Pillow, and 16, which Pillow cannot, by zlib.
 
 A PNG of 16 bits is a few chunks around rows that zlib has compressed. Written here, it needs no
-further library, and was measured the fastest: for 1024 x 1024 pixels of a room, 0.05 s, where
-imagecodecs and OpenCV take 0.09 s, pypng 0.09 s for a file of twice the size, and numpngw 0.19 s.
+further library, and was measured the fastest: for 800 x 600 pixels of a room 0.024 s and 1.2 MB,
+where imagecodecs and OpenCV take 0.04 s for 1.4 MB, pypng 0.04 s for 2.5 MB, and numpngw 0.09 s for
+1.0 MB.
 
 References
 ----------

@@ -24,7 +24,7 @@ def write_tiff(picture: Picture, how: How, file: BinaryIO) -> None:
         photometric="rgb",
         extrasamples=["unassalpha"] if pixels.shape[2] == 4 else None,
         compression="zlib",
-        compressionargs={"level": 6},
+        compressionargs={"level": 1},  # a third of the time of level 6, a quarter larger
         predictor=True,
         metadata=None,
         description=how.provenance,
