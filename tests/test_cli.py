@@ -65,7 +65,7 @@ def test_wrong_usage(
     ("output", "message"),
     [
         ("scene.json", 'cannot write ".json" files; the formats are .png'),
-        ("picture.jpeg", 'cannot write ".jpeg" files; the formats are .png'),
+        ("picture.gif", 'cannot write ".gif" files; the formats are .png'),
         ("missing/picture.png", "there is no folder"),
         (".", "is a folder; give the name of a file"),
     ],
@@ -146,7 +146,7 @@ def test_help_and_version(capfd: pytest.CaptureFixture[str]) -> None:
     for option in ("-h", "--help"):
         assert cli.run([option]) == 0
         out, err = capfd.readouterr()
-        assert out.startswith("usage: vtray [-h] [-t THREADS] [-q]")
+        assert out.startswith("usage: vtray [OPTION ...] SCENE OUTPUT")
         assert err == ""
     for option in ("-V", "--version"):
         assert cli.run([option]) == 0

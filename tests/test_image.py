@@ -38,11 +38,20 @@ def test_save(image: vtray.Image, name: str, tmp_path: Path) -> None:
         np.testing.assert_array_equal(np.asarray(read), image.pixels)
 
 
-@pytest.mark.parametrize("name", ["a.jpg", "a.png.txt"])
+@pytest.mark.parametrize("name", ["a.gif", "a.png.txt"])
 def test_save_to_an_unknown_format(image: vtray.Image, name: str, tmp_path: Path) -> None:
     with pytest.raises(vtray.OutputError, match=r"the formats are \.png"):
         image.save(tmp_path / name)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_16_bits(image: vtray.Image) -> None:
+    pixels = image.develop(16)
+    assert (pixels.dtype, pixels.shape, pixels.max()) == (np.uint16, (18, 24, 3), 65535)
+    expected = np.floor(65535 * image.linear / image.white)
+    expected[image.linear == image.white] = 65535
+    np.testing.assert_array_equal(pixels, expected)
+    np.testing.assert_array_equal(image.develop(8), image.pixels)
 
 
 def test_notebook(image: vtray.Image) -> None:

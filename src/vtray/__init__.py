@@ -10,20 +10,20 @@ image.save("scene.png")
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from vtray.errors import OutputError, RenderError, SceneError, VtrayError
+from vtray.errors import OutputError, ProvenanceError, RenderError, SceneError, VtrayError
 from vtray.scene import Camera, Color, Direction, Light, Plane, Scene, Sphere, Vector
 from vtray.scene_file import load, loads
 from vtray.settings import RenderSettings
 from vtray.spheres import Spheres
+from vtray.version import __version__
 
 if TYPE_CHECKING:
     from vtray import colors, lights
     from vtray.color_scale import ColorScale
     from vtray.image import Image
+    from vtray.provenance import Provenance, read_provenance
     from vtray.renderer import render
     from vtray.scene_dict import load_dict
-
-__version__ = "0.1.0"
 
 __all__ = [
     "Camera",
@@ -34,6 +34,8 @@ __all__ = [
     "Light",
     "OutputError",
     "Plane",
+    "Provenance",
+    "ProvenanceError",
     "RenderError",
     "RenderSettings",
     "Scene",
@@ -42,11 +44,13 @@ __all__ = [
     "Spheres",
     "Vector",
     "VtrayError",
+    "__version__",
     "colors",
     "lights",
     "load",
     "load_dict",
     "loads",
+    "read_provenance",
     "render",
 ]
 
@@ -54,7 +58,9 @@ __all__ = [
 _LAZY = {
     "ColorScale": "vtray.color_scale",
     "Image": "vtray.image",
+    "Provenance": "vtray.provenance",
     "load_dict": "vtray.scene_dict",
+    "read_provenance": "vtray.provenance",
     "render": "vtray.renderer",
 }
 _LAZY_MODULES = ("colors", "lights")

@@ -5,7 +5,6 @@ of a hierarchy, and kept until they change. A new camera, light or plane costs n
 """
 
 import operator
-import zlib
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Any, NamedTuple
@@ -16,8 +15,9 @@ from numpy.typing import NDArray
 from vtray.bvh import MAX_SPHERES, WIDTH, Bvh, Frame, Leaves, no_bvh
 from vtray.bvh_build import Built, build
 from vtray.errors import RenderError
+from vtray.fingerprint import add_up, arrays_of
 from vtray.memory import check_memory_of_spheres
-from vtray.pool import Progress, run_tasks
+from vtray.pool import Progress
 from vtray.scene import Plane, Scene, Sphere
 from vtray.spheres import Spheres
 
@@ -262,24 +262,5 @@ def _join(parts: list[Source], name: str) -> NDArray[Any]:
 
 def _fingerprint(items: list[Item], threads: int) -> int:
     """Return a number that changes if a number in the arrays does, which may be written to."""
-    pieces: list[NDArray[np.uint8]] = []
-    for item in items:
-        if isinstance(item, Spheres):
-            for values in (item.center, item.radius, item.color, item.lambert):
-                raw = np.ascontiguousarray(values).reshape(-1).view(np.uint8)
-                pieces += [raw[begin : begin + _PIECE] for begin in range(0, len(raw), _PIECE)]
-    sums = [(0, 0)] * len(pieces)
-
-    def add_up(k: int) -> None:
-        # The sum tells any change of one number; the checksum those that sums do not see, such as
-        # two numbers that change places, or all radii doubled.
-        piece = pieces[k]
-        words = piece[: len(piece) // 8 * 8].view(np.uint64)
-        sums[k] = zlib.crc32(piece.data), int(words.sum())
-
-    run_tasks(range(len(pieces)), lambda: add_up, threads)
-    return hash(tuple(sums))
-
-
-_PIECE = 1 << 20
-"""Bytes that are looked at as one task."""
+    arrays = [array for item in items if isinstance(item, Spheres) for array in arrays_of(item)]
+    return hash(tuple(add_up(arrays, threads)))

@@ -19,9 +19,7 @@ from vtray.film import Film
 
 
 @kernel
-def mark_rows(
-    film: Film, near: int, top: int, bottom: int, marks: NDArray[np.bool_]
-) -> float:
+def mark_rows(film: Film, near: int, top: int, bottom: int, marks: NDArray[np.bool_]) -> float:
     """Mark the pixels of some rows that need samples.
 
     Parameters

@@ -14,7 +14,6 @@ from vtray.sphere_arrays import sphere_center, sphere_magnitude, sphere_radius
 from vtray.vector import Vec, add, lower, pick, scale, sub, upper
 from vtray.workspace import Workspace
 
-
 FEW = 16
 """So few points are tested sooner than a sphere is found to be outside their shaft."""
 

@@ -2,21 +2,19 @@
 
 import argparse
 import os
-import re
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-from vtray.command import SUCCESS, Parser, leave, print_result, run_command
+from vtray.command import SUCCESS, leave, print_result, run_command
 from vtray.errors import OutputError
+from vtray.options import parse, settings_of
 
 if TYPE_CHECKING:
     from vtray.image import Image
+    from vtray.provenance import Provenance
     from vtray.scene import Scene
     from vtray.stopwatch import Stopwatch
-
-HINT = "usage: vtray [-t THREADS] SCENE OUTPUT (more: vtray --help)"
 
 
 def main() -> NoReturn:
@@ -26,70 +24,22 @@ def main() -> NoReturn:
 
 def run(arguments: Sequence[str]) -> int:
     """Do what the arguments say; return the exit status."""
-    return run_command(lambda: _run(_parse(arguments)), too_large="choose a smaller camera.size")
-
-
-def _parse(arguments: Sequence[str]) -> argparse.Namespace:
-    """Return the arguments, checked as far as can be without reading the scene."""
-    from vtray import __version__
-
-    parser = Parser(
-        hint=HINT,
-        prog="vtray",
-        description="Render a scene of spheres and planes to a PNG image.",
-        epilog="example: vtray -t 4 scene.json picture.png",
-    )
-    parser.add_argument("scene", metavar="SCENE", type=Path, help="the scene, a JSON file")
-    parser.add_argument(
-        "output", metavar="OUTPUT", type=Path, nargs="?", help="the image to write, a .png file"
-    )
-    parser.add_argument(
-        "-t", "--threads", type=_thread_count, default=1, help="threads that render (default: 1)"
-    )
-    parser.add_argument(
-        "-q", "--quiet", action="store_true", help="no warnings, no progress, only errors"
-    )
-    parser.add_argument(
-        "--stats", action="store_true", help="print seconds, rays and memory on stderr"
-    )
-    parser.add_argument(
-        "--pixel",
-        metavar="X,Y",
-        type=_pixel,
-        help="write no image, print how the pixel in column X, row Y got its value",
-    )
-    parser.add_argument("-V", "--version", action="version", version=f"vtray {__version__}")
-    options = parser.parse_args(arguments)
-    if options.output is None and options.pixel is None:
-        parser.error("OUTPUT is missing")
-    return options
-
-
-def _thread_count(text: str) -> int:
-    """Return the value of ``--threads``."""
-    if not re.fullmatch(r"0*[1-9][0-9]{0,8}", text):
-        message = f"expected an integer ≥ 1, got {text}"
-        raise argparse.ArgumentTypeError(message)
-    return int(text)
-
-
-def _pixel(text: str) -> tuple[int, int]:
-    """Return the value of ``--pixel``."""
-    match = re.fullmatch(r"([0-9]{1,9}),([0-9]{1,9})", text)
-    if not match:
-        message = f"expected column,row such as 12,34, got {text}"
-        raise argparse.ArgumentTypeError(message)
-    return int(match[1]), int(match[2])
+    return run_command(lambda: _run(parse(arguments)), too_large="choose a smaller camera.size")
 
 
 def _run(options: argparse.Namespace) -> int:
     """Read the scene, render it, and write the image or explain the pixel."""
     from vtray.stopwatch import Stopwatch
 
+    told = _take_over(options)
     if options.pixel is None:
-        _check_output(options.scene, options.output)
+        _check_output(options)
     clock = Stopwatch()
     scene = _load(options)
+    if options.pixel is None:
+        _check_picture(scene, options)
+    if told is not None:
+        _compare(told, scene, options)
     clock.lap("read")
     image = _render(scene, options)
     clock.lap("render")
@@ -98,23 +48,56 @@ def _run(options: argparse.Namespace) -> int:
 
         print_result(explain_pixel(scene, image, *options.pixel))
     else:
-        image.save(options.output)
+        image.save(options.output, bits=options.bits, aov=options.aov or ())
     clock.lap("write")
     if options.stats:
         _print_stats(clock, image)
     return SUCCESS
 
 
-def _check_output(scene: Path, output: Path) -> None:
+def _take_over(options: argparse.Namespace) -> "Provenance | None":
+    """Take over the settings of the picture that is to be made again, if there is one."""
+    if options.replay is None:
+        return None
+    from vtray.replay import take_over
+
+    return take_over(options)
+
+
+def _compare(told: "Provenance", scene: "Scene", options: argparse.Namespace) -> None:
+    """Warn of what is not as it was when a picture was made."""
+    from vtray.replay import differences
+
+    for difference in differences(told, scene):
+        _warn(f"{options.replay}: {difference}", options)
+
+
+def _check_output(options: argparse.Namespace) -> None:
     """Raise OutputError, before any work is done, if the output cannot be written."""
     from vtray.atomic_file import check_writable
     from vtray.image_format import check_format
 
-    check_format(output)
+    scene, output = options.scene, options.output
+    check_format(output, options.bits, options.aov or (), options.background)
     check_writable(output)
     if scene.exists() and output.exists() and scene.samefile(output):
         message = f"{output}: is the scene file itself; choose another name for the image"
         raise OutputError(message)
+
+
+def _check_picture(scene: "Scene", options: argparse.Namespace) -> None:
+    """Raise OutputError if the output cannot hold the picture that the scene asks for."""
+    from vtray.image_format import check_format
+
+    background = options.background or scene.render.background
+    size = options.size or scene.render.size or scene.camera.size
+    check_format(options.output, options.bits, options.aov or (), background, size)
+
+
+def _warn(message: str, options: argparse.Namespace) -> None:
+    """Print a warning on stderr."""
+    if not options.quiet:
+        print(f"Warning: {message}", file=sys.stderr)
 
 
 def _load(options: argparse.Namespace) -> "Scene":
@@ -122,8 +105,7 @@ def _load(options: argparse.Namespace) -> "Scene":
     from vtray.scene_file import load
 
     def warn(message: str) -> None:
-        if not options.quiet:
-            print(f"Warning: {message}", file=sys.stderr)
+        _warn(message, options)
 
     if options.quiet or not sys.stderr.isatty():
         return load(options.scene, warn=warn)
@@ -140,8 +122,9 @@ def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from vtray.renderer import render
 
+    settings = settings_of(options)
     if options.quiet or not sys.stderr.isatty():
-        return render(scene, options.threads)
+        return render(scene, options.threads, **settings)
 
     from vtray.kernel_folder import is_compiled
     from vtray.progress import ProgressBar
@@ -150,7 +133,7 @@ def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
         print("vtray: compiling for this machine, only this once ...", file=sys.stderr)
     progress = ProgressBar()
     try:
-        return render(scene, options.threads, progress)
+        return render(scene, options.threads, progress, **settings)
     finally:
         progress.close()
 

@@ -116,12 +116,13 @@ def part_starts(cones: Cones, first: int, count: int) -> tuple[Vec, Vec]:
 
 
 @device
-def _bound_part(
-    cones: Cones, least: int, greatest: int, begin: int, count: int
-) -> tuple[Vec, Vec]:
+def _bound_part(cones: Cones, least: int, greatest: int, begin: int, count: int) -> tuple[Vec, Vec]:
     low, high = _load(cones, least, begin), _load(cones, greatest, begin)
     for group in range(begin + 1, begin + count):
-        low, high = lower(low, _load(cones, least, group)), upper(high, _load(cones, greatest, group))
+        low, high = (
+            lower(low, _load(cones, least, group)),
+            upper(high, _load(cones, greatest, group)),
+        )
     return low, high
 
 

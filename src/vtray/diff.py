@@ -230,10 +230,10 @@ def _run(options: argparse.Namespace) -> int:
 def _check_output(output: Path, options: argparse.Namespace) -> None:
     """Raise OutputError, before any work is done, if the output cannot be written."""
     from vtray.atomic_file import check_writable
-    from vtray.image_format import check_format
+    from vtray.image_format import check_plain_format
 
     if options.output:
-        check_format(output)
+        check_plain_format(output)
         check_writable(output)
     for source in (options.a, options.b):
         if source.exists() and output.exists() and source.samefile(output):

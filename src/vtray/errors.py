@@ -20,6 +20,10 @@ class OutputError(VtrayError):
     """A file cannot be written."""
 
 
+class ProvenanceError(VtrayError, ValueError):
+    """A picture does not say how it was made, or nothing that is understood."""
+
+
 class UsageError(VtrayError):
     """The command was called wrongly."""
 

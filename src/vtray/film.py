@@ -1,6 +1,6 @@
 """The film: what is recorded of each pixel, and how the samples of a pixel become its light."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,20 +64,28 @@ class Film(NamedTuple):
 
 def new_film(width: int, height: int, *wanted: str) -> Film:
     """Return a film for what is wanted, of no certain content."""
-    kinds = {"primitive": np.int32, "rims": np.bool_}
-    vectors = {"linear", "normal"}
 
-    def rows(name: str) -> NDArray[np.generic]:
+    def rows(name: str, kind: Any = np.float64, *more: int) -> NDArray[Any]:  # noqa: ANN401
         size = (height, width) if name in wanted else (0, 0)
-        return np.empty(size + (3,) * (name in vectors), kinds.get(name, np.float64))
+        return np.empty((*size, *more), kind)
 
-    return Film(*map(rows, Film._fields[:-1]), nothing_kept())
+    return Film(
+        linear=rows("linear", np.float64, 3),
+        coverage=rows("coverage"),
+        distance=rows("distance"),
+        normal=rows("normal", np.float64, 3),
+        primitive=rows("primitive", np.int32),
+        shadows=rows("shadows"),
+        rims=rows("rims", np.bool_),
+        kept=nothing_kept(),
+    )
 
 
 @device
 def is_wanted(rows: NDArray[np.generic]) -> bool:
     """Tell whether a part of a film is to be written."""
-    return rows.shape[0] > 0
+    count: int = rows.shape[0]
+    return count > 0
 
 
 @device

@@ -109,4 +109,5 @@ def place_in_filter(places: NDArray[np.float64], share: float) -> float:
     position = share * STEPS
     # The mask tells the compiler that the index is not negative.
     step = int(position) & (STEPS - 1)
-    return places[step] + (position - step) * (places[step + 1] - places[step])
+    place: float = places[step] + (position - step) * (places[step + 1] - places[step])
+    return place

@@ -5,18 +5,29 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.errors import RenderError, SceneError
 from vtray.exposure import check_brightness, develop, put_on_background, white_of
-from vtray.image_file import write_image, write_png
+from vtray.fingerprint import scene_hash
+from vtray.image_file import write_picture
+from vtray.image_format import check_format
 from vtray.look import Surfaces
+from vtray.png_file import write_8_bits
+from vtray.provenance import describe
+from vtray.recoloring import recolored
 from vtray.relighting import Relighting
 from vtray.scene import Light, Scene
 from vtray.settings import RenderSettings
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from vtray.color_scale import ColorMap
+    from vtray.colors import AnyColor
 
 Floats = NDArray[np.float64]
 
@@ -35,6 +46,8 @@ class Image:
         The scene as it was rendered. (Arrays that its spheres share are shared still.)
     settings
         How it was rendered.
+    locked
+        Whether its exposure is that of another picture.
     stats
         How the picture was made: seconds for ``"build"``, ``"pack"``, ``"compile"``, ``"trace"``
         and ``"develop"``; the number of ``"rays"`` cast; of the hierarchy, its ``"nodes"``, its
@@ -54,6 +67,8 @@ class Image:
         alpha: Floats | None = None,
         relighting: Relighting | None = None,
         threads: int = 1,
+        original: Scene | None = None,
+        locked: bool = False,
     ) -> None:
         self.linear = linear
         self.white = white
@@ -65,6 +80,8 @@ class Image:
         self._alpha = alpha
         self._relighting = relighting
         self._threads = threads
+        self._original = original or scene
+        self.locked = locked
 
     @property
     def pixels(self) -> NDArray[np.uint8]:
@@ -82,7 +99,8 @@ class Image:
         if bits != 8:
             alpha = self.alpha if background != "black" else np.ones(self.linear.shape[:2])
             maximum = 2**bits - 1
-            return put_on_background(self.linear, self.white, background, alpha, maximum)
+            exposed = put_on_background(self.linear, self.white, background, alpha, maximum)
+            return exposed.astype(np.uint16)
         if self._pixels is None:
             self._pixels = develop(
                 self.linear, self.white, background, lambda: self.alpha, self._threads
@@ -118,7 +136,14 @@ class Image:
             return self._alpha
         return (self.ids[..., 0] >= 0).astype(np.float64)
 
-    def expose(self, exposure: Literal["max"] | float = "max", *, lock: "Image | None" = None) -> "Image":
+    @cached_property
+    def scene_hash(self) -> str:
+        """A hash of the scene, 24 hexadecimal digits: that of the same scene loaded again."""
+        return scene_hash(self._original)
+
+    def expose(
+        self, exposure: Literal["max"] | float = "max", *, lock: "Image | None" = None
+    ) -> "Image":
         """Return the same light with another exposure.
 
         Parameters
@@ -154,7 +179,9 @@ class Image:
         """
         lights = self.scene.lights
         if len(intensities) != len(lights):
-            message = f"intensities: expected {len(lights)}, one for each light, got {len(intensities)}"
+            message = (
+                f"intensities: expected {len(lights)}, one for each light, got {len(intensities)}"
+            )
             raise SceneError(message)
         pairs = zip(lights, intensities, strict=True)
         changed = [Light(light.location, intensity) for light, intensity in pairs]
@@ -164,10 +191,12 @@ class Image:
     def recolor(
         self,
         index: int,
-        color: Any,  # noqa: ANN401
+        color: "AnyColor | ArrayLike | Sequence[AnyColor]",
         *,
+        cmap: "ColorMap | None" = None,
+        clim: tuple[float, float] | None = None,
+        nan_color: "AnyColor" = "gray",
         lock: "Image | None" = None,
-        **scale: Any,  # noqa: ANN401
     ) -> "Image":
         """Return the picture with other colours of an object, exactly as a new render.
 
@@ -177,10 +206,10 @@ class Image:
             The place of the object in ``scene.objects``.
         color
             The colour or colours, in all ways of `Scene.add_spheres`.
+        cmap, clim, nan_color
+            How values become colours, as for `Scene.add_spheres`.
         lock
             A picture whose exposure is taken, instead of what ``settings.exposure`` says.
-        **scale
-            ``cmap``, ``clim`` and ``nan_color``, as for `Scene.add_spheres`.
 
         Raises
         ------
@@ -189,7 +218,9 @@ class Image:
         SceneError
             There is no such object, or a colour is wrong.
         """
-        objects = self.scene.recolored(index, color, **scale)
+        objects = recolored(
+            self.scene.objects, index, color, cmap=cmap, clim=clim, nan_color=nan_color
+        )
         scene = Scene(self.scene.camera, self.scene.lights, objects, self.scene.render)
         return self._relit(scene, lock)
 
@@ -217,27 +248,42 @@ class Image:
             alpha=self._alpha,
             relighting=self._relighting,
             threads=self._threads,
+            locked=lock is not None,
         )
 
     def save(
-        self, path: str | PathLike[str], *, bits: int = 8, aov: Collection[str] = ()
+        self, path: str | PathLike[str], *, bits: int | None = None, aov: Collection[str] = ()
     ) -> None:
         """Write the picture to a file, whole or not at all.
+
+        All formats but JPEG hold the pixels exactly. A file also says how the picture was made,
+        which `read_provenance` and ``vtray --replay`` read.
 
         Parameters
         ----------
         path
-            The file. Its ending chooses the format: ``.png``, also without an ending.
+            The file. Its ending chooses the format: ``.png``, also without an ending, ``.tif``,
+            ``.jpg`` and ``.webp`` for pixels; ``.exr`` for light before exposure, divided by 255;
+            ``.npz`` for the arrays of this object.
+        bits
+            Bits of each channel: 8, or 16 in ``.png``, ``.tif`` and ``.npz``; ``.exr`` has 32.
+        aov
+            What to write beside the picture in ``.exr`` and ``.npz``: ``"depth"``, ``"normals"``,
+            ``"ids"``.
 
         Raises
         ------
         OutputError
-            The ending is unknown, or the file cannot be written.
+            The ending is unknown, the format cannot hold what is asked for, the package for it is
+            missing, or the file cannot be written.
         """
-        write_image(self.pixels, Path(path))
+        path = Path(path)
+        size = self.linear.shape[:2]
+        how = check_format(path, bits, aov, self.settings.background, size)
+        write_picture(self, path, how._replace(provenance=describe(self, how).to_text()))
 
     def _repr_png_(self) -> bytes:
         """Return the picture as a PNG, by which notebooks show it."""
         buffer = io.BytesIO()
-        write_png(self.pixels, buffer)
+        write_8_bits(self.pixels, buffer, {})
         return buffer.getvalue()

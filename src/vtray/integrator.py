@@ -82,18 +82,18 @@ def trace_tile(
     """
     peak = 0.0
     rays = 0
-    together = max(1, LANES // sampling.count)
+    together = max(1, LANES // sampling.rays)
     for y in range(top, bottom, BLOCK):
         for x in range(left, right, BLOCK):
             block = Block(x, y, min(BLOCK, right - x), min(BLOCK, bottom - y))
             pixels = list_pixels(block, sampling.marks, work)
             for begin in range(0, pixels, together):
                 end = min(begin + together, pixels)
-                if sampling.count > 1:
+                if sampling.rays > 1:
                     clear_sums(work, end - begin)
                 hits = 0
-                for first in range(0, sampling.count, LANES):
-                    last = min(first + LANES, sampling.count)
+                for first in range(0, sampling.rays, LANES):
+                    last = min(first + LANES, sampling.rays)
                     lanes = place_samples(packet, block, begin, end, sampling, first, last, work)
                     hits = _find_surfaces(packet, lanes, scene, sampling, work)
                     if is_kept(film.kept):
@@ -103,9 +103,9 @@ def trace_tile(
                     rays += lanes
                     if stop[0]:
                         return peak, rays
-                    if sampling.count > 1:
+                    if sampling.rays > 1:
                         add_samples(packet, lanes, hits, last - first, work)
-                if sampling.count > 1:
+                if sampling.rays > 1:
                     peak = max(peak, write_pixels(block, begin, end, work, film))
                 else:
                     peak = max(peak, write_middles(packet, block, begin, end, hits, work, film))
@@ -121,7 +121,7 @@ def _find_surfaces(
     _cast_rays(packet, whole, scene.camera)
     find_cones(packet, whole, is_shifted(scene.camera), work.cones)
     _find_hits(packet, whole, sampling, scene, work)
-    return gather_interactions(packet, lanes, sampling.count, scene, work)
+    return gather_interactions(packet, lanes, sampling.rays, scene, work)
 
 
 @device
@@ -177,7 +177,7 @@ def _find_hits(
         nearest_plane(packet, lanes, scene.camera, scene.planes, plane, number)
     find_farthest(packet, 0, lanes // GROUP, work.cones)
     if has_bvh(scene):
-        part = PART if sampling.count == 1 else LANES
+        part = PART if sampling.rays == 1 else LANES
         nearest_in_bvh(packet, lanes, part, scene, sampling.footprint, work)
     else:
         nearest_of_few(packet, lanes, scene, sampling.footprint, work)

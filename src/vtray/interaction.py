@@ -101,7 +101,11 @@ def gather_interactions(
     With a hierarchy they are in groups. Row ``SOURCE`` keeps where each came from.
     """
     nowhere = (0.0, 0.0, 0.0)
-    hits = group_hits(packet, lanes, GROUP * min(samples, 8), work) if has_bvh(scene) else list_hits(packet, lanes, work)
+    hits = (
+        group_hits(packet, lanes, GROUP * min(samples, 8), work)
+        if has_bvh(scene)
+        else list_hits(packet, lanes, work)
+    )
     for hit in range(hits):
         lane = work.order[hit]
         primitive = int(packet[PRIMITIVE + lane])

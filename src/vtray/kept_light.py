@@ -65,7 +65,8 @@ def new_kept_light(first: NDArray[np.int64], places: int, lights: int) -> KeptLi
 @device
 def is_kept(kept: KeptLight) -> bool:
     """Tell whether anything is kept."""
-    return kept.first.shape[0] > 0
+    pixels: int = kept.first.shape[0]
+    return pixels > 0
 
 
 @device

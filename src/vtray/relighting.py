@@ -54,5 +54,5 @@ class Relighting:
                 bottom = min(top + TILE, len(linear))
                 add_up_rows(arrays, kept, samples, top, bottom, linear)
 
-            run_tasks(range(0, len(linear), TILE), lambda: add_up, self._threads)  # noqa: B023
+            run_tasks(range(0, len(linear), TILE), lambda: add_up, self._threads)
         return linear

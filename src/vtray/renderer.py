@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any, Literal
+from typing import Any, Literal, Protocol
 
 import numpy as np
 
@@ -10,11 +10,11 @@ from vtray.acceleration import accelerate
 from vtray.compiled import loading_seconds
 from vtray.exposure import check_brightness, warm_up, white_of
 from vtray.image import Image
-from vtray.memory import check_memory
 from vtray.look import Look
+from vtray.memory import check_memory
 from vtray.pool import Progress as StepProgress
 from vtray.relighting import Relighting
-from vtray.scene import Scene
+from vtray.scene import Camera, Scene
 from vtray.scene_arrays import pack
 from vtray.settings import RenderSettings
 from vtray.stopwatch import Stopwatch
@@ -22,6 +22,14 @@ from vtray.tiles import TILE
 from vtray.tracing import Tracer, available_cores, compile_kernels
 
 Progress = Callable[[str, int, int], None]
+
+
+class HasWhite(Protocol):
+    """What an exposure can be locked to: a picture, or what one says of itself."""
+
+    @property
+    def white(self) -> float:
+        """The light that becomes 255."""
 
 
 def render(
@@ -35,7 +43,7 @@ def render(
     size: tuple[int, int] | None = None,
     exposure: Literal["max"] | float | None = None,
     background: Any = None,  # noqa: ANN401
-    lock: Image | None = None,
+    lock: HasWhite | None = None,
     keep_lights: bool = False,
     tile: int = TILE,
 ) -> Image:
@@ -103,8 +111,8 @@ def render(
         exposure=exposure,
         background=background,
     )
-    shown = _as_shown(scene, settings)
-    check_memory(*shown.camera.size)
+    shown = _snapshot(scene, _camera(scene, settings))
+    check_memory(*map(int, shown.camera.size))
     check_brightness(shown.lights)
     clock = Stopwatch()
     loaded = loading_seconds()
@@ -129,8 +137,12 @@ def render(
         {},
         look=Look(shown, kept, packed, threads),
         alpha=traced.film.coverage if settings.samples > 1 else None,
-        relighting=Relighting(kept, traced.kept, settings.samples, threads) if keep_lights else None,
+        relighting=Relighting(kept, traced.kept, int(settings.samples), threads)
+        if keep_lights
+        else None,
         threads=threads,
+        original=_snapshot(scene, scene.camera),
+        locked=lock is not None,
     )
     image.develop()
     clock.lap("develop")
@@ -141,10 +153,17 @@ def render(
     return image
 
 
-def _as_shown(scene: Scene, settings: RenderSettings) -> Scene:
-    """Return the scene as it is now, with a camera of the size asked for."""
-    camera = scene.camera if settings.size is None else scene.camera.resized(settings.size)
-    return Scene(camera, list(scene.lights), list(scene.objects), settings)
+def _camera(scene: Scene, settings: RenderSettings) -> Camera:
+    """Return the camera of a scene in the size asked for."""
+    size = settings.size
+    if size is None or size == scene.camera.size:
+        return scene.camera
+    return scene.camera.resized((int(size[0]), int(size[1])))
+
+
+def _snapshot(scene: Scene, camera: Camera) -> Scene:
+    """Return the scene as it is now, with a camera."""
+    return Scene(camera, list(scene.lights), list(scene.objects), scene.render)
 
 
 def _step_of(progress: Progress | None, step: str) -> StepProgress | None:

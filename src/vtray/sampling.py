@@ -21,7 +21,7 @@ class Sampling(NamedTuple):
 
     Attributes
     ----------
-    count
+    rays
         Rays of a pixel; 1 is the ray through its middle.
     seed
         Chooses among equally good places.
@@ -37,7 +37,7 @@ class Sampling(NamedTuple):
         The pixels that are traced, (height, width), or (0, 0) for all.
     """
 
-    count: int
+    rays: int
     seed: int
     points: NDArray[np.int64]
     places: NDArray[np.float64]
@@ -58,9 +58,9 @@ def middle_rays(footprint: Footprint = _NO_FOOTPRINT) -> Sampling:
 def filter_samples(settings: RenderSettings, marks: NDArray[np.bool_]) -> Sampling:
     """Return the samples of the pixels that are marked."""
     return Sampling(
-        settings.samples,
-        settings.seed,
-        sobol_points(settings.samples),
+        int(settings.samples),
+        int(settings.seed),
+        sobol_points(int(settings.samples)),
         filter_places(settings.filter),
         FILTERS[settings.filter].positive,
         _NO_FOOTPRINT,
@@ -123,7 +123,7 @@ def place_samples(
         How many lanes are used; the others repeat the last.
     """
     lanes = (end - begin) * (last - first)
-    if sampling.count == 1:
+    if sampling.rays == 1:
         for lane in range(lanes):
             pixel = work.pixels[begin + lane]
             packet[COLUMN + lane] = block.left + (pixel & (BLOCK - 1))

@@ -187,8 +187,8 @@ def _pack_camera(camera: Camera, unit: float) -> CameraFrame:
         pixel=pixel,
         shift=shift,
         extent=extent,
-        width=camera.size[0],
-        height=camera.size[1],
+        width=int(camera.size[0]),
+        height=int(camera.size[1]),
     )
 
 

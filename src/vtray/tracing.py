@@ -96,17 +96,18 @@ class Tracer:
         if settings.samples == 1:
             return self._middles(middle_rays(), keep, "linear")
         footprint = filter_footprint(settings, self._scene.camera)
-        found = self._middles(middle_rays(footprint), keep, "linear", "primitive", "shadows", "rims")
+        wanted = "linear", "primitive", "shadows", "rims"
+        found = self._middles(middle_rays(footprint), keep, *wanted)
         marks, peak = self._mark(found.film, settings)
         coverage = (found.film.primitive >= 0).astype(np.float64)
         film = new_film(0, 0)._replace(linear=found.film.linear, coverage=coverage)
         if keep:
-            film = film._replace(kept=self._keep(marks, settings.samples))
+            film = film._replace(kept=self._keep(marks, int(settings.samples)))
         sampled = self._trace(filter_samples(settings, marks), film)
         kept = (*found.kept, film.kept) if keep else ()
         return Traced(film, max(peak, sampled.peak), found.rays + sampled.rays, kept)
 
-    def _middles(self, sampling: Sampling, keep: bool, *wanted: str) -> Traced:  # noqa: FBT001
+    def _middles(self, sampling: Sampling, keep: bool, *wanted: str) -> Traced:
         """Trace one ray for each pixel."""
         film = new_film(*self._size, *wanted)
         if keep:
@@ -115,7 +116,7 @@ class Tracer:
 
     def _keep(self, marks: NDArray[np.bool_], samples: int) -> KeptLight:
         """Return where to keep what the samples of the marked pixels meet."""
-        count = np.count_nonzero(marks) * samples
+        count = int(np.count_nonzero(marks)) * samples
         first = np.cumsum(marks, dtype=np.int64).reshape(marks.shape)
         first = np.where(marks, (first - 1) * samples, -1)
         return new_kept_light(first, count, len(self._scene.lights.x))
@@ -137,7 +138,8 @@ class Tracer:
         """Cast rays, and write to a film."""
         stop = np.zeros(1, np.bool_)
         results: list[tuple[float, int]] = []
-        world, places, canvas, flag = map(pinned, (self._scene, sampling, film, stop))
+        world, places = pinned(self._scene), pinned(sampling)
+        canvas, flag = pinned(film), pinned(stop)
 
         def new_worker() -> Callable[[Tile], None]:
             packet, work = pinned(new_packet()), pinned(new_workspace(self._scene))

@@ -1,0 +1,61 @@
+"""Objects with other colours."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from vtray.color_arrays import color_array
+from vtray.errors import SceneError
+from vtray.objects import Object
+from vtray.spheres import Spheres, from_arrays
+from vtray.triples import Color
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from vtray.color_scale import ColorMap
+    from vtray.colors import AnyColor
+
+
+def recolored(
+    objects: Sequence[Object],
+    index: int,
+    color: "AnyColor | ArrayLike | Sequence[AnyColor]",
+    *,
+    cmap: "ColorMap | None" = None,
+    clim: tuple[float, float] | None = None,
+    nan_color: "AnyColor" = "gray",
+) -> list[Object]:
+    """Return objects of which one has another colour, or its spheres have.
+
+    Parameters
+    ----------
+    objects
+        The objects.
+    index
+        The place of the one that changes; a negative one counts from the end.
+    color, cmap, clim, nan_color
+        The colours, as for `Scene.add_spheres`.
+
+    Raises
+    ------
+    SceneError
+        If there is no such object, or a colour is not right.
+    """
+    if not -len(objects) <= index < len(objects):
+        message = f"recolor: index: expected a place from 0 to {len(objects) - 1}, got {index}"
+        raise SceneError(message)
+    changed = list(objects)
+    item = changed[index]
+    count = len(item) if isinstance(item, Spheres) else 1
+    colors, scale = color_array(
+        color, count, "recolor: ", cmap=cmap, clim=clim, nan_color=nan_color
+    )
+    if isinstance(item, Spheres):
+        arrays = {**msgspec.structs.asdict(item), "color": colors}
+        changed[index] = from_arrays(arrays, "recolor: ").with_scale(scale)
+    else:
+        one = Color(*colors.reshape(3).tolist())
+        changed[index] = msgspec.structs.replace(item, color=one)
+    return changed

@@ -1,0 +1,253 @@
+"""What a file says of how its picture was made."""
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import OpenImageIO
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from PIL import Image as PillowImage
+
+import vtray
+from pictures import hand_made, png_chunks, settings_dict
+from vtray.fingerprint import scene_hash
+from vtray.image_format import FORMATS
+from vtray.settings import RenderSettings
+
+SETTINGS = {
+    "samples": 16,
+    "filter": "mitchell",
+    "seed": 7,
+    "size": (9, 7),
+    "exposure": 0.1 + 0.2,
+    "background": vtray.Color(1, 2, 3),
+}
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+@pytest.mark.parametrize("settings", [{}, SETTINGS])
+def test_each_format_tells(ending: str, settings: dict, tmp_path: Path) -> None:
+    form, path = FORMATS[ending], tmp_path / f"a{ending}"
+    image = hand_made(**settings)
+    aov = ["depth", "ids"] if form.aov else []
+    image.save(path, bits=form.bits[-1], aov=aov)
+    told = vtray.read_provenance(path)
+    assert told.version == vtray.__version__
+    assert told.scene == image.scene_hash == scene_hash(image.scene)
+    assert told.settings == RenderSettings(**{**settings, "size": (9, 7)})
+    assert (told.bits, told.aov, told.lock) == (form.bits[-1], tuple(aov), None)
+    assert vtray.read_provenance(str(path)) == told
+
+
+def test_all_settings_are_told() -> None:
+    assert set(RenderSettings.__struct_fields__) <= set(vtray.Provenance.__struct_fields__)
+    assert settings_dict(RenderSettings(**SETTINGS)) == SETTINGS
+
+
+def test_other_programs_see_it(tmp_path: Path) -> None:
+    software = f"vtray {vtray.__version__}"
+    image = hand_made()
+    for bits in (8, 16):
+        image.save(tmp_path / "a.png", bits=bits)
+        with PillowImage.open(tmp_path / "a.png") as found:
+            assert set(found.text) == {"Software", "vtray"}
+            assert found.text["Software"] == software
+            assert json.loads(found.text["vtray"])["scene"] == image.scene_hash
+        image.save(tmp_path / "a.tif", bits=bits)
+    for name, bits in [("a.tif", 8), ("a.tif", 16), ("a.jpg", 8), ("a.webp", 8), ("a.exr", 32)]:
+        image.save(tmp_path / name, bits=bits)
+        source = OpenImageIO.ImageInput.open(str(tmp_path / name))
+        assert source.spec().get_string_attribute("Software") == software, name
+        source.close()
+
+
+def test_png_holds_nothing_but_what_is_said(tmp_path: Path) -> None:
+    for bits in (8, 16):
+        hand_made().save(tmp_path / "a.png", bits=bits)
+        names = [name for name, _ in png_chunks((tmp_path / "a.png").read_bytes())]
+        assert [*dict.fromkeys(names)] == ["IHDR", "tEXt", "IDAT", "IEND"]
+        assert names.count("tEXt") == 2
+
+
+@pytest.mark.parametrize(
+    ("exposure", "factor", "locked"),
+    [("max", 1, False), ("max", 0.5, True), (2.0, 1, False), (1 / 3, 1, False), (1 / 3, 3, True)],
+)
+def test_exposure_locked_to_another_picture(
+    exposure: object, factor: float, locked: bool, tmp_path: Path
+) -> None:
+    image = hand_made(exposure=exposure)
+    image.white *= factor
+    image.save(tmp_path / "a.png")
+    assert vtray.read_provenance(tmp_path / "a.png").lock == (image.white if locked else None)
+
+
+def test_picture_of_many_pixels(tmp_path: Path) -> None:
+    # Pillow takes a picture of so many pixels for an attack.
+    path = tmp_path / "a.png"
+    hand_made().save(path)
+    data = bytearray(path.read_bytes())
+    data[16:24] = (100_000).to_bytes(4, "big") * 2
+    path.write_bytes(data)
+    assert vtray.read_provenance(path).size == (9, 7)
+
+
+@pytest.mark.parametrize("bits", [8, 16])
+def test_png_that_has_been_changed(bits: int, tmp_path: Path) -> None:
+    path = tmp_path / "a.png"
+    hand_made().save(path, bits=bits)
+    path.write_bytes(path.read_bytes().replace(b'"samples":1', b'"samples":2'))
+    with pytest.raises(vtray.ProvenanceError, match="is damaged"):
+        vtray.read_provenance(path)
+
+
+def write(path: Path, text: str) -> Path:
+    """Write a picture that says something else of how it was made."""
+    from PIL.PngImagePlugin import PngInfo
+
+    info = PngInfo()
+    info.add_text("vtray", text)
+    PillowImage.new("RGB", (3, 2)).save(path, pnginfo=info)
+    return path
+
+
+def told(**changes: object) -> str:
+    values = {
+        "version": "0.1.0",
+        "scene": "0123456789abcdef01234567",
+        "samples": 1,
+        "filter": "box",
+        "seed": 0,
+        "size": [3, 2],
+        "exposure": "max",
+        "background": "black",
+        "lock": None,
+        "bits": 8,
+        "aov": [],
+    }
+    return json.dumps({**values, **changes})
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "does not say how it was made; expected a picture that vtray has written"),
+        ("{", "is not understood"),
+        ("no JSON", "is not understood"),
+        ("[]", "is not understood"),
+        ("{}", "is not understood: Object missing required field `version`"),
+        (told(samples=0), r"by vtray 0\.1\.0 is not understood: .*samples"),
+        (told(samples=10**30), r"by vtray 0\.1\.0 is not understood: .*samples"),
+        (told(filter="sinc"), "is not understood: Invalid enum value 'sinc'.*filter"),
+        (told(seed=-1), "is not understood: .*seed"),
+        (told(size=[3]), "is not understood: .*size"),
+        (told(size=[0, 1]), "is not understood: .*size"),
+        (told(exposure=0), "is not understood: .*exposure"),
+        (told(exposure="auto"), "is not understood: .*exposure"),
+        (told(background="blue"), "is not understood: .*background"),
+        (told(lock=-1), "is not understood: .*lock"),
+        (told(bits=9), "is not understood: .*bits"),
+        (told(aov=["light"]), "is not understood: .*aov"),
+        (told(scene="xyz"), "is not understood: .*scene"),
+        (told(version="9.9", motion=1), r"by vtray 9\.9 is not understood: .*`motion`"),
+        (told(version="9.9\n", motion=1), "how it was made is not understood: .*`motion`"),
+        (told(version=9), "how it was made is not understood: .*version"),
+    ],
+)
+def test_what_is_not_understood(text: str, message: str, tmp_path: Path) -> None:
+    path = write(tmp_path / "a.png", text)
+    with pytest.raises(vtray.ProvenanceError, match=message) as error:
+        vtray.read_provenance(path)
+    assert str(error.value).startswith(f"{path}: ")
+    assert "\n" not in str(error.value)
+
+
+def test_what_is_understood(tmp_path: Path) -> None:
+    assert vtray.read_provenance(write(tmp_path / "a.png", told())).filter == "box"
+
+
+@pytest.mark.parametrize("ending", [*FORMATS, "", ".gif"])
+@pytest.mark.parametrize("content", [b"", b"\x89PNG\r\n\x1a\n", b"nothing of the kind" * 9, None])
+def test_no_picture(ending: str, content: bytes | None, tmp_path: Path) -> None:
+    path = tmp_path / f"a{ending}"
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(vtray.ProvenanceError) as error:
+        vtray.read_provenance(path)
+    assert str(error.value).startswith(f"{path}: ")
+    assert "\n" not in str(error.value)
+    if ending == ".gif":
+        assert "expected a picture that vtray has written, one of .png" in str(error.value)
+    elif content is None:
+        assert "no such file; expected a picture" in str(error.value)
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+def test_picture_of_another_program(ending: str, tmp_path: Path) -> None:
+    path = tmp_path / f"a{ending}"
+    if ending == ".npz":
+        np.savez(path, linear=np.zeros(3))
+    elif ending == ".exr":
+        import OpenEXR
+
+        OpenEXR.File({}, {"R": np.zeros((2, 3), np.float32)}).write(str(path))
+    else:
+        PillowImage.new("RGB", (3, 2)).save(path)
+    with pytest.raises(vtray.ProvenanceError, match="does not say how it was made"):
+        vtray.read_provenance(path)
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+def test_folder(ending: str, tmp_path: Path) -> None:
+    (tmp_path / f"a{ending}").mkdir()
+    with pytest.raises(vtray.ProvenanceError, match="is a directory; expected a picture"):
+        vtray.read_provenance(tmp_path / f"a{ending}")
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    """Return the bytes of a picture in each format."""
+    path = tmp_path_factory.mktemp("files") / "a"
+    found = {}
+    for ending in FORMATS:
+        hand_made().save(path.with_suffix(ending))
+        found[ending] = path.with_suffix(ending).read_bytes()
+    return found
+
+
+@given(
+    ending=st.sampled_from(list(FORMATS)),
+    place=st.integers(0, 10**6),
+    value=st.integers(0, 255),
+    cut=st.booleans(),
+)
+def test_damaged_files(
+    files: dict[str, bytes],
+    tmp_path_factory: pytest.TempPathFactory,
+    ending: str,
+    place: int,
+    value: int,
+    cut: bool,
+) -> None:
+    data = bytearray(files[ending])
+    place %= len(data)
+    data[place] = value
+    path = tmp_path_factory.getbasetemp() / f"damaged{ending}"
+    path.write_bytes(data[:place] if cut else data)
+    try:
+        found = vtray.read_provenance(path)
+    except vtray.ProvenanceError as error:
+        assert str(error).startswith(f"{path}: ")
+        assert "\n" not in str(error)
+    else:
+        assert isinstance(found, vtray.Provenance)
+
+
+def test_missing_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    hand_made().save(tmp_path / "a.exr")
+    monkeypatch.setitem(sys.modules, "OpenEXR", None)
+    with pytest.raises(vtray.ProvenanceError, match=r"needs OpenEXR; pip install 'vtray\[formats"):
+        vtray.read_provenance(tmp_path / "a.exr")
