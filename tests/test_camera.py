@@ -69,9 +69,13 @@ def test_rays_go_through_the_pixels() -> None:
         pixel=(0.5 * 8, 0.25 * 8, 10.0 * 8),
         width=5,
         height=4,
+        shift=(0.0, 0.0),
+        extent=0.0,
     )
     # Half the width of 5 is 2.5, and there is no shift by half a pixel.
     for column, row, x, y in [(0, 0, -1.25, -0.5), (4, 3, 0.75, 0.25), (2, 2, -0.25, 0)]:
         length = math.sqrt(x * x + y * y + 100)
         expected = (x / length, y / length, 10 / length)
-        assert camera_ray(camera, column, row) == pytest.approx(expected, abs=1e-16)
+        offset, direction = camera_ray(camera, column, row)
+        assert offset == (0.0, 0.0, 0.0)
+        assert direction == pytest.approx(expected, abs=1e-16)

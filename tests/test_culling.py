@@ -6,18 +6,9 @@ from random import Random
 import numpy as np
 import pytest
 
-from vtray.culling import outside_shaft, outside_side
+from vtray.culling import outside_shaft
 
 Vec = tuple[float, float, float]
-
-
-def test_outside_side() -> None:
-    side = (0.0, -2.0, 0.0)  # the pyramid lies below y = 0
-    assert outside_side((5.0, -1.1, 3.0), side, 1.0)
-    assert not outside_side((5.0, -0.9, 3.0), side, 1.0)
-    assert not outside_side((5.0, 7.0, 3.0), side, 1.0)
-    assert not outside_side((5.0, math.nan, 3.0), side, 1.0)
-    assert not outside_side((5.0, -3.0, 3.0), (0.0, 0.0, 0.0), 1.0)  # a pyramid without width
 
 
 def random_point(random: Random, size: float) -> Vec:
