@@ -23,7 +23,10 @@ Floats = NDArray[np.float64]
 
 INK, FAINT, RAY, LIT, BLOCKED = "#22262b", "#8b9199", "#1f5fa8", "#e39b00", "#c23b3b"
 MOST_CIRCLES = 400
-FAR = 2.5
+MOST_LABELS = 4
+"""With more lights, only the main one has a label, and the rest are thin."""
+
+FAR = 1.3
 """Lights farther away than this many camera rays are not drawn, only the way to them."""
 
 
@@ -102,8 +105,9 @@ def draw(tree: "RayTree", ax: "Axes | None", light: int | None) -> "Axes":
         drawing.miss()
     else:
         drawing.surface(tree.hit.surface, filled=True)
+        few = len(tree.lights) <= MOST_LABELS
         for other in tree.lights:
-            drawing.shadow_ray(other)
+            drawing.shadow_ray(other, thin=not few and other is not ray)
         drawing.hit()
     drawing.captions(ray)
     return ax
@@ -140,6 +144,8 @@ class _Drawing:
         self.end = self.origin + self.ray * self._ray_length()
         self.box = self._find_box()
         self.size = float(np.hypot(*(self.box[1] - self.box[0])))
+        self.labels: list[Floats] = []
+        self.drawn: set[Surface] = set()
 
     def _ray_length(self) -> float:
         """Return how long the camera ray is drawn."""
@@ -176,8 +182,13 @@ class _Drawing:
                     points.append(self.section(ray.location))
         corners = np.array(points)
         low, high = corners.min(0), corners.max(0)
-        margin = 0.09 * np.hypot(*(high - low))
-        return np.array([low - margin, high + margin])
+        margin = 0.06 * float(np.hypot(*(high - low)))
+        return _widen(np.array([low - margin, high + [2 * margin, margin]]), self._aspect())
+
+    def _aspect(self) -> float:
+        """Return the width of the axes over their height."""
+        area = self.ax.get_window_extent()
+        return float(area.width / area.height)
 
     def _image_plane(self) -> tuple[Floats, Floats]:
         """Return the ends of the image in the drawing."""
@@ -197,7 +208,7 @@ class _Drawing:
 
     def frame(self) -> None:
         """Set up the axes."""
-        self.ax.set_aspect("equal", adjustable="datalim" if False else "box")
+        self.ax.set_aspect("equal")
         self.ax.set_xlim(self.box[:, 0])
         self.ax.set_ylim(self.box[:, 1])
         self.ax.set_axis_off()
@@ -268,11 +279,11 @@ class _Drawing:
         self.ax.plot(*np.array(ends).T, color=INK, lw=2.2, solid_capstyle="butt", zorder=4)
         self.ax.plot(*self.pixel, "s", ms=5, mfc="white", mec=RAY, mew=1.6, zorder=7)
         self.ax.plot(*self.origin, "o", ms=7, color=INK, zorder=7)
-        top = max(ends, key=lambda end: float(end[1]))
-        self.note("image plane", top, (0, 6), ha="center", va="bottom")
+        low = min(ends, key=lambda end: float(end[1]))
+        self.note("image plane", low, (-5, 1), ha="right", va="bottom")
         name = "eye" if not self._parallel() else "start of the ray"
         self.note(name, self.origin, (0, -9), ha="center", va="top")
-        self.line(self.origin, self.end, RAY, lw=1.8, arrow=True)
+        self.line(self.origin, self.end, RAY, lw=1.8, arrow=0.55)
 
     def _parallel(self) -> bool:
         """Tell whether the camera is orthographic."""
@@ -281,17 +292,12 @@ class _Drawing:
 
     def miss(self) -> None:
         """Say that the ray goes on."""
-        self.ax.annotate(
-            "",
-            self.end,
-            self.end - 0.02 * self.size * self.ray / np.hypot(*self.ray),
-            arrowprops={"arrowstyle": "-|>", "color": RAY, "lw": 1.8, "mutation_scale": 14},
-            zorder=6,
-        )
+        self.arrow(self.pixel, self.end, RAY, lw=0)
         self.note("hits nothing", self.end, (-6, 9), ha="right", va="bottom", color=RAY)
 
     def surface(self, surface: "Surface", *, filled: bool) -> None:
         """Draw a sphere or a plane that a ray meets."""
+        self.drawn.add(surface)
         color = tuple(channel / 255 for channel in surface.color)
         center = np.array(surface.center)
         if surface.radius is None:
@@ -313,30 +319,34 @@ class _Drawing:
             )
             self.front(self.ax.add_patch(body))
 
-    def shadow_ray(self, ray: "ShadowRay") -> None:
+    def shadow_ray(self, ray: "ShadowRay", *, thin: bool) -> None:
         """Draw the ray to a light: solid if it arrives, dashed up to what blocks it."""
         goal, shown = self._light_place(ray)
         color = LIT if ray.arrives else BLOCKED
-        name = f"lights[{ray.light}]"
+        strength = 0.3 if thin else 1.0
         if ray.arrives:
-            self.line(self.end, goal, LIT, lw=1.8, arrow=True)
-            text = f"{name}\nadds {_numbers(ray.adds)}"
+            head = None if thin else 0.55 if shown else 1.0
+            self.line(self.end, goal, LIT, lw=1.8 * strength, arrow=head, alpha=strength)
+            text = f"adds {_numbers(ray.adds)}"
         elif ray.cosine == 0:
-            self.line(self.end, goal, BLOCKED, lw=1.1, ls=(0, (1, 2.5)))
-            text = f"{name}\nbehind the surface"
+            self.line(self.end, goal, BLOCKED, lw=1.1, ls=(0, (1, 2.5)), alpha=strength)
+            text = "behind the surface"
         else:
             assert ray.blocker is not None  # noqa: S101
-            self.surface(ray.blocker, filled=False)
             stop = self.section(_where_blocked(self.tree, ray))
-            self.line(self.end, stop, BLOCKED, lw=1.8, ls=(0, (4, 2.2)))
-            self.line(stop, goal, BLOCKED, lw=1.0, ls=(0, (1, 2.5)), alpha=0.7)
-            self.ax.plot(*stop, "X", ms=9, mfc=BLOCKED, mec="white", mew=1.0, zorder=8)
-            text = f"{name}\nblocked by {ray.blocker}"
+            if ray.blocker not in self.drawn:
+                self.surface(ray.blocker, filled=False)
+            if not thin:
+                self.line(self.end, stop, BLOCKED, lw=1.8, ls=(0, (4, 2.2)))
+            self.line(stop, goal, BLOCKED, lw=1.0, ls=(0, (1, 2.5)), alpha=0.7 * strength)
+            size = 5 if thin else 9
+            self.ax.plot(*stop, "X", ms=size, mfc=BLOCKED, mec="white", mew=size / 9, zorder=8)
+            text = f"blocked by {ray.blocker}"
         if shown:
-            self.sun(goal, color=LIT if ray.intensity > 0 else FAINT)
-        else:
-            text += f"\n{ray.distance:.3g} away"
-        self.light_label(text, goal, color)
+            self.sun(goal, LIT, 0.5 if thin else 1.0)
+        if not thin:
+            away = "" if shown else f", {ray.distance:.3g} away"
+            self.light_label(f"lights[{ray.light}]{away}\n{text}", goal, color)
 
     def _light_place(self, ray: "ShadowRay") -> tuple[Floats, bool]:
         """Return where a shadow ray ends in the drawing, and whether the light is there."""
@@ -345,22 +355,30 @@ class _Drawing:
         if (low <= place).all() and (place <= high).all():
             return place, True
         way = place - self.end
-        inner = np.array([low, high]) * 0.96 + self.box.mean(0) * 0.04
+        inner = np.array([low, high]) * 0.78 + self.box.mean(0) * 0.22  # room for the text
         with np.errstate(divide="ignore", invalid="ignore"):
             steps = np.where(way > 0, (inner[1] - self.end) / way, (inner[0] - self.end) / way)
         return self.end + way * float(np.nanmin(steps)), False
 
-    def sun(self, place: Floats, color: str) -> None:
+    def sun(self, place: Floats, color: str, size: float) -> None:
         """Draw a light."""
-        self.ax.plot(*place, marker=(12, 1, 0), ms=17, mfc=color, mec="none", zorder=7)
-        self.ax.plot(*place, "o", ms=8, mfc="#fff3cf", mec=color, mew=1.2, zorder=8)
+        self.ax.plot(*place, marker=(12, 1, 0), ms=17 * size, mfc=color, mec="none", zorder=7)
+        self.ax.plot(*place, "o", ms=8 * size, mfc="#fff3cf", mec=color, mew=1.2 * size, zorder=8)
 
     def light_label(self, text: str, place: Floats, color: str) -> None:
-        """Write beside a light, on the side where there is room."""
-        left = place[0] > self.box.mean(0)[0]
-        shift = (-13, 0) if left else (13, 0)
+        """Write beside a light, away from its ray and from other labels."""
+        extent = self.box[1] - self.box[0]
+        share = (place - self.box[0]) / extent
+        above = (place[1] >= self.end[1] and share[1] < 0.92) or share[1] < 0.08
+        level = share[1] + (0.07 if above else -0.07)
+        if any(np.hypot(*(other - [share[0], level])) < 0.15 for other in self.labels):
+            above = not above
+            level = share[1] + (0.07 if above else -0.07)
+        self.labels.append(np.array([share[0], level]))
+        side = "left" if share[0] < 0.25 else "right" if share[0] > 0.75 else "center"
+        shift = ({"left": -8, "right": 8, "center": 0}[side], 12 if above else -12)
         dark = "#8a5d00" if color == LIT else color
-        self.note(text, place, shift, ha="right" if left else "left", va="center", color=dark)
+        self.note(text, place, shift, color=dark, ha=side, va="bottom" if above else "top")
 
     def hit(self) -> None:
         """Draw the hit and the normal there."""
@@ -368,24 +386,23 @@ class _Drawing:
         assert hit is not None  # noqa: S101
         normal = self.section.turn(hit.normal)
         tip = self.end + normal * 0.13 * self.size
-        self.ax.annotate(
-            "",
-            tuple(tip),
-            tuple(self.end),
-            arrowprops={
-                "arrowstyle": "-|>",
-                "color": INK,
-                "lw": 1.6,
-                "shrinkA": 0,
-                "shrinkB": 0,
-                "mutation_scale": 12,
-            },
-            zorder=7,
-        )
+        self.arrow(self.end, tip, INK, lw=1.6)
         away = normal / max(float(np.hypot(*normal)), 1e-9)
         self.note("normal", tip, 7 * away, ha=_side(away[0]), va=_level(away[1]), color=INK)
         self.ax.plot(*self.end, "o", ms=5, color=INK, zorder=9)
-        self.note(str(hit.surface), self.end, -12 * away, ha=_side(-away[0]), va=_level(-away[1]))
+        if hit.surface.radius is None:
+            side, level = _side(-away[0]), _level(-away[1])
+            self.note(str(hit.surface), self.end, -14 * away, ha=side, va=level)
+        else:
+            middle, radius = self.section(hit.surface.center), hit.surface.radius
+            room = 0.18 * (self.box[1, 0] - self.box[0, 0])
+            if 2 * radius > room:
+                self.note(str(hit.surface), middle, (0, 0), ha="center", va="center")
+            elif middle[0] + radius + room < self.box[1, 0]:
+                place = middle + [radius, 0.0]
+                self.note(str(hit.surface), place, (6, 0), ha="left", va="center")
+            else:
+                self.note(str(hit.surface), self.end, (-8, -8), ha="right", va="top")
 
     def captions(self, ray: "ShadowRay | None") -> None:
         """Write what is shown, and how long a unit is."""
@@ -393,15 +410,22 @@ class _Drawing:
         column, row = tree.pixel
         title = f"pixel ({column}, {row})"
         if tree.hit is not None:
-            title += f": light {_numbers(tree.light)}"
+            title += f"  ·  light {_numbers(tree.light)}"
         if tree.exposed is not None:
-            title += f", value {_numbers(tree.exposed.value)}"
-        self.ax.set_title(title, loc="left", fontsize=11, color=INK)
-        other = "upright in the image" if ray is None else f"and to lights[{ray.light}]"
-        text = f"Cut along the camera ray {other}; what lies outside of this plane is projected."
-        self.ax.text(
-            1, -0.02, text, transform=self.ax.transAxes, ha="right", va="top", fontsize=7.5, color=FAINT
-        )
+            title += f"  ·  value {_numbers(tree.exposed.value)}"
+            color = tuple(channel / 255 for channel in tree.exposed.value)
+            style = {"mfc": color, "mec": INK, "mew": 0.6, "clip_on": False}
+            self.ax.plot(0.008, 1.032, "s", ms=11, transform=self.ax.transAxes, **style)
+        left = 0.0 if tree.exposed is None else 0.028
+        style = {"transform": self.ax.transAxes, "color": INK, "fontsize": 10.5}
+        self.ax.text(left, 1.03, title, va="center", **style)
+        other = "upright in the image" if ray is None else f"and the ray to lights[{ray.light}]"
+        text = f"A cut along the camera ray {other}; what lies off this plane is projected onto it."
+        if len(tree.lights) > MOST_LABELS:
+            arriving = sum(ray.arrives for ray in tree.lights)
+            text = f"{arriving} of {len(tree.lights)} lights arrive.  {text}"
+        style = {"transform": self.ax.transAxes, "color": FAINT, "fontsize": 7.5}
+        self.ax.text(1, -0.03, text, ha="right", va="top", **style)
         length = round_length(0.2 * float(self.box[1, 0] - self.box[0, 0]))
         self._scale(length)
 
@@ -419,20 +443,24 @@ class _Drawing:
         )
 
     def line(
-        self, start: Floats, end: Floats, color: str, *, arrow: bool = False, **style: Any  # noqa: ANN401
+        self,
+        start: Floats,
+        end: Floats,
+        color: str,
+        *,
+        arrow: float | None = None,
+        **style: Any,  # noqa: ANN401
     ) -> None:
-        """Draw a straight line, with an arrow in its middle if wanted."""
-        self.ax.plot(*np.array([start, end]).T, color=color, zorder=5, solid_capstyle="round", **style)
-        if arrow:
-            way = end - start
-            middle = start + 0.55 * way
-            self.ax.annotate(
-                "",
-                tuple(middle + 0.01 * way),
-                tuple(middle),
-                arrowprops={"arrowstyle": "-|>", "color": color, "lw": 0, "mutation_scale": 15},
-                zorder=5,
-            )
+        """Draw a straight line, with an arrow head at a part of its length if wanted."""
+        self.ax.plot(*np.array([start, end]).T, color=color, zorder=5, **style)
+        if arrow is not None:
+            self.arrow(start, start + arrow * (end - start), color, lw=0)
+
+    def arrow(self, start: Floats, tip: Floats, color: str, lw: float) -> None:
+        """Draw an arrow, whose shaft has the width `lw`."""
+        shape = {"arrowstyle": "-|>", "color": color, "lw": lw, "mutation_scale": 14}
+        shape |= {"shrinkA": 0, "shrinkB": 0}
+        self.ax.annotate("", tuple(tip), tuple(start), arrowprops=shape, zorder=7)
 
     def note(
         self, text: str, place: Floats, shift: Iterable[float], *, color: str = INK, **style: Any  # noqa: ANN401
@@ -478,6 +506,13 @@ def _cut_spheres(scene: Scene, section: Section, box: Floats) -> tuple[Floats, F
         radii.append(cut[near])
     largest = np.argsort(-np.concatenate(radii))[:MOST_CIRCLES]
     return np.concatenate(centers)[largest], np.concatenate(radii)[largest]
+
+
+def _widen(box: Floats, aspect: float) -> Floats:
+    """Return a box around another one, whose width over its height is the aspect."""
+    width, height = box[1] - box[0]
+    grow = np.array([max(aspect * height - width, 0.0), max(width / aspect - height, 0.0)]) / 2
+    return np.array([box[0] - grow, box[1] + grow])
 
 
 def _where_blocked(tree: "RayTree", ray: "ShadowRay") -> Floats:
