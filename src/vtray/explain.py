@@ -1,7 +1,7 @@
 """How a pixel got its value, in words: what ``vtray --pixel`` prints."""
 
 from vtray.image import Image
-from vtray.ray_tree import trace_rays
+from vtray.pixel_rays import trace_rays
 from vtray.scene import Scene
 
 

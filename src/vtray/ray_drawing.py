@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,9 +9,12 @@ from numpy.typing import NDArray
 
 from vtray.errors import RenderError
 from vtray.extras import need
-from vtray.scale_bar import length_text, round_length
-from vtray.scene import Plane, Scene, Sphere
+from vtray.pen import BLOCKED, FAINT, INK, LIT, RAY, Pen
+from vtray.scale_bar import round_length
+from vtray.scene import Plane
+from vtray.section import Section, choose_section, cut_spheres, spheres_of, where_blocked, widen
 from vtray.spheres import Spheres
+from vtray.vector import Vec
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,72 +23,11 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-INK, FAINT, RAY, LIT, BLOCKED = "#22262b", "#8b9199", "#1f5fa8", "#e39b00", "#c23b3b"
-MOST_CIRCLES = 400
 MOST_LABELS = 4
 """With more lights, only the main one has a label, and the rest are thin."""
 
 FAR = 1.3
 """Lights farther away than this many camera rays are not drawn, only the way to them."""
-
-
-@dataclass(frozen=True)
-class Section:
-    """The plane of the drawing.
-
-    Attributes
-    ----------
-    origin
-        A point of it in world space, (0, 0) in the drawing.
-    across, up
-        Its unit axes in world space, to the right and upwards in the drawing.
-    normal
-        Square to both.
-    """
-
-    origin: Floats
-    across: Floats
-    up: Floats
-    normal: Floats
-
-    def __call__(self, points: Any) -> Floats:  # noqa: ANN401
-        """Return points in world space, (..., 3), in the drawing, (..., 2)."""
-        way = np.asarray(points, float) - self.origin
-        return np.stack([way @ self.across, way @ self.up], axis=-1)
-
-    def turn(self, direction: Any) -> Floats:  # noqa: ANN401
-        """Return a direction in world space as one in the drawing."""
-        return self(np.asarray(direction) + self.origin)
-
-    def cut(self, centers: Floats, radii: Any) -> Floats:  # noqa: ANN401
-        """Return the radii of the circles that it cuts out of spheres; NaN if it misses them."""
-        off = (centers - self.origin) @ self.normal
-        squared = np.asarray(radii, float) ** 2 - off**2
-        return np.sqrt(np.where(squared > 0, squared, np.nan))
-
-
-def choose_section(tree: "RayTree", ray: "ShadowRay | None") -> Section:
-    """Return the plane through the camera ray and a shadow ray, or upright if there is none.
-
-    The drawing's right is where the camera looks, as far as it lies in the plane, so the image
-    plane is a vertical line; up is up in the image, if the plane allows.
-    """
-    view = tree.view
-    forward, down = np.array(view.forward), np.array(view.down)
-    direction = np.array(tree.direction)
-    other = -down if ray is None else np.array(ray.direction)
-    normal = np.cross(direction, other)
-    if np.linalg.norm(normal) < 1e-6:
-        normal = np.cross(direction, -down)
-    normal /= np.linalg.norm(normal)
-    up = np.cross(normal, forward)
-    up /= np.linalg.norm(up)
-    rise = -up @ down
-    if abs(rise) < 0.2 and ray is not None:
-        rise = up @ other
-    if rise < 0:
-        up, normal = -up, -normal
-    return Section(np.array(tree.origin), np.cross(up, normal), up, normal)
 
 
 def draw(tree: "RayTree", ax: "Axes | None", light: int | None) -> "Axes":
@@ -128,13 +69,13 @@ def _main_ray(tree: "RayTree", light: int | None) -> "ShadowRay | None":
     )
 
 
-class _Drawing:
+class _Drawing(Pen):
     """A drawing of rays while it is made."""
 
     def __init__(self, tree: "RayTree", section: Section, ax: "Axes") -> None:
         self.tree = tree
+        super().__init__(ax)
         self.section = section
-        self.ax = ax
         self.origin = section(tree.origin)
         self.ray = section.turn(tree.direction)
         view = tree.view
@@ -157,7 +98,7 @@ class _Drawing:
         if tree.scene is not None:
             for item in tree.scene.objects:
                 if not isinstance(item, Plane) and (not isinstance(item, Spheres) or len(item)):
-                    center, _ = _spheres_of(item)
+                    center, _ = spheres_of(item)
                     ahead = (center - np.array(tree.origin)) @ np.array(tree.view.forward)
                     reach = max(reach, 1.15 * float(np.median(ahead)))
         return reach / steep
@@ -183,7 +124,9 @@ class _Drawing:
         corners = np.array(points)
         low, high = corners.min(0), corners.max(0)
         margin = 0.06 * float(np.hypot(*(high - low)))
-        return _widen(np.array([low - margin, high + [2 * margin, margin]]), self._aspect())
+        return widen(
+            np.array([low - margin, high + np.array([2 * margin, margin])]), self._aspect()
+        )
 
     def _aspect(self) -> float:
         """Return the width of the axes over their height."""
@@ -196,7 +139,9 @@ class _Drawing:
         up = self.section.up
         along = np.array([up @ view.right, up @ view.down])
         steep = float(np.dot(tree.direction, view.forward))
-        place = np.array(tree.origin) + np.array(tree.direction) * (view.focus / steep) - view.center
+        place = (
+            np.array(tree.origin) + np.array(tree.direction) * (view.focus / steep) - view.center
+        )
         pixel = np.array([place @ view.right, place @ view.down])
         half = np.array(view.size) * view.resolution / 2
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -209,8 +154,8 @@ class _Drawing:
     def frame(self) -> None:
         """Set up the axes."""
         self.ax.set_aspect("equal")
-        self.ax.set_xlim(self.box[:, 0])
-        self.ax.set_ylim(self.box[:, 1])
+        self.ax.set_xlim(*map(float, self.box[:, 0]))
+        self.ax.set_ylim(*map(float, self.box[:, 1]))
         self.ax.set_axis_off()
 
     def front(self, artist: Any) -> Any:  # noqa: ANN401
@@ -219,7 +164,9 @@ class _Drawing:
 
         (left, bottom), (right, top) = self.box
         start = max(left, min(self.pixel[0], right))
-        region = Rectangle((start, bottom), right - start, top - bottom, transform=self.ax.transData)
+        region = Rectangle(
+            (start, bottom), right - start, top - bottom, transform=self.ax.transData
+        )
         artist.set_clip_path(region)
         return artist
 
@@ -230,7 +177,7 @@ class _Drawing:
             return
         from matplotlib.collections import EllipseCollection
 
-        centers, radii = _cut_spheres(scene, self.section, self.box)
+        centers, radii = cut_spheres(scene, self.section, self.box)
         circles = EllipseCollection(
             2 * radii,
             2 * radii,
@@ -252,7 +199,12 @@ class _Drawing:
                 self.draw_plane(center, normal / np.linalg.norm(normal), "#eef0f2", "#b4bac1", 1)
 
     def draw_plane(
-        self, center: Floats, normal: Floats, face: Any, edge: Any, zorder: float  # noqa: ANN401
+        self,
+        center: Floats,
+        normal: Floats,
+        face: str | Vec,
+        edge: str,
+        zorder: float,
     ) -> None:
         """Draw the line in which a plane meets the plane of the drawing."""
         from matplotlib.patches import Polygon
@@ -298,7 +250,8 @@ class _Drawing:
     def surface(self, surface: "Surface", *, filled: bool) -> None:
         """Draw a sphere or a plane that a ray meets."""
         self.drawn.add(surface)
-        color = tuple(channel / 255 for channel in surface.color)
+        red, green, blue = surface.color
+        color = (red / 255, green / 255, blue / 255)
         center = np.array(surface.center)
         if surface.radius is None:
             assert surface.normal is not None  # noqa: S101
@@ -310,7 +263,13 @@ class _Drawing:
         middle = self.section(center)
         if not cut > 0.97 * surface.radius:
             outline = Circle(
-                tuple(middle), surface.radius, fill=False, ec=FAINT, lw=0.8, ls=(0, (2, 2)), zorder=2
+                tuple(middle),
+                surface.radius,
+                fill=False,
+                ec=FAINT,
+                lw=0.8,
+                ls=(0, (2, 2)),
+                zorder=2,
             )
             self.front(self.ax.add_patch(outline))
         if cut > 0:
@@ -333,7 +292,7 @@ class _Drawing:
             text = "behind the surface"
         else:
             assert ray.blocker is not None  # noqa: S101
-            stop = self.section(_where_blocked(self.tree, ray))
+            stop = self.section(where_blocked(self.tree, ray))
             if ray.blocker not in self.drawn:
                 self.surface(ray.blocker, filled=False)
             if not thin:
@@ -360,11 +319,6 @@ class _Drawing:
             steps = np.where(way > 0, (inner[1] - self.end) / way, (inner[0] - self.end) / way)
         return self.end + way * float(np.nanmin(steps)), False
 
-    def sun(self, place: Floats, color: str, size: float) -> None:
-        """Draw a light."""
-        self.ax.plot(*place, marker=(12, 1, 0), ms=17 * size, mfc=color, mec="none", zorder=7)
-        self.ax.plot(*place, "o", ms=8 * size, mfc="#fff3cf", mec=color, mew=1.2 * size, zorder=8)
-
     def light_label(self, text: str, place: Floats, color: str) -> None:
         """Write beside a light, away from its ray and from other labels."""
         extent = self.box[1] - self.box[0]
@@ -388,18 +342,20 @@ class _Drawing:
         tip = self.end + normal * 0.13 * self.size
         self.arrow(self.end, tip, INK, lw=1.6)
         away = normal / max(float(np.hypot(*normal)), 1e-9)
-        self.note("normal", tip, 7 * away, ha=_side(away[0]), va=_level(away[1]), color=INK)
+        self.note(
+            "normal", tip, _points(7 * away), ha=_side(away[0]), va=_level(away[1]), color=INK
+        )
         self.ax.plot(*self.end, "o", ms=5, color=INK, zorder=9)
         if hit.surface.radius is None:
             side, level = _side(-away[0]), _level(-away[1])
-            self.note(str(hit.surface), self.end, -14 * away, ha=side, va=level)
+            self.note(str(hit.surface), self.end, _points(-14 * away), ha=side, va=level)
         else:
             middle, radius = self.section(hit.surface.center), hit.surface.radius
             room = 0.18 * (self.box[1, 0] - self.box[0, 0])
             if 2 * radius > room:
                 self.note(str(hit.surface), middle, (0, 0), ha="center", va="center")
             elif middle[0] + radius + room < self.box[1, 0]:
-                place = middle + [radius, 0.0]
+                place = middle + np.array([radius, 0.0])
                 self.note(str(hit.surface), place, (6, 0), ha="left", va="center")
             else:
                 self.note(str(hit.surface), self.end, (-8, -8), ha="right", va="top")
@@ -414,7 +370,7 @@ class _Drawing:
         if tree.exposed is not None:
             title += f"  ·  value {_numbers(tree.exposed.value)}"
             color = tuple(channel / 255 for channel in tree.exposed.value)
-            style = {"mfc": color, "mec": INK, "mew": 0.6, "clip_on": False}
+            style: dict[str, Any] = {"mfc": color, "mec": INK, "mew": 0.6, "clip_on": False}
             self.ax.plot(0.008, 1.032, "s", ms=11, transform=self.ax.transAxes, **style)
         left = 0.0 if tree.exposed is None else 0.028
         style = {"transform": self.ax.transAxes, "color": INK, "fontsize": 10.5}
@@ -427,115 +383,16 @@ class _Drawing:
         style = {"transform": self.ax.transAxes, "color": FAINT, "fontsize": 7.5}
         self.ax.text(1, -0.03, text, ha="right", va="top", **style)
         length = round_length(0.2 * float(self.box[1, 0] - self.box[0, 0]))
-        self._scale(length)
-
-    def _scale(self, length: float) -> None:
-        """Draw a scale bar below the drawing."""
-        transform = self.ax.get_xaxis_transform()
-        start = self.box[0, 0]
-        self.ax.plot(
-            [start, start + length], [-0.03] * 2, color=INK, lw=2, transform=transform,
-            clip_on=False, solid_capstyle="butt",
-        )
-        self.ax.text(
-            start + length / 2, -0.04, length_text(length), transform=transform, ha="center",
-            va="top", fontsize=8, color=INK,
-        )
-
-    def line(
-        self,
-        start: Floats,
-        end: Floats,
-        color: str,
-        *,
-        arrow: float | None = None,
-        **style: Any,  # noqa: ANN401
-    ) -> None:
-        """Draw a straight line, with an arrow head at a part of its length if wanted."""
-        self.ax.plot(*np.array([start, end]).T, color=color, zorder=5, **style)
-        if arrow is not None:
-            self.arrow(start, start + arrow * (end - start), color, lw=0)
-
-    def arrow(self, start: Floats, tip: Floats, color: str, lw: float) -> None:
-        """Draw an arrow, whose shaft has the width `lw`."""
-        shape = {"arrowstyle": "-|>", "color": color, "lw": lw, "mutation_scale": 14}
-        shape |= {"shrinkA": 0, "shrinkB": 0}
-        self.ax.annotate("", tuple(tip), tuple(start), arrowprops=shape, zorder=7)
-
-    def note(
-        self, text: str, place: Floats, shift: Iterable[float], *, color: str = INK, **style: Any  # noqa: ANN401
-    ) -> None:
-        """Write beside a place, legible on whatever is there."""
-        from matplotlib.patheffects import withStroke
-
-        self.ax.annotate(
-            text,
-            tuple(place),
-            tuple(shift),
-            textcoords="offset points",
-            fontsize=8.5,
-            color=color,
-            path_effects=[withStroke(linewidth=2.5, foreground="white", alpha=0.9)],
-            zorder=10,
-            annotation_clip=False,
-            **style,
-        )
-
-
-def _spheres_of(item: Sphere | Spheres) -> tuple[Floats, Floats]:
-    """Return centres, (n, 3), and radii, (n,), of one or many spheres."""
-    if isinstance(item, Sphere):
-        center = np.array([[item.center.x, item.center.y, item.center.z]])
-        return center, np.array([item.radius])
-    radii = np.broadcast_to(np.asarray(item.radius, float), len(item))
-    return np.asarray(item.center, float), radii
-
-
-def _cut_spheres(scene: Scene, section: Section, box: Floats) -> tuple[Floats, Floats]:
-    """Return the largest of the circles that a plane cuts out of spheres, within a box."""
-    centers, radii = [np.zeros((0, 2))], [np.zeros(0)]
-    for item in scene.objects:
-        if isinstance(item, Plane):
-            continue
-        center, radius = _spheres_of(item)
-        cut = section.cut(center, radius)
-        flat = section(center)
-        near = np.flatnonzero(((flat > box[0] - cut[:, None]) & (flat < box[1] + cut[:, None])).all(1))
-        near = near[np.argsort(-cut[near])[:MOST_CIRCLES]]
-        centers.append(flat[near])
-        radii.append(cut[near])
-    largest = np.argsort(-np.concatenate(radii))[:MOST_CIRCLES]
-    return np.concatenate(centers)[largest], np.concatenate(radii)[largest]
-
-
-def _widen(box: Floats, aspect: float) -> Floats:
-    """Return a box around another one, whose width over its height is the aspect."""
-    width, height = box[1] - box[0]
-    grow = np.array([max(aspect * height - width, 0.0), max(width / aspect - height, 0.0)]) / 2
-    return np.array([box[0] - grow, box[1] + grow])
-
-
-def _where_blocked(tree: "RayTree", ray: "ShadowRay") -> Floats:
-    """Return where in world space a shadow ray meets its blocker."""
-    hit, blocker = tree.hit, ray.blocker
-    assert hit is not None  # noqa: S101
-    assert blocker is not None  # noqa: S101
-    start, way = np.array(hit.point), np.array(ray.direction)
-    arm = start - np.array(blocker.center)
-    if blocker.normal is not None:
-        normal = np.array(blocker.normal)
-        return start - way * float(normal @ arm) / float(normal @ way)
-    assert blocker.radius is not None  # noqa: S101
-    toward = -float(arm @ way)
-    foot = arm + toward * way
-    half = math.sqrt(max(blocker.radius**2 - float(foot @ foot), 0.0))
-    outside = float(arm @ arm) > blocker.radius**2 * (1 + 1e-9)
-    return start + way * (toward - half if outside else toward + half)
+        self.scale(float(self.box[0, 0]), length)
 
 
 def _numbers(values: Iterable[float]) -> str:
     """Return the channels of a colour as people read them."""
     return "(" + ", ".join(f"{value:.3g}" for value in values) + ")"
+
+
+def _points(shift: Floats) -> tuple[float, float]:
+    return float(shift[0]), float(shift[1])
 
 
 def _side(x: float) -> str:

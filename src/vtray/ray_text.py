@@ -22,7 +22,7 @@ def describe(tree: "RayTree") -> str:
             lines += _describe_light(ray, tree.hit)
     lines.append(f"light        {_vector(tree.light)}, the sum over all lights")
     if tree.exposed is not None:
-        lines += _describe_exposure(tree, tree.exposed)
+        lines += _describe_exposure(tree.exposed)
     return "\n".join(lines)
 
 
@@ -50,7 +50,7 @@ def _describe_light(ray: "ShadowRay", hit: "Hit") -> list[str]:
     return [first, f"  adds       {_vector(ray.adds)} = {factors}"]
 
 
-def _describe_exposure(tree: "RayTree", exposed: "Exposed") -> list[str]:
+def _describe_exposure(exposed: "Exposed") -> list[str]:
     """Return the lines on the value before and after exposure."""
     lines = []
     if exposed.samples > 1:
