@@ -25,6 +25,10 @@ MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")
 """Pillow's names for images of at most 8 bits per channel, in colours of a monitor."""
 
 
+LEAST_SHOWN = 64
+"""The least value in a difference picture of what is not equal."""
+
+
 class DiffError(VtrayError, ValueError):
     """Two pictures cannot be compared."""
 
@@ -89,23 +93,21 @@ class Comparison:
 
         return flip_error(self.a, self.b, "Comparison.flip")[0]
 
-    @property
-    def amplification(self) -> float:
-        """What differences are multiplied by in `difference`: 255 over the largest; 1 if none."""
-        return 255 / self.largest if self.largest else 1.0
-
     @cached_property
     def difference(self) -> "Pixels":
-        """The difference of each channel without sign, uint8, (height, width, 3).
+        """Where the pictures differ, made visible, uint8, (height, width, 3).
 
-        It is black where the pictures are equal, and multiplied by `amplification`, so that the
-        largest difference becomes 255.
+        A channel is 0 where both have the same value. Where they differ by d,
+        whatever the sign, it is ``64 + 191 * d / largest``: so the least difference can be seen, and the
+        largest is 255.
         """
         import numpy as np
 
-        steps = _steps(self.a, self.b).astype(np.uint16)
-        amplified: Pixels = (steps * 255 // max(self.largest, 1)).astype(np.uint8)
-        return amplified
+        steps = _steps(self.a, self.b)
+        shown = LEAST_SHOWN + (255 - LEAST_SHOWN) * np.arange(256) / max(self.largest, 1)
+        shown[0] = 0
+        table: Pixels = np.minimum(shown, 255).astype(np.uint8)
+        return table[steps]
 
     def __str__(self) -> str:
         """Say it in some lines."""
@@ -150,7 +152,7 @@ class Comparison:
 
     def _caption(self) -> str:
         """Say what the difference picture shows."""
-        return f"difference × {self.amplification:.3g}" if self.largest else "no difference"
+        return f"difference, up to {self.largest} of 255" if self.largest else "no difference"
 
     def _repr_html_(self) -> str:
         """Return pictures, difference and figures as HTML, by which notebooks show them."""
