@@ -80,7 +80,6 @@ class _Drawing(Pen):
         self.ray = section.turn(tree.direction)
         view = tree.view
         steep = float(np.dot(tree.direction, view.forward))
-        self.plane_x = view.focus
         self.pixel = self.origin + self.ray * (view.focus / steep)
         self.end = self.origin + self.ray * self._ray_length()
         self.box = self._find_box()
