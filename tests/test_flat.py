@@ -65,7 +65,7 @@ def test_full_light_shows_the_color_itself_where_it_can_be_darker() -> None:
 READABLE = {
     "viridis": 2,
     "plasma": 1,
-    "inferno": 2,
+    "inferno": 3,
     "magma": 4,
     "turbo": 1,
     "cividis": 10,

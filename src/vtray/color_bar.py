@@ -34,7 +34,9 @@ def bar_labels(colorbar: bool | str | Sequence[str], count: int) -> list[str]:
     """Return the text beside each colour bar."""
     if isinstance(colorbar, (bool, np.bool_)):
         return [""] * count
-    labels = [colorbar] if isinstance(colorbar, str) else list(colorbar)
+    labels: list[Any] = [colorbar]
+    if isinstance(colorbar, (list, tuple)):
+        labels = list(colorbar)
     if len(labels) != count or not all(isinstance(label, str) for label in labels):
         bars = "a label" if count == 1 else f"a list of {count} labels"
         expected = f"True, False or {bars}" if count else "True or False, as no object has a cmap"

@@ -43,6 +43,9 @@ def make_figure(
 ) -> "Figure":
     """Return an image as a figure; see `vtray.Image.figure`."""
     need("matplotlib", "figure", "Image.figure")
+    if not isinstance(title, (str, type(None))):
+        message = f"title: expected a text or None, got {title!r}"
+        raise FigureError(message)
     scales = color_scales(image) if colorbar else []
     labels = bar_labels(colorbar, len(scales))
     bar = _scale_bar(image, scalebar, at)
@@ -116,6 +119,9 @@ class ScaleBar:
 
 def _scale_bar(image: "Image", scalebar: bool | str, at: "ArrayLike | None") -> ScaleBar | None:
     """Return the scale bar of an image, None if it should have none."""
+    if not isinstance(scalebar, (bool, str)):
+        message = f'scalebar: expected True, False or a unit such as "nm", got {scalebar!r}'
+        raise FigureError(message)
     depth = _depth_of(image, at)
     if scalebar is False:
         return None
