@@ -3,14 +3,15 @@
 import subprocess
 import sys
 from collections.abc import Sequence
-from types import SimpleNamespace
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 
 import oracle
 import vtray
+from vtray.image import Surfaces
 from vtray.oklab import srgb_to_oklab
 from vtray.scale_bar import depth_along_view, length_text, pixel_width, round_length
 from vtray.sheet import FigureError
@@ -33,9 +34,64 @@ def helix(cmap: str = "viridis", size: tuple[int, int] = (330, 240), **camera: A
     return scene
 
 
+def render(scene: vtray.Scene) -> vtray.Image:
+    """Render a scene in perspective, and find what is seen with plain NumPy."""
+    image = vtray.render(scene)
+    image._look = lambda: look(scene)
+    return image
+
+
+def look(scene: vtray.Scene) -> Surfaces:
+    """Return what the rays of a scene of spheres and planes in front of the image plane meet."""
+    right, down, forward, eye = view(scene)
+    width, height = scene.camera.size
+    across, below = scene.camera.resolution
+    u = ((np.arange(width) - width / 2) * across)[None, :, None] * right
+    v = ((np.arange(height) - height / 2) * below)[:, None, None] * down
+    rays = u + v + scene.camera.focus * forward
+    rays /= np.linalg.norm(rays, axis=2)[..., None]
+    depth = np.full((height, width), np.inf)
+    ids = np.full((height, width, 2), -1, np.int32)
+    for place, item in enumerate(scene.objects):
+        if isinstance(item, vtray.Plane):
+            normal = np.array(msgspec.structs.astuple(item.normal))
+            point = np.array(msgspec.structs.astuple(item.center))
+            candidates = [(point - eye) @ normal / (rays @ normal)]
+        else:
+            radii = np.broadcast_to(item.radius, len(item))
+            candidates = [meet(rays, eye - c, r) for c, r in zip(item.center, radii, strict=True)]
+        for index, distance in enumerate(candidates):
+            near = (distance > 0) & (distance < depth)
+            depth[near], ids[near] = distance[near], (place, index)
+    return Surfaces(depth, np.zeros((height, width, 3)), ids)
+
+
+def meet(rays: Array, arm: Array, radius: float) -> Array:
+    """Return how far rays go to a sphere, infinity if they miss it."""
+    middle = -(rays @ arm)
+    square = middle**2 - arm @ arm + radius**2
+    return np.where(square > 0, middle - np.sqrt(np.maximum(square, 0)), np.inf)
+
+
+def view(scene: vtray.Scene) -> tuple[Array, Array, Array, Array]:
+    """Return the axes and the eye of a scene's camera."""
+    normal, center = (
+        np.array(msgspec.structs.astuple(vector))
+        for vector in (scene.camera.normal, scene.camera.center)
+    )
+    axes = oracle.axes(normal)
+    return *axes, center - scene.camera.focus * axes[2]
+
+
+def table(name: str) -> Array:
+    """Return Matplotlib's colours of a map as nearest bytes."""
+    cmap = matplotlib.colormaps[name]
+    return np.floor(cmap(np.arange(cmap.N))[:, :3] * 255 + 0.5).astype(np.uint8)
+
+
 @pytest.fixture(scope="module")
 def image() -> vtray.Image:
-    return vtray.render(helix())
+    return render(helix())
 
 
 def canvas(figure: Any) -> Array:
@@ -54,7 +110,7 @@ def area(figure: Any, axes: Any) -> Array:
 
 def scale_line(figure: Any) -> Any:
     """Return the line of the scale bar."""
-    (line,) = [line for line in figure.lines if line.get_gid() == "scale bar"]
+    (line,) = figure.findobj(lambda artist: artist.get_gid() == "scale bar")
     return line
 
 
@@ -73,7 +129,7 @@ def test_no_pixel_is_changed(image: vtray.Image, dpi: float | None, flat: bool) 
 
 @pytest.mark.parametrize(("size", "zoom"), [((3, 2), 100), ((299, 7), 2), ((301, 5), 1)])
 def test_small_pictures_have_squares_for_pixels(size: tuple[int, int], zoom: int) -> None:
-    image = vtray.render(helix(size=size))
+    image = render(helix(size=size))
     figure = image.figure(colorbar=False, scalebar=False)
     shown = area(figure, figure.axes[0])
     expected = image.pixels.repeat(zoom, axis=0).repeat(zoom, axis=1)
@@ -91,7 +147,7 @@ def test_saved_file_has_the_pixels_too(image: vtray.Image, tmp_path: Any) -> Non
 
 @pytest.mark.parametrize("name", ["viridis", "coolwarm", "tab10"])
 def test_colour_bar_has_the_colours_of_matplotlib(name: str) -> None:
-    image = vtray.render(helix(name))
+    image = render(helix(name))
     figure = image.figure(colorbar="energy (eV)")
     bar = figure.axes[1]
     assert bar.get_ylabel() == "energy (eV)"
@@ -109,12 +165,12 @@ def test_colour_bar_has_the_colours_of_matplotlib(name: str) -> None:
 
 
 def test_colour_bar_of_a_flat_figure_shows_each_colour_in_all_light() -> None:
-    image = vtray.render(helix())
+    image = render(helix())
     figure = image.figure(flat=True)
     bar = figure.axes[1]
     (shown,) = bar.get_images()
     colors = np.asarray(shown.get_array())
-    own = srgb_to_oklab(matplotlib.colormaps["viridis"](np.arange(256), bytes=True)[:, :3])
+    own = srgb_to_oklab(table("viridis"))
     lab = srgb_to_oklab(colors)
     assert np.abs(lab[..., 1:] - own[:, None, 1:]).max() < 0.0025
     assert (np.diff(lab[..., 0], axis=1) > -0.004).all()
@@ -123,7 +179,7 @@ def test_colour_bar_of_a_flat_figure_shows_each_colour_in_all_light() -> None:
 
 def test_values_are_read_back_from_a_flat_picture(image: vtray.Image) -> None:
     flat, ids = image.flat(), image.ids
-    own = srgb_to_oklab(matplotlib.colormaps["viridis"](np.arange(256), bytes=True)[:, :3])
+    own = srgb_to_oklab(table("viridis"))
     spheres = ids[..., 0] == 0
     assert spheres.sum() > 1000
     lab = srgb_to_oklab(flat[spheres])
@@ -141,7 +197,7 @@ def test_each_scale_has_a_bar(image: vtray.Image) -> None:
     scene.add_spheres([(0, 0, 9)], radius=0.1, color=[2], cmap="magma", clim=(0, 4))
     scene.add_spheres([(0, 0, 9)], radius=0.1, color=[2], cmap="viridis", clim=(-2, 3.5))
     scene.add_spheres([(0, 0, 9)], radius=0.1, color=[2], cmap="magma", clim=(2, 2))
-    figure = vtray.render(scene).figure(colorbar=["energy", "charge", "constant"])
+    figure = render(scene).figure(colorbar=["energy", "charge", "constant"])
     labels = [axes.get_ylabel() for axes in figure.axes[1:]]
     assert labels == ["energy", "charge", "constant"]
     assert [text.get_text() for text in figure.axes[3].get_yticklabels()] == ["2"]
@@ -154,7 +210,7 @@ def test_marks_of_colour_bars_are_true_and_fit(limits: tuple[float, float]) -> N
     scene = helix()
     scene.objects.clear()
     scene.add_spheres([(0, 0, 9)], radius=1, color=[limits[0]], cmap="plasma", clim=limits)
-    figure = vtray.render(scene).figure(colorbar="energy")
+    figure = render(scene).figure(colorbar="energy")
     bar = figure.axes[1]
     figure.canvas.draw()
     for tick, text in zip(bar.get_yticks(), bar.get_yticklabels(), strict=True):
@@ -168,10 +224,8 @@ def test_marks_of_colour_bars_are_true_and_fit(limits: tuple[float, float]) -> N
 def project(scene: vtray.Scene, point: Array) -> Array:
     """Return where a point is in the image, in pixels, by the rules of the format."""
     camera = scene.camera
-    normal = np.array([camera.normal.x, camera.normal.y, camera.normal.z])
-    right, down, forward = oracle.axes(normal)
-    center = np.array([camera.center.x, camera.center.y, camera.center.z])
-    way = point - center + camera.focus * forward
+    right, down, forward, eye = view(scene)
+    way = point - eye
     if camera.projection == "perspective":
         way = way * camera.focus / (way @ forward)
     place = np.array([way @ right, way @ down]) / camera.resolution
@@ -182,10 +236,8 @@ def project(scene: vtray.Scene, point: Array) -> Array:
 @pytest.mark.parametrize("at", [(0.3, -0.2, 6), (4, 5, 20)])
 def test_scale_bar_is_as_long_as_what_it_says(projection: str, at: Sequence[float]) -> None:
     scene = helix(projection=projection)
-    image = SimpleNamespace(scene=scene)
-    normal = scene.camera.normal
-    right, _, _ = oracle.axes(np.array([normal.x, normal.y, normal.z]))
-    image = vtray.render(scene)
+    right = view(scene)[0]
+    image = render(scene)
     figure = image.figure(at=at, scalebar="nm")
     length = float(scale_text(figure).split()[0])
     here, there = project(scene, np.array(at)), project(scene, at + length * right)
@@ -199,9 +251,9 @@ def test_scale_bar_is_as_long_as_what_it_says(projection: str, at: Sequence[floa
 def test_scale_bar_without_a_point_is_for_the_median_of_the_spheres(image: vtray.Image) -> None:
     scene, spheres = image.scene, image.ids[..., 0] == 0
     center = scene.objects[0].center
-    _, _, forward = oracle.axes(np.array([0.1, 0.1, 1]))
+    _, _, forward, eye = view(scene)
     depth = depth_along_view(scene.camera, image.depth)[spheres]
-    near = (center - [0, -0.5, 0]) @ forward + 5
+    near = (center - eye) @ forward
     assert near.min() - 0.4 <= depth.min() <= depth.max() <= near.max() + 0.4
     text = scale_text(image.figure())
     assert text.endswith(f"  at distance {np.median(depth):.4g}, the median of the spheres")
@@ -217,7 +269,7 @@ def test_depth_is_measured_along_the_view() -> None:
 def test_nothing_is_seen() -> None:
     scene = helix()
     scene.objects.clear()
-    image = vtray.render(scene)
+    image = render(scene)
     figure = image.figure(title="Nothing")
     assert [text.get_text() for text in figure.texts] == ["Nothing"]
     assert len(figure.axes) == 1
@@ -264,7 +316,7 @@ def test_label_without_a_colour_map() -> None:
     scene = helix()
     scene.objects.pop(0)
     with pytest.raises(FigureError, match="colorbar: expected True or False, as no object has"):
-        vtray.render(scene).figure(colorbar="energy")
+        render(scene).figure(colorbar="energy")
 
 
 def test_missing_matplotlib_is_named(image: vtray.Image, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -97,9 +97,8 @@ class Comparison:
     def difference(self) -> "Pixels":
         """Where the pictures differ, made visible, uint8, (height, width, 3).
 
-        A channel is 0 where both have the same value. Where they differ by d,
-        whatever the sign, it is ``64 + 191 * d / largest``: so the least difference can be seen, and the
-        largest is 255.
+        A channel is 0 where both have the same value. Where one is greater by d, it is
+        ``64 + 191 * d / largest``: so the least difference can be seen, and the largest is 255.
         """
         import numpy as np
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vtray.color_bar import bar_labels, color_scales, draw_color_bar, text_room
 from vtray.extras import need
 from vtray.scale_bar import (
+    camera_of,
     depth_along_view,
     is_orthographic,
     length_text,
@@ -35,8 +36,8 @@ def make_figure(
     image: "Image",
     *,
     colorbar: bool | str | Sequence[str],
-    scalebar: bool | str,
-    title: str | None,
+    scalebar: object,
+    title: object,
     flat: bool,
     dpi: float | None,
     at: "ArrayLike | None",
@@ -117,7 +118,7 @@ class ScaleBar:
     text: str
 
 
-def _scale_bar(image: "Image", scalebar: bool | str, at: "ArrayLike | None") -> ScaleBar | None:
+def _scale_bar(image: "Image", scalebar: object, at: "ArrayLike | None") -> ScaleBar | None:
     """Return the scale bar of an image, None if it should have none."""
     if not isinstance(scalebar, (bool, str)):
         message = f'scalebar: expected True, False or a unit such as "nm", got {scalebar!r}'
@@ -125,7 +126,7 @@ def _scale_bar(image: "Image", scalebar: bool | str, at: "ArrayLike | None") -> 
     depth = _depth_of(image, at)
     if scalebar is False:
         return None
-    camera = image.scene.camera
+    camera = camera_of(image)
     note = ""
     if depth is None and is_orthographic(camera):
         depth = 0.0
@@ -134,9 +135,8 @@ def _scale_bar(image: "Image", scalebar: bool | str, at: "ArrayLike | None") -> 
         if not seen.any():
             return None
         depth = float(np.median(depth_along_view(camera, image.depth)[seen]))
-    columns = image.pixels.shape[1]
-    unit = pixel_width(camera, depth) * camera.size[0] / columns
-    length = round_length(BAR_SHARE * columns * unit)
+    unit = pixel_width(camera, depth)
+    length = round_length(BAR_SHARE * camera.size[0] * unit)
     text = length_text(length)
     if isinstance(scalebar, str):
         text += f" {scalebar}"
@@ -161,7 +161,7 @@ def _depth_of(image: "Image", at: "ArrayLike | None") -> float | None:
     """Return how far from the eye along z' a point lies."""
     if at is None:
         return None
-    camera = image.scene.camera
+    camera = camera_of(image)
     try:
         point = np.asarray(at, np.float64)
     except (TypeError, ValueError):

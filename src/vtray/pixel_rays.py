@@ -11,10 +11,11 @@ from vtray.errors import RenderError
 from vtray.plain import NOTHING
 from vtray.plain import trace_pixel as trace_plainly
 from vtray.ray_tree import Exposed, Hit, RayTree, ShadowRay, Surface, View
+from vtray.scale_bar import camera_of
 from vtray.scene import Plane, Scene
 from vtray.scene_arrays import Packed, pack
 from vtray.spheres import Spheres
-from vtray.vector import Vec
+from vtray.vector import Vec, add
 
 if TYPE_CHECKING:
     from vtray.image import Image
@@ -62,17 +63,19 @@ def trace_rays(
     caller: str = "trace_pixel",
 ) -> RayTree:
     """Trace the rays of one pixel of a checked scene; see `trace_pixel`."""
-    width, height = (int(pixels) for pixels in scene.camera.size)
+    camera = scene.camera if image is None else camera_of(image)
+    width, height = (int(pixels) for pixels in camera.size)
     column, row = operator.index(x), operator.index(y)
     if not (0 <= column < width and 0 <= row < height):
         message = f"{caller}: expected 0,0 to {width - 1},{height - 1}, got {column},{row}"
         raise RenderError(message)
-    kept = accelerate(scene)
+    kept = accelerate(scene)  # which the given scene may have already
+    scene = Scene(camera, list(scene.lights), list(scene.objects))
     packed = pack(scene, kept)
     cosines = np.zeros(len(scene.lights))
     blockers = np.full(len(scene.lights), NOTHING)
     traced = trace_plainly(packed.arrays, column, row, cosines, blockers)
-    origin = packed.arrays.camera.eye
+    origin = add(packed.arrays.camera.eye, traced.offset)
     hit, lights = None, []
     if traced.primitive != NOTHING:
         hit = Hit(
@@ -94,7 +97,7 @@ def trace_rays(
         traced.value,
         _view(scene, packed),
         None if image is None else _exposed(image, column, row),
-        Scene(scene.camera, list(scene.lights), list(scene.objects)),
+        scene,
     )
 
 
@@ -159,7 +162,7 @@ def _exposed(image: "Image", column: int, row: int) -> Exposed:
     white = float(image.white)
     brightest = white == float(image.linear.max())
     value = tuple(int(channel) for channel in image.pixels[row, column])
-    return Exposed((red, green, blue), white, brightest, image.settings.samples, value)
+    return Exposed((red, green, blue), white, brightest, int(image.settings.samples), value)
 
 
 def _world(scene: Scene, packed: Packed, point: Vec) -> Vec:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vtray.errors import RenderError
 from vtray.extras import need
 from vtray.pen import BLOCKED, FAINT, INK, LIT, RAY, Pen
-from vtray.scale_bar import round_length
+from vtray.scale_bar import is_orthographic, round_length
 from vtray.scene import Plane
 from vtray.section import Section, choose_section, cut_spheres, spheres_of, where_blocked, widen
 from vtray.spheres import Spheres
@@ -94,12 +94,11 @@ class _Drawing(Pen):
             return tree.hit.distance
         steep = float(np.dot(tree.direction, tree.view.forward))
         reach = 3 * tree.view.focus
-        if tree.scene is not None:
-            for item in tree.scene.objects:
-                if not isinstance(item, Plane) and (not isinstance(item, Spheres) or len(item)):
-                    center, _ = spheres_of(item)
-                    ahead = (center - np.array(tree.origin)) @ np.array(tree.view.forward)
-                    reach = max(reach, 1.15 * float(np.median(ahead)))
+        for item in tree.scene.objects:
+            if not isinstance(item, Plane) and (not isinstance(item, Spheres) or len(item)):
+                center, _ = spheres_of(item)
+                ahead = (center - np.array(tree.origin)) @ np.array(tree.view.forward)
+                reach = max(reach, 1.15 * float(np.median(ahead)))
         return reach / steep
 
     def _find_box(self) -> Floats:
@@ -172,8 +171,6 @@ class _Drawing(Pen):
     def surroundings(self) -> None:
         """Draw what the plane of the drawing cuts, apart from what rays meet."""
         scene = self.tree.scene
-        if scene is None:
-            return
         from matplotlib.collections import EllipseCollection
 
         centers, radii = cut_spheres(scene, self.section, self.box)
@@ -232,14 +229,9 @@ class _Drawing(Pen):
         self.ax.plot(*self.origin, "o", ms=7, color=INK, zorder=7)
         low = min(ends, key=lambda end: float(end[1]))
         self.note("image plane", low, (-5, 1), ha="right", va="bottom")
-        name = "eye" if not self._parallel() else "start of the ray"
+        name = "start of the ray" if is_orthographic(self.tree.scene.camera) else "eye"
         self.note(name, self.origin, (0, -9), ha="center", va="top")
         self.line(self.origin, self.end, RAY, lw=1.8, arrow=0.55)
-
-    def _parallel(self) -> bool:
-        """Tell whether the camera is orthographic."""
-        camera = self.tree.scene.camera if self.tree.scene is not None else None
-        return getattr(camera, "projection", "perspective") == "orthographic"
 
     def miss(self) -> None:
         """Say that the ray goes on."""

@@ -194,8 +194,8 @@ class RayTree:
     lights: tuple[ShadowRay, ...]
     light: Vec
     view: View
-    exposed: Exposed | None = None
-    scene: Scene | None = field(default=None, repr=False, compare=False)
+    exposed: Exposed | None
+    scene: Scene = field(repr=False, compare=False)
 
     def __str__(self) -> str:
         """Explain the pixel in some lines, as ``vtray --pixel`` does."""

@@ -2,11 +2,15 @@
 
 import math
 from decimal import Decimal
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.scene import Camera
+
+if TYPE_CHECKING:
+    from vtray.image import Image
 
 Floats = NDArray[np.float64]
 
@@ -26,9 +30,16 @@ def length_text(length: float) -> str:
     return f"{Decimal(repr(length)).normalize():f}" if 1e-4 < length < 1e6 else f"{length:g}"
 
 
+def camera_of(image: "Image") -> Camera:
+    """Return the camera of an image, of the image's size if that is not the scene's own."""
+    camera: Camera = image.scene.camera
+    height, width = image.linear.shape[:2]
+    return camera if camera.size == (width, height) else camera.resized((width, height))
+
+
 def is_orthographic(camera: Camera) -> bool:
     """Tell whether all rays of a camera are parallel."""
-    return getattr(camera, "projection", "perspective") == "orthographic"
+    return camera.projection == "orthographic"
 
 
 def pixel_width(camera: Camera, depth: float) -> float:
