@@ -56,11 +56,14 @@ def make_figure(
     point = dpi / INCH
     pad = round(10 * point)
     top = pad if title is None else pad + round(24 * point)
-    bottom = pad if bar is None else pad + round(30 * point)
+    bottom = pad if bar is None else pad + round(26 * point)
     between = round(14 * point)
     thick = round((28 if flat else 12) * point)
     room = [text_room(scale, label, point) for scale, label in zip(scales, labels, strict=True)]
     right = sum(between + thick + text for text in room) + pad
+    if bar is not None:  # room for its text also where the picture is narrow
+        text = bar.pixels * width / pixels.shape[1] + (6 + 5.6 * len(bar.text)) * point
+        right = max(right, round(text) + pad - width)
     sheet = Sheet.of(pad + width + right, top + height + bottom, dpi)
     sheet.picture(pixels, pad, bottom, picture_zoom(image.pixels.shape[1]))
     if title is not None:
