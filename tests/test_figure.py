@@ -1,5 +1,6 @@
 """Pictures as figures: nothing resampled, colour bars and scale bars right."""
 
+import io
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -8,6 +9,7 @@ from typing import Any
 import msgspec
 import numpy as np
 import pytest
+from PIL import Image as PillowImage
 
 import oracle
 import vtray
@@ -141,10 +143,10 @@ def test_small_pictures_have_squares_for_pixels(size: tuple[int, int], zoom: int
     np.testing.assert_array_equal(shown, expected)
 
 
-def test_saved_file_has_the_pixels_too(image: vtray.Image, tmp_path: Any) -> None:
-    from PIL import Image as PillowImage
-
+def test_saved_file_and_notebook_have_the_pixels_too(image: vtray.Image, tmp_path: Any) -> None:
     figure = image.figure()
+    with PillowImage.open(io.BytesIO(figure._repr_png_())) as read:
+        np.testing.assert_array_equal(np.asarray(read.convert("RGB")), canvas(figure))
     figure.savefig(tmp_path / "a.png")
     with PillowImage.open(tmp_path / "a.png") as read:
         np.testing.assert_array_equal(np.asarray(read.convert("RGB")), canvas(figure))

@@ -35,9 +35,9 @@ def draw(tree: "RayTree", ax: "Axes | None", light: int | None) -> "Axes":
     need("matplotlib", "figure", "RayTree.draw")
     ray = _main_ray(tree, light)
     if ax is None:
-        from matplotlib.figure import Figure
+        from vtray.shown_figure import ShownFigure
 
-        ax = Figure(figsize=(8, 5.5), dpi=150).add_axes((0.02, 0.08, 0.96, 0.82))
+        ax = ShownFigure.new(8, 5.5, dpi=150).add_axes((0.02, 0.08, 0.96, 0.82))
     drawing = _Drawing(tree, choose_section(tree, ray), ax)
     drawing.frame()
     drawing.surroundings()

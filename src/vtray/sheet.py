@@ -46,13 +46,10 @@ class Sheet:
     @classmethod
     def of(cls, width: int, height: int, dpi: float) -> "Sheet":
         """Return an empty white sheet."""
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
+        from vtray.shown_figure import ShownFigure
 
         # A hair more, so that Agg does not round a pixel away.
-        size = ((width + 0.01) / dpi, (height + 0.01) / dpi)
-        figure = Figure(figsize=size, dpi=dpi, facecolor="white")
-        FigureCanvasAgg(figure)
+        figure = ShownFigure.new((width + 0.01) / dpi, (height + 0.01) / dpi, dpi)
         return cls(figure, width, height)
 
     def axes(self, left: float, bottom: float, width: float, height: float) -> "Axes":
