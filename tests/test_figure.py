@@ -14,7 +14,6 @@ from PIL import Image as PillowImage
 import oracle
 import vtray
 from conftest import JIT
-from vtray.image import Surfaces
 from vtray.oklab import srgb_to_oklab
 from vtray.scale_bar import depth_along_view, length_text, pixel_width, round_length
 from vtray.sheet import FigureError, picture_zoom
@@ -40,45 +39,6 @@ def helix(cmap: str = "viridis", size: tuple[int, int] = SIZE, **camera: Any) ->
     return scene
 
 
-def render(scene: vtray.Scene) -> vtray.Image:
-    """Render a scene in perspective, and find what is seen with plain NumPy."""
-    image = vtray.render(scene)
-    image._look = lambda: look(scene)
-    return image
-
-
-def look(scene: vtray.Scene) -> Surfaces:
-    """Return what the rays of a scene of spheres and planes in front of the image plane meet."""
-    right, down, forward, eye = view(scene)
-    width, height = scene.camera.size
-    across, below = scene.camera.resolution
-    u = ((np.arange(width) - width / 2) * across)[None, :, None] * right
-    v = ((np.arange(height) - height / 2) * below)[:, None, None] * down
-    rays = u + v + scene.camera.focus * forward
-    rays /= np.linalg.norm(rays, axis=2)[..., None]
-    depth = np.full((height, width), np.inf)
-    ids = np.full((height, width, 2), -1, np.int32)
-    for place, item in enumerate(scene.objects):
-        if isinstance(item, vtray.Plane):
-            normal = np.array(msgspec.structs.astuple(item.normal))
-            point = np.array(msgspec.structs.astuple(item.center))
-            candidates = [(point - eye) @ normal / (rays @ normal)]
-        else:
-            radii = np.broadcast_to(item.radius, len(item))
-            candidates = [meet(rays, eye - c, r) for c, r in zip(item.center, radii, strict=True)]
-        for index, distance in enumerate(candidates):
-            near = (distance > 0) & (distance < depth)
-            depth[near], ids[near] = distance[near], (place, index)
-    return Surfaces(depth, np.zeros((height, width, 3)), ids)
-
-
-def meet(rays: Array, arm: Array, radius: float) -> Array:
-    """Return how far rays go to a sphere, infinity if they miss it."""
-    middle = -(rays @ arm)
-    square = middle**2 - arm @ arm + radius**2
-    return np.where(square > 0, middle - np.sqrt(np.maximum(square, 0)), np.inf)
-
-
 def view(scene: vtray.Scene) -> tuple[Array, Array, Array, Array]:
     """Return the axes and the eye of a scene's camera."""
     normal, center = (
@@ -97,7 +57,7 @@ def table(name: str) -> Array:
 
 @pytest.fixture(scope="module")
 def image() -> vtray.Image:
-    return render(helix())
+    return vtray.render(helix())
 
 
 def canvas(figure: Any) -> Array:
@@ -136,7 +96,7 @@ def test_no_pixel_is_changed(image: vtray.Image, dpi: float | None, flat: bool) 
 
 @pytest.mark.parametrize(("size", "zoom"), [((3, 2), 100), ((299, 3), 2), ((301, 2), 1)])
 def test_small_pictures_have_squares_for_pixels(size: tuple[int, int], zoom: int) -> None:
-    image = render(helix(size=size))
+    image = vtray.render(helix(size=size))
     figure = image.figure(colorbar=False, scalebar=False)
     shown = area(figure, figure.axes[0])
     expected = image.pixels.repeat(zoom, axis=0).repeat(zoom, axis=1)
@@ -154,7 +114,7 @@ def test_saved_file_and_notebook_have_the_pixels_too(image: vtray.Image, tmp_pat
 
 @pytest.mark.parametrize("name", ["viridis", "coolwarm", "tab10"])
 def test_colour_bar_has_the_colours_of_matplotlib(name: str) -> None:
-    image = render(helix(name))
+    image = vtray.render(helix(name))
     figure = image.figure(colorbar="energy (eV)")
     bar = figure.axes[1]
     assert bar.get_ylabel() == "energy (eV)"
@@ -172,7 +132,7 @@ def test_colour_bar_has_the_colours_of_matplotlib(name: str) -> None:
 
 
 def test_colour_bar_of_a_flat_figure_shows_each_colour_in_all_light() -> None:
-    image = render(helix())
+    image = vtray.render(helix())
     figure = image.figure(flat=True)
     bar = figure.axes[1]
     (shown,) = bar.get_images()
@@ -204,7 +164,7 @@ def test_each_scale_has_a_bar(image: vtray.Image) -> None:
     scene.add_spheres([(0, 0, 9)], radius=0.1, color=[2], cmap="magma", clim=(0, 4))
     scene.add_spheres([(0, 0, 9)], radius=0.1, color=[2], cmap="viridis", clim=(-2, 3.5))
     scene.add_spheres([(0, 0, 9)], radius=0.1, color=[2], cmap="magma", clim=(2, 2))
-    figure = render(scene).figure(colorbar=["energy", "charge", "constant"])
+    figure = vtray.render(scene).figure(colorbar=["energy", "charge", "constant"])
     labels = [axes.get_ylabel() for axes in figure.axes[1:]]
     assert labels == ["energy", "charge", "constant"]
     assert [text.get_text() for text in figure.axes[3].get_yticklabels()] == ["2"]
@@ -217,7 +177,7 @@ def test_marks_of_colour_bars_are_true_and_fit(limits: tuple[float, float]) -> N
     scene = helix()
     scene.objects.clear()
     scene.add_spheres([(0, 0, 9)], radius=1, color=[limits[0]], cmap="plasma", clim=limits)
-    figure = render(scene).figure(colorbar="energy")
+    figure = vtray.render(scene).figure(colorbar="energy")
     bar = figure.axes[1]
     figure.canvas.draw()
     for tick, text in zip(bar.get_yticks(), bar.get_yticklabels(), strict=True):
@@ -244,7 +204,7 @@ def project(scene: vtray.Scene, point: Array) -> Array:
 def test_scale_bar_is_as_long_as_what_it_says(projection: str, at: Sequence[float]) -> None:
     scene = helix(projection=projection)
     right = view(scene)[0]
-    image = render(scene)
+    image = vtray.render(scene)
     figure = image.figure(at=at, scalebar="nm")
     length = float(scale_text(figure).split()[0])
     here, there = project(scene, np.array(at)), project(scene, at + length * right)
@@ -268,7 +228,7 @@ def test_scale_bar_without_a_point_is_for_the_median_of_the_spheres(image: vtray
 
 @pytest.mark.parametrize("width", [30, 310])
 def test_text_of_the_scale_bar_fits(width: int) -> None:
-    figure = render(helix(size=(width, 9))).figure(scalebar="micrometres", colorbar=False)
+    figure = vtray.render(helix(size=(width, 9))).figure(scalebar="micrometres", colorbar=False)
     figure.canvas.draw()
     assert figure.texts[-1].get_window_extent().x1 < figure.bbox.x1
 
@@ -280,10 +240,34 @@ def test_depth_is_measured_along_the_view() -> None:
     assert pixel_width(camera, 12) == 3
 
 
+def test_background_and_more_samples() -> None:
+    scene = helix()
+    scene.render = vtray.RenderSettings(samples=8, background="orange")
+    image = vtray.render(scene)
+    empty = image.ids[..., 0] < 0
+    assert (image.flat()[empty] == (255, 165, 0)).all()
+    clear = vtray.render(scene, background="transparent", samples=1)
+    figure = clear.figure()
+    shown = area(figure, figure.axes[0])[::ZOOM, ::ZOOM]
+    assert (shown[empty] == 255).all(), "white paper"
+    np.testing.assert_array_equal(shown[~empty], clear.pixels[~empty][:, :3])
+
+
+def test_pictures_of_another_size() -> None:
+    image, large = (vtray.render(helix(), size=size) for size in (SIZE, (2 * SIZE[0], SIZE[1] * 2)))
+    lengths = []
+    for picture in (image, large):
+        figure = picture.figure(at=(0, 0, 8))
+        x = np.array(scale_line(figure).get_xdata()) * figure.bbox.width
+        zoom = picture_zoom(picture.pixels.shape[1])
+        lengths.append((x[1] - x[0]) / zoom / float(scale_text(figure).split()[0]))
+    assert lengths[1] == pytest.approx(2 * lengths[0])
+
+
 def test_nothing_is_seen() -> None:
     scene = helix()
     scene.objects.clear()
-    image = render(scene)
+    image = vtray.render(scene)
     figure = image.figure(title="Nothing")
     assert [text.get_text() for text in figure.texts] == ["Nothing"]
     assert len(figure.axes) == 1
@@ -330,7 +314,7 @@ def test_label_without_a_colour_map() -> None:
     scene = helix()
     scene.objects.pop(0)
     with pytest.raises(FigureError, match="colorbar: expected True or False, as no object has"):
-        render(scene).figure(colorbar="energy")
+        vtray.render(scene).figure(colorbar="energy")
 
 
 def test_missing_matplotlib_is_named(image: vtray.Image, monkeypatch: pytest.MonkeyPatch) -> None:

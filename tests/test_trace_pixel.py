@@ -268,3 +268,43 @@ def test_missing_matplotlib_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     with pytest.raises(vtray.VtrayError, match=r"pip install 'vtray\[figure\]'"):
         vtray.trace_pixel(lit_floor(), 0, 0).draw()
+
+
+def test_orthographic_rays_start_side_by_side() -> None:
+    world = lit_floor()
+    camera = world.camera
+    world.camera = vtray.Camera(
+        camera.center, camera.normal, 5, (64, 48), (0.05, 0.05), projection="orthographic"
+    )
+    tree = vtray.trace_pixel(world, 42, 30)
+    np.testing.assert_allclose(tree.origin, (0.5, 0.3, -5))
+    assert tree.direction == (0, 0, 1)
+    ax = tree.draw()
+    assert "start of the ray" in texts(ax)
+    (pixel,) = marks(ax, "s")
+    np.testing.assert_allclose(pixel, (5, 0), atol=1e-12)
+
+
+def test_text_of_pictures_with_settings() -> None:
+    world = lit_floor()
+    x, y = floor_pixel()
+    image = vtray.render(world, exposure=0.5, background="white")
+    last = str(vtray.trace_pixel(image, x, y)).splitlines()[-2:]
+    assert last[0] == "exposure     floor(255 x light / 510), 510 is what becomes 255"
+    assert last[1] == "value        (22, 22, 22)"
+    empty = str(vtray.trace_pixel(image, 0, 0)).splitlines()
+    assert empty[-1] == "value        (255, 255, 255), 100 % of it background"
+    many = vtray.render(load(one_sphere()), samples=16)
+    edges = np.argwhere((many.alpha > 0.2) & (many.alpha < 0.8))
+    tree = vtray.trace_pixel(many, edges[0][1], edges[0][0])
+    assert "\nsamples      (" in str(tree)
+    assert str(tree).splitlines()[-1] == f"value        {tuple(map(int, many.pixels[*edges[0]]))}"
+
+
+def test_picture_of_another_size() -> None:
+    image = vtray.render(lit_floor(), size=(128, 96))
+    tree = vtray.trace_pixel(image, 100, 80)
+    assert tree.view.size == (128, 96)
+    assert tree.light == tuple(image.linear[80, 100])
+    with pytest.raises(vtray.RenderError, match="expected 0,0 to 127,95, got 128,0"):
+        vtray.trace_pixel(image, 128, 0)

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from vtray.color_bar import bar_labels, color_scales, draw_color_bar, text_room
 from vtray.extras import need
 from vtray.scale_bar import (
-    camera_of,
     depth_along_view,
     is_orthographic,
     length_text,
@@ -129,7 +128,7 @@ def _scale_bar(image: "Image", scalebar: object, at: "ArrayLike | None") -> Scal
     depth = _depth_of(image, at)
     if scalebar is False:
         return None
-    camera = camera_of(image)
+    camera = image.scene.camera
     note = ""
     if depth is None and is_orthographic(camera):
         depth = 0.0
@@ -164,7 +163,7 @@ def _depth_of(image: "Image", at: "ArrayLike | None") -> float | None:
     """Return how far from the eye along z' a point lies."""
     if at is None:
         return None
-    camera = camera_of(image)
+    camera = image.scene.camera
     try:
         point = np.asarray(at, np.float64)
     except (TypeError, ValueError):

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.objects import Object, Plane, Sphere
 from vtray.oklab import oklab_to_linear, oklab_to_srgb, srgb_to_oklab
-from vtray.scene import Object, Plane, Sphere
+from vtray.triples import Color
 
 if TYPE_CHECKING:
     from vtray.image import Image
@@ -35,8 +36,8 @@ def flat_pixels(image: "Image") -> Pixels:
     places = image.ids[..., 0]
     picture = np.zeros((*places.shape, 3), np.uint8)
     background = image.settings.background
-    if not isinstance(background, str):
-        picture[:] = background
+    if isinstance(background, Color):
+        picture[:] = (background.r, background.g, background.b)
     seen = places >= 0
     if seen.any():
         colors = _own_colors(image.scene.objects, image.ids[seen])

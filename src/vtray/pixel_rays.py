@@ -11,7 +11,6 @@ from vtray.errors import RenderError
 from vtray.plain import NOTHING
 from vtray.plain import trace_pixel as trace_plainly
 from vtray.ray_tree import Exposed, Hit, RayTree, ShadowRay, Surface, View
-from vtray.scale_bar import camera_of
 from vtray.scene import Plane, Scene
 from vtray.scene_arrays import Packed, pack
 from vtray.spheres import Spheres
@@ -63,7 +62,7 @@ def trace_rays(
     caller: str = "trace_pixel",
 ) -> RayTree:
     """Trace the rays of one pixel of a checked scene; see `trace_pixel`."""
-    camera = scene.camera if image is None else camera_of(image)
+    camera = scene.camera if image is None else image.scene.camera
     width, height = (int(pixels) for pixels in camera.size)
     column, row = operator.index(x), operator.index(y)
     if not (0 <= column < width and 0 <= row < height):
@@ -160,9 +159,13 @@ def _exposed(image: "Image", column: int, row: int) -> Exposed:
     """Return what a picture made of the light of a pixel."""
     red, green, blue = map(float, image.linear[row, column])
     white = float(image.white)
-    brightest = white == float(image.linear.max())
-    value = tuple(int(channel) for channel in image.pixels[row, column])
-    return Exposed((red, green, blue), white, brightest, int(image.settings.samples), value)
+    return Exposed(
+        light=(red, green, blue),
+        white=white,
+        brightest=white == float(image.linear.max()),
+        background=0.0 if image.settings.background == "black" else 1 - image.alpha[row, column],
+        value=tuple(int(channel) for channel in image.pixels[row, column]),
+    )
 
 
 def _world(scene: Scene, packed: Packed, point: Vec) -> Vec:

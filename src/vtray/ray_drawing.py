@@ -349,7 +349,8 @@ class _Drawing(Pen):
                 place = middle + np.array([radius, 0.0])
                 self.note(str(hit.surface), place, (6, 0), ha="left", va="center")
             else:
-                self.note(str(hit.surface), self.end, (-8, -8), ha="right", va="top")
+                place = middle + np.array([radius, -radius])
+                self.note(str(hit.surface), place, (0, -3), ha="right", va="top")
 
     def captions(self, ray: "ShadowRay | None") -> None:
         """Write what is shown, and how long a unit is."""

@@ -22,7 +22,7 @@ def describe(tree: "RayTree") -> str:
             lines += _describe_light(ray, tree.hit)
     lines.append(f"light        {_vector(tree.light)}, the sum over all lights")
     if tree.exposed is not None:
-        lines += _describe_exposure(tree.exposed)
+        lines += _describe_exposure(tree.exposed, tree.light)
     return "\n".join(lines)
 
 
@@ -50,18 +50,17 @@ def _describe_light(ray: "ShadowRay", hit: "Hit") -> list[str]:
     return [first, f"  adds       {_vector(ray.adds)} = {factors}"]
 
 
-def _describe_exposure(exposed: "Exposed") -> list[str]:
+def _describe_exposure(exposed: "Exposed", light: Sequence[float]) -> list[str]:
     """Return the lines on the value before and after exposure."""
     lines = []
-    if exposed.samples > 1:
-        rays = f"the weighted mean of {exposed.samples} or more rays; that above is in the middle"
-        lines.append(f"samples      {_vector(exposed.light)}, {rays}")
+    if exposed.light != light:
+        lines.append(f"samples      {_vector(exposed.light)}, the mean of all rays of the pixel")
+    what = "the brightest channel of the picture" if exposed.brightest else "what becomes 255"
     white = f"{exposed.white:.10g}"
-    what = "is the brightest channel of the picture" if exposed.brightest else "becomes 255"
-    formula = f"floor(255 x light / {white}), {white} {what}"
-    values = ", ".join(map(str, exposed.value))
+    formula = f"floor(255 x light / {white}), {white} is {what}"
     lines.append(f"exposure     {formula if exposed.white > 0.0 else 'the whole picture is black'}")
-    lines.append(f"value        ({values})")
+    behind = f", {100 * exposed.background:.3g} % of it background" if exposed.background else ""
+    lines.append(f"value        ({', '.join(map(str, exposed.value))}){behind}")
     return lines
 
 

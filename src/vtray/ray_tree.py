@@ -141,13 +141,14 @@ class Exposed:
     Attributes
     ----------
     light
-        Linear red, green and blue in the picture: that of one ray, or the weighted mean of many.
+        Linear red, green and blue in the picture; with more than one ray for a pixel their
+        weighted mean, which is not that of the ray in the middle alone.
     white
         The light that becomes 255; 0 if the whole picture is black.
     brightest
         Whether that is the brightest channel of the picture.
-    samples
-        How many rays a pixel has in the picture.
+    background
+        The share of the pixel that shows the background, from 0 to 1; 0 if that is black.
     value
         The pixel's channels in the picture, from 0 to 255.
     """
@@ -155,7 +156,7 @@ class Exposed:
     light: Vec
     white: float
     brightest: bool
-    samples: int
+    background: float
     value: tuple[int, ...]
 
 

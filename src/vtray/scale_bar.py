@@ -2,15 +2,11 @@
 
 import math
 from decimal import Decimal
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.scene import Camera
-
-if TYPE_CHECKING:
-    from vtray.image import Image
 
 Floats = NDArray[np.float64]
 
@@ -28,13 +24,6 @@ def round_length(limit: float) -> float:
 def length_text(length: float) -> str:
     """Return a length as people read it: 0.5, 20, 2e-9."""
     return f"{Decimal(repr(length)).normalize():f}" if 1e-4 < length < 1e6 else f"{length:g}"
-
-
-def camera_of(image: "Image") -> Camera:
-    """Return the camera of an image, of the image's size if that is not the scene's own."""
-    camera: Camera = image.scene.camera
-    height, width = image.linear.shape[:2]
-    return camera if camera.size == (width, height) else camera.resized((width, height))
 
 
 def is_orthographic(camera: Camera) -> bool:
