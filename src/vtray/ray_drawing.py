@@ -349,8 +349,10 @@ class _Drawing(Pen):
                 place = middle + np.array([radius, 0.0])
                 self.note(str(hit.surface), place, (6, 0), ha="left", va="center")
             else:
-                place = middle + np.array([radius, -radius])
-                self.note(str(hit.surface), place, (0, -3), ha="right", va="top")
+                above = away[1] < 0  # on the side that the normal leaves free
+                place = middle + np.array([radius, radius if above else -radius])
+                level = "bottom" if above else "top"
+                self.note(str(hit.surface), place, (0, 3 if above else -3), ha="right", va=level)
 
     def captions(self, ray: "ShadowRay | None") -> None:
         """Write what is shown, and how long a unit is."""
