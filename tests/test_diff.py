@@ -9,6 +9,7 @@ import pytest
 from PIL import Image
 
 from vtray import diff
+from vtray.comparison import DiffError, read_picture
 from vtray.image_file import Pixels
 
 pytest.importorskip("flip_evaluator", reason="needs the extra vtray[diff]")
@@ -79,34 +80,34 @@ def test_greater_change_has_greater_error() -> None:
 
 
 def test_tiny_error_is_not_shown_as_zero() -> None:
-    found = diff.Comparison(0.00001, 10, 1, 1, gray(0))
+    found = diff.Likeness(0.00001, 10, 1, 1, gray(0))
     assert str(found).startswith("FLIP below 0.0001 (")
 
 
 @pytest.mark.parametrize(
     ("a", "b", "message"),
     [
-        (gray(0), gray(0, width=3), "pictures of the same size, got 12 x 8 and 3 x 8 pixels"),
-        (gray(0), gray(0).astype(float), r"expected uint8 .* got float64 \(8, 12, 3\)"),
-        (gray(0)[:, :, 0], gray(0), r"expected uint8 .* got uint8 \(8, 12\)"),
-        (gray(0), np.zeros((8, 12, 4), np.uint8), r"expected uint8 .* got uint8 \(8, 12, 4\)"),
+        (gray(0), gray(0, width=3), "b: expected an image of 12 x 8 pixels, as a is, got 3 x 8"),
+        (gray(0), gray(0).astype(float), r"b: expected .* uint8 .* got float64 \(8, 12, 3\)"),
+        (gray(0)[:, :, 0], gray(0), r"a: expected .* uint8 .* got uint8 \(8, 12\)"),
+        (gray(0), np.zeros((8, 12, 5), np.uint8), r"b: expected .* got uint8 \(8, 12, 5\)"),
     ],
 )
 def test_pictures_that_cannot_be_compared(a: Pixels, b: Pixels, message: str) -> None:
-    with pytest.raises(diff.DiffError, match=message):
+    with pytest.raises(DiffError, match=message):
         diff.compare(a, b)
 
 
 @pytest.mark.parametrize("mode", ["1", "L", "P", "RGB", "RGBA", "LA"])
 def test_kinds_of_image_files(folder: Path, mode: str) -> None:
     Image.open(folder / "white.png").convert(mode).save("kind.png")
-    np.testing.assert_array_equal(diff.read_picture(Path("kind.png")), gray(255))
+    np.testing.assert_array_equal(read_picture(Path("kind.png")), gray(255))
 
 
 def test_transparent_image_lies_on_black(folder: Path) -> None:
     path = folder / "glass.png"
     Image.new("RGBA", (4, 2), (200, 100, 50, 0)).save(path)
-    np.testing.assert_array_equal(diff.read_picture(path), gray(0, 4, 2))
+    np.testing.assert_array_equal(read_picture(path), gray(0, 4, 2))
 
 
 def test_alike_prints_one_line_and_writes_nothing(

@@ -20,7 +20,9 @@ from vtray.version import __version__
 if TYPE_CHECKING:
     from vtray import colors, lights
     from vtray.color_scale import ColorScale
+    from vtray.comparison import compare
     from vtray.image import Image
+    from vtray.pixel_rays import trace_pixel
     from vtray.provenance import Provenance, read_provenance
     from vtray.renderer import render
     from vtray.scene_dict import load_dict
@@ -47,11 +49,13 @@ __all__ = [
     "__version__",
     "colors",
     "lights",
+    "compare",
     "load",
     "load_dict",
     "loads",
     "read_provenance",
     "render",
+    "trace_pixel",
 ]
 
 # NumPy is loaded when it is first needed, and the compiler when the first picture is rendered.
@@ -59,9 +63,11 @@ _LAZY = {
     "ColorScale": "vtray.color_scale",
     "Image": "vtray.image",
     "Provenance": "vtray.provenance",
+    "compare": "vtray.comparison",
     "load_dict": "vtray.scene_dict",
     "read_provenance": "vtray.provenance",
     "render": "vtray.renderer",
+    "trace_pixel": "vtray.pixel_rays",
 }
 _LAZY_MODULES = ("colors", "lights")
 

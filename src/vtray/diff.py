@@ -15,12 +15,14 @@ import contextlib
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
+from vtray import comparison
 from vtray.command import FAILURE, SUCCESS, Parser, leave, print_result, run_command
-from vtray.errors import OutputError, VtrayError
+from vtray.comparison import check_same_size, read_picture
+from vtray.errors import OutputError
+from vtray.flip import flip_error
 
 if TYPE_CHECKING:
     from vtray.image_file import Pixels
@@ -42,9 +44,6 @@ LEAST_SHOWN = 0.0001
 """The least error whose digits are shown."""
 
 DIFFERENCE_IMAGE = Path("difference.png")
-MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")
-"""Pillow's names for images of at most 8 bits per channel, in colours of a monitor."""
-
 USAGE = "usage: vtray-diff A.png B.png [-o DIFFERENCE.png] (more: vtray-diff --help)"
 EPILOG = f"""\
 exit status: {ALIKE} alike, {DIFFERENT} not alike, {FAILURE} something is wrong
@@ -58,13 +57,9 @@ The difference image is black where the pictures look equal and bright where the
 """
 
 
-class DiffError(VtrayError, ValueError):
-    """Two pictures cannot be compared."""
-
-
 @dataclass(frozen=True, eq=False)
-class Comparison:
-    """How two pictures of the same size differ.
+class Likeness:
+    """How alike two pictures of the same size look.
 
     Attributes
     ----------
@@ -103,7 +98,7 @@ class Comparison:
         )
 
 
-def compare(a: "Pixels", b: "Pixels") -> Comparison:
+def compare(a: "Pixels", b: "Pixels") -> Likeness:
     """Compare two pictures as people see them.
 
     Parameters
@@ -113,51 +108,19 @@ def compare(a: "Pixels", b: "Pixels") -> Comparison:
 
     Returns
     -------
-    Comparison
+    Likeness
         The mean error, its map, and how many pixels differ.
 
     Raises
     ------
     DiffError
-        The pictures are not of the same size, are not 8-bit RGB, or the extra is not installed.
+        The pictures are not of the same size, or are not 8-bit RGB.
+    ExtraError
+        The extra ``vtray[diff]`` is not installed.
     """
-    import numpy as np
-
-    _check_pixels(a, b)
-    flip, error_map = _flip(a, b)
-    steps = np.where(a > b, a - b, b - a).max(axis=2)
-    return Comparison(flip, steps.size, int((steps > 0).sum()), int(steps.max()), error_map)
-
-
-def read_picture(path: Path) -> "Pixels":
-    """Read an image file as 8-bit RGB; what is transparent lies on black.
-
-    Raises
-    ------
-    DiffError
-        The file cannot be read, or is not an image of this kind.
-    """
-    import numpy as np
-    from PIL import Image as PillowImage
-
-    try:
-        with PillowImage.open(path) as image:
-            mode = image.mode
-            if not image.has_transparency_data:
-                picture = image.convert("RGB")
-            else:
-                picture = PillowImage.new("RGB", image.size)
-                picture.paste(image, mask=image.convert("RGBA").getchannel("A"))
-    except MemoryError:
-        raise
-    except Exception as error:  # a damaged file can raise anything
-        reason = getattr(error, "strerror", None) or "it is no image, or a damaged one"
-        message = f"{path}: cannot be read: {reason[:1].lower()}{reason[1:]}"
-        raise DiffError(message) from error
-    if mode not in MODES:
-        message = f"{path}: expected an image of 8 bits per channel, got one of kind {mode}"
-        raise DiffError(message)
-    return np.asarray(picture)
+    found = comparison.compare(a, b)
+    flip, error_map = flip_error(found.a, found.b, "vtray-diff")
+    return Likeness(flip, found.pixels, found.differing, found.largest, error_map)
 
 
 def main() -> NoReturn:
@@ -248,9 +211,7 @@ def _read_both(a: Path, b: Path) -> "tuple[Pixels, Pixels]":
     # Pillow takes large images for attacks; here a user has named them.
     PillowImage.MAX_IMAGE_PIXELS = None
     first, second = read_picture(a), read_picture(b)
-    if first.shape != second.shape:
-        message = f"{b}: expected an image of {_size(first)} pixels, as {a} is, got {_size(second)}"
-        raise DiffError(message)
+    check_same_size(first, second, a, b)
     return first, second
 
 
@@ -258,32 +219,3 @@ def _write(error_map: "Pixels", output: Path) -> None:
     from vtray.image_file import write_image
 
     write_image(error_map, output)
-
-
-def _check_pixels(a: "Pixels", b: "Pixels") -> None:
-    """Raise DiffError if two arrays are not pictures of the same size."""
-    for pixels in (a, b):
-        if pixels.dtype != "uint8" or pixels.ndim != 3 or pixels.shape[2] != 3:
-            message = f"expected uint8 (height, width, 3), got {pixels.dtype} {pixels.shape}"
-            raise DiffError(message)
-    if a.shape != b.shape:
-        message = f"expected pictures of the same size, got {_size(a)} and {_size(b)} pixels"
-        raise DiffError(message)
-
-
-def _size(pixels: "Pixels") -> str:
-    return f"{pixels.shape[1]} x {pixels.shape[0]}"
-
-
-def _flip(a: "Pixels", b: "Pixels") -> "tuple[float, Pixels]":
-    """Return the mean FLIP error and its map in magma colours."""
-    import numpy as np
-
-    try:
-        evaluate = import_module("flip_evaluator").evaluate
-    except ImportError as error:
-        message = "vtray-diff needs flip-evaluator: pip install 'vtray[diff]'"
-        raise DiffError(message) from error
-    reference, test = (np.ascontiguousarray(pixels, np.float32) / 255 for pixels in (a, b))
-    colors, mean, _ = evaluate(reference, test, "LDR", applyMagma=True)
-    return float(mean), np.round(colors * 255).astype(np.uint8)

@@ -24,6 +24,7 @@ from vtray.scene import Light, Scene
 from vtray.settings import RenderSettings
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
 
     from vtray.color_scale import ColorMap
@@ -287,3 +288,88 @@ class Image:
         buffer = io.BytesIO()
         write_8_bits(self.pixels, buffer, {})
         return buffer.getvalue()
+
+    def flat(self) -> NDArray[np.uint8]:
+        """Return the picture with light that changes lightness only: colours can be read back.
+
+        Each pixel has the colour of the surface in its middle, and of its two sides a and b in the
+        colour space OKLab exactly these numbers, as nearly as 8 bits allow (to 0.002). Only its
+        lightness L says how much light there is. So a value that became a colour can be found
+        again: it is that of the colour in the map with the same a and b, whatever the light.
+
+        This works with colour maps whose colours differ in a and b: viridis, plasma, inferno,
+        magma, turbo, cividis, Spectral, coolwarm, RdBu, twilight, YlGnBu and most others (viridis
+        to 2 of 256 colours). It does not with those that only get lighter, such as gray. Colours
+        that are as strong as a monitor can show, such as pure red, have no room for light: they
+        look the same everywhere.
+
+        Returns
+        -------
+        array
+            uint8, (height, width, 3). What is empty is black, or has the colour of the background.
+        """
+        from vtray.flat import flat_pixels
+
+        return flat_pixels(self)
+
+    def figure(
+        self,
+        *,
+        colorbar: bool | str | Sequence[str] = True,
+        scalebar: bool | str = True,
+        title: str | None = None,
+        flat: bool = False,
+        dpi: float | None = None,
+        at: "ArrayLike | None" = None,
+    ) -> "Figure":
+        """Return the picture as a Matplotlib figure: with colour bars, a scale bar and a title.
+
+        The picture itself is shown as it is, one pixel of the figure for each of its own (small
+        pictures: a square of pixels for each), and nothing is drawn over it. The figure is none of
+        pyplot's: save it by ``figure.savefig("figure.png")``. Needs Matplotlib:
+        ``pip install 'vtray[figure]'``.
+
+        Parameters
+        ----------
+        colorbar
+            Whether to show a colour bar for each colour scale of the objects; a text to write
+            beside it, such as ``"energy (eV)"``; or a list of texts if there are more scales.
+        scalebar
+            Whether to show a scale bar, in scene units; or the name of the unit, such as ``"nm"``.
+            In perspective, things look smaller the farther away they are: the bar is right for
+            those at the distance written beside it, which is measured along the camera's view.
+        title
+            What to write above the picture.
+        flat
+            Whether to show `flat`, from which values can be read off. Its colour bars show each
+            colour from shadow to full light.
+        dpi
+            Dots per inch, which are pixels: with more of them, text and figure get smaller in
+            comparison. None for a picture 6.5 inches wide, but at least 100.
+        at
+            For perspective, a point in world space at whose distance the scale bar is right; None
+            for the median of the spheres that are seen (without any: of the planes).
+
+        Returns
+        -------
+        Figure
+            The figure.
+
+        Raises
+        ------
+        ExtraError
+            Matplotlib is not installed.
+        FigureError
+            An argument is not right.
+        """
+        from vtray.figure import make_figure
+
+        return make_figure(
+            self,
+            colorbar=colorbar,
+            scalebar=scalebar,
+            title=title,
+            flat=flat,
+            dpi=dpi,
+            at=at,
+        )

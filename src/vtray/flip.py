@@ -1,0 +1,39 @@
+"""FLIP: how much people notice who flip between two pictures.
+
+References
+----------
+Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020.
+"""
+
+from typing import TYPE_CHECKING
+
+from vtray.extras import need
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Pixels = NDArray[np.uint8]
+
+
+def flip_error(a: "Pixels", b: "Pixels", user: str) -> "tuple[float, Pixels]":
+    """Return the mean FLIP error, from 0 to 1, and its map in magma colours.
+
+    Parameters
+    ----------
+    a, b
+        The pixels of both, uint8, (height, width, 3).
+    user
+        What needs this, for the message if the package is missing.
+
+    Raises
+    ------
+    ExtraError
+        The extra ``vtray[diff]`` is not installed.
+    """
+    evaluate = need("flip_evaluator", "diff", user).evaluate
+    import numpy as np
+
+    reference, test = (np.ascontiguousarray(pixels, np.float32) / 255 for pixels in (a, b))
+    colors, mean, _ = evaluate(reference, test, "LDR", applyMagma=True)
+    return float(mean), np.round(colors * 255).astype(np.uint8)
