@@ -308,3 +308,13 @@ def test_picture_of_another_size() -> None:
     assert tree.light == tuple(image.linear[80, 100])
     with pytest.raises(vtray.RenderError, match="expected 0,0 to 127,95, got 128,0"):
         vtray.trace_pixel(image, 128, 0)
+
+
+def test_image_plane_at_the_eye_gives_way_to_the_edges_of_the_view() -> None:
+    world = lit_floor()
+    world.camera = vtray.Camera((0, 0, -5), (0, 0, 1), 1e-6, (64, 48), (1e-8, 1e-8))
+    for pixel in (floor_pixel(), (32, 0)):
+        ax = vtray.trace_pixel(world, *pixel).draw()
+        assert "eye\nimage plane 1e-06 in front" in texts(ax)
+        assert "image plane" not in texts(ax)
+        assert not marks(ax, "s")

@@ -26,6 +26,9 @@ Floats = NDArray[np.float64]
 MOST_LABELS = 4
 """With more lights, only the main one has a label, and the rest are thin."""
 
+NEAR = 0.02
+"""An image plane nearer to the eye than this share of the drawing is not drawn."""
+
 FAR = 1.3
 """Lights farther away than this many camera rays are not drawn, only the way to them."""
 
@@ -224,13 +227,20 @@ class _Drawing(Pen):
     def camera(self) -> None:
         """Draw the eye, the image plane with its pixel, and the camera ray."""
         ends = self._image_plane()
-        self.ax.plot(*np.array(ends).T, color=INK, lw=2.2, solid_capstyle="butt", zorder=4)
-        self.ax.plot(*self.pixel, "s", ms=5, mfc="white", mec=RAY, mew=1.6, zorder=7)
-        self.ax.plot(*self.origin, "o", ms=7, color=INK, zorder=7)
-        low = min(ends, key=lambda end: float(end[1]))
-        self.note("image plane", low, (-5, 1), ha="right", va="bottom")
         name = "start of the ray" if is_orthographic(self.tree.scene.camera) else "eye"
-        self.note(name, self.origin, (0, -9), ha="center", va="top")
+        self.ax.plot(*self.origin, "o", ms=7, color=INK, zorder=7)
+        if np.hypot(*(self.pixel - self.origin)) > NEAR * self.size:
+            self.ax.plot(*np.array(ends).T, color=INK, lw=2.2, solid_capstyle="butt", zorder=4)
+            self.ax.plot(*self.pixel, "s", ms=5, mfc="white", mec=RAY, mew=1.6, zorder=7)
+            low = min(ends, key=lambda end: float(end[1]))
+            self.note("image plane", low, (-5, 1), ha="right", va="bottom")
+            self.note(name, self.origin, (0, -9), ha="center", va="top")
+        else:  # no room to show it: the edges of the view instead
+            for end in ends:
+                way = (end - self.origin) / max(float(np.hypot(*(end - self.origin))), 1e-300)
+                self.line(self.origin, self.origin + way * 2 * self.size, FAINT, lw=0.8)
+            text = f"{name}\nimage plane {self.tree.view.focus:.3g} in front"
+            self.note(text, self.origin, (-5, -9), ha="left", va="top")
         self.line(self.origin, self.end, RAY, lw=1.8, arrow=0.55)
 
     def miss(self) -> None:
