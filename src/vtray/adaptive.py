@@ -57,7 +57,8 @@ def mark_rows(film: Film, near: int, top: int, bottom: int, marks: NDArray[np.bo
 def _mark_changes(film: Film, row: int, other: int, shift: int, marks: NDArray[np.bool_]) -> None:
     """Mark the pixels of a row that differ from those of another, so many columns to the right."""
     for column in range(max(0, -shift), marks.shape[1] - max(0, shift)):
-        differs = (film.primitive[row, column] != film.primitive[other, column + shift]) | (
-            film.shadows[row, column] != film.shadows[other, column + shift]
-        )
-        marks[row, column] = marks[row, column] | differs
+        beside = column + shift
+        surface = film.primitive[row, column] != film.primitive[other, beside]
+        shadow = film.shadows[row, column] != film.shadows[other, beside]
+        # Where the neighbour lies at an outline, that explains why it shows another surface.
+        marks[row, column] |= shadow | (surface & (not film.rims[other, beside]))

@@ -6,11 +6,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.camera import is_shifted
+from vtray.camera import CameraFrame, is_shifted
 from vtray.compiled import device
 from vtray.grouping import GROUP, group_hits, list_hits
 from vtray.packet import (
+    BLOCKED,
     COLOR,
+    COSINE,
     DEPTH,
     DIRECTION,
     DISTANCE,
@@ -56,21 +58,39 @@ def interact(
     scene: SceneArrays, offset: Vec, direction: Vec, distance: float, primitive: int, slot: int
 ) -> Interaction:
     """Return the point where a camera ray hits a primitive, which the arrays have at `slot`."""
-    point = add(scene.camera.eye, scale(distance, direction))
-    if is_shifted(scene.camera):
-        point = add(point, offset)
+    point = _ray_point(scene.camera, offset, direction, distance)
     if primitive < sphere_count(scene.spheres):
         center = sphere_center(scene.spheres, slot)
-        outward = sub(point, center)
-        length = math.sqrt(dot(outward, outward))
-        normal = (outward[0] / length, outward[1] / length, outward[2] / length)
+        normal = _sphere_normal(point, center)
         magnitude = sphere_magnitude(center, sphere_radius(scene.spheres, slot))
     else:
         normal = pick(scene.planes, slot)
         magnitude = scene.planes.magnitude[slot]
-    side = -1.0 if dot(normal, direction) > 0.0 else 1.0
     magnitude += scene.camera.extent
-    return Interaction(point, scale(side, normal), magnitude + scene.camera.focus + distance)
+    magnitude = magnitude + scene.camera.focus + distance
+    return Interaction(point, _turned(normal, direction), magnitude)
+
+
+@device
+def _ray_point(camera: CameraFrame, offset: Vec, direction: Vec, distance: float) -> Vec:
+    """Return the point of a camera ray at a distance."""
+    point = add(camera.eye, scale(distance, direction))
+    return add(point, offset) if is_shifted(camera) else point
+
+
+@device
+def _sphere_normal(point: Vec, center: Vec) -> Vec:
+    """Return the unit normal of a sphere at a point of it."""
+    outward = sub(point, center)
+    length = math.sqrt(dot(outward, outward))
+    return outward[0] / length, outward[1] / length, outward[2] / length
+
+
+@device
+def _turned(normal: Vec, direction: Vec) -> Vec:
+    """Return a normal, turned to the side that a ray comes from."""
+    side = -1.0 if dot(normal, direction) > 0.0 else 1.0
+    return scale(side, normal)
 
 
 @device
@@ -100,26 +120,58 @@ def gather_interactions(
 
     With a hierarchy they are in groups. Row ``SOURCE`` keeps where each came from.
     """
-    nowhere = (0.0, 0.0, 0.0)
-    hits = (
-        group_hits(packet, lanes, GROUP * min(samples, 8), work)
-        if has_bvh(scene)
-        else list_hits(packet, lanes, work)
-    )
+    if has_bvh(scene):
+        hits = group_hits(packet, lanes, GROUP * min(samples, 8), work)
+    else:
+        hits = list_hits(packet, lanes, work)
     for hit in range(hits):
-        lane = work.order[hit]
-        primitive = int(packet[PRIMITIVE + lane])
-        direction = load(packet, DIRECTION, lane)
-        slot = int(packet[SLOT + lane])
-        offset = load(packet, OFFSET, lane) if is_shifted(scene.camera) else nowhere
-        found = interact(scene, offset, direction, packet[DISTANCE + lane], primitive, slot)
-        color, lambert = material(scene, primitive)
-        store(packet, POINT, hit, found.point)
-        store(packet, NORMAL, hit, found.normal)
-        store(packet, COLOR, hit, color)
+        _fetch(packet, hit, work.order[hit], scene)
+    # A loop of its own, only so is it vectorised.
+    camera = scene.camera
+    for hit in range(hits):
+        direction, offset = load(packet, VALUE, hit), load(packet, POINT, hit)
+        distance = packet[BLOCKED + hit]
+        point = _ray_point(camera, offset, direction, distance)
+        surface = load(packet, NORMAL, hit)
+        normal = _sphere_normal(point, surface)
+        curved = packet[COSINE + hit] > 0.0
+        normal = (
+            normal[0] if curved else surface[0],
+            normal[1] if curved else surface[1],
+            normal[2] if curved else surface[2],
+        )
+        store(packet, POINT, hit, point)
+        store(packet, NORMAL, hit, _turned(normal, direction))
         store(packet, VALUE, hit, (0.0, 0.0, 0.0))
-        packet[SOURCE + hit] = lane
-        packet[DEPTH + hit] = dot(found.point, scene.camera.forward)
-        packet[MAGNITUDE + hit] = found.magnitude
-        packet[LAMBERT + hit] = lambert
+        magnitude = packet[MAGNITUDE + hit] + camera.extent
+        packet[MAGNITUDE + hit] = magnitude + camera.focus + distance
+        packet[DEPTH + hit] = dot(point, camera.forward)
     return hits
+
+
+@device
+def _fetch(packet: Packet, hit: int, lane: int, scene: SceneArrays) -> None:
+    """Bring together what a hit is made of, in rows that are not in use so far.
+
+    The ray's direction goes to row ``VALUE``, its start to ``POINT``, the distance to ``BLOCKED``; a
+    sphere's centre or a plane's normal to ``NORMAL``, and to ``COSINE`` whether it is a sphere.
+    """
+    primitive = int(packet[PRIMITIVE + lane])
+    slot = int(packet[SLOT + lane])
+    if primitive < sphere_count(scene.spheres):
+        surface = sphere_center(scene.spheres, slot)
+        packet[MAGNITUDE + hit] = sphere_magnitude(surface, sphere_radius(scene.spheres, slot))
+        packet[COSINE + hit] = 1.0
+    else:
+        surface = pick(scene.planes, slot)
+        packet[MAGNITUDE + hit] = scene.planes.magnitude[slot]
+        packet[COSINE + hit] = 0.0
+    store(packet, NORMAL, hit, surface)
+    store(packet, VALUE, hit, load(packet, DIRECTION, lane))
+    if is_shifted(scene.camera):
+        store(packet, POINT, hit, load(packet, OFFSET, lane))
+    packet[BLOCKED + hit] = packet[DISTANCE + lane]
+    color, lambert = material(scene, primitive)
+    store(packet, COLOR, hit, color)
+    packet[LAMBERT + hit] = lambert
+    packet[SOURCE + hit] = lane
