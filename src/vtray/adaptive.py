@@ -60,5 +60,4 @@ def _mark_changes(film: Film, row: int, other: int, shift: int, marks: NDArray[n
         beside = column + shift
         surface = film.primitive[row, column] != film.primitive[other, beside]
         shadow = film.shadows[row, column] != film.shadows[other, beside]
-        # Where the neighbour lies at an outline, that explains why it shows another surface.
-        marks[row, column] |= shadow | (surface & (not film.rims[other, beside]))
+        marks[row, column] |= surface | shadow
