@@ -28,7 +28,7 @@ def draw(size, side=30, layers=9):
         size=size,
     )
     scene.lights = [
-        *gallery.sky((0, 0, 0), 20 * side, intensity=0.6),
+        *vt.lights.cloudy(scene, 0.6),
         *gallery.lamp((5 * side, -4 * side, 5 * side), 0.4 * side, intensity=0.6),
         *gallery.lamp((-3 * side, -6 * side, 2 * side), 0.4 * side, intensity=0.4),
     ]

@@ -32,7 +32,7 @@ def draw(size, count=2_050_000):
     scene.add_plane((0, 0, -width / 2 - 0.5), normal=(0, 0, 1), color="#f4f1ea")
     scene.camera = vt.Camera.fit(scene, direction=(-3, 4, -2.4), size=size)
     scene.lights = [
-        *gallery.sky((0, 0, 0), 6 * width, intensity=0.9, count=32),
+        *vt.lights.cloudy(scene, 0.9),
         *gallery.lamp((2 * width, -0.6 * width, 2.2 * width), 0.15 * width, 0.7, count=8),
     ]
     return vt.render(scene, samples=9)

@@ -62,7 +62,7 @@ def draw(size):
         eye=(-30, -84, 46), target=(-1, 0, -1), up=(0, 0, 1), fov_degrees=20, size=size
     )
     scene.lights = [
-        *gallery.sky((0, 0, 0), 250, intensity=0.7),
+        *vt.lights.cloudy(scene, 0.7),
         *gallery.lamp((-70, -60, 110), 8, intensity=0.6),
         *gallery.lamp((30, -110, 40), 8, intensity=0.6, count=12),
     ]
