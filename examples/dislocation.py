@@ -27,11 +27,9 @@ def draw(size, side=30, layers=9):
         projection="orthographic",
         size=size,
     )
-    scene.lights = [
-        *vt.lights.cloudy(scene, 0.6),
-        *gallery.lamp((5 * side, -4 * side, 5 * side), 0.4 * side, intensity=0.6),
-        *gallery.lamp((-3 * side, -6 * side, 2 * side), 0.4 * side, intensity=0.4),
-    ]
+    scene.lights = vt.lights.cloudy(scene, 0.4)
+    scene.lights += gallery.lamp((5 * side, -4 * side, 5 * side), 0.4 * side, intensity=0.6)
+    scene.lights += gallery.lamp((-3 * side, -6 * side, 2 * side), 0.4 * side, intensity=0.4)
     return vt.render(scene, samples=16, background="white")
 
 

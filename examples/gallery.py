@@ -37,26 +37,6 @@ def even_directions(count: int) -> NDArray[np.float64]:
     return np.stack([ring * np.cos(turn), ring * np.sin(turn), height], axis=1)
 
 
-def sky(
-    center: Sequence[float], distance: float, intensity: float, count: int = 48
-) -> list[vt.Light]:
-    """Return a dome of lights above a place: soft light that reaches into open corners.
-
-    Parameters
-    ----------
-    center
-        The middle of the dome; z points up.
-    distance
-        How far away the lights are.
-    intensity
-        That of all lights together.
-    count
-        How many lights there are.
-    """
-    up = even_directions(2 * count)[:count]
-    return [vt.Light(place, intensity / count) for place in np.asarray(center) + distance * up]
-
-
 def lamp(
     center: Sequence[float], radius: float, intensity: float, count: int = 24
 ) -> list[vt.Light]:

@@ -45,10 +45,8 @@ def draw(size):
         scene.add_spheres(string_of_pearls(curve, 2 * RADIUS), RADIUS, color=color)
     scene.add_plane((0, 0, -1.5), normal=(0, 0, 1), color="#cfd8d6")
     scene.camera = vt.Camera.fit(scene, direction=(-0.4, 2, -2.2), fov_degrees=30, size=size)
-    scene.lights = [
-        *vt.lights.cloudy(scene, 0.8),
-        *gallery.lamp((-7, -3, 9), 1.2, intensity=0.9),
-    ]
+    scene.lights = vt.lights.cloudy(scene, 0.5)
+    scene.lights += gallery.lamp((-7, -3, 9), 1.2, intensity=0.9)
     return vt.render(scene, samples=16)
 
 

@@ -57,15 +57,13 @@ def draw(size):
     angle = np.degrees(np.arctan2(z, -y)) - 32
     tube = tube[(x / 27) ** 2 + (angle / 78) ** 2 > 1]
     scene.add_spheres(tube, ATOM, color="#8d99a6")
-    scene.add_plane((0, 0, -9.5), normal=(0, 0, 1), color="#dfe6ea")
+    scene.add_plane((0, 0, -9.5), normal=(0, 0, 1), color="#a9bcc9")
     scene.camera = vt.Camera.look_at(
         eye=(-30, -84, 46), target=(-1, 0, -1), up=(0, 0, 1), fov_degrees=20, size=size
     )
-    scene.lights = [
-        *vt.lights.cloudy(scene, 0.7),
-        *gallery.lamp((-70, -60, 110), 8, intensity=0.6),
-        *gallery.lamp((30, -110, 40), 8, intensity=0.6, count=12),
-    ]
+    scene.lights = vt.lights.cloudy(scene, 0.5)
+    scene.lights += gallery.lamp((-70, -60, 110), 8, intensity=0.6)
+    scene.lights += gallery.lamp((30, -110, 40), 8, intensity=0.6, count=12)
     return vt.render(scene, samples=16)
 
 
