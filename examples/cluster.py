@@ -10,7 +10,7 @@ CELL = 2.0
 """Side of the cells in which neighbours are looked for; spheres have a diameter of 1."""
 
 
-@numba.njit(cache=False)
+@numba.njit(cache=True)
 def grow(count, seed):
     """Let spheres wander in until they touch the cluster: diffusion-limited aggregation.
 
