@@ -9,7 +9,6 @@ took how long goes to standard output.
 Needs only NumPy, as the peers' own Python environment has no vtray.
 """
 
-import math
 import os
 import sys
 import time
@@ -100,9 +99,3 @@ def hold_to_cores(threads: int) -> None:
     """Hold this process to as many cores as it may have threads, where the system can."""
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:threads])
-
-
-def image_plane(side: int) -> tuple[float, float]:
-    """Return width of the image and of a pixel in a plane at distance 1 from the eye."""
-    width = 2 * math.tan(math.radians(FIELD_OF_VIEW_DEGREES / 2))
-    return width, width / side

@@ -2,28 +2,29 @@
 
 from collections.abc import Callable
 
-from arrays_clock import EYE, TO_LIGHT, Task, image_plane, time_pictures
+from arrays_clock import EYE, FIELD_OF_VIEW_DEGREES, TO_LIGHT, Task, time_pictures
 
 FAR = 1e4
 
 
 def prepare(_threads: int) -> Callable[[Task], None]:
     """Import vtray; return what makes a picture with it."""
-    import vtray
+    import vtray as vt
 
     # Names of the package are loaded when they are first used.
-    render = vtray.render
+    render = vt.render
 
     def draw(task: Task) -> None:
         """Make the picture."""
-        arrays, (_, pixel) = task.arrays, image_plane(task.side)
-        x, y, z = EYE
-        scene = vtray.Scene(
-            camera=vtray.Camera(
-                (x, y, z + 1), (0, 0, 1), 1, (task.side, task.side), (pixel, pixel)
-            ),
-            lights=[vtray.Light([FAR * part for part in TO_LIGHT], 1)],
-            objects=[vtray.Spheres(arrays.center, arrays.radius, arrays.color, lambert=1)],
+        scene = vt.Scene()
+        scene.add_spheres(task.arrays.center, task.arrays.radius, color=task.arrays.color)
+        scene.add_light([FAR * part for part in TO_LIGHT])
+        scene.camera = vt.Camera.look_at(
+            EYE,
+            target=(0, 0, 0),
+            up=(0, -1, 0),
+            fov_degrees=FIELD_OF_VIEW_DEGREES,
+            size=(task.side, task.side),
         )
         render(scene, threads=task.threads).save(task.output)
 
