@@ -76,4 +76,4 @@ def draw(size, count=60_000):
 
 
 if __name__ == "__main__":
-    gallery.run(draw, "cluster.jpg", size=(800, 800), small={"count": 500})
+    gallery.run(draw, "cluster.jpg", size=(680, 680), small={"count": 500})

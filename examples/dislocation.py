@@ -34,4 +34,4 @@ def draw(size, side=30, layers=9):
 
 
 if __name__ == "__main__":
-    gallery.run(draw, "dislocation.jpg", size=(1000, 700), small={"side": 12, "layers": 4})
+    gallery.run(draw, "dislocation.jpg", size=(960, 640), small={"side": 12, "layers": 4})

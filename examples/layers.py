@@ -57,4 +57,4 @@ def draw(size, count=600):
 
 
 if __name__ == "__main__":
-    gallery.run(draw, "layers.png", size=(800, 600), small={"count": 60})
+    gallery.run(draw, "layers.png", size=(760, 570), small={"count": 60})

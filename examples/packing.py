@@ -39,4 +39,4 @@ def draw(size, count=2_050_000):
 
 
 if __name__ == "__main__":
-    gallery.run(draw, "packing.jpg", size=(1000, 750), small={"count": 5000})
+    gallery.run(draw, "packing.jpg", size=(880, 660), small={"count": 5000})
