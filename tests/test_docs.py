@@ -129,3 +129,16 @@ def test_site_is_built_without_a_warning(tmp_path: Path) -> None:
     # Nothing is loaded from other sites.
     loaded = re.findall(r'<(?:link|script|img)[^>]+(?:href|src)="(https?://[^"]+)"', reference)
     assert not [address for address in loaded if "canonical" not in address]
+
+
+def test_rules_are_those_of_the_readme() -> None:
+    def rules(path: Path, end: str) -> str:
+        text = path.read_text(encoding="utf-8")
+        text = text[text.index("## The rules of the picture") :]
+        text = text[: text.index(end)]
+        text = re.sub(r"\s*\(\[`[^)]*\)[^)]*\)", "", text)  # where the code is
+        return " ".join(text.split())
+
+    readme = rules(pages.ROOT / "README.md", "[Samples")
+    assert readme == rules(pages.DOCS / "scene-file.md", "[Samples")
+    assert "8. With m the largest" in readme
