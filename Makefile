@@ -2,7 +2,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help run test coverage memtest lint format schema scenes peers bench check clean
+.PHONY: help run test coverage memtest lint format schema scenes gallery docs peers bench check clean
 
 help: ## list what can be made
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -40,6 +40,13 @@ schema: .venv/ready ## write docs/scene.schema.json
 
 scenes: .venv/ready ## make the example scenes and their pictures again
 	$(BIN)/python scenes/make_scenes.py --render
+
+gallery: .venv/ready ## make the pictures of the gallery and of the docs again
+	$(BIN)/python examples/make_gallery.py
+	$(BIN)/python tests/pages.py
+
+docs: .venv/ready ## build the site of the docs, build/site
+	$(BIN)/mkdocs build --strict
 
 peers: benchmarks/.venv/ready ## install Mitsuba and OVITO for the benchmarks, each some 200 MB
 

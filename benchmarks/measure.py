@@ -106,12 +106,13 @@ class Timing:
 
 
 class Run(NamedTuple):
-    """What one run of a job took: as `Timing`, each part once."""
+    """What one run of a job took: as `Timing`, each part once; and all that it printed."""
 
     whole: float
     inner: float
     phases: Phases
     memory: float
+    output: str
 
 
 def run_interleaved(jobs: Sequence[Job], repeats: int) -> dict[str, Timing]:
@@ -130,7 +131,8 @@ def run_once(job: Job) -> Run:
     output = found["output"]
     if found["status"] != job.status:
         sys.exit(f"{' '.join(job.command)}\nended with {found['status']}:\n{output[-2000:]}")
-    return Run(found["seconds"], job.inner_seconds(output), job.phases(output), found["memory"])
+    inner, phases = job.inner_seconds(output), job.phases(output)
+    return Run(found["seconds"], inner, phases, found["memory"], output)
 
 
 def seconds_after(pattern: str, output: str) -> float:

@@ -3,8 +3,10 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+import arrays_report
 import same_picture
 import vtray_process
+from arrays_report import arrays_table
 from cube_report import (
     cube_table,
     cube_threads_table,
@@ -12,6 +14,7 @@ from cube_report import (
     own_timing,
     programs_table,
 )
+from from_arrays import ArraysRow
 from markdown import ratio, table
 from measure import Timing, in_seconds
 from peers import CUBE_PEERS, PEERS
@@ -43,6 +46,8 @@ class Results:
         As `threads`, for this cube.
     scaling
         For numbers of spheres in the cube, the times of all renderers with one thread.
+    arrays
+        As `cube`, from arrays in memory to a PNG.
     """
 
     machine: dict[str, str]
@@ -53,6 +58,7 @@ class Results:
     cube: dict[str, list[Row]] = field(default_factory=dict)
     cube_threads: dict[int, Timing] = field(default_factory=dict)
     scaling: dict[int, list[Row]] = field(default_factory=dict)
+    arrays: dict[str, list[ArraysRow]] = field(default_factory=dict)
 
 
 def full_report(results: Results) -> str:
@@ -76,6 +82,8 @@ def full_report(results: Results) -> str:
         parts += ["The cube, with vtray.", cube_threads_table(results.cube_threads)]
     if results.cube:
         parts += ["## A cube of many spheres", cube_table(results.cube), _cube_conditions()]
+    if results.arrays:
+        parts += ["## From arrays to a PNG", arrays_table(results.arrays), arrays_report.NOTE]
     if results.scaling:
         parts += ["## More and more spheres", _SCALING_NOTE, growth_table(results.scaling)]
         parts += [_PROGRAMS_NOTE, programs_table(results.scaling)]

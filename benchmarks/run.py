@@ -15,6 +15,7 @@ from pathlib import Path
 
 import startup
 from cube import SIDE, write_cube
+from from_arrays import time_arrays
 from machine import cores, machine
 from peers import CUBE_PEERS
 from plot import draw_scaling
@@ -26,7 +27,7 @@ HERE = Path(__file__).resolve().parent
 RESULTS = HERE / "results.md"
 README = HERE.parent / "README.md"
 PLOT = HERE.parent / "docs" / "images" / "scaling.png"
-PARTS = ("startup", *SCENES, "threads", "cube", "scaling")
+PARTS = ("startup", *SCENES, "threads", "cube", "arrays", "scaling")
 REPEATS, QUICK_REPEATS = 5, 2
 QUICK_SIDE = 256
 CUBE, QUICK_CUBE = 1_000_000, 10_000
@@ -84,6 +85,10 @@ def measure(folder: Path, parts: list[str], *, quick: bool) -> Results:
         title = f"{spheres:,} spheres in a cube over a floor, 1 light, {side} x {side}"
         _say(title)
         results.cube[title] = time_cube(spheres, side, CUBE_PEERS, THREADS, folder, repeats)
+    if "arrays" in parts:
+        title = f"{spheres:,} spheres in a cube, 1 light, {side} x {side}"
+        _say(f"from arrays: {title}")
+        results.arrays[title] = time_arrays(spheres, side, THREADS, folder, repeats)
     if "scaling" in parts:
         for count in QUICK_COUNTS if quick else COUNTS:
             _say(f"{count:,} spheres")

@@ -459,3 +459,38 @@ def test_peer_that_is_installed_shows_what_vtray_shows(
         assert same.is_same(found)
         assert 0 <= run.phases.load < 60
         assert 0 < run.phases.trace < 60
+
+
+def test_report_has_the_times_from_arrays() -> None:
+    arrays, measure = module("from_arrays"), module("measure")
+
+    def row(program: str, factor: float, note: str) -> Any:
+        spreads = [measure.Spread((factor * seconds,)) for seconds in (0.5, 0.3, 0.2)]
+        return arrays.ArraysRow(program, 2, *spreads, memory=90e6, note=note)
+
+    found = results()
+    found.arrays = {"many": [row("vtray", 1, "0.00, 0.00%"), row("Mitsuba", 3, "0.30, 0.20%")]}
+    report = module("report").full_report(found)
+    assert "| many | vtray | 2 | 0.200 | 0.300 | 0.500 | 90 | 1.00 | 1.00 | 0.00, 0.00% |" in report
+    assert (
+        "| many | Mitsuba | 2 | 0.600 | 0.900 | 1.50 | 90 | 3.00 | 3.00 | 0.30, 0.20% |" in report
+    )
+
+
+@pytest.mark.parametrize("index", range(4))
+def test_script_makes_the_picture_from_arrays(index: int, tmp_path: Path) -> None:
+    arrays, cube = module("from_arrays"), module("cube").make_cube(FEW)
+    script = arrays.SCRIPTS[index]
+    if script.peer and not module("peers").is_installed(script.peer):
+        pytest.skip(f"{script.name} is not installed")
+    data = tmp_path / "arrays.npz"
+    given = module("arrays_clock").Arrays(cube.center.astype(float), cube.radius, cube.color)
+    module("arrays_clock").save_arrays(given, data)
+    run = module("measure").run_once(arrays._job(script, data, SMALL, 2, 3))
+    assert len(arrays.picture_seconds(run.output)) == 3
+    module("measure").run_once(arrays._job(arrays.SCRIPTS[0], data, SMALL, 1, 1))
+    pictures = [arrays._picture(tmp_path, each) for each in (arrays.SCRIPTS[0], script)]
+    found = module("same_picture").difference(*pictures)
+    assert found.mean < 255, "the size is another"
+    if not (script.peer and script.peer.apart):
+        assert module("same_picture").is_same(found)
