@@ -1,9 +1,9 @@
 """A beam: rays from a point or a box into a box of directions, and the boxes that it may meet.
 
-The rays of a camera start at the eye or, in an orthographic view, side by side in one direction; all
-shadow rays to a light end there. At a distance of ``s`` times the direction, a beam fills the box
-from ``start_low + s * low`` to ``start_high + s * high``; whether that touches a given box is, for
-each axis, a question of two bounds on ``s``. With a single ray this is the usual slab test.
+The rays of a camera start at the eye or, in an orthographic view, side by side in one direction;
+all shadow rays to a light end there. At a distance of ``s`` times the direction, a beam fills the
+box from ``start_low + s * low`` to ``start_high + s * high``; whether that touches a given box is,
+for each axis, a question of two bounds on ``s``. With a single ray this is the usual slab test.
 
 References
 ----------

@@ -1,8 +1,8 @@
 """Cones around groups of rays, which tell for eight groups at once which a sphere may meet.
 
-For a ray from ``o`` along the unit vector ``d``, a centre ``c`` lies ``|(c - o) x d|`` from its line.
-For another start ``p`` and any vector ``a`` that is at least ``|(c - p) x a| - |o - p| - |c - o| *
-|d - a|``: so one start and one axis speak for a group of rays, of any kind and from any camera.
+The line of the ray from ``o`` along the unit vector ``d`` passes a centre ``c`` at the distance
+``|(c - o) x d|``. For another start ``p`` and any vector ``a`` that is at least ``|(c - p) x a| - |o - p| -
+|c - o| * |d - a|``: so one start and one axis speak for a group of rays, from any camera.
 """
 
 import math
@@ -86,19 +86,10 @@ def _bound_groups(packet: Packet, row: int, lanes: int, cones: Cones, to: int) -
     """Set the least number of each group, and three rows later the greatest."""
     for group in range(lanes // GROUP):
         first = row + group * GROUP
-        # In pairs, which vector instructions can take apart.
-        low = min(
-            min(min(packet[first], packet[first + 1]), min(packet[first + 2], packet[first + 3])),
-            min(
-                min(packet[first + 4], packet[first + 5]), min(packet[first + 6], packet[first + 7])
-            ),
-        )
-        high = max(
-            max(max(packet[first], packet[first + 1]), max(packet[first + 2], packet[first + 3])),
-            max(
-                max(packet[first + 4], packet[first + 5]), max(packet[first + 6], packet[first + 7])
-            ),
-        )
+        # Infinite at first, so that what is not a number, and hits nothing, is no bound.
+        low, high = math.inf, -math.inf
+        for lane in range(first, first + GROUP):
+            low, high = min(low, packet[lane]), max(high, packet[lane])
         cones[to + group] = low
         cones[to + 3 * GROUPS + group] = high
 

@@ -175,6 +175,17 @@ def write_middles(
     if is_wanted(film.normal):
         _clear(block, begin, end, work, film.normal)
         _write_normals(packet, block, begin, hits, work, film.normal)
+    _write_rays(packet, block, begin, end, work, film)
+    if is_wanted(film.shadows):
+        _write_shadows(packet, block, begin, end, hits, work, film.shadows)
+    return peak
+
+
+@device
+def _write_rays(
+    packet: Packet, block: Block, begin: int, end: int, work: Workspace, film: Film
+) -> None:
+    """Write what is wanted of the rays themselves."""
     if is_wanted(film.distance):
         for lane in range(end - begin):
             row, column = _place(block, work.pixels[begin + lane])
@@ -187,9 +198,6 @@ def write_middles(
         for lane in range(end - begin):
             row, column = _place(block, work.pixels[begin + lane])
             film.rims[row, column] = packet[RIM + lane] <= packet[DISTANCE + lane]
-    if is_wanted(film.shadows):
-        _write_shadows(packet, block, begin, end, hits, work, film.shadows)
-    return peak
 
 
 @device

@@ -7,8 +7,8 @@ the sign: that is the inverse of the filter's cumulative integral, kept as a tab
 References
 ----------
 Ernst, Stamminger, Greiner, "Filter Importance Sampling", 2006; Mitchell, Netravali, "Reconstruction
-Filters in Computer Graphics", SIGGRAPH 1988; Harris, "On the Use of Windows for Harmonic Analysis with
-the Discrete Fourier Transform", Proc. IEEE 66 (1), 1978.
+Filters in Computer Graphics", SIGGRAPH 1988; Harris, "On the Use of Windows for Harmonic Analysis
+with the Discrete Fourier Transform", Proc. IEEE 66 (1), 1978.
 """
 
 import math

@@ -24,7 +24,7 @@ def list_hits(packet: Packet, lanes: int, work: Workspace) -> int:
 
 @device
 def group_hits(packet: Packet, lanes: int, most: int, work: Workspace) -> int:
-    """List the lanes with a hit, in groups of at most so many that hit the same; return how many."""
+    """List the lanes with a hit, in groups that hit the same, not too many; return how many."""
     owners = _find_members(packet, lanes, work)
     hits = 0
     groups = 0

@@ -89,27 +89,47 @@ def trace_tile(
             pixels = list_pixels(block, sampling.marks, work)
             for begin in range(0, pixels, together):
                 end = min(begin + together, pixels)
-                if sampling.rays > 1:
-                    clear_sums(work, end - begin)
-                hits = 0
-                for first in range(0, sampling.rays, LANES):
-                    last = min(first + LANES, sampling.rays)
-                    lanes = place_samples(packet, block, begin, end, sampling, first, last, work)
-                    hits = _find_surfaces(packet, lanes, scene, sampling, work)
-                    if is_kept(film.kept):
-                        keep_rays(packet, block, begin, end, first, last, work, film.kept)
-                    if is_wanted(film.linear) and hits > 0:
-                        rays += _light_hits(scene, hits, film, packet, work, stop)
-                    rays += lanes
-                    if stop[0]:
-                        return peak, rays
-                    if sampling.rays > 1:
-                        add_samples(packet, lanes, hits, last - first, work)
-                if sampling.rays > 1:
-                    peak = max(peak, write_pixels(block, begin, end, work, film))
-                else:
-                    peak = max(peak, write_middles(packet, block, begin, end, hits, work, film))
+                brightest, cast = _trace_pixels(
+                    scene, sampling, block, begin, end, film, packet, work, stop
+                )
+                peak = max(peak, brightest)
+                rays += cast
+                if stop[0]:
+                    return peak, rays
     return peak, rays
+
+
+@device
+def _trace_pixels(
+    scene: SceneArrays,
+    sampling: Sampling,
+    block: Block,
+    begin: int,
+    end: int,
+    film: Film,
+    packet: Packet,
+    work: Workspace,
+    stop: NDArray[np.bool_],
+) -> tuple[float, int]:
+    """Trace pixels of a block's list, a packet of samples after the other."""
+    rays = 0
+    hits = 0
+    if sampling.rays > 1:
+        clear_sums(work, end - begin)
+    for first in range(0, sampling.rays, LANES):
+        last = min(first + LANES, sampling.rays)
+        lanes = place_samples(packet, block, begin, end, sampling, first, last, work)
+        hits = _find_surfaces(packet, lanes, scene, sampling, work)
+        if is_kept(film.kept):
+            keep_rays(packet, block, begin, end, first, last, work, film.kept)
+        if is_wanted(film.linear) and hits > 0:
+            rays += _light_hits(scene, hits, film, packet, work, stop)
+        rays += lanes
+        if sampling.rays > 1:
+            add_samples(packet, lanes, hits, last - first, work)
+    if sampling.rays > 1:
+        return write_pixels(block, begin, end, work, film), rays
+    return write_middles(packet, block, begin, end, hits, work, film), rays
 
 
 @device

@@ -153,8 +153,8 @@ def gather_interactions(
 def _fetch(packet: Packet, hit: int, lane: int, scene: SceneArrays) -> None:
     """Bring together what a hit is made of, in rows that are not in use so far.
 
-    The ray's direction goes to row ``VALUE``, its start to ``POINT``, the distance to ``BLOCKED``; a
-    sphere's centre or a plane's normal to ``NORMAL``, and to ``COSINE`` whether it is a sphere.
+    The ray's direction goes to row ``VALUE``, its start to ``POINT``, the distance to ``BLOCKED``,
+    a sphere's centre or a plane's normal to ``NORMAL``, and whether it is a sphere to ``COSINE``.
     """
     primitive = int(packet[PRIMITIVE + lane])
     slot = int(packet[SLOT + lane])

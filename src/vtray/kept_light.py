@@ -1,8 +1,8 @@
 """What is kept of every ray so that lights and colours can be changed without tracing again.
 
-For each ray, that is what it hit, and for each light the cosine with which it arrives there, 0 where
-it does not. From these the light of the picture is added up anew, by the same operations in the same
-order as in tracing, so that not a bit differs.
+For each ray, that is what it hit, and for each light the cosine with which it arrives there, 0
+where it does not. From these the light of the picture is added up anew, by the same operations in
+the same order as in tracing, so that not a bit differs.
 """
 
 from typing import NamedTuple

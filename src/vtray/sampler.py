@@ -6,9 +6,10 @@ depend on nothing but the pixel, the number of the sample, its purpose, and the 
 
 References
 ----------
-Sobol, "On the distribution of points in a cube", 1967; Owen, "Randomly permuted (t,m,s)-nets", 1995;
-Burley, "Practical Hash-based Owen Scrambling", JCGT 9 (4), 2020; Vegdahl, "Building a Better LK Hash",
-2021 (its constants); Jarzynski, Olano, "Hash Functions for GPU Rendering", JCGT 9 (3), 2020 (pcg4d).
+Sobol, "On the distribution of points in a cube", 1967; Owen, "Randomly permuted (t,m,s)-nets",
+1995; Burley, "Practical Hash-based Owen Scrambling", JCGT 9 (4), 2020; Vegdahl, "Building a Better
+LK Hash", 2021 (its constants); Jarzynski, Olano, "Hash Functions for GPU Rendering", JCGT 9 (3),
+2020 (pcg4d).
 """
 
 import numpy as np
