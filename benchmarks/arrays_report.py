@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import vtray_process
 from from_arrays import LATER, ArraysRow
-from markdown import megabytes, ratio, table
+from tables import megabytes, ratio, table
 
 NOTE = f"""\
 - The arrays are NumPy's: centres as float64, colours as uint8. The clock runs from them to the PNG

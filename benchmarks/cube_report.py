@@ -5,9 +5,9 @@ import math
 from collections.abc import Mapping, Sequence
 
 import vtray_process
-from markdown import megabytes, ratio, table
 from measure import Timing, in_seconds
 from rendering import Row
+from tables import megabytes, ratio, table
 
 Scaling = Mapping[int, Sequence[Row]]
 

@@ -15,10 +15,10 @@ from cube_report import (
     programs_table,
 )
 from from_arrays import ArraysRow
-from markdown import ratio, table
 from measure import Timing, in_seconds
 from peers import CUBE_PEERS, PEERS
 from rendering import Row
+from tables import ratio, table
 
 BEGIN = "<!-- benchmark:begin -->"
 END = "<!-- benchmark:end -->"
