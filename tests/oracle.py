@@ -96,9 +96,10 @@ def axes(normal: Array) -> tuple[Array, Array, Array]:
 def upright_axes(normal: Array, up: Array) -> tuple[Array, Array, Array]:
     """Return the camera's x', y', z', for y' opposite to the part of `up` square to z'."""
     forward = normal / np.sqrt(dot(normal, normal))
-    up = up / np.sqrt(dot(up, up))
-    upward = up - dot(up, forward) * forward
-    down = -upward / np.sqrt(dot(upward, upward))
+    down = -up / np.sqrt(dot(up, up))
+    for _ in range(2):  # the first time may leave a part along z'
+        down = down - dot(down, forward) * forward
+        down = down / np.sqrt(dot(down, down))
     return cross(down, forward), down, forward
 
 
