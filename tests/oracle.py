@@ -4,10 +4,13 @@ It works on the scene as decoded JSON, on whole images, and tests every object a
 Nothing of vtray is imported. With ``dtype=np.float64`` vtray must equal it to the last bit: both do
 the same operations in the same order, and neither fuses a multiplication with an addition. With
 ``dtype=np.longdouble`` it tells how near both are to the truth.
+
+Rays go through any places in the image, which are in pixels from the left and from the top; a pixel
+itself is at integers.
 """
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,10 +19,48 @@ Scene = dict[str, Any]
 Array = np.ndarray
 
 
+class Seen(NamedTuple):
+    """What rays see, each array of the shape of their places and more.
+
+    Attributes
+    ----------
+    linear
+        Linear light, (..., 3).
+    depth
+        Distance along the ray in scene units, infinite where nothing is, (...).
+    normals
+        Unit normals on the ray's side, 0 where nothing is, (..., 3).
+    ids
+        The place in ``scene["objects"]``, -1 where nothing is, (...).
+    shadows
+        Whether something is between the hit and a light that it faces, (..., lights).
+    """
+
+    linear: Array
+    depth: Array
+    normals: Array
+    ids: Array
+    shadows: Array
+
+
 def render(scene: Scene, dtype: type = np.float64) -> Array:
     """Return the linear light of a scene, (height, width, 3)."""
+    return look(scene, dtype=dtype).linear
+
+
+def look(scene: Scene, columns: Any = None, rows: Any = None, dtype: type = np.float64) -> Seen:
+    """Return what the rays through some places see; without places, those of all pixels."""
+    if columns is None:
+        width, height = (int(n) for n in scene["camera"]["size"])
+        rows, columns = np.mgrid[0:height, 0:width]
+    columns, rows = np.broadcast_arrays(np.asarray(columns, dtype), np.asarray(rows, dtype))
     with np.errstate(all="ignore"):
-        return _Render(scene, dtype).linear()
+        return _Render(scene, dtype).look(columns, rows)
+
+
+def directions(scene: Scene, columns: Any, rows: Any) -> Array:
+    """Return the unit directions of the rays through some places, (..., 3)."""
+    return _Render(scene, np.float64).rays(np.asarray(columns), np.asarray(rows))[1]
 
 
 def develop(linear: Array) -> Array:
@@ -52,6 +93,28 @@ def axes(normal: Array) -> tuple[Array, Array, Array]:
     )
 
 
+def upright_axes(normal: Array, up: Array) -> tuple[Array, Array, Array]:
+    """Return the camera's x', y', z', for y' opposite to the part of `up` square to z'."""
+    forward = normal / np.sqrt(dot(normal, normal))
+    down = -up / np.sqrt(dot(up, up))
+    for _ in range(2):  # the first time may leave a part along z'
+        down = down - dot(down, forward) * forward
+        down = down / np.sqrt(dot(down, down))
+    return cross(down, forward), down, forward
+
+
+def cross(a: Array, b: Array) -> Array:
+    """Return vector products over the last axis."""
+    return np.stack(
+        [
+            a[..., 1] * b[..., 2] - a[..., 2] * b[..., 1],
+            a[..., 2] * b[..., 0] - a[..., 0] * b[..., 2],
+            a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0],
+        ],
+        axis=-1,
+    )
+
+
 def dot(a: Array, b: Array) -> Array:
     """Return scalar products over the last axis."""
     return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2]
@@ -65,10 +128,20 @@ class _Render:
         self.pixel = [dtype(r) for r in camera["resolution"]]
         self.focus = dtype(camera["focus"])
         self.center = self.vector(camera["center"])
-        self.right, self.down, self.forward = axes(self.vector(camera["normal"]))
+        normal = self.vector(camera["normal"])
+        if "up" in camera:
+            self.right, self.down, self.forward = upright_axes(normal, self.vector(camera["up"]))
+        else:
+            self.right, self.down, self.forward = axes(normal)
         self.eye = -self.focus * self.forward
+        self.parallel = camera.get("projection", "perspective") == "orthographic"
+        # How far from the eye a ray may start.
+        across, below = self.width * self.pixel[0], self.height * self.pixel[1]
+        self.extent = across + below if self.parallel else dtype(0)
         # At the same distance spheres come before planes.
-        self.objects = sorted(scene["objects"], key=lambda item: item["type"] == "plane")
+        objects = scene["objects"]
+        self.order = sorted(range(len(objects)), key=lambda k: objects[k]["type"] == "plane")
+        self.objects = [objects[k] for k in self.order]
         self.lights = scene["lights"]
 
     def vector(self, xyz: dict[str, float]) -> Array:
@@ -87,40 +160,43 @@ class _Render:
         normal = self.vector(plane["normal"])
         return normal / np.sqrt(dot(normal, normal))
 
-    def linear(self) -> Array:
-        """Return the image, object by object and light by light."""
-        rays = self.rays()
-        distance, hit = self.nearest(rays)
-        film = np.zeros((self.height, self.width, 3), self.dtype)
+    def look(self, columns: Array, rows: Array) -> Seen:
+        """Return what is seen, object by object and light by light."""
+        starts, rays = self.rays(columns, rows)
+        depth, hit = self.nearest(starts, rays)
+        linear = np.zeros((*hit.shape, 3), self.dtype)
+        normals, shadows = np.zeros_like(linear), np.zeros((*hit.shape, len(self.lights)), bool)
         for k, item in enumerate(self.objects):
             mine = hit == k
             if mine.any():
-                film[mine] = self.shade(item, rays[mine], distance[mine])
-        return film
+                shaded = self.shade(item, starts[mine], rays[mine], depth[mine])
+                linear[mine], normals[mine], shadows[mine] = shaded
+        return Seen(linear, depth, normals, np.array([*self.order, -1])[hit], shadows)
 
-    def rays(self) -> Array:
-        """Return the unit direction of each pixel's ray, (height, width, 3)."""
-        j, i = np.mgrid[0 : self.height, 0 : self.width].astype(self.dtype)
-        u = ((i - self.dtype(self.width) / 2) * self.pixel[0])[..., None]
-        v = ((j - self.dtype(self.height) / 2) * self.pixel[1])[..., None]
-        ray = u * self.right + v * self.down - self.eye
-        return ray / np.sqrt(dot(ray, ray))[..., None]
+    def rays(self, columns: Array, rows: Array) -> tuple[Array, Array]:
+        """Return where rays start, minus the eye, and their unit directions, both (..., 3)."""
+        u = ((columns - self.dtype(self.width) / 2) * self.pixel[0])[..., None]
+        v = ((rows - self.dtype(self.height) / 2) * self.pixel[1])[..., None]
+        aside = u * self.right + v * self.down
+        ray = np.broadcast_to(self.forward, aside.shape) if self.parallel else aside - self.eye
+        start = aside if self.parallel else np.zeros_like(aside)
+        return start, ray / np.sqrt(dot(ray, ray))[..., None]
 
-    def nearest(self, rays: Array) -> tuple[Array, Array]:
+    def nearest(self, starts: Array, rays: Array) -> tuple[Array, Array]:
         """Return the distance and the number of the nearest object for each ray."""
-        best = np.full(rays.shape[:2], np.inf, self.dtype)
-        hit = np.full(rays.shape[:2], -1)
+        best = np.full(rays.shape[:-1], np.inf, self.dtype)
+        hit = np.full(rays.shape[:-1], -1)
         forward = dot(rays, self.forward)
         for k, item in enumerate(self.objects):
             find = self.meet_sphere if item["type"] == "sphere" else self.meet_plane
-            distance = find(item, rays, forward)
+            distance = find(item, starts, rays, forward)
             nearer = distance < best
             best[nearer], hit[nearer] = distance[nearer], k
         return best, hit
 
-    def meet_sphere(self, item: Scene, rays: Array, forward: Array) -> Array:
+    def meet_sphere(self, item: Scene, starts: Array, rays: Array, forward: Array) -> Array:
         radius = self.dtype(item["radius"])
-        arm = self.eye - self.place(item["center"])
+        arm = self.eye - self.place(item["center"]) + starts
         middle = -dot(arm, rays)
         foot = arm + middle[..., None] * rays
         squared = radius * radius - dot(foot, foot)
@@ -131,35 +207,39 @@ class _Render:
             distance[seen] = t[seen]
         return distance
 
-    def meet_plane(self, item: Scene, rays: Array, forward: Array) -> Array:
+    def meet_plane(self, item: Scene, starts: Array, rays: Array, forward: Array) -> Array:
         normal, point = self.normal(item), self.place(item["center"])
         descent = dot(rays, normal)
-        t = dot(point - self.eye, normal) / descent
+        t = (dot(point - self.eye, normal) - dot(starts, normal)) / descent
         depth = t * forward - self.focus
-        bound = ROUNDING * (np.abs(point).sum() + self.focus + np.abs(t))
+        bound = ROUNDING * (np.abs(point).sum() + self.extent + self.focus + np.abs(t))
         return np.where((descent != 0) & (depth * np.abs(descent) > bound), t, self.dtype(np.inf))
 
-    def shade(self, item: Scene, rays: Array, distance: Array) -> Array:
-        """Return the light of points on one object, (n, 3)."""
-        points = self.eye + distance[:, None] * rays
+    def shade(
+        self, item: Scene, starts: Array, rays: Array, distance: Array
+    ) -> tuple[Array, Array, Array]:
+        """Return light, normals and shadows of points on one object, (n, 3), (n, 3), (n, m)."""
+        points = self.eye + distance[:, None] * rays + starts
         if item["type"] == "sphere":
             normal = points - self.place(item["center"])
             normal = normal / np.sqrt(dot(normal, normal))[:, None]
         else:
             normal = np.broadcast_to(self.normal(item), points.shape)
         normal = np.where((dot(normal, rays) > 0)[:, None], -normal, normal)
-        error = self.magnitude(item) + self.focus + distance
+        error = self.magnitude(item) + self.extent + self.focus + distance
         total = np.zeros(points.shape, self.dtype)
-        for light in self.lights:
+        shadows = np.zeros((len(points), len(self.lights)), bool)
+        for k, light in enumerate(self.lights):
             place = self.place(light["location"])
             way = place - points
             height = dot(normal, way)
             cosine = height / np.sqrt(dot(way, way))
             cosine[~(height > ROUNDING * (error + np.abs(place).sum()))] = 0
-            cosine[self.blocked(points, error, place)] = 0
+            shadows[:, k] = (cosine > 0) & self.blocked(points, error, place)
+            cosine[shadows[:, k]] = 0
             strength = cosine * self.dtype(item["lambert"]) * self.dtype(light["intensity"])
             total = total + strength[:, None] * self.color(item)
-        return total
+        return total, normal, shadows
 
     def blocked(self, points: Array, error: Array, light: Array) -> Array:
         """Tell which points any object hides from a light."""
@@ -183,14 +263,7 @@ class _Render:
         slack = reach * (2 * radius + reach)
         toward = -dot(arm, way)
         length2 = dot(way, way)
-        moment = np.stack(
-            [
-                arm[:, 1] * way[:, 2] - arm[:, 2] * way[:, 1],
-                arm[:, 2] * way[:, 0] - arm[:, 0] * way[:, 2],
-                arm[:, 0] * way[:, 1] - arm[:, 1] * way[:, 0],
-            ],
-            axis=-1,
-        )
+        moment = cross(arm, way)
         passes = dot(moment, moment) < radius * radius * length2
         enters = (toward > 0) & passes & ((end < 0) | (toward < length2))
         inside = start < -slack

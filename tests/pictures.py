@@ -47,9 +47,7 @@ def hand_made(
 
     how = RenderSettings(**settings)
     white = float(linear.max()) if how.exposure == "max" else 255 / how.exposure
-    image = HandMade(linear, np.empty(0, np.uint8), white, SCENE, how, {}, look=look, alpha=alpha)
-    image.pixels = image.develop(8)
-    return image
+    return HandMade(linear, None, white, SCENE, how, {}, look=look, alpha=alpha)
 
 
 def read_exr(data: bytes) -> tuple[dict[str, tuple[str, bytes]], dict[str, np.ndarray]]:

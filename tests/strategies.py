@@ -64,20 +64,30 @@ def scenes(draw: st.DrawFn, most_objects: int = 8) -> Scene:
         objects.append({**draw(st.sampled_from(objects)), **draw(st.fixed_dictionaries(material))})
     if objects and draw(st.booleans()):
         center = objects[-1]["center"]  # the image plane cuts an object in half
-    return {
-        "camera": {
-            "center": center,
-            "normal": draw(directions()),
-            "focus": focus,
-            "size": [width, height],
-            "resolution": [view / width, view / height],
-        },
-        "lights": lights,
-        "objects": objects,
+    camera = {
+        "center": center,
+        "normal": draw(directions()),
+        "focus": focus,
+        "size": [width, height],
+        "resolution": [view / width, view / height],
     }
+    return {"camera": camera | draw(views(camera)), "lights": lights, "objects": objects}
 
 
-def crowd(seed: int, spheres: int = 200) -> Scene:
+def views(camera: dict[str, Any]) -> st.SearchStrategy[dict[str, Any]]:
+    """Return optional keys of a camera, often none."""
+    ways = {"up": directions().filter(lambda up: not _near_parallel(up, camera["normal"]))}
+    kinds = {"projection": st.sampled_from(["perspective", "orthographic", "orthographic"])}
+    return st.just({}) | st.fixed_dictionaries({}, optional=ways | kinds)
+
+
+def _near_parallel(one: dict[str, float], two: dict[str, float]) -> bool:
+    a, b = list(one.values()), list(two.values())
+    cross = [a[k - 2] * b[k - 1] - a[k - 1] * b[k - 2] for k in range(3)]
+    return math.hypot(*cross) <= 1e-6 * math.hypot(*a) * math.hypot(*b)
+
+
+def crowd(seed: int, spheres: int = 200, **camera: Any) -> Scene:
     """Return a scene of many spheres in view, some planes, and lights all around."""
     random = Random(seed)
 
@@ -98,6 +108,7 @@ def crowd(seed: int, spheres: int = 200) -> Scene:
             "focus": random.choice([0.3, 2.0, 1e9]) * scale,
             "size": [51, 35],
             "resolution": [0.02 * scale, 0.03 * scale],
+            **camera,
         },
         "lights": [
             {"location": place(random.choice([3, 3, 1e10]) * scale), "intensity": random.random()}

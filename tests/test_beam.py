@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vtray.beam import beam_margin, children_met, enter_child, make_beam
+from vtray.beam import Beam, beam_margin, children_met, enter_child, make_beam
 from vtray.bvh import SIDES, WIDTH, Bvh
 
 Vec = tuple[float, float, float]
@@ -51,6 +51,7 @@ def first_meeting(apex: Vec, way: Vec, low: Vec, high: Vec) -> float:
 
 @given(
     vectors(COORDINATES),
+    vectors(WIDTHS),
     vectors(COMPONENTS),
     vectors(WIDTHS),
     st.lists(
@@ -59,20 +60,35 @@ def first_meeting(apex: Vec, way: Vec, low: Vec, high: Vec) -> float:
     st.integers(0, 2**32 - 1),
 )
 def test_no_box_is_missed(
-    apex: Vec, low: Vec, widths: Vec, corners: list[tuple[Vec, Vec]], seed: int
+    near: Vec, starts: Vec, low: Vec, widths: Vec, corners: list[tuple[Vec, Vec]], seed: int
 ) -> None:
+    far = tuple(a + b for a, b in zip(near, starts, strict=True))
     high = tuple(a + b for a, b in zip(low, widths, strict=True))
     boxes = [(np.minimum(*corner), np.maximum(*corner)) for corner in corners]
     bvh = node_of(boxes)
-    beam = make_beam(apex, low, high, beam_margin(apex, NO_OFFSET))
     random = np.random.default_rng(seed)
-    inside = random.uniform(0, 1, (20, 3))
-    inside[:8] = np.round(inside[:8])
+    inside = random.uniform(0, 1, (2, 20, 3))
+    inside[:, :8] = np.round(inside[:, :8])
+    ways = np.clip(np.array(low) + inside[0] * widths, low, high)
+    # From a point, as in perspective and for shadows, and from a box, as in an orthographic view.
+    points = np.broadcast_to(near, ways.shape)
+    places = np.clip(np.array(near) + inside[1] * starts, near, far)
+    one = make_beam(near, near, low, high, beam_margin(near, NO_OFFSET))
+    assert_all_met(one, bvh, boxes, points, ways)
+    many = make_beam(near, far, low, high, beam_margin(near, NO_OFFSET))
+    assert_all_met(many, bvh, boxes, places, ways)
+    assert_all_met(many, bvh, boxes, places[::-1], ways)
+
+
+def assert_all_met(
+    beam: Beam, bvh: Bvh, boxes: list[Box], starts: np.ndarray, ways: np.ndarray
+) -> None:
+    """Check that a beam meets the boxes that rays from some starts into some directions meet."""
     for end in (1.0, 3.0, np.inf):
         met = children_met(bvh, 1, beam, 0.0, end)
-        for way in np.clip(np.array(low) + inside * widths, low, high):
+        for start, way in zip(starts, ways, strict=True):
             for k in range(len(boxes)):
-                s = first_meeting(apex, way, *np.float32(boxes[k]))
+                s = first_meeting(start, way, *np.float32(boxes[k]))
                 # Far beyond the boxes' frame only the margin's share of a step is promised.
                 if s <= min(end, 1e12):
                     assert met >> k & 1
@@ -97,7 +113,7 @@ def test_boxes_that_are_clearly_away_are_left_out(apex: Vec, low: Vec, high: Vec
     across *= 1.5 / np.linalg.norm(across)
     places = [2 * middle, -2 * middle, 2 * middle + across, 2 * middle - across, 9 * middle]
     boxes = [(tuple(p + apex - 0.01), tuple(p + apex + 0.01)) for p in places]
-    beam = make_beam(apex, low, high, beam_margin(apex, NO_OFFSET))
+    beam = make_beam(apex, apex, low, high, beam_margin(apex, NO_OFFSET))
     assert children_met(node_of(boxes), 0, beam, 0.0, 3.0) == 0b00001
     assert children_met(node_of(boxes), 1, beam, 0.0, np.inf) == 0b11110001
     assert children_met(node_of(boxes), 0, beam, 3.0, np.inf) == 0b11110000
@@ -107,6 +123,6 @@ def test_boxes_that_are_clearly_away_are_left_out(apex: Vec, low: Vec, high: Vec
 def test_sides_of_an_empty_child_are_not_met() -> None:
     nothing = (3e38, 3e38, 3e38), (-3e38, -3e38, -3e38)
     for low, high in AWAY:
-        beam = make_beam(NO_OFFSET, low, high, beam_margin(NO_OFFSET, NO_OFFSET))
+        beam = make_beam(NO_OFFSET, NO_OFFSET, low, high, beam_margin(NO_OFFSET, NO_OFFSET))
         assert children_met(node_of([nothing]), 0, beam, 0.0, np.inf) == 0
     assert len(node_of([nothing]).sides) == 2 * SIDES

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from vtray.camera import CameraFrame, camera_axes, camera_ray
+from vtray.camera import CameraFrame, camera_axes, camera_ray, upright_axes
+from vtray.compiled import uncompiled
 from vtray.scene import Direction
 from vtray.scene_arrays import unit_vector
 
@@ -57,6 +58,48 @@ def test_axes_are_turned_by_the_smallest_rotation(normal: tuple[float, float, fl
     axes = frame(normal)
     rotation = smallest_rotation(axes[2])
     np.testing.assert_allclose(axes, (rotation @ np.eye(3)).T, atol=1e-14)
+
+
+@pytest.mark.parametrize("angle", [1.0, 1e-3, 1e-6, 2e-9])
+@pytest.mark.parametrize("normal", NORMALS)
+def test_upright_axes_are_square_however_near_up_is(
+    normal: tuple[float, float, float], angle: float
+) -> None:
+    forward = np.array(unit_vector(Direction(*normal)))
+    for beside in np.random.default_rng(1).normal(size=(20, 3)):
+        up = forward + angle * np.cross(forward, beside) / np.linalg.norm(beside)
+        up /= np.linalg.norm(up)
+        right, down = uncompiled(upright_axes)(tuple(forward.tolist()), tuple(up.tolist()))
+        axes = np.array([right, down, forward])
+        np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=8e-16)
+        assert np.linalg.det(axes) == pytest.approx(1)
+        assert np.dot(down, up) < 0
+
+
+def test_upright_axes_by_hand() -> None:
+    look, up = (0.0, 0.0, 1.0), (0.0, 0.6, 0.8)
+    assert uncompiled(upright_axes)(look, up) == ((-1.0, 0.0, 0.0), (0.0, -1.0, 0.0))
+    # Down is y, as without up: so the axes are, too.
+    assert uncompiled(upright_axes)(look, (0.0, -1.0, 0.0)) == ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+
+
+def test_rays_of_an_orthographic_view_start_at_the_pixels() -> None:
+    camera = CameraFrame(
+        eye=(0.0, 0.0, -10.0),
+        right=(0.6, 0.8, 0.0),
+        down=(-0.8, 0.6, 0.0),
+        forward=(0.0, 0.0, 1.0),
+        focus=10.0,
+        pixel=(0.0, 0.0, 1.0),
+        width=5,
+        height=4,
+        shift=(0.5, 0.25),
+        extent=3.5,
+    )
+    for column, row, x, y in [(0, 0, -1.25, -0.5), (4, 3, 0.75, 0.25), (2.5, 1.75, 0, -0.0625)]:
+        offset, direction = camera_ray(camera, column, row)
+        assert direction == (0.0, 0.0, 1.0)
+        assert offset == pytest.approx((0.6 * x - 0.8 * y, 0.8 * x + 0.6 * y, 0), abs=1e-16)
 
 
 def test_rays_go_through_the_pixels() -> None:

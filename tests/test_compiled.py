@@ -1,6 +1,7 @@
 """Compiled kernels are kept, found again, and replaced when they do not fit."""
 
 import hashlib
+import importlib
 import os
 import shutil
 import signal
@@ -91,11 +92,15 @@ def test_picture_is_the_same_on_a_processor_without_wide_vectors(tmp_path: Path)
     assert (tmp_path / "this.png").read_bytes() == (tmp_path / "plain.png").read_bytes()
 
 
-def test_interrupt_does_not_wait_for_the_compiler(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("library", ["math", "polars"])  # Polars handles the signal, too
+def test_interrupt_does_not_wait_for_the_compiler(
+    library: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    importlib.import_module(library)
     ended = threading.Event()
 
     def long_work_in_c(*_: object) -> None:
-        hashlib.pbkdf2_hmac("sha256", b"", b"", 3_000_000)
+        hashlib.pbkdf2_hmac("sha256", b"", b"", 4_000_000)
         ended.set()
 
     monkeypatch.setattr("vtray.compiled.compile_object", long_work_in_c)

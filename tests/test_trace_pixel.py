@@ -111,25 +111,17 @@ def test_random_scenes_agree_with_the_picture_and_the_oracle(
     assert total == tree.light == tuple(image.linear[y, x])
     assert tree.exposed is not None
     assert tree.exposed.value == tuple(image.pixels[y, x])
-    with np.errstate(all="ignore"):
-        other = oracle._Render(document, np.float64)
-        rays = other.rays()
-        distance, number = (found[y, x] for found in other.nearest(rays))
-        assert tree.direction == tuple(rays[y, x])
-        if number < 0:
-            assert tree.hit is None
-            return
-        assert tree.hit is not None
-        item = other.objects[number]
-        assert document["objects"][tree.hit.surface.object] == item
-        assert tree.hit.distance == pytest.approx(distance, rel=1e-12)
-        point = other.eye + distance * rays[y, x]
-        error = other.magnitude(item) + other.focus + distance
-        for ray, source in zip(tree.lights, document["lights"], strict=True):
-            place = other.place(source["location"])
-            blocked = other.blocked(point[None], np.array([error]), place)[0]
-            if ray.cosine > 0:
-                assert (ray.blocker is not None) == blocked
+    seen = oracle.look(document, x, y)
+    if seen.ids < 0:
+        assert tree.hit is None
+        return
+    assert tree.hit is not None
+    assert tree.hit.surface.object == seen.ids
+    assert tree.hit.distance == pytest.approx(seen.depth, rel=1e-12)
+    assert tree.direction == tuple(oracle.directions(document, x, y))
+    for ray, blocked in zip(tree.lights, seen.shadows, strict=True):
+        if ray.cosine > 0:
+            assert (ray.blocker is not None) == blocked
 
 
 @pytest.mark.parametrize("block", blocks("output").items(), ids=["first"])

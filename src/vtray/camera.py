@@ -68,10 +68,12 @@ def upright_axes(forward: Vec, up: Vec) -> tuple[Vec, Vec]:
 
     Down is opposite to that part of the unit vector `up` that is square to `forward`.
     """
-    along = dot(up, forward)
-    upward = sub(up, scale(along, forward))
-    length = math.sqrt(dot(upward, upward))
-    down = -upward[0] / length, -upward[1] / length, -upward[2] / length
+    down = -up[0], -up[1], -up[2]
+    # Twice: near `forward`, rounding leaves a part along it the first time.
+    for _ in range(2):
+        across = sub(down, scale(dot(down, forward), forward))
+        length = math.sqrt(dot(across, across))
+        down = across[0] / length, across[1] / length, across[2] / length
     return cross(down, forward), down
 
 

@@ -36,6 +36,8 @@ Value = TypeVar("Value")
 
 _OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "_nrt": False}
 
+_POLL_SECONDS = 0.05
+
 _COMPILING = threading.RLock()
 _loading = [0.0]
 
@@ -157,7 +159,7 @@ def _in_thread(function: Callable[..., Value], *arguments: object) -> Value:
     LLVM calls back into Python when it is done with its long work. In the main thread, Python would
     raise KeyboardInterrupt there, after seconds, and it would be lost.
     """
-    from concurrent.futures import Future
+    from concurrent.futures import Future, wait
 
     outcome: Future[Value] = Future()
 
@@ -168,6 +170,9 @@ def _in_thread(function: Callable[..., Value], *arguments: object) -> Value:
             outcome.set_exception(error)
 
     threading.Thread(target=work, daemon=True).start()
+    # Once Polars is imported, Ctrl-C does not end a wait any more: look from time to time.
+    while not wait((outcome,), _POLL_SECONDS).done:
+        pass
     return outcome.result()
 
 
