@@ -7,8 +7,8 @@ import pytest
 
 from vtray.camera import CameraFrame, camera_axes, camera_ray, upright_axes
 from vtray.compiled import uncompiled
+from vtray.directions import unit
 from vtray.scene import Direction
-from vtray.scene_arrays import unit_vector
 
 NORMALS = [
     (0, 0, 1),
@@ -27,7 +27,7 @@ NORMALS = [
 
 def frame(normal: tuple[float, float, float]) -> np.ndarray:
     """Return the axes as rows of a matrix."""
-    forward = unit_vector(Direction(*normal))
+    forward = unit(Direction(*normal))
     return np.array([*camera_axes(forward), forward])
 
 
@@ -65,7 +65,7 @@ def test_axes_are_turned_by_the_smallest_rotation(normal: tuple[float, float, fl
 def test_upright_axes_are_square_however_near_up_is(
     normal: tuple[float, float, float], angle: float
 ) -> None:
-    forward = np.array(unit_vector(Direction(*normal)))
+    forward = np.array(unit(Direction(*normal)))
     for beside in np.random.default_rng(1).normal(size=(20, 3)):
         up = forward + angle * np.cross(forward, beside) / np.linalg.norm(beside)
         up /= np.linalg.norm(up)

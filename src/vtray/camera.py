@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from vtray.compiled import device
-from vtray.vector import Vec, add, cross, dot, scale, sub
+from vtray.vector import Vec, add, dot, scale
 
 
 class CameraFrame(NamedTuple):
@@ -61,20 +61,6 @@ def camera_axes(forward: Vec) -> tuple[Vec, Vec]:
         return (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
     a, b, turn = x / side, y / side, 1.0 - z
     return (1.0 - a * a * turn, -a * b * turn, -x), (-a * b * turn, 1.0 - b * b * turn, -y)
-
-
-def upright_axes(forward: Vec, up: Vec) -> tuple[Vec, Vec]:
-    """Return the axes right and down for a camera that looks along the unit vector `forward`.
-
-    Down is opposite to that part of the unit vector `up` that is square to `forward`.
-    """
-    down = -up[0], -up[1], -up[2]
-    # Twice: near `forward`, rounding leaves a part along it the first time.
-    for _ in range(2):
-        across = sub(down, scale(dot(down, forward), forward))
-        length = math.sqrt(dot(across, across))
-        down = across[0] / length, across[1] / length, across[2] / length
-    return cross(down, forward), down
 
 
 @device

@@ -50,6 +50,6 @@ def view_axes(forward: Vec, up: Vec) -> tuple[Vec, Vec]:
     down = along((0.0, 0.0, 0.0), -1.0, up)
     for _ in range(2):
         down = along(down, -dot(down, forward), forward)
-        length = math.hypot(*down)
+        length = math.sqrt(dot(down, down))
         down = (down[0] / length, down[1] / length, down[2] / length)
     return cross(down, forward), down

@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 
 from vtray.acceleration import Acceleration
 from vtray.bvh import Bvh, no_bvh
-from vtray.camera import CameraFrame, camera_axes, upright_axes
-from vtray.compiled import device, uncompiled
-from vtray.scene import Camera, Direction, Plane, Scene, Vector
+from vtray.camera import CameraFrame, camera_axes
+from vtray.compiled import device
+from vtray.directions import view_axes
+from vtray.scene import Camera, Plane, Scene, Vector
 from vtray.sphere_arrays import SphereArrays
 from vtray.vector import Vec
 
@@ -127,15 +128,6 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
     return Packed(arrays, unit)
 
 
-def unit_vector(vector: Direction) -> Vec:
-    """Return a vector of any length, not all zero, scaled to length 1."""
-    # A power of two first: squares of tiny and of huge numbers would be lost.
-    exponent = max(_exponent(vector.x), _exponent(vector.y), _exponent(vector.z))
-    x, y, z = (math.ldexp(value, -exponent) for value in (vector.x, vector.y, vector.z))
-    length = math.sqrt(x * x + y * y + z * z)
-    return x / length, y / length, z / length
-
-
 def _exponent(value: float) -> int:
     """Return the smallest e with abs(value) < 2**e, very low for 0."""
     return math.frexp(value)[1] if value else -2000
@@ -163,11 +155,11 @@ def _camera_exponent(camera: Camera) -> int:
 
 def _pack_camera(camera: Camera, unit: float) -> CameraFrame:
     """Return the camera's frame, lengths in units."""
-    forward = unit_vector(camera.normal)
+    forward = unit(camera.normal)
     if camera.up is None:
         right, down = camera_axes(forward)
     else:
-        right, down = uncompiled(upright_axes)(forward, unit_vector(camera.up))
+        right, down = view_axes(forward, unit(camera.up))
     focus = camera.focus / unit
     width, height = camera.resolution
     if camera.projection == "orthographic":
@@ -213,7 +205,7 @@ def _pack_materials(kept: Acceleration, planes: list[Plane]) -> Materials:
 def _pack_planes(planes: list[Plane], origin: Floats, unit: float, camera: CameraFrame) -> Planes:
     """Return the arrays of all planes."""
     points = _points([plane.center for plane in planes], unit) - origin
-    normals = np.array([unit_vector(plane.normal) for plane in planes], np.float64).reshape(-1, 3)
+    normals = np.array([unit(plane.normal) for plane in planes], np.float64).reshape(-1, 3)
     x, y, z = _columns(normals)
     from_eye = points - np.array(camera.eye)
     return Planes(
