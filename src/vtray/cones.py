@@ -2,8 +2,8 @@
 
 The line of the ray from ``o`` along the unit vector ``d`` passes a centre ``c`` at the distance
 ``|(c - o) x d|``. For another start ``p`` and any vector ``a`` that is at least
-``|(c - p) x a| - |o - p| - |c - o| * |d - a|``: so one start and one axis speak for a group of rays,
-from any camera.
+``|(c - p) x a| - |o - p| - |c - o| * |d - a|``: so one start and one axis speak for a group of
+rays, from any camera.
 """
 
 import math

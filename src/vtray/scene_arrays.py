@@ -18,6 +18,7 @@ from vtray.acceleration import Acceleration
 from vtray.bvh import Bvh, no_bvh
 from vtray.camera import CameraFrame, camera_axes
 from vtray.compiled import device
+from vtray.directions import unit as unit_vector
 from vtray.directions import view_axes
 from vtray.scene import Camera, Plane, Scene, Vector
 from vtray.sphere_arrays import SphereArrays
@@ -155,11 +156,11 @@ def _camera_exponent(camera: Camera) -> int:
 
 def _pack_camera(camera: Camera, unit: float) -> CameraFrame:
     """Return the camera's frame, lengths in units."""
-    forward = unit(camera.normal)
+    forward = unit_vector(camera.normal)
     if camera.up is None:
         right, down = camera_axes(forward)
     else:
-        right, down = view_axes(forward, unit(camera.up))
+        right, down = view_axes(forward, unit_vector(camera.up))
     focus = camera.focus / unit
     width, height = camera.resolution
     if camera.projection == "orthographic":
@@ -205,7 +206,7 @@ def _pack_materials(kept: Acceleration, planes: list[Plane]) -> Materials:
 def _pack_planes(planes: list[Plane], origin: Floats, unit: float, camera: CameraFrame) -> Planes:
     """Return the arrays of all planes."""
     points = _points([plane.center for plane in planes], unit) - origin
-    normals = np.array([unit(plane.normal) for plane in planes], np.float64).reshape(-1, 3)
+    normals = np.array([unit_vector(plane.normal) for plane in planes], np.float64).reshape(-1, 3)
     x, y, z = _columns(normals)
     from_eye = points - np.array(camera.eye)
     return Planes(
