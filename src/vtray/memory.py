@@ -7,6 +7,9 @@ from vtray.errors import RenderError
 BYTES_PER_PIXEL = 3 * 8 + 3 + 4
 """Film, pixels, and the copy that the image encoder makes."""
 
+BYTES_PER_SAMPLED_PIXEL = BYTES_PER_PIXEL + 8 + 4 + 8 + 1 + 1
+"""The same with coverage, and what says which pixels get samples."""
+
 BYTES_PER_SPHERE = 80
 """The hierarchy, and what it takes to build it, beside the arrays that were given."""
 
@@ -14,10 +17,17 @@ ALWAYS_FITS = 2**28
 """What needs fewer bytes is not looked at: asking takes longer than it does."""
 
 
-def check_memory(width: int, height: int) -> None:
+def check_memory(width: int, height: int, samples: int = 1) -> None:
     """Raise RenderError if an image of this size cannot be held in memory."""
     what = f"camera.size: an image of {width} x {height} pixels needs"
-    _check(width * height * BYTES_PER_PIXEL, what, "a smaller size")
+    bytes_per_pixel = BYTES_PER_PIXEL if samples == 1 else BYTES_PER_SAMPLED_PIXEL
+    _check(width * height * bytes_per_pixel, what, "a smaller size")
+
+
+def check_memory_of_lights(rays: int, lights: int) -> None:
+    """Raise RenderError if the lights of so many rays cannot be kept in memory."""
+    what = f"keep_lights: {lights} lights for {rays} rays need"
+    _check(rays * (8 * lights + 5), what, "a smaller size, fewer samples or fewer lights")
 
 
 def check_memory_of_spheres(count: int) -> None:

@@ -112,7 +112,8 @@ def render(
         background=background,
     )
     shown = _snapshot(scene, _camera(scene, settings))
-    check_memory(*map(int, shown.camera.size))
+    width, height = shown.camera.size
+    check_memory(int(width), int(height), int(settings.samples))
     check_brightness(shown.lights)
     clock = Stopwatch()
     loaded = loading_seconds()

@@ -13,6 +13,7 @@ from vtray.film import Film, new_film
 from vtray.filters import FILTERS
 from vtray.integrator import trace_tile
 from vtray.kept_light import KeptLight, new_kept_light
+from vtray.memory import check_memory_of_lights
 from vtray.packet import new_packet
 from vtray.pool import Progress, run_tasks
 from vtray.sampling import Sampling, filter_footprint, filter_samples, middle_rays
@@ -77,6 +78,8 @@ class Tracer:
         self._threads = threads
         self._tile = tile
         self._progress = progress
+        self._passes = 1
+        self._done = 0
 
     def surfaces(self) -> Film:
         """Return distance, normal and primitive of the middle rays."""
@@ -95,6 +98,7 @@ class Tracer:
         """
         if settings.samples == 1:
             return self._middles(middle_rays(), keep, "linear")
+        self._passes = 2
         footprint = filter_footprint(settings, self._scene.camera)
         wanted = "linear", "primitive", "shadows", "rims"
         found = self._middles(middle_rays(footprint), keep, *wanted)
@@ -116,10 +120,11 @@ class Tracer:
 
     def _keep(self, marks: NDArray[np.bool_], samples: int) -> KeptLight:
         """Return where to keep what the samples of the marked pixels meet."""
-        count = int(np.count_nonzero(marks)) * samples
+        count, lights = int(np.count_nonzero(marks)) * samples, len(self._scene.lights.x)
+        check_memory_of_lights(count, lights)
         first = np.cumsum(marks, dtype=np.int64).reshape(marks.shape)
         first = np.where(marks, (first - 1) * samples, -1)
-        return new_kept_light(first, count, len(self._scene.lights.x))
+        return new_kept_light(first, count, lights)
 
     def _mark(self, film: Film, settings: RenderSettings) -> tuple[NDArray[np.bool_], float]:
         """Return which pixels need samples, and the largest channel of the others."""
@@ -153,8 +158,15 @@ class Tracer:
             stop[0] = True
 
         tiles = split_into_tiles(*self._size, self._tile)
-        run_tasks(tiles, new_worker, self._threads, stop=hurry, progress=self._progress)
+        progress = self._progress_of(len(tiles))
+        run_tasks(tiles, new_worker, self._threads, stop=hurry, progress=progress)
         return Traced(film, max(peak for peak, _ in results), sum(rays for _, rays in results))
+
+    def _progress_of(self, tiles: int) -> Progress | None:
+        """Return what shows the progress of a pass as a part of all passes."""
+        tell, before, passes = self._progress, self._done, self._passes
+        self._done += tiles
+        return tell and (lambda done, _: tell(before + done, passes * tiles))
 
 
 def compile_kernels(scene: SceneArrays) -> None:
