@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.errors import RenderError, SceneError
+from vtray.errors import RenderError
 from vtray.exposure import check_brightness, develop, put_on_background, white_of
 from vtray.fingerprint import scene_hash
 from vtray.image_file import write_picture
@@ -18,9 +18,9 @@ from vtray.image_format import check_format
 from vtray.look import Surfaces
 from vtray.png_file import write_8_bits
 from vtray.provenance import describe
-from vtray.recoloring import recolored
+from vtray.recoloring import recolored, relit
 from vtray.relighting import Relighting
-from vtray.scene import Light, Scene
+from vtray.scene import Scene
 from vtray.settings import RenderSettings
 
 if TYPE_CHECKING:
@@ -83,6 +83,10 @@ class Image:
         self._threads = threads
         self._original = original or scene
         self.locked = locked
+
+    def __repr__(self) -> str:
+        height, width = self.linear.shape[:2]
+        return f"<Image of {width} x {height} pixels, {self.settings}>"
 
     @property
     def pixels(self) -> NDArray[np.uint8]:
@@ -178,15 +182,8 @@ class Image:
         SceneError
             An intensity is wrong, or there are too many or too few.
         """
-        lights = self.scene.lights
-        if len(intensities) != len(lights):
-            message = (
-                f"intensities: expected {len(lights)}, one for each light, got {len(intensities)}"
-            )
-            raise SceneError(message)
-        pairs = zip(lights, intensities, strict=True)
-        changed = [Light(light.location, intensity) for light, intensity in pairs]
-        scene = Scene(self.scene.camera, changed, self.scene.objects, self.scene.render)
+        lights = relit(self.scene.lights, intensities)
+        scene = Scene(self.scene.camera, lights, self.scene.objects, self.scene.render)
         return self._relit(scene, lock)
 
     def recolor(

@@ -1,4 +1,4 @@
-"""Objects with other colours."""
+"""Objects with other colours, and lights with other intensities."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -7,7 +7,7 @@ import msgspec
 
 from vtray.color_arrays import color_array
 from vtray.errors import SceneError
-from vtray.objects import Object
+from vtray.objects import Light, Object
 from vtray.spheres import Spheres, from_arrays
 from vtray.triples import Color
 
@@ -43,8 +43,8 @@ def recolored(
     SceneError
         If there is no such object, or a colour is not right.
     """
-    if not -len(objects) <= index < len(objects):
-        message = f"recolor: index: expected a place from 0 to {len(objects) - 1}, got {index}"
+    if not isinstance(index, int) or not -len(objects) <= index < len(objects):
+        message = f"recolor: index: expected a place from 0 to {len(objects) - 1}, got {index!r}"
         raise SceneError(message)
     changed = list(objects)
     item = changed[index]
@@ -58,4 +58,27 @@ def recolored(
     else:
         one = Color(*colors.reshape(3).tolist())
         changed[index] = msgspec.structs.replace(item, color=one)
+    return changed
+
+
+def relit(lights: Sequence[Light], intensities: Sequence[float]) -> list[Light]:
+    """Return lights with other intensities.
+
+    Raises
+    ------
+    SceneError
+        If an intensity is not right, or there are too many or too few.
+    """
+    if len(intensities) != len(lights):
+        words = f"{len(lights)} numbers, one for each light"
+        message = f"relight: intensities: expected {words}, got {len(intensities)}"
+        raise SceneError(message)
+    changed = []
+    for k, (light, intensity) in enumerate(zip(lights, intensities, strict=True)):
+        try:
+            changed.append(Light(light.location, intensity))
+        except SceneError as problem:
+            words = str(problem).partition(": ")[2]
+            message = f"relight: intensities[{k}]: {words}"
+            raise SceneError(message) from None
     return changed

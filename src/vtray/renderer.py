@@ -97,9 +97,14 @@ def render(
         The image does not fit into memory, or its light is too bright for a double.
     ValueError
         `threads` or `tile` is not an integer of at least 1.
+    TypeError
+        `lock` is no picture.
     KeyboardInterrupt
         After Ctrl-C; all threads have ended by then.
     """
+    if lock is not None and not hasattr(lock, "white"):
+        message = f"lock: expected an Image, got {lock!r}"
+        raise TypeError(message)
     threads = _count("threads", threads if threads is not None else available_cores())
     tile = _count("tile", tile)
     scene.check()
@@ -122,7 +127,7 @@ def render(
     loading = loading_seconds() - loaded
     packed = pack(shown, kept)
     clock.lap("pack")
-    compile_kernels(packed.arrays)
+    compile_kernels(packed.arrays, settings)
     warm_up()
     clock.lap("compile")
     tracer = Tracer(packed.arrays, threads, tile, _step_of(progress, "trace"))

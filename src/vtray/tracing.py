@@ -169,8 +169,10 @@ class Tracer:
         return tell and (lambda done, _: tell(before + done, passes * tiles))
 
 
-def compile_kernels(scene: SceneArrays) -> None:
+def compile_kernels(scene: SceneArrays, settings: RenderSettings) -> None:
     """Compile what is needed to trace a scene, or load it from disk."""
     stop = np.zeros(1, np.bool_)
     packet, work = new_packet(), new_workspace(scene)
     trace_tile(scene, middle_rays(), 0, 0, 0, 0, new_film(0, 0), packet, work, stop)
+    if settings.samples > 1:
+        mark_rows(new_film(0, 0), 0, 0, 0, np.zeros((0, 0), np.bool_))
