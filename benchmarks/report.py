@@ -3,9 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+import antialiasing
 import arrays_report
 import same_picture
 import vtray_process
+from antialiasing import samples_table
 from arrays_report import arrays_table
 from cube_report import (
     cube_table,
@@ -17,7 +19,7 @@ from cube_report import (
 from from_arrays import ArraysRow
 from measure import Timing, in_seconds
 from peers import CUBE_PEERS, PEERS
-from rendering import Row
+from rendering import THREADS, Row
 from tables import ratio, table
 
 BEGIN = "<!-- benchmark:begin -->"
@@ -46,6 +48,8 @@ class Results:
         As `threads`, for this cube.
     scaling
         For numbers of spheres in the cube, the times of all renderers with one thread.
+    samples
+        For numbers of samples and of threads, vtray's times for this cube.
     arrays
         As `cube`, from arrays in memory to a PNG.
     """
@@ -58,6 +62,7 @@ class Results:
     cube: dict[str, list[Row]] = field(default_factory=dict)
     cube_threads: dict[int, Timing] = field(default_factory=dict)
     scaling: dict[int, list[Row]] = field(default_factory=dict)
+    samples: dict[str, Timing] = field(default_factory=dict)
     arrays: dict[str, list[ArraysRow]] = field(default_factory=dict)
 
 
@@ -82,6 +87,9 @@ def full_report(results: Results) -> str:
         parts += ["The cube, with vtray.", cube_threads_table(results.cube_threads)]
     if results.cube:
         parts += ["## A cube of many spheres", cube_table(results.cube), _cube_conditions()]
+    if results.samples:
+        rows = samples_table(results.samples, THREADS)
+        parts += ["## Antialiasing", "The cube, with vtray.", rows, antialiasing.NOTE]
     if results.arrays:
         parts += ["## From arrays to a PNG", arrays_table(results.arrays), arrays_report.NOTE]
     if results.scaling:

@@ -14,6 +14,7 @@ import tempfile
 from pathlib import Path
 
 import startup
+from antialiasing import time_samples
 from cube import SIDE, write_cube
 from from_arrays import time_arrays
 from machine import cores, machine
@@ -27,7 +28,7 @@ HERE = Path(__file__).resolve().parent
 RESULTS = HERE / "results.md"
 README = HERE.parent / "README.md"
 PLOT = HERE.parent / "docs" / "images" / "scaling.png"
-PARTS = ("startup", *SCENES, "threads", "cube", "arrays", "scaling")
+PARTS = ("startup", *SCENES, "threads", "cube", "samples", "arrays", "scaling")
 REPEATS, QUICK_REPEATS = 5, 2
 QUICK_SIDE = 256
 CUBE, QUICK_CUBE = 1_000_000, 10_000
@@ -85,6 +86,10 @@ def measure(folder: Path, parts: list[str], *, quick: bool) -> Results:
         title = f"{spheres:,} spheres in a cube over a floor, 1 light, {side} x {side}"
         _say(title)
         results.cube[title] = time_cube(spheres, side, CUBE_PEERS, THREADS, folder, repeats)
+    if "samples" in parts:
+        _say("samples")
+        scene = write_cube(spheres, folder, side)
+        results.samples = time_samples(scene, THREADS, repeats)
     if "arrays" in parts:
         title = f"{spheres:,} spheres in a cube, 1 light, {side} x {side}"
         _say(f"from arrays: {title}")

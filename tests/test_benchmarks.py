@@ -461,6 +461,22 @@ def test_peer_that_is_installed_shows_what_vtray_shows(
         assert 0 < run.phases.trace < 60
 
 
+def test_report_has_the_times_of_samples() -> None:
+    samples, measure = module("antialiasing"), module("measure")
+
+    def timing(seconds: float) -> Any:
+        return measure.Timing(measure.Spread((0.2 + seconds,)), measure.Spread((seconds,)))
+
+    found = results()
+    found.samples = {
+        samples.job_name(count, threads): timing(0.1 * count / threads)
+        for count in samples.SAMPLES
+        for threads in module("rendering").THREADS
+    }
+    report = module("report").full_report(found)
+    assert "| 16 | 2 | 0.800 | 1.00 | 16 | 4.00 |" in report
+
+
 def test_report_has_the_times_from_arrays() -> None:
     arrays, measure = module("from_arrays"), module("measure")
 
