@@ -57,7 +57,8 @@ def pixel_keys(column: int, row: int, purpose: int, seed: int) -> tuple[int, int
     w ^= w >> 16
     x = x + y * w & BITS
     y = y + z * x & BITS
-    return x, y
+    # The lowest bits, which scrambling makes the first digits, are alike for pixels side by side.
+    return x ^ x >> 16, y ^ y >> 16
 
 
 @device
