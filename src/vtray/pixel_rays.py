@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, SupportsIndex
 import numpy as np
 
 from vtray.acceleration import Acceleration, accelerate, locate
+from vtray.compiled import uncompiled
 from vtray.errors import RenderError
 from vtray.plain import NOTHING
 from vtray.plain import trace_pixel as trace_plainly
@@ -74,7 +75,7 @@ def trace_rays(
     cosines = np.zeros(len(scene.lights))
     blockers = np.full(len(scene.lights), NOTHING)
     traced = trace_plainly(packed.arrays, column, row, cosines, blockers)
-    origin = add(packed.arrays.camera.eye, traced.offset)
+    origin = uncompiled(add)(packed.arrays.camera.eye, traced.offset)
     hit, lights = None, []
     if traced.primitive != NOTHING:
         hit = Hit(
