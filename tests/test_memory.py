@@ -50,14 +50,16 @@ scene = vtray.loads(sys.argv[1])
 process = psutil.Process()
 for k in range(1001):
     vtray.render(scene, threads=2)
-    if k % 500 == 0:
+    if k % 100 == 0:
         gc.collect()
         print(process.memory_info().rss, process.num_fds(), threading.active_count())
 """
     numbers = run(script, json.dumps(document))
-    (_, early, late) = (numbers[k : k + 3] for k in range(0, 9, 3))
-    assert late[0] - early[0] < 2_000_000  # a film of this scene has 70 kB
-    assert late[1:] == early[1:]
+    rows = [numbers[k : k + 3] for k in range(3, 33, 3)]  # without the first render
+    early, late = rows[:5], rows[5:]
+    # The least of several: the allocator goes up and down by 2 MB. A film of this scene has 70 kB.
+    assert min(row[0] for row in late) - min(row[0] for row in early) < 2_000_000
+    assert late[-1][1:] == early[0][1:]
 
 
 def test_gigabytes_are_readable() -> None:
