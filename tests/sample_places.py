@@ -5,7 +5,7 @@ of a filter is vtray's.
 """
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -27,13 +27,11 @@ def sample_places(
     columns: np.ndarray, rows: np.ndarray, samples: int, filter_name: str, seed: int = 0
 ) -> Places:
     """Return the places of the samples of some pixels, given as two arrays of the same shape."""
-    numbers = sobol(samples)
-    keys = np.array(
-        [pixel_keys(int(c), int(r), 0, seed) for c, r in zip(columns.flat, rows.flat, strict=True)]
-    )
-    shares = np.array(
-        [[owen(n, int(k)) for n in numbers[axis]] for two in keys for axis, k in enumerate(two)]
-    ).reshape(*columns.shape, 2, samples)
+    pixels = zip(columns.flat, rows.flat, strict=True)
+    keys = np.array([pixel_keys(int(x), int(y), 0, seed) for x, y in pixels], np.uint64)
+    keys = keys.reshape(-1, 2)
+    shares = owen(np.array(sobol(samples), np.uint64), keys[..., None])
+    shares = shares.reshape(*columns.shape, 2, samples)
     table = filter_places(filter_name)
     steps = len(table) - 2
     # Between two entries, in the order of operations of vtray.
@@ -79,19 +77,19 @@ def from_digits(digits: list[int]) -> int:
     return int("".join(map(str, digits)), 2)
 
 
-def reversed_bits(number: int) -> int:
-    """Return an integer of 32 bits with their order reversed."""
-    return int(f"{number:032b}"[::-1], 2)
+def reversed_bits(number: Any) -> Any:
+    """Return integers of 32 bits with their order reversed."""
+    return sum((number >> k & 1) << (31 - k) for k in range(32))
 
 
-def owen(point: int, key: int) -> float:
+def owen(point: Any, key: Any) -> Any:
     """Return a coordinate after Owen's scrambling, by the hash of Laine, Karras and Vegdahl."""
     bits = reversed_bits(point)
-    bits ^= bits * 0x3D20ADEA % WORD
+    bits = bits ^ bits * 0x3D20ADEA % WORD
     bits = (bits + key) % WORD
     bits = bits * (key >> 16 | 1) % WORD
-    bits ^= bits * 0x05526C56 % WORD
-    bits ^= bits * 0x53A22864 % WORD
+    bits = bits ^ bits * 0x05526C56 % WORD
+    bits = bits ^ bits * 0x53A22864 % WORD
     return reversed_bits(bits) / WORD
 
 

@@ -61,8 +61,10 @@ def test_equals_oracle_for_orthographic_pixels_of_any_size(seed: int, pixel: flo
 @pytest.mark.parametrize("few", [ALWAYS, NEVER])
 @pytest.mark.parametrize("view", [{}, SLANTED])
 def test_ids_count_the_spheres_of_each_object(view: dict, few: int) -> None:
-    document = crowd(5, 150 if JIT else 12, **view)
-    document["camera"].update(focus=1e4, size=[51, 35] if JIT else [9, 6])
+    document = crowd(14, 150 if JIT else 60, **view)
+    pixel = document["camera"]["resolution"][0]
+    if not JIT:
+        document["camera"].update(size=[12, 8], resolution=[5 * pixel, 7 * pixel])
     world = load(document)
     spheres = [item for item in world.objects if isinstance(item, vtray.Sphere)]
     planes = [item for item in world.objects if isinstance(item, vtray.Plane)]

@@ -1,5 +1,6 @@
 """The film: what is recorded of each pixel, and how the samples of a pixel become its light."""
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -197,7 +198,9 @@ def _write_rays(
     if is_wanted(film.rims):
         for lane in range(end - begin):
             row, column = _place(block, work.pixels[begin + lane])
-            film.rims[row, column] = packet[RIM + lane] <= packet[DISTANCE + lane]
+            rim = packet[RIM + lane]
+            # Where neither is, both are infinite.
+            film.rims[row, column] = (rim <= packet[DISTANCE + lane]) & (rim < math.inf)
 
 
 @device
