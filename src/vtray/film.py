@@ -27,7 +27,7 @@ from vtray.packet import (
     store,
 )
 from vtray.vector import add, scale
-from vtray.workspace import Workspace
+from vtray.workspace import Pixels, Sums
 
 
 class Film(NamedTuple):
@@ -97,43 +97,43 @@ def keep_rays(
     end: int,
     first: int,
     last: int,
-    work: Workspace,
+    pixels: Pixels,
     kept: KeptLight,
 ) -> None:
     """Keep what the samples from `first` to before `last` of pixels of a block's list hit."""
     samples = last - first
     for lane in range((end - begin) * samples):
-        row, column = _place(block, work.pixels[begin + lane // samples])
+        row, column = _place(block, pixels[begin + lane // samples])
         keep_ray(packet, lane, kept.first[row, column] + first + lane % samples, kept)
 
 
 @device
-def clear_sums(work: Workspace, pixels: int) -> None:
+def clear_sums(sums: Sums, pixels: int) -> None:
     """Start to add up the samples of some pixels."""
     for k in range(pixels):
-        work.light[k] = 0.0
-        work.light[k + LANES] = 0.0
-        work.light[k + 2 * LANES] = 0.0
-        work.covered[k] = 0.0
-        work.weight[k] = 0.0
+        sums.light[k] = 0.0
+        sums.light[k + LANES] = 0.0
+        sums.light[k + 2 * LANES] = 0.0
+        sums.covered[k] = 0.0
+        sums.weight[k] = 0.0
 
 
 @device
-def add_samples(packet: Packet, lanes: int, hits: int, samples: int, work: Workspace) -> None:
+def add_samples(packet: Packet, lanes: int, hits: int, samples: int, sums: Sums) -> None:
     """Add the samples of a packet to their pixels, always in the order of their numbers."""
     _bring_back(packet, lanes, hits)
     for k in range(lanes // samples):
-        light = load(work.light, 0, k)
-        covered = work.covered[k]
-        total = work.weight[k]
+        light = load(sums.light, 0, k)
+        covered = sums.covered[k]
+        total = sums.weight[k]
         for lane in range(k * samples, (k + 1) * samples):
             weight = packet[WEIGHT + lane]
             light = add(light, scale(weight, load(packet, LIGHT, lane)))
             covered += weight if packet[PRIMITIVE + lane] != NO_PRIMITIVE else 0.0
             total += weight
-        store(work.light, 0, k, light)
-        work.covered[k] = covered
-        work.weight[k] = total
+        store(sums.light, 0, k, light)
+        sums.covered[k] = covered
+        sums.weight[k] = total
 
 
 @device
@@ -146,58 +146,60 @@ def _bring_back(packet: Packet, lanes: int, hits: int) -> None:
 
 
 @device
-def write_pixels(block: Block, begin: int, end: int, work: Workspace, film: Film) -> float:
+def write_pixels(
+    block: Block, begin: int, end: int, pixels: Pixels, sums: Sums, film: Film
+) -> float:
     """Write the sums of pixels of a block's list to the film; return their largest channel."""
     peak = 0.0
     for k in range(end - begin):
-        row, column = _place(block, work.pixels[begin + k])
-        weight = work.weight[k]
+        row, column = _place(block, pixels[begin + k])
+        weight = sums.weight[k]
         if is_wanted(film.linear):
-            red, green, blue = load(work.light, 0, k)
+            red, green, blue = load(sums.light, 0, k)
             film.linear[row, column, 0] = red / weight
             film.linear[row, column, 1] = green / weight
             film.linear[row, column, 2] = blue / weight
             peak = max(peak, red / weight, green / weight, blue / weight)
         if is_wanted(film.coverage):
-            film.coverage[row, column] = work.covered[k] / weight
+            film.coverage[row, column] = sums.covered[k] / weight
     return peak
 
 
 @device
 def write_middles(
-    packet: Packet, block: Block, begin: int, end: int, hits: int, work: Workspace, film: Film
+    packet: Packet, block: Block, begin: int, end: int, hits: int, pixels: Pixels, film: Film
 ) -> float:
     """Write what is wanted of pixels with one ray, a lane for each; return the largest channel."""
     peak = 0.0
     if is_wanted(film.linear):
         if hits < end - begin:
-            _clear(block, begin, end, work, film.linear)
-        peak = _write_light(packet, block, begin, hits, work, film.linear)
+            _clear(block, begin, end, pixels, film.linear)
+        peak = _write_light(packet, block, begin, hits, pixels, film.linear)
     if is_wanted(film.normal):
-        _clear(block, begin, end, work, film.normal)
-        _write_normals(packet, block, begin, hits, work, film.normal)
-    _write_rays(packet, block, begin, end, work, film)
+        _clear(block, begin, end, pixels, film.normal)
+        _write_normals(packet, block, begin, hits, pixels, film.normal)
+    _write_rays(packet, block, begin, end, pixels, film)
     if is_wanted(film.shadows):
-        _write_shadows(packet, block, begin, end, hits, work, film.shadows)
+        _write_shadows(packet, block, begin, end, hits, pixels, film.shadows)
     return peak
 
 
 @device
 def _write_rays(
-    packet: Packet, block: Block, begin: int, end: int, work: Workspace, film: Film
+    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, film: Film
 ) -> None:
     """Write what is wanted of the rays themselves."""
     if is_wanted(film.distance):
         for lane in range(end - begin):
-            row, column = _place(block, work.pixels[begin + lane])
+            row, column = _place(block, pixels[begin + lane])
             film.distance[row, column] = packet[DISTANCE + lane]
     if is_wanted(film.primitive):
         for lane in range(end - begin):
-            row, column = _place(block, work.pixels[begin + lane])
+            row, column = _place(block, pixels[begin + lane])
             film.primitive[row, column] = int(packet[PRIMITIVE + lane])
     if is_wanted(film.rims):
         for lane in range(end - begin):
-            row, column = _place(block, work.pixels[begin + lane])
+            row, column = _place(block, pixels[begin + lane])
             rim = packet[RIM + lane]
             # Where neither is, both are infinite.
             film.rims[row, column] = (rim <= packet[DISTANCE + lane]) & (rim < math.inf)
@@ -211,11 +213,11 @@ def _place(block: Block, pixel: int) -> tuple[int, int]:
 
 @device
 def _clear(
-    block: Block, begin: int, end: int, work: Workspace, vectors: NDArray[np.float64]
+    block: Block, begin: int, end: int, pixels: Pixels, vectors: NDArray[np.float64]
 ) -> None:
     """Write zeros for pixels of a block's list."""
     for lane in range(end - begin):
-        row, column = _place(block, work.pixels[begin + lane])
+        row, column = _place(block, pixels[begin + lane])
         vectors[row, column, 0] = 0.0
         vectors[row, column, 1] = 0.0
         vectors[row, column, 2] = 0.0
@@ -227,13 +229,13 @@ def _write_light(
     block: Block,
     begin: int,
     hits: int,
-    work: Workspace,
+    pixels: Pixels,
     linear: NDArray[np.float64],
 ) -> float:
     """Write the light of the hits; return the largest channel."""
     peak = 0.0
     for hit in range(hits):
-        row, column = _place(block, work.pixels[begin + int(packet[SOURCE + hit])])
+        row, column = _place(block, pixels[begin + int(packet[SOURCE + hit])])
         red, green, blue = load(packet, VALUE, hit)
         linear[row, column, 0] = red
         linear[row, column, 1] = green
@@ -248,12 +250,12 @@ def _write_normals(
     block: Block,
     begin: int,
     hits: int,
-    work: Workspace,
+    pixels: Pixels,
     normals: NDArray[np.float64],
 ) -> None:
     """Write the normals of the hits."""
     for hit in range(hits):
-        row, column = _place(block, work.pixels[begin + int(packet[SOURCE + hit])])
+        row, column = _place(block, pixels[begin + int(packet[SOURCE + hit])])
         for axis in range(3):
             normals[row, column, axis] = packet[NORMAL + axis * LANES + hit]
 
@@ -265,13 +267,13 @@ def _write_shadows(
     begin: int,
     end: int,
     hits: int,
-    work: Workspace,
+    pixels: Pixels,
     shadows: NDArray[np.float64],
 ) -> None:
     """Write the numbers of the lights that something keeps from the hits."""
     for lane in range(end - begin):
-        row, column = _place(block, work.pixels[begin + lane])
+        row, column = _place(block, pixels[begin + lane])
         shadows[row, column] = 0.0
     for hit in range(hits):
-        row, column = _place(block, work.pixels[begin + int(packet[SOURCE + hit])])
+        row, column = _place(block, pixels[begin + int(packet[SOURCE + hit])])
         shadows[row, column] = packet[SHADOWS + hit]

@@ -86,7 +86,7 @@ def trace_tile(
     for y in range(top, bottom, BLOCK):
         for x in range(left, right, BLOCK):
             block = Block(x, y, min(BLOCK, right - x), min(BLOCK, bottom - y))
-            pixels = list_pixels(block, sampling.marks, work)
+            pixels = list_pixels(block, sampling.marks, work.curve, work.pixels)
             for begin in range(0, pixels, together):
                 end = min(begin + together, pixels)
                 brightest, cast = _trace_pixels(
@@ -115,21 +115,21 @@ def _trace_pixels(
     rays = 0
     hits = 0
     if sampling.rays > 1:
-        clear_sums(work, end - begin)
+        clear_sums(work.sums, end - begin)
     for first in range(0, sampling.rays, LANES):
         last = min(first + LANES, sampling.rays)
-        lanes = place_samples(packet, block, begin, end, sampling, first, last, work)
+        lanes = place_samples(packet, block, begin, end, sampling, first, last, work.pixels)
         hits = _find_surfaces(packet, lanes, scene, sampling, work)
         if is_kept(film.kept):
-            keep_rays(packet, block, begin, end, first, last, work, film.kept)
+            keep_rays(packet, block, begin, end, first, last, work.pixels, film.kept)
         if is_wanted(film.linear) and hits > 0:
             rays += _light_hits(scene, hits, film, packet, work, stop)
         rays += lanes
         if sampling.rays > 1:
-            add_samples(packet, lanes, hits, last - first, work)
+            add_samples(packet, lanes, hits, last - first, work.sums)
     if sampling.rays > 1:
-        return write_pixels(block, begin, end, work, film), rays
-    return write_middles(packet, block, begin, end, hits, work, film), rays
+        return write_pixels(block, begin, end, work.pixels, work.sums, film), rays
+    return write_middles(packet, block, begin, end, hits, work.pixels, film), rays
 
 
 @device

@@ -13,7 +13,7 @@ from vtray.filters import FILTERS, filter_places, place_in_filter
 from vtray.packet import BLOCK, COLUMN, LANES, ROW, WEIGHT, Block, Packet
 from vtray.sampler import IMAGE_PLACE, pixel_keys, scrambled, sobol_points
 from vtray.settings import RenderSettings
-from vtray.workspace import Workspace
+from vtray.workspace import Pixels
 
 
 class Sampling(NamedTuple):
@@ -76,19 +76,19 @@ def filter_footprint(settings: RenderSettings, camera: CameraFrame) -> Footprint
 
 
 @device
-def list_pixels(block: Block, marks: NDArray[np.bool_], work: Workspace) -> int:
+def list_pixels(block: Block, marks: NDArray[np.bool_], curve: Pixels, pixels: Pixels) -> int:
     """List the pixels of a block that are traced along its curve; return how many there are."""
     count = 0
     if marks.shape[0] == 0 and block.width == BLOCK and block.height == BLOCK:
         for k in range(BLOCK * BLOCK):
-            work.pixels[k] = work.curve[k]
+            pixels[k] = curve[k]
         return BLOCK * BLOCK
     for k in range(BLOCK * BLOCK):
-        pixel = work.curve[k]
+        pixel = curve[k]
         column, row = pixel % BLOCK, pixel // BLOCK
         inside = column < block.width and row < block.height
         if inside and (marks.shape[0] == 0 or marks[block.top + row, block.left + column]):
-            work.pixels[count] = pixel
+            pixels[count] = pixel
             count += 1
     return count
 
@@ -102,7 +102,7 @@ def place_samples(
     sampling: Sampling,
     first: int,
     last: int,
-    work: Workspace,
+    pixels: Pixels,
 ) -> int:
     """Set where the rays of a packet go through the image, and what they weigh.
 
@@ -114,8 +114,8 @@ def place_samples(
         The pixels are those from `begin` to before `end` in the block's list.
     sampling, first, last
         Of each the samples from `first` to before `last`, one after the other.
-    work
-        Holds the list.
+    pixels
+        The list.
 
     Returns
     -------
@@ -125,13 +125,13 @@ def place_samples(
     lanes = (end - begin) * (last - first)
     if sampling.rays == 1:
         for lane in range(lanes):
-            pixel = work.pixels[begin + lane]
+            pixel = pixels[begin + lane]
             packet[COLUMN + lane] = block.left + (pixel & (BLOCK - 1))
             packet[ROW + lane] = block.top + pixel // BLOCK
             packet[WEIGHT + lane] = 1.0
     else:
         for k in range(begin, end):
-            pixel = work.pixels[k]
+            pixel = pixels[k]
             column, row = block.left + pixel % BLOCK, block.top + pixel // BLOCK
             lane = (k - begin) * (last - first)
             _place_in_pixel(packet, lane, column, row, sampling, first, last)

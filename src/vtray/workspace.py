@@ -14,6 +14,18 @@ TABLE = 2 * LANES
 """Places of the hash table in which lanes are grouped."""
 
 
+Pixels = NDArray[np.int64]
+"""Pixels of a block, as row * BLOCK + column."""
+
+
+class Sums(NamedTuple):
+    """What the samples of pixels add up to: light in three rows, coverage, and weight."""
+
+    light: NDArray[np.float64]
+    covered: NDArray[np.float64]
+    weight: NDArray[np.float64]
+
+
 class Workspace(NamedTuple):
     """A thread's notes on the packet at hand.
 
@@ -35,8 +47,8 @@ class Workspace(NamedTuple):
         The pixels of a block along a curve.
     pixels
         Those that are traced.
-    light, covered, weight
-        The sums of the samples of the pixels of a packet; light as three rows.
+    sums
+        The sums of the samples of the pixels of a packet.
     table, owner, member, size
         The hash table of what is hit: a number for each, what it is, which lanes hit it, how many.
     """
@@ -49,18 +61,16 @@ class Workspace(NamedTuple):
     stack_enter: NDArray[np.float64]
     order: NDArray[np.int64]
     group: NDArray[np.int64]
-    curve: NDArray[np.int64]
-    pixels: NDArray[np.int64]
-    light: NDArray[np.float64]
-    covered: NDArray[np.float64]
-    weight: NDArray[np.float64]
+    curve: Pixels
+    pixels: Pixels
+    sums: Sums
     table: NDArray[np.int64]
     owner: NDArray[np.int64]
     member: NDArray[np.int64]
     size: NDArray[np.int64]
 
 
-def curve_of_block() -> NDArray[np.int64]:
+def curve_of_block() -> Pixels:
     """Return the pixels of a block, as row * BLOCK + column, in the order of Morton's curve.
 
     Those of a group of lanes, and those of a part of a packet, are near each other: 4 by 2 and 8 by
@@ -91,9 +101,7 @@ def new_workspace(scene: SceneArrays) -> Workspace:
         group=integers(LANES + 2),
         curve=curve_of_block(),
         pixels=integers(LANES),
-        light=np.zeros(3 * LANES),
-        covered=np.zeros(LANES),
-        weight=np.zeros(LANES),
+        sums=Sums(np.zeros(3 * LANES), np.zeros(LANES), np.zeros(LANES)),
         table=integers(TABLE),
         owner=integers(LANES),
         member=integers(LANES),
