@@ -11,7 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.errors import RenderError, SceneError
-from vtray.exposure import check_brightness, develop, put_on_background, white_of
+from vtray.exposure import (
+    check_brightness,
+    develop,
+    locked_white,
+    put_on_background,
+    white_of,
+)
 from vtray.fingerprint import scene_hash
 from vtray.image_file import write_picture
 from vtray.image_format import check_format
@@ -179,10 +185,9 @@ class Image:
             An intensity is wrong, or there are too many or too few.
         """
         lights = self.scene.lights
-        if len(intensities) != len(lights):
-            message = (
-                f"intensities: expected {len(lights)}, one for each light, got {len(intensities)}"
-            )
+        count = len(intensities) if hasattr(intensities, "__len__") else repr(intensities)
+        if count != len(lights):
+            message = f"intensities: expected {len(lights)}, one for each light, got {count}"
             raise SceneError(message)
         pairs = zip(lights, intensities, strict=True)
         changed = [Light(light.location, intensity) for light, intensity in pairs]
@@ -237,7 +242,8 @@ class Image:
         self, linear: Floats, scene: Scene, settings: RenderSettings, lock: "Image | None"
     ) -> "Image":
         """Return a picture of the same view with other light or exposure."""
-        white = lock.white if lock else white_of(settings.exposure, max(float(linear.max()), 0.0))
+        peak = max(float(linear.max()), 0.0)
+        white = white_of(settings.exposure, peak) if lock is None else locked_white(lock)
         return Image(
             linear,
             None,

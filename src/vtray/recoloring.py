@@ -43,9 +43,7 @@ def recolored(
     SceneError
         If there is no such object, or a colour is not right.
     """
-    if not -len(objects) <= index < len(objects):
-        message = f"recolor: index: expected a place from 0 to {len(objects) - 1}, got {index}"
-        raise SceneError(message)
+    _check_index(index, len(objects))
     changed = list(objects)
     item = changed[index]
     count = len(item) if isinstance(item, Spheres) else 1
@@ -59,3 +57,13 @@ def recolored(
         one = Color(*colors.reshape(3).tolist())
         changed[index] = msgspec.structs.replace(item, color=one)
     return changed
+
+
+def _check_index(index: int, count: int) -> None:
+    """Raise SceneError if there is no object at an index."""
+    is_integer = hasattr(index, "__index__") and not isinstance(index, bool)
+    if is_integer and -count <= index < count:
+        return
+    expected = f"a place from 0 to {count - 1}" if count else "nothing, as there are no objects"
+    message = f"recolor: index: expected {expected}, got {index!r}"
+    raise SceneError(message)
