@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import oracle
 import vtray
 from conftest import JIT, compiled_only
-from examples import xyz
+from examples import light, plane, scene, sphere, xyz
 from sample_places import mean, sample_places
 from strategies import crowd, scenes
 from test_many_spheres import ALWAYS, NEVER

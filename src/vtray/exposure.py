@@ -1,6 +1,7 @@
 """Exposure: from linear light to the numbers of the image file."""
 
 import math
+import reprlib
 import sys
 from collections.abc import Callable, Sequence
 
@@ -108,6 +109,21 @@ def _expose(linear: NDArray[np.float64], white: float, bytes_: NDArray[np.uint8]
         # For one peak in seven, 255 * peak / peak rounds to just below 255.
         exposed = 255.0 if linear[k] == white > 0.0 else exposed
         bytes_[k] = np.uint8(exposed)
+
+
+def locked_white(lock: object) -> float:
+    """Return the white of the picture whose exposure another one shall have.
+
+    Raises
+    ------
+    RenderError
+        It is no picture.
+    """
+    white = getattr(lock, "white", None)
+    if isinstance(white, (int, float)):
+        return float(white)
+    message = f"lock: expected a picture that was rendered, or None, got {reprlib.repr(lock)}"
+    raise RenderError(message)
 
 
 def white_of(exposure: Exposure, peak: float) -> float:

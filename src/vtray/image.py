@@ -11,7 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.errors import RenderError
-from vtray.exposure import check_brightness, develop, put_on_background, white_of
+from vtray.exposure import (
+    check_brightness,
+    develop,
+    locked_white,
+    put_on_background,
+    white_of,
+)
 from vtray.fingerprint import scene_hash
 from vtray.image_file import write_picture
 from vtray.image_format import check_format
@@ -234,7 +240,8 @@ class Image:
         self, linear: Floats, scene: Scene, settings: RenderSettings, lock: "Image | None"
     ) -> "Image":
         """Return a picture of the same view with other light or exposure."""
-        white = lock.white if lock else white_of(settings.exposure, max(float(linear.max()), 0.0))
+        peak = max(float(linear.max()), 0.0)
+        white = white_of(settings.exposure, peak) if lock is None else locked_white(lock)
         return Image(
             linear,
             None,

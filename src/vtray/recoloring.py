@@ -43,9 +43,7 @@ def recolored(
     SceneError
         If there is no such object, or a colour is not right.
     """
-    if not isinstance(index, int) or not -len(objects) <= index < len(objects):
-        message = f"recolor: index: expected a place from 0 to {len(objects) - 1}, got {index!r}"
-        raise SceneError(message)
+    _check_index(index, len(objects))
     changed = list(objects)
     item = changed[index]
     count = len(item) if isinstance(item, Spheres) else 1
@@ -69,9 +67,10 @@ def relit(lights: Sequence[Light], intensities: Sequence[float]) -> list[Light]:
     SceneError
         If an intensity is not right, or there are too many or too few.
     """
-    if len(intensities) != len(lights):
+    count = len(intensities) if hasattr(intensities, "__len__") else repr(intensities)
+    if count != len(lights):
         words = f"{len(lights)} numbers, one for each light"
-        message = f"relight: intensities: expected {words}, got {len(intensities)}"
+        message = f"relight: intensities: expected {words}, got {count}"
         raise SceneError(message)
     changed = []
     for k, (light, intensity) in enumerate(zip(lights, intensities, strict=True)):
@@ -82,3 +81,13 @@ def relit(lights: Sequence[Light], intensities: Sequence[float]) -> list[Light]:
             message = f"relight: intensities[{k}]: {words}"
             raise SceneError(message) from None
     return changed
+
+
+def _check_index(index: int, count: int) -> None:
+    """Raise SceneError if there is no object at an index."""
+    is_integer = hasattr(index, "__index__") and not isinstance(index, bool)
+    if is_integer and -count <= index < count:
+        return
+    expected = f"a place from 0 to {count - 1}" if count else "nothing, as there are no objects"
+    message = f"recolor: index: expected {expected}, got {index!r}"
+    raise SceneError(message)

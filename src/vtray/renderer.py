@@ -8,7 +8,7 @@ import numpy as np
 
 from vtray.acceleration import accelerate
 from vtray.compiled import loading_seconds
-from vtray.exposure import check_brightness, warm_up, white_of
+from vtray.exposure import check_brightness, locked_white, warm_up, white_of
 from vtray.image import Image
 from vtray.look import Look
 from vtray.memory import check_memory
@@ -94,19 +94,17 @@ def render(
     SceneError
         The scene or a setting holds something that none may hold.
     RenderError
-        The image does not fit into memory, or its light is too bright for a double.
+        The image does not fit into memory, its light is too bright for a double, or `lock` is no
+        picture.
     ValueError
         `threads` or `tile` is not an integer of at least 1.
-    TypeError
-        `lock` is no picture.
     KeyboardInterrupt
         After Ctrl-C; all threads have ended by then.
     """
-    if lock is not None and not hasattr(lock, "white"):
-        message = f"lock: expected an Image, got {lock!r}"
-        raise TypeError(message)
     threads = _count("threads", threads if threads is not None else available_cores())
     tile = _count("tile", tile)
+    if lock is not None:
+        locked_white(lock)
     scene.check()
     settings = scene.render.replace(
         samples=samples,
@@ -137,7 +135,7 @@ def render(
     image = Image(
         traced.film.linear,
         None,
-        lock.white if lock is not None else white_of(settings.exposure, traced.peak),
+        white_of(settings.exposure, traced.peak) if lock is None else locked_white(lock),
         shown,
         settings,
         {},
