@@ -96,12 +96,24 @@ class Device:
         compiled: Callable[..., object] = numba.njit(self._function, **self._options)
         return compiled
 
+    @cached_property
+    def _unwrapped(self) -> Callable[..., object]:
+        """The function for compiled code alone.
+
+        Without the wrappers through which Python would call it, kernels compile in half the time.
+        """
+        import numba
+
+        options = {**self._options, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+        compiled: Callable[..., object] = numba.njit(self._function, **options)
+        return compiled
+
     @property
     def _numba_type_(self) -> object:
         """What Numba asks for where compiled code calls this."""
         import numba
 
-        dispatcher: Any = self._dispatcher
+        dispatcher: Any = self._unwrapped
         return numba.types.Dispatcher(dispatcher)
 
 
