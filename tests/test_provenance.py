@@ -81,6 +81,7 @@ def test_exposure_locked_to_another_picture(
 ) -> None:
     image = hand_made(exposure=exposure)
     image.white *= factor
+    image.locked = locked
     image.save(tmp_path / "a.png")
     assert vtray.read_provenance(tmp_path / "a.png").lock == (image.white if locked else None)
 

@@ -219,7 +219,8 @@ def test_drawing_of_a_missed_pixel() -> None:
     assert "pixel (0, 0)  ·  value (0, 0, 0)" in texts(ax)
 
 
-def test_drawing_on_given_axes_and_apart_from_pyplot() -> None:
+def test_drawing_on_given_axes_and_apart_from_pyplot(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delitem(sys.modules, "matplotlib.pyplot", raising=False)  # if others imported it
     ax = figure.Figure(figsize=(4, 4)).add_subplot()
     assert vtray.trace_pixel(lit_floor(), *floor_pixel()).draw(ax) is ax
     assert "matplotlib.pyplot" not in sys.modules
