@@ -1,6 +1,7 @@
 """Pictures with samples: each pixel is the mean of an independent renderer's rays."""
 
 import json
+import math
 from typing import Any
 
 import numpy as np
@@ -233,6 +234,37 @@ def test_is_the_same_for_any_threads_and_tiles(
     np.testing.assert_array_equal(image.alpha, expected.alpha)
     assert image.white == expected.white
     assert image.stats["rays"] == expected.stats["rays"]
+
+
+@pytest.mark.parametrize("samples", [2, 3, 5, 7, 33])
+@pytest.mark.parametrize("filter_name", FILTERS)
+def test_few_samples_of_each_filter(scattered: dict, filter_name: str, samples: int) -> None:
+    camera = {"size": [24, 18], "resolution": [0.2, 0.2]}
+    if not JIT:
+        camera = {"size": [7, 6], "resolution": [0.2, 0.2]}
+    document = scattered | {"camera": scattered["camera"] | camera}
+    for seed in (1, 2, 3):
+        assert_sampled(document, samples, filter_name, seed)
+
+
+@pytest.mark.parametrize("filter_name", ["box", "gaussian"])
+def test_pixels_beside_another_thing_or_shadow_have_samples(
+    scattered: dict, filter_name: str
+) -> None:
+    near = math.ceil(FILTERS_BY_NAME[filter_name].radius)
+    document = scattered
+    if not JIT:
+        camera = {"size": [12, 9], "resolution": [0.2, 0.2]}
+        document = scattered | {"camera": scattered["camera"] | camera}
+    seen = oracle.look(document)
+    what = np.concatenate([seen.ids[..., None], seen.shadows], axis=2)
+    height, width = seen.ids.shape
+    beside = np.zeros((height, width), bool)
+    for row, column in np.ndindex(height, width):
+        rows = slice(max(row - near, 0), row + near + 1)
+        columns = slice(max(column - near, 0), column + near + 1)
+        beside[row, column] = (what[rows, columns] != what[row, column]).any()
+    assert not (beside & ~marks_of(document, filter=filter_name)).any()
 
 
 def test_seed_chooses_the_places(scattered: dict) -> None:

@@ -218,9 +218,9 @@ def test_exposure_that_was_locked_is_locked_again(
     small: Path, asked: list[dict], capfd: pytest.CaptureFixture[str]
 ) -> None:
     picture, again = small.with_name("picture.png"), small.with_name("again.png")
-    scene = vtray.load(small)
-    brighter = vtray.render(scene, exposure=0.9)
-    image = vtray.render(scene, lock=brighter)
+    first = vtray.render(vtray.load(small))
+    first.white *= 1.1
+    image = vtray.render(vtray.load(small), lock=first)
     image.save(picture)
     assert cli.run(["--replay", str(picture), str(small), str(again)]) == 0
     assert asked[1]["lock"].white == image.white

@@ -74,6 +74,22 @@ HARD = {
         [light(0, -1, 5), light(3, 1, 4), light(0, -6, 3)],
     ),
 }
+# Seen edge-on, or from the side that no light reaches.
+BLACK = {
+    "floor to the horizon",
+    "floor that meets the horizon in a pixel row",
+    "huge sphere as ground",
+    "planes and spheres that cross",
+}
+
+HARD |= {
+    f"{name}, orthographic": {
+        **document,
+        "camera": document["camera"] | {"projection": "orthographic", "up": xyz(0.2, 1, 0.1)},
+    }
+    for name, document in HARD.items()
+    if name not in BLACK
+}
 
 
 def render(document: dict[str, Any]) -> vtray.Image:
