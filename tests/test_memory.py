@@ -62,6 +62,17 @@ for k in range(1001):
     assert late[-1][1:] == early[0][1:]
 
 
+def test_peak_is_that_of_the_process_alone() -> None:
+    script = """
+import subprocess, sys
+held = bytearray(300_000_000)
+command = "from vtray.memory import peak_memory; print(peak_memory())"
+print(subprocess.check_output([sys.executable, "-c", command], text=True))
+"""
+    (peak,) = run(script)
+    assert 1_000_000 < peak < 100_000_000
+
+
 def test_gigabytes_are_readable() -> None:
     assert in_gigabytes(0) == "0.0 GB"
     assert in_gigabytes(1_234_567_890_123) == "1,234.6 GB"

@@ -1,5 +1,6 @@
 """How much memory there is, and how much is used."""
 
+import contextlib
 import sys
 
 from vtray.errors import RenderError
@@ -63,5 +64,8 @@ def peak_memory() -> int:
         return int(psutil.Process().memory_info().peak_wset)
     import resource
 
+    # What getrusage tells in Linux begins with the memory of the process that started this one.
+    with contextlib.suppress(OSError, IndexError, ValueError), open("/proc/self/status") as status:
+        return int(status.read().split("VmHWM:")[1].split()[0]) * 1024
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return peak if sys.platform == "darwin" else peak * 1024
