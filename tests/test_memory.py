@@ -65,7 +65,7 @@ for k in range(1001):
 def test_peak_is_that_of_the_process_alone() -> None:
     script = """
 import subprocess, sys
-held = bytearray(300_000_000)
+held = b"x" * 300_000_000
 command = "from vtray.memory import peak_memory; print(peak_memory())"
 print(subprocess.check_output([sys.executable, "-c", command], text=True))
 """
