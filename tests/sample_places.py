@@ -45,7 +45,7 @@ def sample_places(
             (np.abs(across) > MITCHELL_ZERO) == (np.abs(below) > MITCHELL_ZERO), 1, -1
         )
         # Where they would nearly cancel, all count the same.
-        weights = np.where(weights.sum(axis=-1, keepdims=True) < samples / 4, 1.0, weights)
+        weights = np.where(weights.sum(axis=-1, keepdims=True) < samples / 2, 1.0, weights)
     return Places(across + columns[..., None], below + rows[..., None], weights)
 
 

@@ -186,10 +186,10 @@ def _put_in_filter(packet: Packet, lane: int, samples: int, sampling: Sampling) 
 
 @device
 def _keep_positive(packet: Packet, lane: int, samples: int) -> None:
-    """Let all samples of a pixel count the same if their weights would nearly cancel."""
+    """Let samples of a pixel in a packet count the same if half their weight would cancel."""
     total = 0.0
     for k in range(samples):
         total += packet[WEIGHT + lane + k]
-    if total < 0.25 * samples:
+    if total < 0.5 * samples:
         for k in range(samples):
             packet[WEIGHT + lane + k] = 1.0
