@@ -252,3 +252,11 @@ def test_missing_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setitem(sys.modules, "OpenEXR", None)
     with pytest.raises(vtray.ProvenanceError, match=r"needs OpenEXR; pip install 'vtray\[formats"):
         vtray.read_provenance(tmp_path / "a.exr")
+
+
+def test_picture_of_another_size_that_is_exposed_again_has_the_hash_of_its_scene() -> None:
+    scene = vtray.load(Path(__file__).parents[1] / "scenes" / "first.json")
+    image = vtray.render(scene, size=(8, 6), keep_lights=True)
+    same = [light.intensity for light in scene.lights]
+    hashes = {each.scene_hash for each in (image, image.expose(2), image.relight(same))}
+    assert hashes == {scene_hash(scene)}

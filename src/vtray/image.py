@@ -240,8 +240,11 @@ class Image:
         self, linear: Floats, scene: Scene, settings: RenderSettings, lock: "Image | None"
     ) -> "Image":
         """Return a picture of the same view with other light or exposure."""
-        peak = max(float(linear.max()), 0.0)
-        white = white_of(settings.exposure, peak) if lock is None else locked_white(lock)
+        if lock is None:
+            white = white_of(settings.exposure, max(float(linear.max()), 0.0))
+        else:
+            white = locked_white(lock)
+        camera = self._original.camera  # its size may be another, and the hash is of this one
         return Image(
             linear,
             None,
@@ -253,6 +256,7 @@ class Image:
             alpha=self._alpha,
             relighting=self._relighting,
             threads=self._threads,
+            original=Scene(camera, scene.lights, scene.objects, scene.render),
             locked=lock is not None,
         )
 
