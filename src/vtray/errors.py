@@ -1,8 +1,22 @@
 """The errors that a user may see."""
 
 
+def printable(text: str) -> str:
+    r"""Return a text as one line that a terminal shows and does not obey.
+
+    File names, arguments and what files say may hold escapes, line breaks, or marks that turn the
+    direction of writing; these become what Python writes for them, such as ``\x1b``.
+    """
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
 class VtrayError(Exception):
-    """Base of all errors whose message is meant for the user."""
+    """Base of all errors whose message is meant for the user: one line, and printable."""
+
+    def __init__(self, message: str = "") -> None:
+        super().__init__(printable(message))
 
 
 class SceneError(VtrayError, ValueError):
