@@ -210,3 +210,92 @@ def test_two_at_once_into_one_file(scene_file: Path) -> None:
     assert [process.wait() for process in processes] == [0, 0, 0, 0]
     assert read(output).max() == 255
     assert sorted(scene_file.parent.iterdir()) == [output, scene_file]
+
+
+def test_standard_streams(vtray_command: Command, scene_file: Path, tmp_path: Path) -> None:
+    output = tmp_path / "picture.png"
+    vtray_command(scene_file, output)
+    expected = output.read_bytes()
+    document = scene_file.read_bytes()
+    for arguments in (("-", "-"), ("/dev/stdin", "/dev/stdout")):
+        done = vtray_command(*arguments, input=document, text=False)
+        assert (done.returncode, done.stdout, done.stderr) == (0, expected, b"")
+    # What is there in the file already stays, as with any command.
+    log = tmp_path / "log"
+    log.write_bytes(b"before")
+    done = run_in_shell(f"SCENE - >> {log}", scene_file)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert log.read_bytes() == b"before" + expected
+    # A file of this name can still be meant.
+    done = vtray_command(scene_file, "./-", cwd=tmp_path)
+    assert (tmp_path / "-").read_bytes() == expected
+
+
+def test_process_substitution(scene_file: Path, tmp_path: Path) -> None:
+    program = Path(sys.executable).with_name("vtray")
+    copy = tmp_path / "copy.png"
+    command = f"{program} <(cat {scene_file}) >(cat > {copy}); wait $!"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert read(copy).max() == 255
+
+
+def test_terminal_gets_no_picture(scene_file: Path) -> None:
+    pty = pytest.importorskip("pty")
+    terminal, inside = pty.openpty()
+    program = [Path(sys.executable).with_name("vtray"), scene_file, "-"]
+    done = subprocess.run(program, stdout=inside, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(inside)
+    os.close(terminal)
+    assert done.returncode == 1
+    assert done.stderr == "Error: /dev/stdout: is a terminal; send it to a file or a pipe\n"
+
+
+@pytest.mark.parametrize("option", ["--stats", "--samples=1"])
+def test_notes_that_cannot_be_printed_are_no_failure(scene_file: Path, option: str) -> None:
+    text = scene_file.read_text()
+    scene_file.write_text(text.replace("{", '{"unknown": 1, ', 1))  # which is warned of
+    done = run_in_shell(f"{option} SCENE PICTURE 2> /dev/full", scene_file)
+    assert done.returncode == 0
+    assert read(scene_file.with_name("picture.png")).max() == 255
+
+
+@pytest.mark.parametrize("link", [None, "soft", "hard"])
+def test_data_of_the_scene_is_spared(
+    vtray_command: Command, tmp_path: Path, link: str | None
+) -> None:
+    ball = vtray.Spheres([(0, 0, 5)], 1, (255, 255, 255), 1)
+    camera = vtray.Camera((0, 0, 0), (0, 0, 1), 10, (8, 6), (0.1, 0.1))
+    vtray.Scene(camera, [vtray.Light((0, -5, 0), 1)], [ball]).save(tmp_path / "ball.json")
+    data, output = tmp_path / "ball.npz", tmp_path / "ball.npz"
+    if link is not None:
+        output = tmp_path / "out.npz"
+        output.symlink_to("ball.npz") if link == "soft" else output.hardlink_to(data)
+    before = data.read_bytes()
+    done = vtray_command(tmp_path / "ball.json", output)
+    remedy = "choose another name for the image"
+    assert done.stderr == f"Error: {output}: holds arrays of the scene itself; {remedy}\n"
+    assert (done.returncode, data.read_bytes()) == (1, before)
+
+
+def test_texts_of_others_do_not_reach_the_terminal_raw(
+    vtray_command: Command, scene_file: Path, tmp_path: Path
+) -> None:
+    # Each could clear the screen, turn the direction of writing, or forge a line of its own.
+    evil = "a\x1b[2J\u202eb\nError: c"
+    shown = r"a\x1b[2J\u202eb\nError: c"
+    text = scene_file.read_text()
+    scene_file.write_text(text.replace("{", "{" + json.dumps(evil) + ": 1, ", 1))
+    strange = tmp_path / f"{evil}.json"
+    strange.write_text(text.replace("1", "-1"))
+    for arguments in (
+        [scene_file, tmp_path / "a.png"],
+        [scene_file, tmp_path / f"{evil}.gif"],
+        [strange, tmp_path / "a.png"],
+        [f"{evil}", "a.png"],
+        ["--threads", evil, scene_file, "a.png"],
+        ["--background", evil, scene_file, "a.png"],
+    ):
+        done = vtray_command(*arguments, cwd=tmp_path)
+        assert shown in done.stderr
+        assert done.stderr.removesuffix("\n").isprintable()

@@ -1,6 +1,34 @@
-"""``python -m vtray`` is the command ``vtray``."""
+"""Where the commands begin: ``vtray``, ``python -m vtray``, and ``vtray-diff``.
 
-from vtray.cli import main
+Signals are taken care of before all else, so that Ctrl-C ends a command from its first line on.
+"""
+
+import sys
+
+from vtray.signals import leave_on_signals
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import NoReturn
+
+
+def main() -> "NoReturn":
+    """Run the command ``vtray`` and exit."""
+    leave_on_signals()
+    from vtray.cli import run
+    from vtray.command import leave
+
+    leave(run(sys.argv[1:]))
+
+
+def diff() -> "NoReturn":
+    """Run the command ``vtray-diff`` and exit."""
+    leave_on_signals()
+    from vtray.command import leave
+    from vtray.diff import run
+
+    leave(run(sys.argv[1:]))
+
 
 if __name__ == "__main__":
     main()

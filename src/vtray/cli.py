@@ -4,22 +4,18 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING
 
-from vtray.command import SUCCESS, leave, print_result, run_command
-from vtray.errors import OutputError
+from vtray.command import SUCCESS, print_note, print_result, run_command
+from vtray.errors import printable
 from vtray.options import parse, settings_of
+from vtray.signals import LastStep
 
 if TYPE_CHECKING:
     from vtray.image import Image
     from vtray.provenance import Provenance
     from vtray.scene import Scene
     from vtray.stopwatch import Stopwatch
-
-
-def main() -> NoReturn:
-    """Run the command ``vtray`` and exit."""
-    leave(run(sys.argv[1:]))
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -74,21 +70,22 @@ def _compare(told: "Provenance", scene: "Scene", options: argparse.Namespace) ->
 
 def _check_output(options: argparse.Namespace) -> None:
     """Raise OutputError, before any work is done, if the output cannot be written."""
-    from vtray.atomic_file import check_writable
+    from vtray.atomic_file import check_spares, check_writable
     from vtray.image_format import check_format
 
     scene, output = options.scene, options.output
     check_format(output, options.bits, options.aov or (), options.background)
     check_writable(output)
-    if scene.exists() and output.exists() and scene.samefile(output):
-        message = f"{output}: is the scene file itself; choose another name for the image"
-        raise OutputError(message)
+    remedy = "choose another name for the image"
+    check_spares(output, [scene], "is the scene file itself", remedy)
 
 
 def _check_picture(scene: "Scene", options: argparse.Namespace) -> None:
-    """Raise OutputError if the output cannot hold the picture that the scene asks for."""
+    """Raise OutputError if the output cannot hold the picture, or holds a part of the scene."""
     from vtray.image_format import check_format
+    from vtray.spheres import check_spares_data
 
+    check_spares_data(options.output, scene.objects)
     background = options.background or scene.render.background
     size = options.size or scene.render.size or scene.camera.size
     check_format(options.output, options.bits, options.aov or (), background, size)
@@ -97,7 +94,7 @@ def _check_picture(scene: "Scene", options: argparse.Namespace) -> None:
 def _warn(message: str, options: argparse.Namespace) -> None:
     """Print a warning on stderr."""
     if not options.quiet:
-        print(f"Warning: {message}", file=sys.stderr)
+        print_note(f"Warning: {printable(message)}")
 
 
 def _load(options: argparse.Namespace) -> "Scene":
@@ -112,7 +109,7 @@ def _load(options: argparse.Namespace) -> "Scene":
 
     from vtray.progress import announced
 
-    with announced(f"vtray: reading {options.scene} ..."):
+    with announced(printable(f"vtray: reading {options.scene} ...")):
         return load(options.scene, warn=warn)
 
 
@@ -130,10 +127,11 @@ def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
     from vtray.progress import ProgressBar
 
     if not is_compiled():
-        print("vtray: compiling for this machine, only this once ...", file=sys.stderr)
+        print_note("vtray: compiling for this machine, only this once ...")
     progress = ProgressBar()
     try:
-        return render(scene, options.threads, progress, **settings)
+        with LastStep(progress.close):
+            return render(scene, options.threads, progress, **settings)
     finally:
         progress.close()
 
@@ -160,4 +158,4 @@ def _print_stats(clock: "Stopwatch", image: "Image") -> None:
         lines.append(f"{'depth':12}{stats['depth']:,.0f}")
         lines.append(f"{'hierarchy':12}{stats['memory'] / 1e6:,.0f} MB")
     lines.append(f"{'peak memory':12}{peak_memory() / 1e6:,.0f} MB")
-    print("\n".join(lines), file=sys.stderr)
+    print_note("\n".join(lines))

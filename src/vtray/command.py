@@ -7,11 +7,11 @@ import sys
 from collections.abc import Callable
 from typing import NoReturn
 
-from vtray.errors import OutputError, UsageError, VtrayError
+from vtray.errors import OutputError, UsageError, VtrayError, printable
+from vtray.signals import INTERRUPTED
 
 SUCCESS = 0
 FAILURE = 1
-INTERRUPTED = 130
 
 
 class Parser(argparse.ArgumentParser):
@@ -73,11 +73,17 @@ def print_result(text: str) -> None:
         raise OutputError(message) from error
 
 
+def print_note(text: str) -> None:
+    """Print on standard error what is no result; where that fails, nothing is lost but the note."""
+    with contextlib.suppress(OSError):
+        print(text, file=sys.stderr, flush=True)
+
+
 def leave(status: int) -> NoReturn:
     """End the process.
 
-    At once: taking everything down takes time, after Ctrl-C a thread may still be busy in the
-    compiler, and Python would complain about a pipe whose reader has gone.
+    At once: taking everything down takes time, and Python would complain about a pipe whose reader
+    has gone.
     """
     with contextlib.suppress(OSError):
         sys.stderr.flush()
@@ -103,6 +109,5 @@ def _until_printed(action: Callable[[], int]) -> int:
 
 def _fail(message: str) -> int:
     """Print an error on stderr; return the exit status."""
-    with contextlib.suppress(OSError):  # there is nowhere left to say it
-        print(f"Error: {message}", file=sys.stderr)
+    print_note(f"Error: {printable(message)}")
     return FAILURE

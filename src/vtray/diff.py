@@ -12,16 +12,14 @@ Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 202
 
 import argparse
 import contextlib
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING
 
 from vtray import comparison
-from vtray.command import FAILURE, SUCCESS, Parser, leave, print_result, run_command
+from vtray.command import FAILURE, SUCCESS, Parser, print_result, run_command
 from vtray.comparison import check_same_size, read_picture
-from vtray.errors import OutputError
 from vtray.flip import flip_error
 
 if TYPE_CHECKING:
@@ -123,11 +121,6 @@ def compare(a: "Pixels", b: "Pixels") -> Likeness:
     return Likeness(flip, found.pixels, found.differing, found.largest, error_map)
 
 
-def main() -> NoReturn:
-    """Run the command ``vtray-diff`` and exit."""
-    leave(run(sys.argv[1:]))
-
-
 def run(arguments: Sequence[str]) -> int:
     """Do what the arguments say; return the exit status."""
     return run_command(lambda: _run(_parse(arguments)), too_large="compare smaller images")
@@ -135,7 +128,7 @@ def run(arguments: Sequence[str]) -> int:
 
 def _parse(arguments: Sequence[str]) -> argparse.Namespace:
     """Return the arguments, checked as far as can be without reading the pictures."""
-    from vtray import __version__
+    from vtray.version import __version__
 
     parser = Parser(
         hint=USAGE,
@@ -192,16 +185,14 @@ def _run(options: argparse.Namespace) -> int:
 
 def _check_output(output: Path, options: argparse.Namespace) -> None:
     """Raise OutputError, before any work is done, if the output cannot be written."""
-    from vtray.atomic_file import check_writable
+    from vtray.atomic_file import check_spares, check_writable
     from vtray.image_format import check_plain_format
 
     if options.output:
         check_plain_format(output)
         check_writable(output)
-    for source in (options.a, options.b):
-        if source.exists() and output.exists() and source.samefile(output):
-            message = f"{output}: is one of the images to compare; choose another name with -o"
-            raise OutputError(message)
+    what = "is one of the images to compare"
+    check_spares(output, (options.a, options.b), what, "choose another name with -o")
 
 
 def _read_both(a: Path, b: Path) -> "tuple[Pixels, Pixels]":

@@ -34,13 +34,19 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         description="Render a scene of spheres and planes to an image.",
         epilog="example: vtray -t 4 --samples 16 scene.json picture.png",
     )
-    parser.add_argument("scene", metavar="SCENE", type=Path, help="the scene, a JSON file")
+    parser.add_argument(
+        "scene",
+        metavar="SCENE",
+        type=_or_stream("/dev/stdin"),
+        help="the scene, a JSON file; - for standard input",
+    )
     parser.add_argument(
         "output",
         metavar="OUTPUT",
-        type=Path,
+        type=_or_stream("/dev/stdout"),
         nargs="?",
-        help="the image to write: .png, .tif, .jpg, .webp, .exr or .npz",
+        help="the image to write: .png, .tif, .jpg, .webp, .exr or .npz; - for a PNG on standard "
+        "output",
     )
     parser.add_argument(
         "-t", "--threads", type=_thread_count, default=1, help="threads that render (default: 1)"
@@ -57,6 +63,11 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         parser.error("OUTPUT is missing")
     options.lock = None  # no option, but a picture that is replayed may have been locked
     return options
+
+
+def _or_stream(stream: str) -> Callable[[str], Path]:
+    """Return what makes a path of an argument, or for ``-`` that of a stream."""
+    return lambda text: Path(stream if text == "-" else text)
 
 
 def settings_of(options: argparse.Namespace) -> dict[str, Any]:

@@ -1,0 +1,79 @@
+"""How a command ends when it is told to: at once, and with nothing left behind.
+
+Python's own answer to Ctrl-C is an exception, which may come out of any line: out of an import,
+which then prints a traceback, or out of the middle of a decoder, which then may crash. To other
+signals it has none. Here, a command ends from within the handler, and nothing goes on after it.
+"""
+
+import os
+import signal
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:  # not from typing: until the handlers stand, as little as possible is imported
+    from collections.abc import Callable
+    from types import FrameType
+
+SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
+"""What asks a program to end, where the system has it."""
+
+INTERRUPTED = 130
+"""The exit status after Ctrl-C, as shells have it."""
+
+_last_steps: "list[Callable[[], object]]" = []
+
+
+def leave_on_signals() -> None:
+    """Let this process end at once when it is told to, unless its caller wants that ignored."""
+    for name in SIGNALS:
+        number = getattr(signal, name, None)
+        usual = (signal.SIG_DFL, signal.default_int_handler)
+        if number is not None and signal.getsignal(number) in usual:
+            signal.signal(number, _leave)
+
+
+class blocked:  # noqa: N801 - used like a function
+    """A context in which a signal has to wait, where half of the work would be worse than none."""
+
+    def __enter__(self) -> None:
+        numbers = [getattr(signal, name) for name in SIGNALS if hasattr(signal, name)]
+        if hasattr(signal, "pthread_sigmask"):  # not in Windows
+            self._before = signal.pthread_sigmask(signal.SIG_BLOCK, numbers)
+
+    def __exit__(self, *_: object) -> None:
+        if hasattr(signal, "pthread_sigmask"):
+            signal.pthread_sigmask(signal.SIG_SETMASK, self._before)
+
+
+class LastStep:
+    """Something to be done should the process end by a signal while this context lasts.
+
+    Parameters
+    ----------
+    step
+        Called in the main thread, between any two of its lines.
+    """
+
+    def __init__(self, step: "Callable[[], object]") -> None:
+        self._step = step
+
+    def __enter__(self) -> None:
+        """Add the step."""
+        _last_steps.append(self._step)
+
+    def __exit__(self, *_: object) -> None:
+        """Take it away: what was begun has been finished."""
+        _last_steps.remove(self._step)
+
+
+def _leave(number: int, _frame: "FrameType | None") -> None:
+    """End the process: with a status after Ctrl-C, else by the signal."""
+    for step in reversed(_last_steps):
+        # contextlib may be what is just being imported.
+        try:  # noqa: SIM105
+            step()
+        except Exception:  # noqa: BLE001, S110 - the other steps come first
+            pass
+    if number != signal.SIGINT:
+        signal.signal(number, signal.SIG_DFL)
+        os.kill(os.getpid(), number)
+    os._exit(INTERRUPTED)
