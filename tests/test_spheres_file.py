@@ -479,7 +479,8 @@ def test_arrays_do_not_take_the_name_of_the_scene() -> None:
 
 
 def test_save_fails_whole(monkeypatch: pytest.MonkeyPatch) -> None:
-    Path("room.json").write_text("old")
+    old = '{"objects": [{"data": "room.npz"}]}'
+    Path("room.json").write_text(old)
     Path("room.npz").write_text("old")
 
     def fail(*_: object) -> None:
@@ -489,7 +490,34 @@ def test_save_fails_whole(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(OutputError, match="room.npz: cannot be written: no space left on device"):
         scene(Spheres(**columns())).save("room.json")
     assert sorted(os.listdir()) == ["room.json", "room.npz"]
-    assert Path("room.npz").read_text() == Path("room.json").read_text() == "old"
+    assert (Path("room.npz").read_text(), Path("room.json").read_text()) == ("old", old)
+
+
+def test_save_replaces_only_arrays_of_its_own() -> None:
+    first, second = Spheres(**columns()), Spheres(**columns(radius=2.0))
+    scene(first).save("room.json")
+    scene(first, second).save("room.json")  # room.json names room.npz, which may be replaced
+    assert vtray.load("room.json").objects == [first, second]
+    Path("room-3.npz").write_text("precious")
+    for name in ("room-3.json", "room.json"):
+        with pytest.raises(OutputError, match="room-3.npz: is there already and does not belong"):
+            scene(first, second, first).save(name)
+    assert Path("room-3.npz").read_text() == "precious"
+    assert vtray.load("room.json").objects == [first, second]
+    # Read from there, they may go back there, whatever else has become of the scene file.
+    loaded = vtray.load("room.json")
+    Path("room.json").unlink()
+    loaded.save("room.json")
+    assert vtray.load("room.json").objects == [first, second]
+
+
+def test_picture_does_not_replace_arrays_of_its_scene() -> None:
+    scene(Spheres(**columns())).save("room.json")
+    before = Path("room.npz").read_bytes()
+    image = vtray.render(vtray.load("room.json"))
+    with pytest.raises(OutputError, match=r"room.npz: holds arrays of the scene itself; choose"):
+        image.save("room.npz")
+    assert Path("room.npz").read_bytes() == before
 
 
 def test_save_of_spoilt_arrays_leaves_the_files() -> None:

@@ -28,6 +28,7 @@ from vtray.recoloring import recolored, relit
 from vtray.relighting import Relighting
 from vtray.scene import Scene
 from vtray.settings import RenderSettings
+from vtray.spheres import check_spares_data
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -284,9 +285,10 @@ class Image:
         ------
         OutputError
             The ending is unknown, the format cannot hold what is asked for, the package for it is
-            missing, or the file cannot be written.
+            missing, the file holds arrays that the scene was read from, or it cannot be written.
         """
         path = Path(path)
+        check_spares_data(path, self.scene.objects)
         size = self.linear.shape[:2]
         how = check_format(path, bits, aov, self.settings.background, size)
         write_picture(self, path, how._replace(provenance=describe(self, how).to_text()))

@@ -298,7 +298,8 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
         """Write the scene as indented JSON that `vtray.load` reads back as an equal scene.
 
         The arrays of `Spheres` go to files beside it: for scene.json to scene.npz, those of
-        further `Spheres` to scene-2.npz and so on. Files of these names are replaced.
+        further `Spheres` to scene-2.npz and so on. A file of such a name is replaced if it belongs
+        to the scene file that is replaced, or if these spheres were read from it.
 
         Parameters
         ----------
@@ -311,7 +312,7 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
         SceneError
             If the scene is not valid any more.
         OutputError
-            If a file cannot be written.
+            If a file cannot be written, or one for arrays is there that is not the scene's own.
         """
         from vtray.atomic_file import write_whole
 
@@ -322,6 +323,7 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
         for item in self.objects:
             if isinstance(item, Spheres):
                 name = _unused_name(target, arrays)
+                _check_own(target, name, item)
                 entry, arrays[name] = _split_spheres(item, name)
                 objects.append(entry)
             else:
@@ -368,6 +370,38 @@ def _unused_name(scene: Path, used: Container[str]) -> str:
     numbers = itertools.chain([""], (f"-{number}" for number in itertools.count(2)))
     names = (f"{scene.stem}{number}.npz" for number in numbers)
     return next(name for name in names if name not in used and name != scene.name)
+
+
+def _check_own(scene: Path, name: str, spheres: Spheres) -> None:
+    """Raise OutputError if a file in the place of a scene's arrays is not its own."""
+    file = scene.with_name(name)
+    if not file.exists():
+        return
+    own = spheres.source is not None and spheres.source.exists() and file.samefile(spheres.source)
+    if not own and name not in _arrays_of(scene):
+        remedy = "save the scene under another name, or delete that file first"
+        raise OutputError(f"{file}: is there already and does not belong to {scene.name}; {remedy}")
+
+
+def _arrays_of(scene: Path) -> list[str]:
+    """Return what files of arrays a scene file names, none if it is no scene file."""
+    try:
+        found = msgspec.json.decode(scene.read_bytes(), type=_Objects)
+    except (OSError, msgspec.DecodeError, RecursionError):
+        return []
+    return [item.data for item in found.objects]
+
+
+class _Data(msgspec.Struct):
+    """An object of a scene file, as far as it names a file."""
+
+    data: str = ""
+
+
+class _Objects(msgspec.Struct):
+    """A scene file, as far as it names files."""
+
+    objects: list[_Data]
 
 
 def _split_spheres(spheres: Spheres, name: str) -> tuple[SpheresInFile, dict[str, object]]:

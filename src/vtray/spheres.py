@@ -17,6 +17,9 @@ from vtray.errors import SceneError
 from vtray.kinds import Byte, Fraction, NonNegative, Real
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from pathlib import Path
+
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
@@ -53,6 +56,15 @@ COLUMNS = {
     "color": Column(Byte, (3,), "three integers"),
     "lambert": Column(Fraction, (), "a number"),
 }
+
+
+def check_spares_data(path: "Path", objects: "Iterable[object]") -> None:
+    """Raise OutputError if writing a file would destroy arrays that objects were read from."""
+    from vtray.atomic_file import check_spares
+
+    found = [item.source for item in objects if isinstance(item, Spheres)]
+    what = "holds arrays of the scene itself"
+    check_spares(path, filter(None, found), what, "choose another name for the image")
 
 
 _NO_NAMES: Mapping[str, str] = {}
@@ -129,6 +141,16 @@ class Spheres(
         It is not a part of what makes spheres equal, nor of a scene file.
         """
         return self.__dict__.get("color_scale_")
+
+    @property
+    def source(self) -> "Path | None":
+        """The file that the arrays were read from; None if they come from code."""
+        return self.__dict__.get("source_")
+
+    def read_from(self, source: "Path") -> "Spheres":
+        """Return these spheres, which from now on remember the file that they were read from."""
+        self.__dict__["source_"] = source.absolute()  # the folder may be changed
+        return self
 
     def with_scale(self, scale: "ColorScale | None") -> "Spheres":
         """Return the same spheres, which remember how values became their colours."""

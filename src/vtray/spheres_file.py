@@ -64,7 +64,7 @@ def _read_spheres(item: SpheresInFile, folder: Path, place: str, unknown: list[s
             raise SceneError(f"{place}.{name}: {twice}")
         if name not in given and name not in arrays:
             raise _missing(name, place, file, others)
-    spheres = from_arrays({**arrays, **given}, f"{where}: ")
+    spheres = from_arrays({**arrays, **given}, f"{where}: ").read_from(folder / item.data)
     for other in others:
         text = f"unknown array, ignored; the nearest known array is {nearest(other, list(COLUMNS))}"
         unknown.append(f"{where}: {short(other)}: {text}")
