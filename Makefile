@@ -25,6 +25,10 @@ coverage: .venv/ready ## run the tests without the compiler, and see that they r
 memtest: .venv/ready ## see that memory stays within bounds
 	$(BIN)/pytest tests/test_memory.py
 
+fuzz: .venv/ready ## try to break vtray for five minutes; SECONDS=3600 for longer, SEED=N to repeat
+	cd tests && PYTHONWARNINGS=ignore ../$(BIN)/python -m fuzz --failures ../build/fuzz \
+		--seconds $(or $(SECONDS),300) $(if $(SEED),--seed $(SEED))
+
 lint: .venv/ready ## check style, types, and what imports what
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check

@@ -1,0 +1,62 @@
+"""Scene files with some parts exchanged: a picture, or one line of error."""
+
+import json
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import numpy as np
+
+from examples import light, plane, scene, sphere, xyz
+from fuzz.damage import damaged_json
+from fuzz.promises import run_quietly
+
+MOST_PIXELS = 10_000
+"""Of a picture that is rendered; larger ones would take all the time."""
+
+
+def attempt(random: Random, folder: Path) -> None:
+    """Render a scene file that is wrong, or strange."""
+    file = folder / "scene.json"
+    file.write_bytes(damaged_json(_document(random, folder), random))
+    if not _is_huge(file):
+        threads = random.choice(["1", "2", "7"])
+        run_quietly(["-t", threads, str(file), str(folder / "picture.png")])
+
+
+def _document(random: Random, folder: Path) -> dict[str, Any]:
+    """Return a right scene with most of what a file may hold."""
+    np.savez(folder / "a.npz", center=[(0, 0, 4), (1, 0, 4)], radius=[0.3, 0.4])
+    many = {"type": "spheres", "data": "a.npz", "color": {"r": 9, "g": 99, "b": 255}, "lambert": 1}
+    objects = [sphere((0, 0, 5), 1), plane((0, 1, 0), (0, -1, 0)), many]
+    found = scene(
+        [item for item in objects if random.random() < 0.8],
+        [light(5, -5, 0), light(0, -1, 5)],
+        size=[12, 9],
+        resolution=[0.4, 0.4],
+    )
+    if random.random() < 0.5:
+        found["camera"]["up"] = xyz(0.1, -1, 0)
+    if random.random() < 0.5:
+        found["camera"]["projection"] = random.choice(["orthographic", "perspective"])
+    if random.random() < 0.5:
+        found["render"] = {
+            "samples": random.choice([1, 4]),
+            "filter": random.choice(["box", "mitchell", "gaussian"]),
+            "seed": 7,
+            "size": [10, 10],
+            "exposure": random.choice(["max", 0.5, 1e308]),
+            "background": random.choice(["transparent", {"r": 1, "g": 2, "b": 3}]),
+        }
+    return found
+
+
+def _is_huge(file: Path) -> bool:
+    """Tell whether a scene, if it is one, has very many pixels or samples."""
+    try:
+        found = json.loads(file.read_bytes())
+        render = found.get("render", {})
+        width, height = render.get("size", found["camera"]["size"])
+        return MOST_PIXELS < width * height * render.get("samples", 1) < 1e12
+    except Exception:  # noqa: BLE001 - it is no scene
+        return False
