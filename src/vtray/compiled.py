@@ -22,6 +22,9 @@ from functools import cached_property, update_wrapper
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar, cast
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from vtray.native_call import NativeCall, Pinned, Types, UnsupportedError, caller, unpack, unpinned
 from vtray.object_code import (
     compile_object,
@@ -74,6 +77,18 @@ def pinned(argument: Value) -> Value:
         return cast("Value", Pinned(argument))
     except UnsupportedError:
         return argument
+
+
+def input_array(values: ArrayLike, dtype: type[np.generic]) -> NDArray[Any]:
+    """Return an array that kernels read in the one form in which they take it.
+
+    Each type, order or flag of an array is another type to the compiler, which compiles everything
+    anew for it. So what comes from outside is brought into one form: row by row, aligned, and
+    read-only. It is copied only where it must be.
+    """
+    array = np.require(values, dtype, ["C", "A"]).view()
+    array.flags.writeable = False
+    return array
 
 
 class Device:
