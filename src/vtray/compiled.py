@@ -43,6 +43,7 @@ _POLL_SECONDS = 0.05
 
 _COMPILING = threading.RLock()
 _loading = [0.0]
+_waiting: list[Callable[[bool], object]] = []
 
 
 def device(function: Function) -> Function:
@@ -58,6 +59,17 @@ def kernel(function: Function) -> Function:
 def loading_seconds() -> float:
     """Return how long this process has compiled kernels, or loaded them from disk."""
     return _loading[0]
+
+
+def before_compiling(tell: Callable[[bool], object] | None) -> None:
+    """Set what is called, once, before a kernel is compiled, which takes seconds; None for nothing.
+
+    Parameters
+    ----------
+    tell
+        Called, from any thread, with whether what is compiled is kept for later processes.
+    """
+    _waiting[:] = [tell] if tell else []
 
 
 def uncompiled(function: Function) -> Function:
@@ -164,10 +176,14 @@ class Kernel(Device):
             file = self._file(types)
             compiled = read_object_code(file) if file else None
             if compiled is None:
+                if _waiting:
+                    _waiting.pop()(file is not None)
                 compiled = _in_thread(compile_object, self._function, arguments, _OPTIONS)
                 if file:
                     write_object_code(file, compiled)
             return caller(link(compiled), compiled.layout)
+        except Warning:  # who makes errors of warnings wants to see them
+            raise
         except Exception:  # noqa: BLE001 - whatever it is, Numba either can do it or explains it
             return None
 
