@@ -20,14 +20,13 @@ from importlib.machinery import PathFinder
 from importlib.util import find_spec, module_from_spec
 from itertools import count
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 import msgspec
 
-from vtray.atomic_file import write_whole
-from vtray.errors import OutputError
-from vtray.kernel_folder import SUFFIX, cache_folder
+from vtray.kernel_folder import SUFFIX, cache_folder, read_kept
 from vtray.native_call import Layout, TupleLayout
+from vtray.own_files import write_own
 
 _HASH_BYTES = 32
 _number = count()
@@ -61,10 +60,10 @@ def object_file(kernel: str, types: str) -> Path | None:
 
 
 def read_object_code(file: Path) -> ObjectCode | None:
-    """Return what a file holds, None if it is missing or damaged."""
-    with contextlib.suppress(OSError, msgspec.DecodeError):
-        content = file.read_bytes()
-        checksum, body = content[:_HASH_BYTES], content[_HASH_BYTES:]
+    """Return what a file holds, None if it is missing, damaged, or not to be trusted."""
+    content = read_kept(file) or b""
+    checksum, body = content[:_HASH_BYTES], content[_HASH_BYTES:]
+    with contextlib.suppress(msgspec.DecodeError):
         if checksum == hashlib.sha256(body).digest():
             return msgspec.msgpack.decode(body, type=ObjectCode)
     return None
@@ -73,13 +72,8 @@ def read_object_code(file: Path) -> ObjectCode | None:
 def write_object_code(file: Path, compiled: ObjectCode) -> None:
     """Write a file, whole; if that fails, the next process compiles again."""
     body = msgspec.msgpack.encode(compiled)
-    content = hashlib.sha256(body).digest() + body
-
-    def write(stream: BinaryIO) -> None:
-        stream.write(content)
-
-    with contextlib.suppress(OutputError):
-        write_whole(file, write)
+    with contextlib.suppress(OSError):
+        write_own(file, hashlib.sha256(body).digest() + body)
 
 
 def compile_object(
