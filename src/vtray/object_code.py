@@ -28,6 +28,14 @@ from vtray.kernel_folder import SUFFIX, cache_folder, read_kept
 from vtray.native_call import Layout, TupleLayout
 from vtray.own_files import write_own
 
+SETTINGS_FILE = Path(".numba_config.yaml")
+"""Settings of Numba's, in the folder in which Python was started.
+
+References
+----------
+https://numba.readthedocs.io/en/stable/reference/envvars.html
+"""
+
 _HASH_BYTES = 32
 _number = count()
 
@@ -55,7 +63,8 @@ def object_file(kernel: str, types: str) -> Path | None:
     folder = cache_folder()
     if folder is None:
         return None
-    key = hashlib.sha256("\n".join([kernel, types, *_circumstances()]).encode()).hexdigest()
+    circumstances = [*_circumstances(), *_numba_settings()]
+    key = hashlib.sha256("\n".join([kernel, types, *circumstances]).encode()).hexdigest()
     return folder / f"{kernel}-{key[:16]}{SUFFIX}"
 
 
@@ -183,8 +192,17 @@ def _circumstances() -> list[str]:
         binding.get_process_triple(),
         binding.get_host_cpu_name(),
         binding.get_host_cpu_features().flatten(),
-        *sorted(f"{name}={value}" for name, value in os.environ.items() if name[:6] == "NUMBA_"),
     ]
+
+
+def _numba_settings() -> list[str]:
+    """Return what Numba reads before it compiles: the environment, and a file in this folder."""
+    found = sorted(f"{name}={value}" for name, value in os.environ.items() if name[:6] == "NUMBA_")
+    with contextlib.suppress(OSError):
+        # Without the package that reads it, Numba passes it over.
+        if SETTINGS_FILE.is_file() and find_spec("yaml"):
+            found.append(f"{SETTINGS_FILE}={SETTINGS_FILE.read_bytes().hex()}")
+    return found
 
 
 def _numba_version() -> str:
