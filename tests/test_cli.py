@@ -2,12 +2,16 @@
 
 import json
 import re
+import warnings
 from pathlib import Path
 
 import pytest
 
+from conftest import compiled_only
 from examples import light, one_sphere, plane, scene, sphere
-from vtray import cli
+from vtray import cli, compiled, exposure, integrator
+
+COMPILING = "vtray: compiling what this scene needs, once for this machine ...\n"
 
 
 @pytest.fixture
@@ -259,17 +263,56 @@ def test_failures_leave_no_traceback(
     assert capfd.readouterr() == ("", message)
 
 
-def test_terminal_shows_compiling_and_progress(
+@pytest.mark.filterwarnings("default")
+def test_warnings_of_python_are_printed_in_a_line(
+    small: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def render(*_: object, **__: object) -> None:
+        warnings.warn("beware", stacklevel=1)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("vtray.renderer.render", render)
+    cli.run([str(small), str(small.with_name("a.png"))])
+    assert capsys.readouterr().err == "Warning: beware\n"
+    cli.run(["-q", str(small), str(small.with_name("a.png"))])
+    assert capsys.readouterr().err == ""
+
+
+def test_terminal_shows_progress(
     small: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("sys.stderr.isatty", lambda: True)
-    monkeypatch.setattr("vtray.kernel_folder.is_compiled", lambda: False)
     monkeypatch.setattr("vtray.progress.DELAY_SECONDS", -1.0)
     assert cli.run([str(small), str(small.with_name("a.png"))]) == 0
-    err = capsys.readouterr().err
-    reading, compiling, bar = err.split("\n")[:3]
+    reading, bar = capsys.readouterr().err.replace(COMPILING, "").split("\n")[:2]
     assert reading == f"vtray: reading {small} ..."
-    assert compiling == "vtray: compiling for this machine, only this once ..."
     assert bar.startswith("\rtrace")
     assert cli.run(["-q", str(small), str(small.with_name("a.png"))]) == 0
     assert capsys.readouterr().err == ""
+
+
+@compiled_only
+def test_terminal_shows_compiling_when_there_is_any(
+    small: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    monkeypatch.setattr("vtray.progress.DELAY_SECONDS", 1e9)
+    render = [str(small), str(small.with_name("a.png"))]
+    assert cli.run(render) == 0
+    capsys.readouterr()
+    assert cli.run(render) == 0
+    assert capsys.readouterr().err == ""
+
+    # Two kernels that are loaded but not found before are compiled, as it were.
+    asked: list[Path] = []
+    read = compiled.read_object_code
+    monkeypatch.setattr(compiled, "read_object_code", asked.append)
+    monkeypatch.setattr(compiled, "compile_object", lambda *_: read(asked[-1]))
+    monkeypatch.setattr(integrator.trace_tile, "_native", {})
+    monkeypatch.setattr(exposure._expose, "_native", {})
+    assert cli.run(["-q", *render]) == 0
+    assert (capsys.readouterr().err, len(asked)) == ("", 2)
+    integrator.trace_tile._native.clear()
+    exposure._expose._native.clear()
+    assert cli.run(render) == 0
+    assert (capsys.readouterr().err, len(asked)) == (COMPILING, 4)

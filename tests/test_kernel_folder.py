@@ -1,23 +1,30 @@
-"""Where compiled kernels are kept, and for how long."""
+"""Where compiled kernels are kept, for how long, and whose they must be."""
 
 import os
 import subprocess
 import sys
 import time
+import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
 from vtray import kernel_folder
+from vtray.kernel_folder import MARK
+from vtray.object_code import ObjectCode, read_object_code, write_object_code
+
+needs_owners = pytest.mark.skipif(not hasattr(os, "geteuid"), reason="needs the owners of files")
 
 
 @pytest.fixture(autouse=True)
 def forgotten() -> Iterator[None]:
-    """Let each test find the folder anew."""
+    """Let each test find the folder anew, and warn anew."""
     kernel_folder.cache_folder.cache_clear()
+    kernel_folder._warned.clear()
     yield
     kernel_folder.cache_folder.cache_clear()
+    kernel_folder._warned.clear()
 
 
 @pytest.mark.parametrize("variable", ["VTRAY_CACHE_DIR", "XDG_CACHE_HOME"])
@@ -41,65 +48,146 @@ def test_folder_is_named_by_all_sources() -> None:
     folder = kernel_folder.cache_folder()
     assert folder is not None
     assert folder.name.startswith("kernels-")
-    assert kernel_folder.is_compiled() == any(folder.rglob("*.kernel"))
 
 
-def test_nothing_is_compiled_in_a_new_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("VTRAY_CACHE_DIR", str(tmp_path))
-    assert not kernel_folder.is_compiled()
-    folder = kernel_folder.cache_folder()
-    assert folder is not None
-    assert folder.stat().st_mode & 0o077 == 0
-    (folder / "some.kernel").touch()
-    assert kernel_folder.is_compiled()
+def test_what_is_made_is_private(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("VTRAY_CACHE_DIR", str(tmp_path / "home"))
+    mask = os.umask(0o002)  # as many systems have it
+    try:
+        folder = kernel_folder.cache_folder()
+        assert folder is not None
+        write_object_code(folder / "some.kernel", ObjectCode("f", "f8", b""))
+    finally:
+        os.umask(mask)
+    for path in (folder.parent, folder, folder / MARK, folder / "some.kernel"):
+        assert path.stat().st_mode & 0o077 == 0
+    assert read_object_code(folder / "some.kernel") is not None
 
 
 def test_old_versions_are_deleted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    kernel = "vtray.film.f-0123456789abcdef.kernel"
+    make_folder(tmp_path / "kernels-new", 29, MARK, kernel)
+    make_folder(tmp_path / "kernels-old", 31, MARK, kernel, f"{kernel}.unfinished")
+    make_folder(tmp_path / "other-old", 31, MARK, kernel)
     monkeypatch.setenv("VTRAY_CACHE_DIR", str(tmp_path))
-    for name, days in {"kernels-new": 29, "kernels-old": 31, "other-old": 31}.items():
-        (tmp_path / name).mkdir()
-        (tmp_path / name / "some.kernel").touch()
-        then = time.time() - days * 24 * 3600
-        os.utime(tmp_path / name, (then, then))
     folder = kernel_folder.cache_folder()
     assert folder is not None
     assert {path.name for path in tmp_path.iterdir()} == {"kernels-new", "other-old", folder.name}
 
 
-@pytest.mark.skipif(not hasattr(os, "getuid"), reason="needs the owners of files")
-@pytest.mark.parametrize(
-    "prepare",
-    [
-        lambda home: home.mkdir() or home.chmod(0o777),
-        lambda home: home.mkdir() or home.chmod(0o720),
-        lambda home: home.touch(),
-        lambda home: home.symlink_to(home.parent, target_is_directory=True),
-    ],
-)
-def test_temporary_folder_of_others_is_not_trusted(
-    prepare: Callable[[Path], None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_nothing_but_vtrays_own_is_deleted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    kernel = "vtray.film.f-0123456789abcdef.kernel"
+    make_folder(tmp_path / "kernels-unmarked", 31, kernel)
+    make_folder(tmp_path / "kernels-marked by another", 31, kernel)
+    (tmp_path / "kernels-marked by another" / MARK).write_text("Signature: another")
+    mixed = make_folder(tmp_path / "kernels-mixed", 31, MARK, kernel, "thesis.txt", "my.kernel")
+    make_folder(mixed / "vtray.folder-0123456789abcdef.kernel", 31, "inside")
+    elsewhere = make_folder(tmp_path / "elsewhere", 31, MARK, kernel)
+    (tmp_path / "kernels-link").symlink_to(elsewhere)
+    age(elsewhere, 31)
+    age(mixed, 31)
+    before = sorted(tmp_path.rglob("*"))
+    monkeypatch.setenv("VTRAY_CACHE_DIR", str(tmp_path))
+    folder = kernel_folder.cache_folder()
+    assert folder is not None
+    after = [path for path in sorted(tmp_path.rglob("*")) if folder not in (path, path.parent)]
+    assert [path for path in before if path not in after] == [mixed / kernel]
+
+
+def make_folder(folder: Path, days: int, *names: str) -> Path:
+    """Make a folder of files as old as that, and as vtray would mark it."""
+    folder.mkdir()
+    for name in names:
+        (folder / name).write_bytes(kernel_folder._MARK if name == MARK else b"")
+    age(folder, days)
+    return folder
+
+
+def age(folder: Path, days: int) -> None:
+    """Let a folder be as old as that."""
+    then = time.time() - days * 24 * 3600
+    os.utime(folder, (then, then))
+
+
+def belong_to_another(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let one file or folder belong to another user; nobody but root could really do so."""
+    file, fstat = path.stat(), os.fstat
+
+    def found(descriptor: int) -> os.stat_result:
+        seen = fstat(descriptor)
+        if not os.path.samestat(seen, file):
+            return seen
+        return os.stat_result([*seen[:4], seen.st_uid + 1, *seen[5:]])
+
+    monkeypatch.setattr(os, "fstat", found)
+
+
+def turn(path: Path, _: object) -> None:
+    """Put a link in the place of a file or a folder."""
+    path.rename(path.with_name("moved"))
+    path.symlink_to("moved")
+
+
+FAULTS: dict[str, Callable[[Path, pytest.MonkeyPatch], object]] = {
+    "may be written to by others": lambda path, _: path.chmod(0o777),
+    "may be written to by others ": lambda path, _: path.chmod(0o720),
+    "belongs to another user": belong_to_another,
+    "is a link": turn,
+}
+
+
+@needs_owners
+@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("home", ["chosen", "user", "temporary"])
+@pytest.mark.parametrize("part", ["home", "folder", "kernel"])
+def test_what_others_may_have_made_is_not_used(
+    part: str, home: str, fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(kernel_folder, "_user_home", lambda: Path("/proc/nowhere"))
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    monkeypatch.delenv("VTRAY_CACHE_DIR", raising=False)
-    home = tmp_path / f"vtray-cache-{os.getuid()}"
-    prepare(home)
-    assert kernel_folder.cache_folder() is None
+    if home == "chosen":
+        monkeypatch.setenv("VTRAY_CACHE_DIR", str(tmp_path / "chosen"))
+    else:
+        monkeypatch.delenv("VTRAY_CACHE_DIR", raising=False)
+        user = tmp_path / "user" if home == "user" else Path("/proc/nowhere")
+        monkeypatch.setattr(kernel_folder, "_user_home", lambda: user)
+        monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    folder = kernel_folder.cache_folder()
+    assert folder is not None
+    kernel, code = folder / "some.kernel", ObjectCode("f", "f8", b"")
+    write_object_code(kernel, code)
+    assert read_object_code(kernel) == code
+
+    kernel_folder.cache_folder.cache_clear()
+    path = {"home": folder.parent, "folder": folder, "kernel": kernel}[part]
+    FAULTS[fault](path, monkeypatch)
+    with warnings.catch_warnings(record=True, action="always") as warned:
+        again = kernel_folder.cache_folder()
+        assert read_object_code(kernel) is None
+    assert [str(one.message).startswith(f"{path} {fault.strip()}") for one in warned] == [True]
+    if part == "kernel":
+        assert again == folder
+    elif home == "user":
+        assert again is not None
+        assert again.parent == tmp_path / f"vtray-cache-{os.geteuid()}"
+    else:
+        assert again is None
 
 
-@pytest.mark.skipif(not hasattr(os, "getuid"), reason="needs the owners of files")
-def test_temporary_folder_of_another_owner_is_not_trusted(
+@needs_owners
+def test_file_in_place_of_a_folder_is_not_used(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(kernel_folder, "_user_home", lambda: Path("/proc/nowhere"))
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    monkeypatch.delenv("VTRAY_CACHE_DIR", raising=False)
-    assert kernel_folder.cache_folder() is not None
-    kernel_folder.cache_folder.cache_clear()
-    # The folder keeps its name, and belongs to somebody else now.
-    name = f"vtray-cache-{os.getuid()}"
-    monkeypatch.setattr(os, "getuid", lambda: 12345)
-    (tmp_path / name).rename(tmp_path / "vtray-cache-12345")
-    assert kernel_folder.cache_folder() is None
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("VTRAY_CACHE_DIR", str(tmp_path / "file"))
+    with pytest.warns(UserWarning, match="file is no folder, so compiled kernels are not kept"):
+        assert kernel_folder.cache_folder() is None
+
+
+@needs_owners
+def test_parents_may_be_shared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    tmp_path.chmod(0o777)
+    (tmp_path / "link").symlink_to(tmp_path)
+    monkeypatch.setenv("VTRAY_CACHE_DIR", str(tmp_path / "link" / "home"))
+    folder = kernel_folder.cache_folder()
+    assert folder is not None
+    write_object_code(folder / "some.kernel", ObjectCode("f", "f8", b""))
+    assert read_object_code(folder / "some.kernel") is not None

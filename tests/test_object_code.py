@@ -112,6 +112,22 @@ def test_other_circumstances_have_another_file(
     assert changed != usual == object_file("total", "f8,")
 
 
+@pytest.mark.parametrize("reader", ["yaml", None])  # without it, Numba passes the file over
+def test_file_of_settings_is_a_circumstance(
+    reader: str | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    find = object_code.find_spec
+    monkeypatch.setattr(
+        object_code, "find_spec", lambda name: reader if name == "yaml" else find(name)
+    )
+    monkeypatch.chdir(tmp_path)
+    keys = [object_file("total", "f8,")]
+    for text in ("boundscheck: 1", "boundscheck: 0"):
+        (tmp_path / ".numba_config.yaml").write_text(text)
+        keys.append(object_file("total", "f8,"))
+    assert len(set(keys)) == (3 if reader else 1)
+
+
 def test_what_cannot_be_linked_says_so_in_silence(capfd: pytest.CaptureFixture[str]) -> None:
     missing = "declare double @no_such_function()\n" + (
         "define double @f() { %x = call double @no_such_function() ret double %x }"

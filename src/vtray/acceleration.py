@@ -216,12 +216,7 @@ def collect(items: list[Item]) -> Source:
             parts.append(_from_objects(list(group)))
     if not parts:
         return _from_objects([])
-    if len(parts) > 1:
-        parts[0] = Source(*(_join(parts, name) for name in Source._fields))
-    # Kernels tell arrays that may be written to from others; these may not.
-    for array in parts[0]:
-        array.flags.writeable = False
-    return parts[0]
+    return parts[0] if len(parts) == 1 else Source(*(_join(parts, name) for name in Source._fields))
 
 
 def _from_objects(spheres: list[Item]) -> Source:
@@ -241,11 +236,16 @@ def _from_objects(spheres: list[Item]) -> Source:
 def _from_arrays(spheres: Spheres) -> Source:
     """Return spheres given as arrays, without a copy where that can be."""
     return Source(
-        np.ascontiguousarray(spheres.center),
-        np.ascontiguousarray(np.atleast_1d(spheres.radius), np.float64),
-        np.ascontiguousarray(np.atleast_2d(spheres.color)),
-        np.ascontiguousarray(np.atleast_1d(spheres.lambert), np.float64),
+        _row_by_row(spheres.center),
+        _row_by_row(np.atleast_1d(spheres.radius), np.float64),
+        _row_by_row(np.atleast_2d(spheres.color)),
+        _row_by_row(np.atleast_1d(spheres.lambert), np.float64),
     )
+
+
+def _row_by_row(values: Any, dtype: type[np.generic] | None = None) -> NDArray[Any]:  # noqa: ANN401
+    """Return an array as it should lie in memory; each render would copy others for the kernels."""
+    return np.require(values, dtype, ["C", "A"])
 
 
 def _join(parts: list[Source], name: str) -> NDArray[Any]:
@@ -256,7 +256,10 @@ def _join(parts: list[Source], name: str) -> NDArray[Any]:
         np.broadcast_to(column, (count, *column.shape[1:]))
         for column, count in zip(columns, counts, strict=True)
     ]
-    joined: NDArray[Any] = np.concatenate(whole, dtype=np.uint8 if name == "color" else np.float64)
+    dtype = np.uint8 if name == "color" else np.float64
+    joined: NDArray[Any] = np.empty((sum(counts), *columns[0].shape[1:]), dtype)
+    # On its own, it may choose column by column: where one colour stands for all.
+    np.concatenate(whole, out=joined)
     return joined
 
 

@@ -19,6 +19,7 @@ from vtray.bvh_nodes import (
     build_subtree,
     find_extent,
     finish_top,
+    new_points,
     new_scratch,
     set_keys,
     split_top,
@@ -83,7 +84,7 @@ def build(
         Called from time to time with the number of tasks done and the number of all.
     """
     n = len(center)
-    points = Points(center, radius, Frame(1.0, (0.0, 0.0, 0.0)))
+    points = new_points(center, radius)
     chunks = [(begin, min(begin + CHUNK, n)) for begin in range(0, n, CHUNK)]
     extents: list[Extent] = []
     unframed = pinned(points)

@@ -6,7 +6,7 @@ Lauterbach, Garland, Sengupta, Luebke, Manocha, "Fast BVH Construction on GPUs",
 """
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,7 @@ from vtray.bvh import (
     leaf_code,
     leaf_range,
 )
-from vtray.compiled import device, kernel
+from vtray.compiled import device, input_array, kernel
 from vtray.culling import MARGIN
 from vtray.key_sort import Keys, sort_few
 from vtray.morton import Grid, in_one_cell, key_number, make_grid, make_key
@@ -40,10 +40,15 @@ OUTSIDE = 3.0e38
 class Points(NamedTuple):
     """The spheres as they are given.
 
+    Of two kinds of numbers, so that nobody waits for kernels of the other kind: one array holds the
+    centres, and the other none.
+
     Attributes
     ----------
     center
-        World space, (n, 3), float32 or float64.
+        World space, (n, 3), or (0, 3) if they are single.
+    single
+        The same of numbers of single precision, (0, 3) or (n, 3).
     radius
         (n,), or (1,) if all are the same.
     frame
@@ -51,6 +56,7 @@ class Points(NamedTuple):
     """
 
     center: NDArray[np.float64]
+    single: NDArray[np.float32]
     radius: NDArray[np.float64]
     frame: Frame
 
@@ -81,6 +87,25 @@ class Scratch(NamedTuple):
 def new_scratch() -> Scratch:
     """Return the scratch memory of one thread."""
     return Scratch(*(np.empty(size, np.int64) for size in (STACK, WIDTH, WIDTH)))
+
+
+def new_points(center: NDArray[Any], radius: NDArray[Any]) -> Points:
+    """Return spheres in world space, in no frame yet; the numbers are copied only if they must be.
+
+    Parameters
+    ----------
+    center
+        (n, 3), float32 or float64.
+    radius
+        (n,), or (1,) if all are the same.
+    """
+    single = center.dtype == np.float32
+    return Points(
+        input_array(center[:0] if single else center, np.float64),
+        input_array(center if single else center[:0], np.float32),
+        input_array(radius, np.float64),
+        Frame(1.0, (0.0, 0.0, 0.0)),
+    )
 
 
 @kernel
@@ -172,8 +197,10 @@ def finish_top(points: Points, order: Order, nodes: int, bvh: Bvh, leaves: Leave
 @device
 def _center(points: Points, number: int) -> Vec:
     """Return the centre of a sphere in world space."""
-    center = points.center
-    return float(center[number, 0]), float(center[number, 1]), float(center[number, 2])
+    center, single = points.center, points.single
+    if single.shape[0] > 0:
+        return float(single[number, 0]), float(single[number, 1]), float(single[number, 2])
+    return center[number, 0], center[number, 1], center[number, 2]
 
 
 @device
@@ -324,9 +351,10 @@ def _gather(points: Points, order: Order, begin: int, end: int, leaves: Leaves) 
     last = points.radius.shape[0] - 1
     for slot in range(begin, end):
         number = key_number(order.keys[slot], order.grid)
-        leaves.data[4 * slot] = points.center[number, 0]
-        leaves.data[4 * slot + 1] = points.center[number, 1]
-        leaves.data[4 * slot + 2] = points.center[number, 2]
+        x, y, z = _center(points, number)
+        leaves.data[4 * slot] = x
+        leaves.data[4 * slot + 1] = y
+        leaves.data[4 * slot + 2] = z
         leaves.data[4 * slot + 3] = points.radius[min(number, last)]
         leaves.number[slot] = number
 

@@ -1,9 +1,11 @@
 """The command line: reads the arguments, calls the rest, prints, and sets the exit status."""
 
 import argparse
+import contextlib
 import os
 import sys
-from collections.abc import Sequence
+import warnings
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from vtray.command import SUCCESS, print_note, print_result, run_command
@@ -20,7 +22,13 @@ if TYPE_CHECKING:
 
 def run(arguments: Sequence[str]) -> int:
     """Do what the arguments say; return the exit status."""
-    return run_command(lambda: _run(parse(arguments)), too_large="choose a smaller camera.size")
+
+    def action() -> int:
+        options = parse(arguments)
+        with _warnings_printed(options):
+            return _run(options)
+
+    return run_command(action, too_large="choose a smaller camera.size")
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -91,6 +99,18 @@ def _check_picture(scene: "Scene", options: argparse.Namespace) -> None:
     check_format(options.output, options.bits, options.aov or (), background, size)
 
 
+@contextlib.contextmanager
+def _warnings_printed(options: argparse.Namespace) -> Iterator[None]:
+    """Print what Python warns of as this command prints its own warnings."""
+
+    def show(message: Warning | str, *_: object, **__: object) -> None:
+        _warn(str(message), options)
+
+    with warnings.catch_warnings():
+        warnings.showwarning = show
+        yield
+
+
 def _warn(message: str, options: argparse.Namespace) -> None:
     """Print a warning on stderr."""
     if not options.quiet:
@@ -117,23 +137,29 @@ def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
     """Render the scene; on a terminal, show what takes long."""
     # NumPy's linear algebra, unused here, starts a thread for each core that spins for 40 ms.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    from vtray.compiled import before_compiling
     from vtray.renderer import render
 
     settings = settings_of(options)
     if options.quiet or not sys.stderr.isatty():
+        before_compiling(None)
         return render(scene, options.threads, **settings)
 
-    from vtray.kernel_folder import is_compiled
     from vtray.progress import ProgressBar
 
-    if not is_compiled():
-        print_note("vtray: compiling for this machine, only this once ...")
+    before_compiling(_announce_compiling)
     progress = ProgressBar()
     try:
         with LastStep(progress.close):
             return render(scene, options.threads, progress, **settings)
     finally:
         progress.close()
+
+
+def _announce_compiling(is_kept: bool) -> None:
+    """Print on stderr why the render takes longer than the next one will."""
+    once = ", once for this machine" if is_kept else ""
+    print_note(f"vtray: compiling what this scene needs{once} ...")
 
 
 def _print_stats(clock: "Stopwatch", image: "Image") -> None:

@@ -22,6 +22,9 @@ from functools import cached_property, update_wrapper
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar, cast
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from vtray.native_call import NativeCall, Pinned, Types, UnsupportedError, caller, unpack, unpinned
 from vtray.object_code import (
     compile_object,
@@ -40,6 +43,7 @@ _POLL_SECONDS = 0.05
 
 _COMPILING = threading.RLock()
 _loading = [0.0]
+_waiting: list[Callable[[bool], object]] = []
 
 
 def device(function: Function) -> Function:
@@ -55,6 +59,17 @@ def kernel(function: Function) -> Function:
 def loading_seconds() -> float:
     """Return how long this process has compiled kernels, or loaded them from disk."""
     return _loading[0]
+
+
+def before_compiling(tell: Callable[[bool], object] | None) -> None:
+    """Set what is called, once, before a kernel is compiled, which takes seconds; None for nothing.
+
+    Parameters
+    ----------
+    tell
+        Called, from any thread, with whether what is compiled is kept for later processes.
+    """
+    _waiting[:] = [tell] if tell else []
 
 
 def uncompiled(function: Function) -> Function:
@@ -74,6 +89,18 @@ def pinned(argument: Value) -> Value:
         return cast("Value", Pinned(argument))
     except UnsupportedError:
         return argument
+
+
+def input_array(values: ArrayLike, dtype: type[np.generic]) -> NDArray[Any]:
+    """Return an array that kernels read in the one form in which they take it.
+
+    Each type, order or flag of an array is another type to the compiler, which compiles everything
+    anew for it. So what comes from outside is brought into one form: row by row, aligned, and
+    read-only. It is copied only where it must be.
+    """
+    array = np.require(values, dtype, ["C", "A"]).view()
+    array.flags.writeable = False
+    return array
 
 
 class Device:
@@ -149,10 +176,14 @@ class Kernel(Device):
             file = self._file(types)
             compiled = read_object_code(file) if file else None
             if compiled is None:
+                if _waiting:
+                    _waiting.pop()(file is not None)
                 compiled = _in_thread(compile_object, self._function, arguments, _OPTIONS)
                 if file:
                     write_object_code(file, compiled)
             return caller(link(compiled), compiled.layout)
+        except Warning:  # who makes errors of warnings wants to see them
+            raise
         except Exception:  # noqa: BLE001 - whatever it is, Numba either can do it or explains it
             return None
 

@@ -20,14 +20,21 @@ from importlib.machinery import PathFinder
 from importlib.util import find_spec, module_from_spec
 from itertools import count
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 import msgspec
 
-from vtray.atomic_file import write_whole
-from vtray.errors import OutputError
-from vtray.kernel_folder import SUFFIX, cache_folder
+from vtray.kernel_folder import SUFFIX, cache_folder, read_kept
 from vtray.native_call import Layout, TupleLayout
+from vtray.own_files import write_own
+
+SETTINGS_FILE = Path(".numba_config.yaml")
+"""Settings of Numba's, in the folder in which Python was started.
+
+References
+----------
+https://numba.readthedocs.io/en/stable/reference/envvars.html
+"""
 
 _HASH_BYTES = 32
 _number = count()
@@ -56,15 +63,16 @@ def object_file(kernel: str, types: str) -> Path | None:
     folder = cache_folder()
     if folder is None:
         return None
-    key = hashlib.sha256("\n".join([kernel, types, *_circumstances()]).encode()).hexdigest()
+    circumstances = [*_circumstances(), *_numba_settings()]
+    key = hashlib.sha256("\n".join([kernel, types, *circumstances]).encode()).hexdigest()
     return folder / f"{kernel}-{key[:16]}{SUFFIX}"
 
 
 def read_object_code(file: Path) -> ObjectCode | None:
-    """Return what a file holds, None if it is missing or damaged."""
-    with contextlib.suppress(OSError, msgspec.DecodeError):
-        content = file.read_bytes()
-        checksum, body = content[:_HASH_BYTES], content[_HASH_BYTES:]
+    """Return what a file holds, None if it is missing, damaged, or not to be trusted."""
+    content = read_kept(file) or b""
+    checksum, body = content[:_HASH_BYTES], content[_HASH_BYTES:]
+    with contextlib.suppress(msgspec.DecodeError):
         if checksum == hashlib.sha256(body).digest():
             return msgspec.msgpack.decode(body, type=ObjectCode)
     return None
@@ -73,13 +81,8 @@ def read_object_code(file: Path) -> ObjectCode | None:
 def write_object_code(file: Path, compiled: ObjectCode) -> None:
     """Write a file, whole; if that fails, the next process compiles again."""
     body = msgspec.msgpack.encode(compiled)
-    content = hashlib.sha256(body).digest() + body
-
-    def write(stream: BinaryIO) -> None:
-        stream.write(content)
-
-    with contextlib.suppress(OutputError):
-        write_whole(file, write)
+    with contextlib.suppress(OSError):
+        write_own(file, hashlib.sha256(body).digest() + body)
 
 
 def compile_object(
@@ -189,8 +192,17 @@ def _circumstances() -> list[str]:
         binding.get_process_triple(),
         binding.get_host_cpu_name(),
         binding.get_host_cpu_features().flatten(),
-        *sorted(f"{name}={value}" for name, value in os.environ.items() if name[:6] == "NUMBA_"),
     ]
+
+
+def _numba_settings() -> list[str]:
+    """Return what Numba reads before it compiles: the environment, and a file in this folder."""
+    found = sorted(f"{name}={value}" for name, value in os.environ.items() if name[:6] == "NUMBA_")
+    with contextlib.suppress(OSError):
+        # Without the package that reads it, Numba passes it over.
+        if SETTINGS_FILE.is_file() and find_spec("yaml"):
+            found.append(f"{SETTINGS_FILE}={SETTINGS_FILE.read_bytes().hex()}")
+    return found
 
 
 def _numba_version() -> str:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from vtray.acceleration import Acceleration
 from vtray.bvh import Bvh, no_bvh
 from vtray.camera import CameraFrame, camera_axes
-from vtray.compiled import device
+from vtray.compiled import device, input_array
 from vtray.directions import unit as unit_vector
 from vtray.directions import view_axes
 from vtray.scene import Camera, Plane, Scene, Vector
@@ -196,10 +196,10 @@ def _pack_materials(kept: Acceleration, planes: list[Plane]) -> Materials:
     """Return the materials of all primitives."""
     colors = [(plane.color.r, plane.color.g, plane.color.b) for plane in planes]
     return Materials(
-        kept.source.color,
-        kept.source.lambert,
-        np.array(colors, np.uint8).reshape(-1, 3),
-        np.array([plane.lambert for plane in planes], float),
+        input_array(kept.source.color, np.uint8),
+        input_array(kept.source.lambert, np.float64),
+        input_array(np.array(colors, np.uint8).reshape(-1, 3), np.uint8),
+        input_array([plane.lambert for plane in planes], np.float64),
     )
 
 
