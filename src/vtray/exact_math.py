@@ -92,7 +92,8 @@ def hypotenuse(*parts: float) -> float:
     try:
         ratios = [part.as_integer_ratio() for part in parts]
         below = max(denominator for _, denominator in ratios)  # all are powers of two
-        square = sum((above * (below // own)) ** 2 for above, own in ratios)
+        wholes = [above * (below // own) for above, own in ratios]
+        square = sum(whole * whole for whole in wholes)
         # More bits than a double holds, and one more that tells whether the rest is 0: the division
         # of integers then rounds as if it saw all of them.
         shift = max(0, 64 - square.bit_length() // 2)
@@ -112,6 +113,6 @@ def _series(x: "Real", coefficients: list[float]) -> "Real":
 
 
 # 1/n! without n = 0 and 1, as these terms are added last.
-_SINE = [(-1.0) ** k / math.factorial(2 * k + 1) for k in range(8, 0, -1)]
-_COSINE = [(-1.0) ** k / math.factorial(2 * k) for k in range(8, 0, -1)]
+_SINE = [(1 - k % 2 * 2) / math.factorial(2 * k + 1) for k in range(8, 0, -1)]
+_COSINE = [(1 - k % 2 * 2) / math.factorial(2 * k) for k in range(8, 0, -1)]
 _EXPONENTIAL = [1.0 / math.factorial(k) for k in range(11, 0, -1)]
