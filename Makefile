@@ -2,7 +2,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help run test coverage memtest lint format schema scenes gallery docs peers bench check clean
+.PHONY: help run test coverage memtest arm lint format schema scenes gallery docs peers bench check clean
 
 help: ## list what can be made
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -24,6 +24,9 @@ coverage: .venv/ready ## run the tests without the compiler, and see that they r
 
 memtest: .venv/ready ## see that memory stays within bounds
 	$(BIN)/pytest tests/test_memory.py
+
+arm: .venv/ready ## compare pictures with those of an emulated aarch64 machine; needs Debian
+	$(BIN)/python tests/arm/compare.py
 
 lint: .venv/ready ## check style, types, and what imports what
 	$(BIN)/ruff check
