@@ -2,7 +2,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help run test coverage memtest lint format schema scenes gallery docs peers bench check clean
+.PHONY: help run test coverage memtest arm lint format schema scenes gallery docs peers bench check clean fuzz
 
 help: ## list what can be made
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -28,6 +28,9 @@ memtest: .venv/ready ## see that memory stays within bounds
 fuzz: .venv/ready ## try to break vtray for five minutes; SECONDS=3600 for longer, SEED=N to repeat
 	cd tests && PYTHONWARNINGS=ignore ../$(BIN)/python -m fuzz --failures ../build/fuzz \
 		--seconds $(or $(SECONDS),300) $(if $(SEED),--seed $(SEED))
+
+arm: .venv/ready ## compare pictures with those of an emulated aarch64 machine; needs Debian
+	$(BIN)/python tests/arm/compare.py
 
 lint: .venv/ready ## check style, types, and what imports what
 	$(BIN)/ruff check

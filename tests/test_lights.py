@@ -132,6 +132,43 @@ def test_camera_without_up(name: str) -> None:
     assert found[:, 1].mean() < 1e-9
 
 
+def scene_on(*planes: tuple[Any, Any], direction: Any = (0, 0, -1)) -> Scene:
+    """Return a layer of balls with planes, seen as `Camera.fit` sees it."""
+    scene = Scene()
+    scene.add_spheres([(x, y, 0.1 * x) for x in range(4) for y in range(3)], radius=0.3)
+    for place, normal in planes:
+        scene.add_plane(place, normal)
+    scene.camera = Camera.fit(scene, direction)
+    return scene
+
+
+FLOOR = ((0, 0, -0.5), (0, 0, 1))
+OF_THE_PLACE = ["cloudy", "lightbox"]
+
+
+@pytest.mark.parametrize("direction", [(0, 0, -1), (0, 1e-4, -1), (0, 0.01, -1), (1, 1, -0.2)])
+@pytest.mark.parametrize("floor", [FLOOR, ((0, 0, -0.5), (0, 0, -2))])
+@pytest.mark.parametrize("name", OF_THE_PLACE)
+def test_no_light_below_the_floor(name: str, floor: Any, direction: Any) -> None:
+    """Above all on a map: from straight above, what is up in the picture is north."""
+    found = places(makers(name)(scene_on(floor, direction=direction)))
+    assert found[:, 2].min() > -0.5
+
+
+@pytest.mark.parametrize("name", OF_THE_PLACE)
+def test_what_is_up_in_the_world(name: str) -> None:
+    seen_from_above, without = scene_on(FLOOR), scene_on()
+    maker = makers(name)
+    assert maker(seen_from_above) == maker(without, up=(0, 0, 3)) == maker(without, up=FLOOR[1])
+    # Without a plane, it is the camera that knows.
+    assert maker(without) == maker(without, up=(0, 1, 0))
+    # What is given wins over the floor, and a floor that the camera stands upright on over a wall.
+    assert maker(seen_from_above, up=(0, 1, 0)) == maker(without)
+    assert maker(scene_on(FLOOR, ((0, -1, 0), (0, -1, 0)))) == maker(without)
+    with pytest.raises(SceneError, match=rf"^lights\.{name}: up: expected numbers x, y and z that"):
+        maker(without, up=(0, 0, 0))
+
+
 def test_sky_straight_above_the_camera() -> None:
     scene = scene_of()
     forward = scene.camera.normal

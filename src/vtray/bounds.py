@@ -1,10 +1,12 @@
 """The spheres of a scene as two arrays, and a sphere around them all."""
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.directions import Vec, dot, unit
 from vtray.errors import SceneError
 from vtray.objects import Object, Plane, Sphere
 from vtray.spheres import Spheres, from_arrays
@@ -71,10 +73,25 @@ def _balls_in(objects: list[Object]) -> list[Balls]:
     return found
 
 
-def first_plane(subject: object) -> Plane | None:
-    """Return the first plane of a scene, None if there is none."""
-    objects = getattr(subject, "objects", ())
-    return next((item for item in objects if isinstance(item, Plane)), None)
+def ups_of_planes(subject: object, middle: Sequence[float] | Floats) -> list[Vec]:
+    """Return what is up on each plane of a scene: its unit normal on the side of the spheres.
+
+    Parameters
+    ----------
+    subject
+        A scene, or what has no planes.
+    middle
+        The middle of the spheres, three numbers.
+    """
+    ups = []
+    for plane in getattr(subject, "objects", ()):
+        if isinstance(plane, Plane):
+            x, y, z = unit(plane.normal)
+            c = plane.center
+            from_plane = (middle[0] - c.x, middle[1] - c.y, middle[2] - c.z)
+            side = -1.0 if dot((x, y, z), from_plane) < 0 else 1.0
+            ups.append((side * x, side * y, side * z))
+    return ups
 
 
 def middle_of(center: NDArray[Any]) -> Floats:

@@ -4,6 +4,7 @@ import math
 from typing import NamedTuple
 
 from vtray.compiled import device
+from vtray.exact_math import hypotenuse
 from vtray.vector import Vec, add, dot, scale
 
 
@@ -56,7 +57,7 @@ def camera_axes(forward: Vec) -> tuple[Vec, Vec]:
     if z >= 0.0:
         turn = 1.0 / (1.0 + z)
         return (1.0 - x * x * turn, -x * y * turn, -x), (-x * y * turn, 1.0 - y * y * turn, -y)
-    side = math.hypot(x, y)
+    side = hypotenuse(x, y)
     if side == 0.0:
         return (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
     a, b, turn = x / side, y / side, 1.0 - z

@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.bounds import Balls, balls_of, first_plane, from_middle, middle_of
-from vtray.directions import Vec, along, are_parallel, dot, unit, view_axes
+from vtray.bounds import Balls, balls_of, from_middle, middle_of, ups_of_planes
+from vtray.directions import Vec, along, are_parallel, unit, view_axes
 from vtray.errors import SceneError
 from vtray.kinds import FieldOfView, Margin, Projection, SizePair
 from vtray.scene_words import show
@@ -109,14 +109,7 @@ def _choose_up(subject: object, up: object, forward: Vec, middle: Floats) -> Dir
             shown = show((given.x, given.y, given.z))
             raise SceneError(f"Camera.fit: up: {words}, got {shown}")
         return given
-    choices = [(0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
-    plane = first_plane(subject)
-    if plane is not None:
-        x, y, z = unit(plane.normal)
-        c = plane.center
-        from_plane = (middle[0] - c.x, middle[1] - c.y, middle[2] - c.z)
-        side = -1.0 if dot((x, y, z), from_plane) < 0 else 1.0
-        choices.insert(0, (side * x, side * y, side * z))
+    choices = [*ups_of_planes(subject, middle)[:1], (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
     free = [choice for choice in choices if not are_parallel(choice, forward, NEARLY_PARALLEL)]
     return Direction(*free[0])
 
@@ -180,7 +173,7 @@ def _room(place: Floats, seen: Seen, slope: float, side: int) -> tuple[float, fl
     bound, change
         The bound, and how it changes with the slope.
     """
-    length = math.hypot(1.0, slope)
+    length = math.sqrt(1.0 + slope * slope)
     rooms = seen.z * (side * slope)
     rooms -= place if side > 0 else -place
     rooms -= seen.radius * length

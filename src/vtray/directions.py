@@ -2,6 +2,7 @@
 
 import math
 
+from vtray.exact_math import hypotenuse
 from vtray.triples import Direction, Vector
 
 Vec = tuple[float, float, float]
@@ -35,7 +36,7 @@ def along(start: Vec, distance: float, direction: Vec) -> Vec:
 
 def are_parallel(a: Vec, b: Vec, sine: float = 1e-9) -> bool:
     """Tell whether two unit vectors point the same or opposite ways, within an angle's sine."""
-    return math.hypot(*cross(a, b)) < sine
+    return hypotenuse(*cross(a, b)) < sine
 
 
 def view_axes(forward: Vec, up: Vec) -> tuple[Vec, Vec]:

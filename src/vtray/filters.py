@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.compiled import device
+from vtray.exact_math import exponential, small_cosine
 from vtray.settings import FilterName
 
 Floats = NDArray[np.float64]
@@ -58,7 +59,7 @@ def _tent(x: Floats) -> Floats:
 
 def _gaussian(x: Floats) -> Floats:
     """Fall off with a standard deviation of half a pixel, to 0 at the radius."""
-    return np.exp(-2.0 * x * x) - math.exp(-2.0 * 1.5 * 1.5)
+    return exponential(-2.0 * x * x) - exponential(-2.0 * 1.5 * 1.5)
 
 
 def _mitchell(x: Floats) -> Floats:
@@ -71,9 +72,11 @@ def _mitchell(x: Floats) -> Floats:
 
 def _blackman_harris(x: Floats) -> Floats:
     """Sum Harris' four terms of least side lobes."""
-    phase = math.pi * (x + 1.0)
-    terms = (0.35875, -0.48829, 0.14128, -0.01168)
-    return sum((a * np.cos(k * phase) for k, a in enumerate(terms)), np.zeros_like(x))
+    # The cosine of pi * x from that of a quarter, and those of its multiples as Chebyshev has them.
+    quarter = small_cosine(math.pi / 4 * x)
+    half = 2.0 * quarter * quarter - 1.0
+    c = 2.0 * half * half - 1.0
+    return 0.35875 + 0.48829 * c + 0.14128 * (2.0 * c * c - 1.0) + 0.01168 * (4.0 * c * c - 3.0) * c
 
 
 FILTERS: dict[FilterName, Filter] = {
@@ -97,8 +100,11 @@ def filter_places(name: FilterName) -> Floats:
     magnitude = np.abs(kernel.value(0.5 * (edges[1:] + edges[:-1])))
     integral = np.concatenate([[0.0], np.cumsum(magnitude)])
     shares = np.linspace(0.0, integral[-1], STEPS + 1)
-    places = np.interp(shares, integral, edges)
-    # Symmetric, and without the last digits, in which processors' sines may differ.
+    # In NumPy's single steps: its `interp` is a loop in C, which some compilers round otherwise.
+    k = np.searchsorted(integral, shares, side="right").clip(1, steps) - 1
+    slope = (edges[k + 1] - edges[k]) / (integral[k + 1] - integral[k])
+    places = edges[k] + (shares - integral[k]) * slope
+    # Symmetric, and no finer than the table can be.
     places = np.round((places - places[::-1]) / 2.0 * 2.0**24) / 2.0**24
     return np.append(places, places[-1])
 

@@ -3,28 +3,38 @@
 Each function looks at a scene's camera and at the sphere around its spheres, the subject, and
 returns a list of lights for ``scene.lights``. Angles are seen from the subject: 0 degrees is the
 direction to the camera, along its axis; what is up and to the right is so in the picture. So the
-subject is lit in the same way from wherever the picture is taken. Key is the light that makes the
-shadows, fill the one that brightens them; there is no fall-off with distance, so that the ratio of
-their intensities is that of the light they throw.
+subject is lit in the same way from wherever the picture is taken, if the function is called again
+when the camera has moved. Key is the light that makes the shadows, fill the one that brightens
+them; there is no fall-off with distance, so that the ratio of their intensities is that of the
+light they throw.
+
+`cloudy` and `lightbox` are the light of a place, and go by what is up in the world: `up`, if it is
+given. Else it is the normal of the scene's first plane, on the side of the spheres, as for
+`Camera.fit`, unless the camera's `up` is the normal of another one. Without planes it is the
+camera's `up`, or where it has none, up in the picture.
 
 >>> scene.lights = vtray.lights.rembrandt(scene)
 """
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import Annotated, Any, Literal, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, Protocol
 
 from msgspec import Meta
 
-from vtray.bounds import balls_of, bounding_sphere
+from vtray.bounds import balls_of, bounding_sphere, ups_of_planes
 from vtray.camera import camera_axes
 from vtray.cameras import Camera
-from vtray.directions import Vec, along, cross, dot, unit, view_axes
+from vtray.directions import Vec, along, are_parallel, cross, dot, unit, view_axes
 from vtray.errors import SceneError
+from vtray.exact_math import cosine, hypotenuse, sine
 from vtray.kinds import NonNegative
 from vtray.objects import Light, Object
 from vtray.triples import Direction
 from vtray.views import argument
+
+if TYPE_CHECKING:
+    from vtray.triples import Triple, Vector
 
 Side = Literal["left", "right"]
 Ratio = Annotated[float, Meta(ge=1, description="a number ≥ 1")]
@@ -36,7 +46,8 @@ DISTANCE = 6.0
 SKY = 1000.0
 """How far the lights of the sky are, so that they come from the same direction everywhere."""
 
-GOLDEN_ANGLE = math.pi * (3 - math.sqrt(5))
+GOLDEN_ANGLE = 180 * (3 - math.sqrt(5))
+"""In degrees: points that turn by it from one to the next never line up."""
 
 
 class HasCamera(Protocol):
@@ -167,21 +178,23 @@ def ring(scene: HasCamera, intensity: float = 1.0, *, count: int = 24) -> list[L
     """
     studio = _studio("ring", scene)
     number = studio.checked("count", count, Count)
-    angle = math.radians(12)
-    turns = (2 * math.pi * (k + 0.5) / number for k in range(number))
-    directions = (
-        (math.sin(angle) * math.sin(turn), math.sin(angle) * math.cos(turn), math.cos(angle))
-        for turn in turns
-    )
+    aside, ahead = sine(12), cosine(12)
+    turns = (360 * (k + 0.5) / number for k in range(number))
+    directions = ((aside * sine(turn), aside * cosine(turn), ahead) for turn in turns)
     return studio.share(intensity, ((direction, 1.0) for direction in directions), number)
 
 
-def cloudy(scene: HasCamera, intensity: float = 1.0, *, count: int = 64) -> list[Light]:
+def cloudy(
+    scene: HasCamera,
+    intensity: float = 1.0,
+    *,
+    count: int = 64,
+    up: "Direction | Vector | Triple | None" = None,
+) -> list[Light]:
     """Return the light of an overcast sky: from all sides above, with the softest shadows.
 
     The lights are spread evenly over half a sphere. The sky is three times as bright straight above
-    as at the horizon, as that of the CIE's standard overcast sky. Here up is that of the world: the
-    camera's `up`, or where it has none, up in the picture.
+    as at the horizon, as that of the CIE's standard overcast sky.
 
     Parameters
     ----------
@@ -192,6 +205,10 @@ def cloudy(scene: HasCamera, intensity: float = 1.0, *, count: int = 64) -> list
         there.
     count
         How many lights there are, from 1 to 4096; more give softer shadows, and take longer.
+    up
+        What is up in the world. By default the normal of the scene's first plane, on the side of
+        the spheres, unless the camera's `up` is the normal of another one; without planes, the
+        camera's `up`, or where it has none, up in the picture.
 
     Returns
     -------
@@ -207,24 +224,31 @@ def cloudy(scene: HasCamera, intensity: float = 1.0, *, count: int = 64) -> list
     ----------
     P. Moon, D. E. Spencer: *Illumination from a non-uniform sky*, 1942.
     """
-    studio = _studio("cloudy", scene)
+    studio = _studio("cloudy", scene).upright(scene, up)
     number = studio.checked("count", count, Count)
     sky = []
     for k in range(number):
         height = (k + 0.5) / number  # equal steps of height are equal areas of a sphere
         across = math.sqrt(1 - height * height)
         turn = k * GOLDEN_ANGLE
-        direction = (across * math.sin(turn), height, across * math.cos(turn))
+        direction = (across * sine(turn), height, across * cosine(turn))
         sky.append((direction, (1 + 2 * height) / 3))
-    upward = sum(light * direction[1] for direction, light in sky)
-    return studio.upright().at(SKY).share(intensity, sky, upward)
+    upward = math.fsum(light * direction[1] for direction, light in sky)
+    return studio.at(SKY).share(intensity, sky, upward)
 
 
-def lightbox(scene: HasCamera, intensity: float = 1.0, *, count: int = 48) -> list[Light]:
+def lightbox(
+    scene: HasCamera,
+    intensity: float = 1.0,
+    *,
+    count: int = 48,
+    up: "Direction | Vector | Triple | None" = None,
+) -> list[Light]:
     """Return the light of a tent for product photographs: large white panels on three sides.
 
-    One panel is on each side, 60 degrees from the camera and 20 above, and one overhead, 75 degrees
-    above, all equally bright and as wide as they are far. They leave weak, soft shadows below.
+    One panel is on each side, 60 degrees from the camera and 20 above the horizon, and one
+    overhead, 75 degrees above it, all equally bright and as wide as they are far. They leave weak,
+    soft shadows below.
 
     Parameters
     ----------
@@ -234,6 +258,8 @@ def lightbox(scene: HasCamera, intensity: float = 1.0, *, count: int = 48) -> li
         Intensity of each panel, all its lights together.
     count
         How many lights there are at least, from 1 to 4096, in three square grids.
+    up
+        What is up in the world, as for `cloudy`.
 
     Returns
     -------
@@ -245,7 +271,7 @@ def lightbox(scene: HasCamera, intensity: float = 1.0, *, count: int = 48) -> li
     SceneError
         If the scene has no camera or no sphere, or an argument is not right.
     """
-    studio = _studio("lightbox", scene)
+    studio = _studio("lightbox", scene).upright(scene, up)
     number = studio.checked("count", count, Count)
     rows = math.isqrt(math.ceil(number / 3) - 1) + 1
     panels = [_direction(-60, 20), _direction(60, 20), _direction(0, 75)]
@@ -267,7 +293,7 @@ class Studio(NamedTuple):
     right, up, back
         Unit axes to the right and up in the picture, and towards the camera.
     sky
-        What is up in the world, a unit vector.
+        What the camera has for up in the world, a unit vector.
     """
 
     call: str
@@ -314,14 +340,18 @@ class Studio(NamedTuple):
         strength = self.checked("intensity", intensity, NonNegative)
         return [self.light(direction, strength * part / whole) for direction, part in parts]
 
-    def upright(self) -> "Studio":
-        """Return the same with what is up in the world as `up`."""
+    def upright(self, scene: HasCamera, up: object) -> "Studio":
+        """Return the same with what is up in the world as `up`, given or found in the scene."""
+        if up is None:
+            ups = ups_of_planes(scene, self.middle)
+            is_sure = not ups or any(are_parallel(other, self.sky) for other in ups)
+            sky = self.sky if is_sure else ups[0]
+        else:
+            sky = unit(self.checked("up", up, Direction))
         # Turned by what of the direction to the camera is level, or of up in the picture.
-        level = next(
-            axis for axis in (self.back, self.up) if math.hypot(*cross(axis, self.sky)) > 1e-3
-        )
-        level = unit(Direction(*along(level, -dot(level, self.sky), self.sky)))
-        return self._replace(right=cross(self.sky, level), up=self.sky, back=level)
+        level = next(axis for axis in (self.back, self.up) if hypotenuse(*cross(axis, sky)) > 1e-3)
+        level = unit(Direction(*along(level, -dot(level, sky), sky)))
+        return self._replace(right=cross(sky, level), up=sky, back=level)
 
     def at(self, distance: float) -> "Studio":
         """Return the same with lights at a distance in radii of the subject."""
@@ -358,8 +388,8 @@ def _turned(axis: Vec) -> Vec:
 
 def _direction(aside: float, above: float) -> Vec:
     """Return the unit vector, right, up and towards the camera, of angles in degrees."""
-    a, b = math.radians(aside), math.radians(above)
-    return math.cos(b) * math.sin(a), math.sin(b), math.cos(b) * math.cos(a)
+    across = cosine(above)
+    return across * sine(aside), sine(above), across * cosine(aside)
 
 
 def _panel(middle: Vec, rows: int) -> Iterator[Vec]:

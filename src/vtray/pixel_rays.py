@@ -1,6 +1,5 @@
 """Tracing the rays of one pixel, to be looked at."""
 
-import math
 import operator
 from typing import TYPE_CHECKING, SupportsIndex
 
@@ -9,6 +8,7 @@ import numpy as np
 from vtray.acceleration import Acceleration, accelerate, locate
 from vtray.compiled import uncompiled
 from vtray.errors import RenderError
+from vtray.exact_math import hypotenuse
 from vtray.plain import NOTHING
 from vtray.plain import trace_pixel as trace_plainly
 from vtray.ray_tree import Exposed, Hit, RayTree, ShadowRay, Surface, View
@@ -108,7 +108,7 @@ def _shadow_ray(
     light, point = scene.lights[number], hit.point
     place = (light.location.x, light.location.y, light.location.z)
     way = (place[0] - point[0], place[1] - point[1], place[2] - point[2])
-    distance = math.hypot(*way)
+    distance = hypotenuse(*way)
     if distance:
         way = (way[0] / distance, way[1] / distance, way[2] / distance)
     # In the order of the kernels, so that the sum has the same bits.

@@ -215,7 +215,7 @@ def _pack_planes(planes: list[Plane], origin: Floats, unit: float, camera: Camer
         z,
         offset=_dot(points.T, (x, y, z)),
         height=_dot(from_eye.T, (x, y, z)),
-        magnitude=np.abs(points).sum(axis=1),
+        magnitude=_magnitude(*_columns(points)),
     )
 
 
@@ -229,7 +229,7 @@ def _pack_lights(scene: Scene, origin: Floats, unit: float, camera: CameraFrame)
         z,
         depth=_dot((x, y, z), camera.forward),
         intensity=np.array([light.intensity for light in scene.lights], float),
-        magnitude=np.abs(points).sum(axis=1),
+        magnitude=_magnitude(x, y, z),
     )
 
 
@@ -242,6 +242,12 @@ def _columns(rows: Floats) -> tuple[Floats, Floats, Floats]:
     """Return the columns of an (n, 3) array, each contiguous."""
     columns = np.ascontiguousarray(rows.T)
     return columns[0], columns[1], columns[2]
+
+
+def _magnitude(x: Floats, y: Floats, z: Floats) -> Floats:
+    """Return the sums of the absolute coordinates, always in this order."""
+    sums: Floats = np.abs(x) + np.abs(y) + np.abs(z)
+    return sums
 
 
 def _dot(a: Sequence[Floats] | Floats, b: Sequence[Floats] | Vec) -> Floats:

@@ -5,6 +5,7 @@ from typing import Any
 
 from vtray.directions import Vec, along, are_parallel, unit
 from vtray.errors import SceneError
+from vtray.exact_math import hypotenuse, tangent
 from vtray.kinds import FieldOfView, Positive, SizePair
 from vtray.triples import Direction, Vector
 
@@ -63,7 +64,7 @@ def looking(
     upward = argument(call, "up", up, Direction)
     pixels = argument(call, "size", size, SizePair)
     offset = (end.x - start.x, end.y - start.y, end.z - start.z)
-    distance = math.hypot(*offset)
+    distance = hypotenuse(*offset)
     if distance == 0:
         words = f"expected a point other than eye, got {_triple(end)}"
         raise SceneError(f"{call}: target: {words}")
@@ -87,7 +88,7 @@ def looking(
 
 def pixel_slope(fov_degrees: float, size: tuple[int, int]) -> float:
     """Return the width of a pixel at distance 1 from the eye for a vertical field of view."""
-    return 2 * math.tan(math.radians(fov_degrees) / 2) / size[1]
+    return 2 * tangent(fov_degrees / 2) / size[1]
 
 
 def perspective(
