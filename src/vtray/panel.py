@@ -20,6 +20,13 @@ if TYPE_CHECKING:
 LEAST_SHARE = 0.1
 """Of the width of all, the share that the picture has at least."""
 
+TITLE_SHARE = 0.4
+"""Of the height of axes, the share that a title has at most; it gets smaller to keep it."""
+
+
+LEAST_SIZE = 3.0
+"""The least size of a title, in points."""
+
 
 class Rooms(NamedTuple):
     """How much room there must be around a picture, in points.
@@ -78,6 +85,7 @@ class Panel:
         self.ax, self.bar, self.words = ax, bar, title
         self.rows, self.columns = pixels.shape[:2]
         self.em = float(rcParams["font.size"])
+        self.fitted: tuple[object, tuple[float, Rooms]] = (None, (0.0, Rooms((), 0.0, 0.0, 0.0)))
         self.outer = ax.get_axes_locator()
         if isinstance(self.outer, Panel):  # what was drawn on these axes before
             self.outer.remove()
@@ -94,7 +102,7 @@ class Panel:
         self.parts += [bar.axes for bar in self.bars]
         self.gap = 1.4 * self.em
         self.thick = max([1.2 * self.em, *(bar.least_width() for bar in self.bars)])
-        self.title = ax.set_title(title, loc="left", y=1.0)
+        self.title = ax.set_title(title, loc="left", y=1.0, pad=0.35 * self.em, va="bottom")
         self.title_size = float(self.title.get_fontsize())
         self.note: Any = None
         if bar is not None:
@@ -141,13 +149,21 @@ class Panel:
         self.ax.set_title("", loc="left")
         self.ax.set_axes_locator(self.outer)
 
-    def rooms(self, width: float, height: float, renderer: "RendererBase | None" = None) -> Rooms:
+    def rooms(
+        self,
+        width: float,
+        height: float,
+        renderer: "RendererBase | None" = None,
+        most_above: float = math.inf,
+    ) -> Rooms:
         """Write all text for a picture of this size; return the room that it takes.
 
         Parameters
         ----------
         width, height
             Of the picture, in points.
+        most_above
+            How much room there is for the title, in points.
         renderer
             What draws, None for that of the figure.
         """
@@ -157,8 +173,8 @@ class Panel:
         over = max((bar.overhang(height, renderer) for bar in self.bars), default=0.0)
         above = over
         if self.words:
-            write(self.title, self.words, self.title_size, (width + right) * point, renderer)
-            above = max(over, (self.title.get_window_extent(renderer).y1 - ax.bbox.y1) / point)
+            room = width if over else width + right  # not above labels that stick out
+            above = max(over, self._write_title(room, most_above, renderer))
         marks = max((bar.below(renderer) for bar in self.bars), default=0.0)
         below = max(marks, over)
         if self.bar is not None:
@@ -168,6 +184,17 @@ class Panel:
             bottom = self.note.get_window_extent(renderer).y0
             below = max(below, (ax.bbox.y0 - bottom) / point)
         return Rooms(beside, right, self._up(below), self._up(above))
+
+    def _write_title(self, room: float, most: float, renderer: "RendererBase | None") -> float:
+        """Write the title in lines of some length; return how high it is, all in points."""
+        size = self.title_size
+        while True:
+            write(self.title, self.words, size, room * self._point, renderer)
+            top = self.title.get_window_extent(renderer).y1
+            above = float(top - self.ax.bbox.y1) / self._point
+            size *= 0.9
+            if above <= most or size < LEAST_SIZE:
+                return above
 
     def fit(
         self, width: float, height: float, renderer: "RendererBase | None" = None
@@ -189,7 +216,8 @@ class Panel:
         zoom = min(width / self.columns, height / self.rows)
         # Where text has less room, it takes more lines: the picture gets smaller until all fits.
         for _ in range(8):
-            rooms = self.rooms(zoom * self.columns, zoom * self.rows, renderer)
+            wide, high = zoom * self.columns, zoom * self.rows
+            rooms = self.rooms(wide, high, renderer, TITLE_SHARE * height)
             across = max(width - rooms.right, LEAST_SHARE * width)
             down = max(height - rooms.below - rooms.above, LEAST_SHARE * height)
             largest = min(across / self.columns, down / self.rows)
@@ -236,7 +264,11 @@ class Panel:
         if self.outer is not None:
             outer = self.outer(self.ax, renderer)
         cell = Bbox(outer.get_points()).transformed(figure.transSubfigure)
-        zoom, rooms = self.fit(cell.width / point, cell.height / point, renderer)
+        whole = renderer is None or not renderer.option_scale_image()
+        wanted = (cell.width, cell.height, point, whole)
+        if self.fitted[0] != wanted:  # Matplotlib asks several times for each time it draws
+            self.fitted = wanted, self.fit(cell.width / point, cell.height / point, renderer)
+        zoom, rooms = self.fitted[1]
         width, height = zoom * self.columns, zoom * self.rows
         block = Bbox.from_bounds(
             0,
@@ -249,7 +281,6 @@ class Panel:
         picture = Bbox.from_bounds(
             block.x0, block.y0 + rooms.below * point, width * point, height * point
         )
-        whole = renderer is None or not renderer.option_scale_image()
         boxes = self.place(picture, rooms, whole=whole)
         return boxes[self.all_axes().index(axes)].transformed(figure.transSubfigure.inverted())
 
