@@ -19,6 +19,8 @@ from vtray.scale_bar import depth_along_view, length_text, pixel_width, round_le
 from vtray.sheet import FigureError, picture_zoom
 
 matplotlib = pytest.importorskip("matplotlib", reason="needs the extra vtray[figure]")
+from matplotlib.figure import Figure  # noqa: E402
+from matplotlib.transforms import Bbox  # noqa: E402
 
 Array = np.ndarray
 
@@ -74,15 +76,50 @@ def area(figure: Any, axes: Any) -> Array:
     return pixels[top:bottom, left:right]
 
 
-def scale_line(figure: Any) -> Any:
-    """Return the line of the scale bar."""
+def scale_ends(figure: Any) -> Array:
+    """Return where the scale bar begins and ends, in pixels from the left."""
     (line,) = figure.findobj(lambda artist: artist.get_gid() == "scale bar")
-    return line
+    return line.get_transform().transform(line.get_xydata())[:, 0]
+
+
+def scale_label(figure: Any) -> Any:
+    """Return what stands beside the scale bar."""
+    (label,) = figure.findobj(lambda artist: artist.get_gid() == "scale bar label")
+    return label
 
 
 def scale_text(figure: Any) -> str:
-    """Return what stands beside the scale bar."""
-    return str(figure.texts[-1].get_text())
+    """Return the text of that."""
+    return str(scale_label(figure).get_text())
+
+
+ABOUT = r"${\approx}$ "
+"""What stands before lengths that are right at one distance only."""
+
+
+def shown_texts(figure: Any) -> list[Any]:
+    """Return all that is written in a figure."""
+    figure.canvas.draw()
+    texts = list(figure.texts)
+    for axes in figure.axes:
+        texts += [*axes.texts, axes.title, axes._left_title]
+        for axis in (axes.xaxis, axes.yaxis) if axes.axison else ():
+            low, high = sorted(axis.get_view_interval())
+            marks = zip(axis.get_ticklocs(), axis.get_ticklabels(), strict=True)
+            texts += [axis.label, *(text for place, text in marks if low <= place <= high)]
+    return [text for text in texts if text.get_text()]
+
+
+def assert_legible(figure: Any) -> None:
+    """See that nothing written is cut, lies on a picture, or on something else that is written."""
+    texts = shown_texts(figure)
+    boxes = [text.get_window_extent() for text in texts]
+    for k, box in enumerate(boxes):
+        name = texts[k].get_text()
+        assert -0.1 <= box.x0 < box.x1 <= figure.bbox.x1 + 0.1, name
+        assert -0.1 <= box.y0 < box.y1 <= figure.bbox.y1 + 0.1, name
+        for other in (*boxes[:k], *(axes.get_window_extent() for axes in figure.axes)):
+            assert not Bbox.intersection(box.padded(-1), other.padded(-1)), name
 
 
 @pytest.mark.parametrize("dpi", [None, 72, 100, 137.7, 300])
@@ -206,13 +243,15 @@ def test_scale_bar_is_as_long_as_what_it_says(projection: str, at: Sequence[floa
     right = view(scene)[0]
     image = vtray.render(scene)
     figure = image.figure(at=at, scalebar="nm")
-    length = float(scale_text(figure).split()[0])
+    text = scale_text(figure)
+    assert text.startswith(ABOUT) == (projection == "perspective")
+    number, unit = text.removeprefix(ABOUT).split()
+    length = float(number)
     here, there = project(scene, np.array(at)), project(scene, at + length * right)
-    x = np.array(scale_line(figure).get_xdata()) * figure.bbox.width
+    x = scale_ends(figure)
     assert (x[1] - x[0]) / ZOOM == pytest.approx(there[0] - here[0], rel=1e-9)
     assert 0.1 * SIZE[0] * ZOOM <= x[1] - x[0] <= 0.25 * SIZE[0] * ZOOM
-    assert scale_text(figure).split()[1] == "nm"
-    assert ("at distance" in scale_text(figure)) == (projection == "perspective")
+    assert unit == "nm"
 
 
 def test_scale_bar_without_a_point_is_for_the_median_of_the_spheres(image: vtray.Image) -> None:
@@ -222,15 +261,16 @@ def test_scale_bar_without_a_point_is_for_the_median_of_the_spheres(image: vtray
     depth = depth_along_view(scene.camera, image.depth)[spheres]
     near = (center - eye) @ forward
     assert near.min() - 0.4 <= depth.min() <= depth.max() <= near.max() + 0.4
-    text = scale_text(image.figure())
-    assert text.endswith(f"  at distance {np.median(depth):.4g}, the median of the spheres")
+    text = scale_text(image.figure(scalebar="{length} nm at a distance of {distance} nm"))
+    assert text == f"2 nm at a distance of {np.median(depth):.4g} nm"
+    assert scale_text(image.figure()) == f"{ABOUT}2"
 
 
 @pytest.mark.parametrize("width", [30, 310])
 def test_text_of_the_scale_bar_fits(width: int) -> None:
     figure = vtray.render(helix(size=(width, 9))).figure(scalebar="micrometres", colorbar=False)
     figure.canvas.draw()
-    assert figure.texts[-1].get_window_extent().x1 < figure.bbox.x1
+    assert scale_label(figure).get_window_extent().x1 < figure.bbox.x1
 
 
 def test_depth_is_measured_along_the_view() -> None:
@@ -258,9 +298,9 @@ def test_pictures_of_another_size() -> None:
     lengths = []
     for picture in (image, large):
         figure = picture.figure(at=(0, 0, 8))
-        x = np.array(scale_line(figure).get_xdata()) * figure.bbox.width
+        x = scale_ends(figure)
         zoom = picture_zoom(picture.pixels.shape[1])
-        lengths.append((x[1] - x[0]) / zoom / float(scale_text(figure).split()[0]))
+        lengths.append((x[1] - x[0]) / zoom / float(scale_text(figure).removeprefix(ABOUT)))
     assert lengths[1] == pytest.approx(2 * lengths[0])
 
 
@@ -269,9 +309,9 @@ def test_nothing_is_seen() -> None:
     scene.objects.clear()
     image = vtray.render(scene)
     figure = image.figure(title="Nothing")
-    assert [text.get_text() for text in figure.texts] == ["Nothing"]
+    assert [text.get_text() for text in shown_texts(figure)] == ["Nothing"]
     assert len(figure.axes) == 1
-    assert "at distance" in scale_text(image.figure(at=(0, 0, 5)))
+    assert scale_text(image.figure(at=(0, 0, 5))).startswith(ABOUT)
     assert not image.flat().any()
 
 
@@ -301,6 +341,17 @@ BAD = [
     ({"colorbar": 3}, "colorbar: expected True, False or a label, got 3"),
     ({"scalebar": 3}, 'scalebar: expected True, False or a unit such as "nm", got 3'),
     ({"title": 3}, "title: expected a text or None, got 3"),
+    ({"width": -3.5}, r"width: expected a number > 0, or None, got -3\.5"),
+    ({"width": True}, "width: expected a number > 0, or None, got True"),
+    ({"fontsize": "small"}, "fontsize: expected a number > 0, or None, got 'small'"),
+    (
+        {"width": 0.3},
+        r"width: expected at least \d\.\d+ inches with this text, got 0\.3; or give a ",
+    ),
+    ({"ax": 3}, "ax: expected rectangular Axes of a Matplotlib figure, or None, got 3"),
+    ({"ax": Figure().subplots(subplot_kw={"polar": True})}, "ax: expected rectangular Axes"),
+    ({"ax": Figure().subplots(), "width": 3}, "width: expected None with ax, .* got 3"),
+    ({"ax": Figure().subplots(), "dpi": 300}, "dpi: expected None with ax, whose figure has"),
 ]
 
 

@@ -31,6 +31,7 @@ from vtray.settings import RenderSettings
 from vtray.spheres import check_spares_data
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
 
@@ -329,15 +330,21 @@ class Image:
         scalebar: bool | str = True,
         title: str | None = None,
         flat: bool = False,
+        width: float | None = None,
         dpi: float | None = None,
+        fontsize: float | None = None,
         at: "ArrayLike | None" = None,
+        ax: "Axes | None" = None,
     ) -> "Figure":
         """Return the picture as a Matplotlib figure: with colour bars, a scale bar and a title.
 
-        The picture itself is shown as it is, one pixel of the figure for each of its own (small
-        pictures: a square of pixels for each), and nothing is drawn over it. The figure is none of
-        pyplot's: save it by ``figure.savefig("figure.png")``. Needs Matplotlib:
-        ``pip install 'vtray[figure]'``.
+        Nothing is drawn over the picture. Unless both `width` and `dpi` are given, or `ax`, it is
+        shown as it is: one pixel of the figure for each of its own (small pictures: a square of
+        pixels for each). The figure is none of pyplot's: save it by
+        ``figure.savefig("figure.png")``. Needs Matplotlib: ``pip install 'vtray[figure]'``.
+
+        Fonts, their sizes and the width of lines are those of Matplotlib's ``rcParams``. Text that
+        is too long is broken into lines.
 
         Parameters
         ----------
@@ -347,23 +354,34 @@ class Image:
         scalebar
             Whether to show a scale bar, in scene units; or the name of the unit, such as ``"nm"``.
             In perspective, things look smaller the farther away they are: the bar is right for
-            those at the distance written beside it, which is measured along the camera's view.
+            those at one distance (see `at`), and ``≈`` before its length says so. A text with
+            ``{length}`` in it replaces all that, and can say the distance, which is measured along
+            the camera's view: ``"{length} nm at a distance of {distance} nm"``.
         title
             What to write above the picture.
         flat
             Whether to show `flat`, from which values can be read off. Its colour bars show each
             colour from shadow to full light.
+        width
+            The width of the whole figure in inches. None for as much as the picture needs with
+            `dpi`.
         dpi
-            Dots per inch, which are pixels: with more of them, text and figure get smaller in
-            comparison. None for a picture 6.5 inches wide, but at least 100.
+            Dots per inch, which are pixels. None for one that shows the picture as it is: without
+            `width`, 6.5 inches wide, but at least with 100.
+        fontsize
+            The size of all text in points; None for those of ``rcParams``.
         at
             For perspective, a point in world space at whose distance the scale bar is right; None
             for the median of the spheres that are seen (without any: of the planes).
+        ax
+            Axes of Matplotlib to draw in, for instance of ``pyplot.subplots()``; `width` and `dpi`
+            are those of their figure then. Picture, title and bars are kept within the place that
+            the axes have. What was drawn in the same axes before is replaced.
 
         Returns
         -------
         Figure
-            The figure.
+            The figure: a new one, or that of `ax`.
 
         Raises
         ------
@@ -371,6 +389,12 @@ class Image:
             Matplotlib is not installed.
         FigureError
             An argument is not right.
+
+        Notes
+        -----
+        Where the figure has another number of pixels for the picture than a multiple of its own,
+        pixels are mixed (Matplotlib's interpolation "antialiased"). Files such as PDF hold the
+        pixels of the picture as they are.
         """
         from vtray.figure import make_figure
 
@@ -380,6 +404,9 @@ class Image:
             scalebar=scalebar,
             title=title,
             flat=flat,
+            width=width,
             dpi=dpi,
+            fontsize=fontsize,
             at=at,
+            ax=ax,
         )

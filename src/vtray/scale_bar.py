@@ -1,6 +1,7 @@
 """Scale bars: lengths that read well, and how long they are in a picture."""
 
 import math
+from dataclasses import dataclass
 from decimal import Decimal
 
 import numpy as np
@@ -9,6 +10,25 @@ from numpy.typing import NDArray
 from vtray.scene import Camera
 
 Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ScaleBar:
+    """A scale bar.
+
+    Attributes
+    ----------
+    length
+        In scene units.
+    pixels
+        In pixels of the picture.
+    text
+        What is written beside it.
+    """
+
+    length: float
+    pixels: float
+    text: str
 
 
 def round_length(limit: float) -> float:

@@ -11,7 +11,8 @@ from vtray.errors import VtrayError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+
+    from vtray.shown_figure import ShownFigure
 
 LEAST_WIDTH = 300
 """Pictures narrower than this are shown with each pixel as a square of pixels."""
@@ -39,30 +40,48 @@ class Sheet:
         Its size in pixels.
     """
 
-    figure: "Figure"
+    figure: "ShownFigure"
     width: int
     height: int
 
     @classmethod
     def of(cls, width: int, height: int, dpi: float) -> "Sheet":
         """Return an empty white sheet."""
+        from matplotlib import rcParams
+
         from vtray.shown_figure import ShownFigure
 
-        # A hair more, so that Agg does not round a pixel away.
-        figure = ShownFigure.new((width + 0.01) / dpi, (height + 0.01) / dpi, dpi)
-        return cls(figure, width, height)
+        color = rcParams["figure.facecolor"]
+        sheet = cls(ShownFigure.new(1, 1, dpi, color), width, height)
+        sheet.resize(width, height, dpi)
+        return sheet
+
+    def resize(self, width: int, height: int, dpi: float, inches: float = 0.0) -> None:
+        """Give the sheet another size in pixels, and at least `inches` of width."""
+        self.width, self.height = width, height
+        self.figure.resize(max(_inches(width, dpi), inches), _inches(height, dpi), dpi)
+
+    def place(self, left: float, bottom: float) -> tuple[float, float]:
+        """Return a place given in pixels in parts of the figure."""
+        return left / self.figure.bbox.width, bottom / self.figure.bbox.height
+
+    def parts(
+        self, left: float, bottom: float, width: float, height: float
+    ) -> tuple[float, float, float, float]:
+        """Return a rectangle given in pixels in parts of the figure."""
+        return *self.place(left, bottom), *self.place(width, height)
 
     def axes(self, left: float, bottom: float, width: float, height: float) -> "Axes":
         """Add axes at a place given in pixels."""
-        across, up = self.figure.bbox.width, self.figure.bbox.height
-        return self.figure.add_axes((left / across, bottom / up, width / across, height / up))
+        return self.figure.add_axes(self.parts(left, bottom, width, height))
 
     def picture(self, pixels: NDArray[Any], left: int, bottom: int, zoom: int) -> "Axes":
         """Add a picture, each of its pixels a square of zoom x zoom pixels."""
+        from vtray.shown_picture import ShownPicture
+
         height, width = pixels.shape[:2]
         axes = self.axes(left, bottom, width * zoom, height * zoom)
-        axes.imshow(pixels, interpolation="none", aspect="auto")
-        axes.set_axis_off()
+        ShownPicture.on(axes, pixels)
         return axes
 
 
@@ -76,9 +95,30 @@ def usual_dpi(width: int) -> float:
     return max(LEAST_DPI, round(width / USUAL_INCHES))
 
 
+def check_number(name: str, value: float, least: float | None = None) -> float:
+    """Return a number that must be at least `least`, or above 0.
+
+    Raises
+    ------
+    FigureError
+        It is not.
+    """
+    number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
+    if not (number and math.isfinite(value) and (value > 0 if least is None else value >= least)):
+        wanted = "> 0" if least is None else f"≥ {least:g}"
+        message = f"{name}: expected a number {wanted}, or None, got {value!r}"
+        raise FigureError(message)
+    return float(value)
+
+
 def check_dpi(dpi: float) -> float:
     """Return dots per inch that are possible."""
-    if not (isinstance(dpi, (int, float, np.number)) and math.isfinite(dpi) and dpi >= 1):
-        message = f"dpi: expected a number ≥ 1, or None, got {dpi!r}"
-        raise FigureError(message)
-    return float(dpi)
+    return check_number("dpi", dpi, 1)
+
+
+def _inches(pixels: int, dpi: float) -> float:
+    """Return the length of so many pixels: of all that are, one that is not rounded down."""
+    inches = pixels / dpi
+    while int(inches * dpi) < pixels:
+        inches = math.nextafter(inches, math.inf)
+    return inches

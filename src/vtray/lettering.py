@@ -1,0 +1,82 @@
+"""Text that fits: broken into lines, so that nothing of it is cut."""
+
+import re
+from bisect import bisect_left
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.backend_bases import RendererBase
+    from matplotlib.text import Text
+
+WORD = re.compile(r"(?:\$(?:\\.|[^$\\])*\$|\\.|[^\s$])+")
+"""What is not broken at spaces: a formula between dollars is one word."""
+
+
+def write(
+    text: "Text", words: str, size: float, room: float, renderer: "RendererBase | None" = None
+) -> None:
+    """Write words in lines that are at most as long as there is room.
+
+    Lines end at spaces; a word that is too long alone is broken anywhere. What cannot be broken, a
+    formula or what TeX sets, gets smaller.
+
+    Parameters
+    ----------
+    text
+        What to write in, on a figure, level or upright.
+    words
+        What to write; its own ends of lines are kept.
+    size
+        Of the font, in points.
+    room
+        In pixels.
+    renderer
+        What draws, None for that of the figure.
+    """
+    from matplotlib.cbook import is_math_text
+
+    text.set_fontsize(size)
+    if not text.get_usetex():
+        if not is_math_text(words):  # then no line of it may become a formula either
+            words = re.sub(r"(?<!\\)\$", r"\\$", words)
+
+        def fits(line: str) -> bool:
+            text.set_text(line)
+            return _length(text, renderer) <= room
+
+        words = "\n".join(part for line in words.split("\n") for part in _lines(line, fits))
+    text.set_text(words)
+    length = _length(text, renderer)
+    if length > room:
+        text.set_fontsize(max(0.97 * size * room / length, 0.5))
+
+
+def _length(text: "Text", renderer: "RendererBase | None") -> float:
+    """Return how long the longest line is, in pixels."""
+    box = text.get_window_extent(renderer)
+    return float(box.height if text.get_rotation() == 90 else box.width)
+
+
+def _lines(line: str, fits: Callable[[str], bool]) -> Iterator[str]:
+    """Break a line."""
+    if fits(line):
+        yield line
+        return
+    current = ""
+    for word in WORD.findall(line):
+        longer = f"{current} {word}" if current else word
+        if fits(longer):
+            current = longer
+            continue
+        if current:
+            yield current
+        current = word
+        while "$" not in current and len(current) > 1 and not fits(current):
+            # The least count of characters that is too long, less one.
+            most = (
+                bisect_left(range(2, len(current)), True, key=lambda k: not fits(current[:k])) + 1
+            )
+            yield current[:most]
+            current = current[most:]
+    yield current
