@@ -20,6 +20,7 @@ from vtray.settings import RenderSettings
 from vtray.stopwatch import Stopwatch
 from vtray.tiles import TILE
 from vtray.tracing import Tracer, available_cores, compile_kernels
+from vtray.unknown_names import explain_unknown
 
 Progress = Callable[[str, int, int], None]
 
@@ -32,6 +33,7 @@ class HasWhite(Protocol):
         """The light that becomes 255."""
 
 
+@explain_unknown
 def render(
     scene: Scene,
     threads: int | None = None,
