@@ -154,7 +154,11 @@ def test_lock() -> None:
     np.testing.assert_array_equal(
         third.pixels, np.floor(255 * third.linear / third.white).clip(0, 255)
     )
-    # A lock wins over an exposure, also one on a black picture.
-    assert render(bright, lock=first, exposure=3).white == first.white
+    # Which of two exposures is meant, nobody knows.
+    words = "^lock and exposure {}: expected one of them; leave out the other$"
+    with pytest.raises(vtray.RenderError, match=words.format(3)):
+        render(bright, lock=first, exposure=3)
+    with pytest.raises(vtray.RenderError, match=words.format("'max'")):
+        first.expose("max", lock=second)
     black = render(scene([], [], size=[3, 2]))
     assert not render(bright, lock=black).pixels.any()

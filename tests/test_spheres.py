@@ -147,9 +147,17 @@ def test_attributes_are_frozen() -> None:
         Spheres(**columns()).radius = 2.0  # type: ignore[misc]
 
 
+def test_color_and_lambert_may_be_left_out() -> None:
+    spheres = Spheres([(0, 0, 5)], 1)
+    assert spheres == Spheres([(0, 0, 5)], 1, (255, 255, 255), 1)
+    assert spheres.replace(radius=2) == Spheres([(0, 0, 5)], 2)
+    with pytest.raises(SceneError, match=r"Spheres.radius: expected a number ≥ 0, got -1"):
+        spheres.replace(radius=-1)
+
+
 def test_wrong_calls_are_type_errors() -> None:
-    with pytest.raises(TypeError, match="lacks the arguments color, lambert"):
-        Spheres([], 1)  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="lacks the arguments radius"):
+        Spheres([])  # type: ignore[call-arg]
 
 
 CENTERS = "expected an array of numbers of shape (n, 3), got"

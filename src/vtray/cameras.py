@@ -5,10 +5,11 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from vtray import views
-from vtray.checked import Checked
+from vtray.checked import Frozen
 from vtray.directions import are_parallel, unit
 from vtray.kinds import FieldError, Positive, PositivePair, Projection, SizePair
 from vtray.triples import Direction, Vector
+from vtray.unknown_names import explain_unknown
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from vtray.triples import Triple
 
 
-class Camera(msgspec.Struct, metaclass=Checked, frozen=True, gc=False, omit_defaults=True):
+class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
     """A pinhole camera: an image plane and an eye behind it.
 
     `Camera.fit`, `Camera.look_at` and `Camera.orthographic` make one without any of these numbers.
@@ -72,6 +73,7 @@ class Camera(msgspec.Struct, metaclass=Checked, frozen=True, gc=False, omit_defa
             raise FieldError("up", "a direction that is not parallel to normal")
 
     @classmethod
+    @explain_unknown
     def look_at(
         cls,
         eye: "Vector | Triple",
@@ -112,6 +114,7 @@ class Camera(msgspec.Struct, metaclass=Checked, frozen=True, gc=False, omit_defa
         return cls(**views.looking("Camera.look_at", eye, target, up, size, fov_degrees, None))
 
     @classmethod
+    @explain_unknown
     def orthographic(
         cls,
         eye: "Vector | Triple",
@@ -143,6 +146,7 @@ class Camera(msgspec.Struct, metaclass=Checked, frozen=True, gc=False, omit_defa
         return cls(**views.looking("Camera.orthographic", eye, target, up, size, None, height))
 
     @classmethod
+    @explain_unknown
     def fit(
         cls,
         subject: "HasObjects | Spheres | ArrayLike",
@@ -216,7 +220,4 @@ class Camera(msgspec.Struct, metaclass=Checked, frozen=True, gc=False, omit_defa
         width, height = views.argument("Camera.resized", "size", size, SizePair)
         factor = max(self.size[0] / width, self.size[1] / height)
         across, down = self.resolution
-        # Through the class, not `replace`, so that the new numbers are checked.
-        changed = {"size": (width, height), "resolution": (across * factor, down * factor)}
-        fields = {name: getattr(self, name) for name in self.__struct_fields__}
-        return Camera(**{**fields, **changed})
+        return self.replace(size=(width, height), resolution=(across * factor, down * factor))

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from vtray.color_scale import ColorScale, scale_of
 from vtray.colors import ALPHA, WORDS, Rgb, ambiguous, to_rgb
 from vtray.errors import SceneError
+from vtray.given_array import RED_GREEN_BLUE, is_masked, remedy_for, show_array, show_shape
 from vtray.scene_words import show
 from vtray.triples import Color
 
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from vtray.colors import AnyColor
 
 Bytes = NDArray[np.uint8]
+
+_VALUE = ("value",)
 
 
 def color_array(
@@ -74,9 +77,11 @@ def _values(given: Any, count: int, place: str) -> NDArray[np.float64]:  # noqa:
     except (TypeError, ValueError, RuntimeError, OverflowError):
         values = None
     if values is None:
-        raise SceneError(f"{place}: {words}, got {_shown(given)}")
+        got = show_array(given)
+        raise SceneError(f"{place}: {words}, got {got}{remedy_for(given, _VALUE)}")
     if values.shape != (count,):
-        raise SceneError(f"{place}: {words}, got shape {values.shape}")
+        got = show_shape(given, values.shape)
+        raise SceneError(f"{place}: {words}, got {got}{remedy_for(given, _VALUE)}")
     if masked:
         values[np.ma.getmaskarray(given)] = np.nan
     return values
@@ -94,25 +99,37 @@ def _colors(given: Any, count: int, place: str) -> Bytes:  # noqa: ANN401
         # Rows of different length, or of integers too large.
         if isinstance(given, (list, tuple)):
             return _listed(given, count, place)
-        raise SceneError(f"{place}: expected {WORDS}, got {_shown(given)}") from None
-    if array.dtype.kind in "OUT" and array.ndim == 1:
+        raise _no_colors(given, place) from None
+    if array.dtype.kind in "OUT" and array.ndim == 1 and not is_masked(given):
         return _listed(array.tolist(), count, place)
-    if array.dtype.kind not in "iuf":
-        raise SceneError(f"{place}: expected {WORDS}, got {_shown(given)}")
+    return _numbers(given, array, count, place)
+
+
+def _numbers(given: Any, array: NDArray[Any], count: int, place: str) -> Bytes:  # noqa: ANN401
+    """Return colours that are an array of numbers."""
+    if array.dtype.kind not in "iuf" or is_masked(given):
+        raise _no_colors(given, place)
     if array.shape in ((3,), (4,)):
         return np.array(to_rgb(given if isinstance(given, (list, tuple)) else array, place), "u1")
     if array.shape == (0,) and count == 0:
         return np.zeros((0, 3), np.uint8)
     if array.shape != (count, 3):
-        raise SceneError(f"{place}: {_wrong_shape(array.shape, count)}")
+        raise SceneError(f"{place}: {_wrong_shape(given, array.shape, count)}")
     return _rows(array, place)
 
 
-def _wrong_shape(shape: tuple[int, ...], count: int) -> str:
+def _no_colors(given: object, place: str) -> SceneError:
+    """Give the error for what is neither a colour nor colours."""
+    got = show_array(given)
+    return SceneError(f"{place}: expected {WORDS}, got {got}{remedy_for(given, RED_GREEN_BLUE)}")
+
+
+def _wrong_shape(given: object, shape: tuple[int, ...], count: int) -> str:
     """Say what is wrong with the shape of colours."""
     if shape == (count, 4):
         return f"{ALPHA}, got shape {shape}; give color[:, :3]"
-    words = f"expected one colour, or numbers of shape ({count}, 3), got shape {shape}"
+    words = f"expected one colour, or numbers of shape ({count}, 3)"
+    words = f"{words}, got {show_shape(given, shape)}{remedy_for(given, RED_GREEN_BLUE)}"
     if shape == (count,):
         return f'{words}; to colour by values, give a colour map too, for instance cmap="viridis"'
     return words
@@ -155,10 +172,3 @@ def _rows(array: NDArray[Any], place: str) -> Bytes:
         row = int(np.flatnonzero((array == 1).any(axis=1))[0])
         raise SceneError(f"{place}[{row}]: {ambiguous(array[row].tolist())}")
     return array.astype(np.uint8)
-
-
-def _shown(given: Any) -> str:  # noqa: ANN401
-    """Write what was given, in short."""
-    if hasattr(given, "dtype") and hasattr(given, "shape"):
-        return f"an array of dtype {given.dtype} and shape {given.shape}"
-    return show(given)

@@ -111,14 +111,18 @@ def _expose(linear: NDArray[np.float64], white: float, bytes_: NDArray[np.uint8]
         bytes_[k] = np.uint8(exposed)
 
 
-def locked_white(lock: object) -> float:
+def locked_white(lock: object, exposure: object = None) -> float:
     """Return the white of the picture whose exposure another one shall have.
 
     Raises
     ------
     RenderError
-        It is no picture.
+        It is no picture, or an exposure was asked for too.
     """
+    if exposure is not None:
+        shown = reprlib.repr(exposure)
+        message = f"lock and exposure {shown}: expected one of them; leave out the other"
+        raise RenderError(message)
     white = getattr(lock, "white", None)
     if isinstance(white, (int, float)):
         return float(white)

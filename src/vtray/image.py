@@ -155,23 +155,29 @@ class Image:
         return scene_hash(self._original)
 
     def expose(
-        self, exposure: Literal["max"] | float = "max", *, lock: "Image | None" = None
+        self, exposure: Literal["max"] | float | None = None, *, lock: "Image | None" = None
     ) -> "Image":
         """Return the same light with another exposure.
 
         Parameters
         ----------
         exposure
-            ``"max"``, or what light is multiplied by, > 0, as in `render`.
+            ``"max"``, the default, or what light is multiplied by, > 0, as in `render`.
         lock
-            A picture whose exposure is taken instead.
+            A picture whose exposure is taken; not together with `exposure`.
 
         Raises
         ------
         SceneError
             The exposure is neither.
+        RenderError
+            `lock` is no picture, or `exposure` is given too.
         """
-        return self._with(self.linear, self.scene, self.settings.replace(exposure=exposure), lock)
+        if lock is not None:
+            locked_white(lock, exposure)
+            return self._with(self.linear, self.scene, self.settings, lock)
+        settings = self.settings.replace(exposure="max" if exposure is None else exposure)
+        return self._with(self.linear, self.scene, settings, None)
 
     def relight(self, intensities: Sequence[float], *, lock: "Image | None" = None) -> "Image":
         """Return the picture with other intensities of its lights, exactly as a new render.

@@ -1,11 +1,12 @@
 """What a scene is made of: lights, spheres and planes, as the scene file defines them."""
 
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import msgspec
 from msgspec import UNSET, UnsetType
 
-from vtray.checked import Checked
+from vtray.checked import Frozen
 from vtray.kinds import DataPath, Fraction, NonNegative
 from vtray.spheres import Spheres
 from vtray.triples import Color, Direction, Vector
@@ -13,8 +14,10 @@ from vtray.triples import Color, Direction, Vector
 if TYPE_CHECKING:
     from vtray.triples import Triple
 
+_SURFACE = MappingProxyType({"color": Color(255, 255, 255), "lambert": 1.0})
 
-class Light(msgspec.Struct, metaclass=Checked, frozen=True, gc=False):
+
+class Light(Frozen, frozen=True, gc=False):
     """A point light; its light does not fall off with distance.
 
     Attributes
@@ -28,14 +31,14 @@ class Light(msgspec.Struct, metaclass=Checked, frozen=True, gc=False):
     location: Vector
     intensity: NonNegative
 
+    _in_code = MappingProxyType({"intensity": 1.0})
+
     if TYPE_CHECKING:
 
-        def __init__(self, location: "Vector | Triple", intensity: float) -> None: ...
+        def __init__(self, location: "Vector | Triple", intensity: float = 1.0) -> None: ...
 
 
-class Sphere(
-    msgspec.Struct, metaclass=Checked, frozen=True, gc=False, tag_field="type", tag="sphere"
-):
+class Sphere(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
     """A sphere with a matt surface, which can also be seen from inside.
 
     Attributes
@@ -55,16 +58,20 @@ class Sphere(
     color: Color
     lambert: Fraction
 
+    _in_code = _SURFACE
+
     if TYPE_CHECKING:
 
         def __init__(
-            self, center: "Vector | Triple", radius: float, color: "Color | Triple", lambert: float
+            self,
+            center: "Vector | Triple",
+            radius: float,
+            color: "Color | Triple" = ...,
+            lambert: float = 1.0,
         ) -> None: ...
 
 
-class Plane(
-    msgspec.Struct, metaclass=Checked, frozen=True, gc=False, tag_field="type", tag="plane"
-):
+class Plane(Frozen, frozen=True, gc=False, tag_field="type", tag="plane"):
     """A plane without edges and with two matt sides.
 
     Attributes
@@ -84,14 +91,16 @@ class Plane(
     color: Color
     lambert: Fraction
 
+    _in_code = _SURFACE
+
     if TYPE_CHECKING:
 
         def __init__(
             self,
             center: "Vector | Triple",
             normal: "Direction | Vector | Triple",
-            color: "Color | Triple",
-            lambert: float,
+            color: "Color | Triple" = ...,
+            lambert: float = 1.0,
         ) -> None: ...
 
 

@@ -55,7 +55,7 @@ def recolored(
         changed[index] = from_arrays(arrays, "recolor: ").with_scale(scale)
     else:
         one = Color(*colors.reshape(3).tolist())
-        changed[index] = msgspec.structs.replace(item, color=one)
+        changed[index] = item.replace(color=one)
     return changed
 
 

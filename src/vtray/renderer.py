@@ -20,6 +20,7 @@ from vtray.settings import RenderSettings
 from vtray.stopwatch import Stopwatch
 from vtray.tiles import TILE
 from vtray.tracing import Tracer, available_cores, compile_kernels
+from vtray.unknown_names import explain_unknown
 
 Progress = Callable[[str, int, int], None]
 
@@ -32,6 +33,7 @@ class HasWhite(Protocol):
         """The light that becomes 255."""
 
 
+@explain_unknown
 def render(
     scene: Scene,
     threads: int | None = None,
@@ -78,7 +80,8 @@ def render(
         What is seen where nothing is: ``"black"``, the default, ``"transparent"``, or a colour in
         any of the ways of `vtray.colors.to_rgb`.
     lock
-        A picture whose exposure is taken instead, so that a sequence does not flicker.
+        A picture whose exposure is taken, so that a sequence does not flicker; not together with
+        `exposure`.
     keep_lights
         Keep the light of each lamp apart, for `Image.relight` and `Image.recolor`.
     tile
@@ -94,8 +97,8 @@ def render(
     SceneError
         The scene or a setting holds something that none may hold.
     RenderError
-        The image does not fit into memory, its light is too bright for a double, or `lock` is no
-        picture.
+        The image does not fit into memory, its light is too bright for a double, `lock` is no
+        picture, or `exposure` is given too.
     ValueError
         `threads` or `tile` is not an integer of at least 1.
     KeyboardInterrupt
@@ -104,7 +107,7 @@ def render(
     threads = _count("threads", threads if threads is not None else available_cores())
     tile = _count("tile", tile)
     if lock is not None:
-        locked_white(lock)
+        locked_white(lock, exposure)
     scene.check()
     settings = scene.render.replace(
         samples=samples,

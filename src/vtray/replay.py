@@ -29,7 +29,8 @@ def take_over(options: argparse.Namespace) -> Provenance:
     if told.lock is not None and options.exposure is None:
         options.lock = Exposed(told.lock)
     for name in SETTINGS:
-        if getattr(options, name) is None:
+        decided = name == "exposure" and options.lock is not None
+        if getattr(options, name) is None and not decided:
             setattr(options, name, getattr(told, name))
     if options.output is not None:
         # Another format than that of the picture may have other bits.

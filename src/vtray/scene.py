@@ -21,6 +21,7 @@ from vtray.objects import Light, Object, Plane, Sphere, SpheresInFile
 from vtray.settings import RenderSettings
 from vtray.spheres import Spheres
 from vtray.triples import Color, Direction, Vector
+from vtray.unknown_names import explain_unknown, unknown_attribute
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -109,6 +110,13 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
         objects: list[Object] = msgspec.field(default_factory=list)
         render: RenderSettings = msgspec.field(default_factory=RenderSettings)
 
+    def __setattr__(self, name: str, value: object) -> None:
+        """Set an attribute of these; a misspelt one would be ignored by everyone."""
+        if name not in self.__struct_fields__:
+            raise AttributeError(_no_attribute(name))
+        super().__setattr__(name, value)
+
+    @explain_unknown
     def add_sphere(
         self,
         center: "Vector | Triple",
@@ -139,6 +147,7 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
         self.objects.append(sphere)
         return sphere
 
+    @explain_unknown
     def add_spheres(
         self,
         positions: "ArrayLike",
@@ -203,6 +212,7 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
         self.objects.append(spheres)
         return spheres
 
+    @explain_unknown
     def add_plane(
         self,
         point: "Vector | Triple",
@@ -234,6 +244,7 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
         self.objects.append(plane)
         return plane
 
+    @explain_unknown
     def add_light(self, location: "Vector | Triple", intensity: float = 1.0) -> Light:
         """Add a point light.
 
@@ -341,6 +352,14 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
 
             write_arrays(target.with_name(name), columns)
         write_whole(target, write)
+
+
+def _no_attribute(name: str) -> str:
+    """Say that a scene has no such attribute, and where it belongs."""
+    if name not in RenderSettings.__struct_fields__:
+        return unknown_attribute("Scene", name, Scene.__struct_fields__)
+    ways = f"vtray.render(scene, {name}=...) or scene.render = scene.render.replace({name}=...)"
+    return f"Scene has no attribute {name!r}, which is a setting of the render: {ways}"
 
 
 def _is_none(value: object) -> bool:

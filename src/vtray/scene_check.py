@@ -206,7 +206,8 @@ def _is_triple(structs: tuple[Struct, ...]) -> bool:
 @functools.cache
 def hints_of(cls: Struct) -> dict[str, Kind]:
     """Give the annotations of a Struct's fields, in their order."""
-    return typing.get_type_hints(cls, include_extras=True)
+    hints = typing.get_type_hints(cls, include_extras=True)
+    return {name: hints[name] for name in cls.__struct_fields__}
 
 
 @functools.cache

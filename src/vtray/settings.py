@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
 import msgspec
 from msgspec import Meta
 
-from vtray.checked import Checked, bind
+from vtray.checked import Checked, Frozen, bind
 from vtray.colors import to_rgb
 from vtray.kinds import Positive, SizePair
 from vtray.triples import Color
@@ -46,9 +46,7 @@ class _CheckedSettings(Checked):
         return super().__call__(**values)
 
 
-class RenderSettings(
-    msgspec.Struct, metaclass=_CheckedSettings, frozen=True, omit_defaults=True, gc=False
-):
+class RenderSettings(Frozen, metaclass=_CheckedSettings, frozen=True, omit_defaults=True, gc=False):
     """How a picture is taken of a scene.
 
     Attributes

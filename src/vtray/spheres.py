@@ -6,14 +6,22 @@ imported here only when arrays are at hand.
 """
 
 import math
-import sys
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import msgspec
 
-from vtray.checked import Checked, bind, make_unchecked
+from vtray.checked import Checked, Frozen, bind, make_unchecked
 from vtray.errors import SceneError
+from vtray.given_array import (
+    COORDINATES,
+    RED_GREEN_BLUE,
+    is_masked,
+    remedy_for,
+    show_array,
+    show_shape,
+)
 from vtray.kinds import Byte, Fraction, NonNegative, Real
 
 if TYPE_CHECKING:
@@ -43,18 +51,21 @@ class Column(NamedTuple):
         Shape of what belongs to one sphere: () for a number, (3,) for three.
     one
         What may stand for all spheres instead of an array, in words; "" if nothing may.
+    columns
+        What the columns of a table may be called.
     """
 
     kind: Any
     row: tuple[int, ...]
     one: str
+    columns: tuple[str, ...]
 
 
 COLUMNS = {
-    "center": Column(Real, (3,), ""),
-    "radius": Column(NonNegative, (), "a number"),
-    "color": Column(Byte, (3,), "three integers"),
-    "lambert": Column(Fraction, (), "a number"),
+    "center": Column(Real, (3,), "", COORDINATES),
+    "radius": Column(NonNegative, (), "a number", ("radius",)),
+    "color": Column(Byte, (3,), "three integers", RED_GREEN_BLUE),
+    "lambert": Column(Fraction, (), "a number", ("lambert",)),
 }
 
 
@@ -80,7 +91,7 @@ class _CheckedArrays(Checked):
 
 
 class Spheres(
-    msgspec.Struct,
+    Frozen,
     metaclass=_CheckedArrays,
     frozen=True,
     eq=False,
@@ -126,10 +137,16 @@ class Spheres(
     color: Bytes
     lambert: Floats | float
 
+    _in_code = MappingProxyType({"color": (255, 255, 255), "lambert": 1.0})
+
     if TYPE_CHECKING:  # what code may give, beside what the attributes hold
 
         def __init__(
-            self, center: ArrayLike, radius: ArrayLike, color: ArrayLike, lambert: ArrayLike
+            self,
+            center: ArrayLike,
+            radius: ArrayLike,
+            color: ArrayLike = ...,
+            lambert: ArrayLike = 1.0,
         ) -> None: ...
 
     __hash__ = None  # type: ignore[assignment]  # arrays are compared, and may change
@@ -254,11 +271,18 @@ def check_arrays(
     """
     at = {name: place + called.get(name, name) for name in COLUMNS}
     found = {name: _to_array(values[name], name, at[name]) for name in COLUMNS}
-    center = _check_center(found["center"], at["center"])
+    center = _check_center(found["center"], values["center"], at["center"])
     shaped = {"center": center}
     for name in ("radius", "color", "lambert"):
         as_center = f"as {called.get('center', 'center')} has shape {center.shape}"
-        shaped[name] = _check_shape(found[name], name, center, at[name], as_center)
+        shape = (len(center), *COLUMNS[name].row)
+        if found[name].shape == shape[:1] == (0,):  # what an empty list has
+            found[name] = found[name].reshape(shape)
+        if found[name].shape not in (shape, shape[1:]):
+            words = f"{array_words(name, len(center))}, {as_center}"
+            problem = _wrong_shape(found[name], values[name], name, words)
+            raise SceneError(f"{at[name]}: {problem}")
+        shaped[name] = found[name]
     return {name: _check_numbers(array, name, at[name]) for name, array in shaped.items()}
 
 
@@ -267,24 +291,22 @@ def _to_array(found: Any, name: str, place: str) -> AnyArray:  # noqa: ANN401
     import numpy as np
 
     from vtray.json_tree import short
-    from vtray.scene_words import show
 
     given: Any = msgspec.structs.astuple(found) if isinstance(found, msgspec.Struct) else found
+    remedy = remedy_for(given, COLUMNS[name].columns)
+    words = f"{place}: expected {array_words(name)}"
+    if remedy and not hasattr(given, "__array__"):  # atoms, which NumPy would take one by one
+        raise SceneError(f"{words}, got {show_array(given)}{remedy}")
     only_dlpack = hasattr(given, "__dlpack__") and not hasattr(given, "__array__")
     try:
         array: AnyArray = np.from_dlpack(given) if only_dlpack else np.asarray(given)
     except (ValueError, TypeError, RuntimeError, OverflowError, BufferError) as error:
-        got = f"{show(given)} ({short(str(error), 100)})"
+        got = f"{show_array(given)} ({short(str(error), 100)})"
     else:
-        # Who has no masked arrays need not wait for NumPy to load them.
-        masked = "numpy.ma" in sys.modules and np.ma.is_masked(given)
-        if array.dtype.kind in "iuf" and not masked:
+        if array.dtype.kind in "iuf" and not is_masked(given):
             return array
-        if masked:
-            got = "an array with masked numbers"
-        else:
-            got = f"an array of dtype {array.dtype}" if hasattr(given, "dtype") else show(given)
-    raise SceneError(f"{place}: expected {array_words(name)}, got {got}")
+        got = show_array(given)
+    raise SceneError(f"{words}, got {got}{remedy}")
 
 
 def array_words(name: str, count: object = "n") -> str:
@@ -295,29 +317,21 @@ def array_words(name: str, count: object = "n") -> str:
     return f"{column.one} or {words}" if column.one else words
 
 
-def _check_center(center: AnyArray, place: str) -> AnyArray:
+def _check_center(center: AnyArray, given: object, place: str) -> AnyArray:
     """Return centres of shape (n, 3)."""
     if center.shape == (0,):  # what an empty list has
         return center.reshape(0, 3)
     if center.ndim == 2 and center.shape[1] == 3:
         return center
     hint = " (transpose it)" if center.ndim == 2 and center.shape[0] == 3 else ""
-    message = f"expected {array_words('center')}, got shape {center.shape}{hint}"
-    raise SceneError(f"{place}: {message}")
+    problem = _wrong_shape(center, given, "center", array_words("center"))
+    raise SceneError(f"{place}: {problem}{hint}")
 
 
-def _check_shape(
-    array: AnyArray, name: str, center: AnyArray, place: str, as_center: str
-) -> AnyArray:
-    """Return an array with a row for each centre, or with one for all."""
-    row = COLUMNS[name].row
-    shape = (len(center), *row)
-    if array.shape in (row, shape):
-        return array
-    if array.shape == (0,) and len(center) == 0:
-        return array.reshape(shape)
-    words = f"{array_words(name, len(center))}, {as_center}"
-    raise SceneError(f"{place}: expected {words}, got shape {array.shape}")
+def _wrong_shape(array: AnyArray, given: object, name: str, words: str) -> str:
+    """Say what is wrong with the shape of an array."""
+    remedy = remedy_for(given, COLUMNS[name].columns)
+    return f"expected {words}, got {show_shape(given, array.shape)}{remedy}"
 
 
 def _check_numbers(given: AnyArray, name: str, place: str) -> Any:  # noqa: ANN401

@@ -3,9 +3,7 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-import msgspec
-
-from vtray.checked import Checked
+from vtray.checked import Frozen
 from vtray.kinds import Byte, Real
 
 if TYPE_CHECKING:
@@ -14,7 +12,7 @@ if TYPE_CHECKING:
     Triple = Sequence[float] | NDArray[Any]
 
 
-class Vector(msgspec.Struct, metaclass=Checked, frozen=True, gc=False):
+class Vector(Frozen, frozen=True, gc=False):
     """A point or a displacement in world space.
 
     Wherever a `Vector`, `Direction` or `Color` is expected, code may also give a tuple, a
@@ -31,7 +29,7 @@ class Vector(msgspec.Struct, metaclass=Checked, frozen=True, gc=False):
     z: Real
 
 
-class Direction(msgspec.Struct, metaclass=Checked, frozen=True, gc=False):
+class Direction(Frozen, frozen=True, gc=False):
     """A direction in world space, of any length but zero.
 
     Attributes
@@ -51,7 +49,7 @@ class Direction(msgspec.Struct, metaclass=Checked, frozen=True, gc=False):
             raise ValueError(message)
 
 
-class Color(msgspec.Struct, metaclass=Checked, frozen=True, gc=False):
+class Color(Frozen, frozen=True, gc=False):
     """The colour of a surface, in linear light.
 
     Attributes
