@@ -254,29 +254,36 @@ class _Render:
         arm, way = points - center, light - points
         light_arm = np.broadcast_to(light - center, points.shape)
         light_depth = dot(light, self.forward)
+        end_reach = self.light_reach(light, self.magnitude(item))
         if light_depth < 0:  # the part behind the image plane does not count
             depth = dot(points, self.forward)
-            way = (depth / (depth - light_depth))[:, None] * way
+            share = depth / (depth - light_depth)
+            way = share[:, None] * way
             light_arm = arm + way
+            end_reach = reach + share * end_reach
         start = dot(arm, arm) - radius * radius
         end = dot(light_arm, light_arm) - radius * radius
         slack = reach * (2 * radius + reach)
+        end_slack = end_reach * (2 * radius + end_reach)
         toward = -dot(arm, way)
         length2 = dot(way, way)
         moment = cross(arm, way)
         passes = dot(moment, moment) < radius * radius * length2
-        enters = (toward > 0) & passes & ((end < 0) | (toward < length2))
+        enters = (toward > 0) & passes & ((end < -end_slack) | (toward < length2))
         inside = start < -slack
         on = ~inside & (start <= slack)
-        leaves = end > slack
+        leaves = end > end_slack
         return np.where(inside, leaves, np.where(on, leaves & (toward > 0), enters))
+
+    def light_reach(self, light: Array, magnitude: Any) -> Any:
+        return ROUNDING * (magnitude + (np.abs(light).sum() + np.abs(self.center).sum()))
 
     def plane_hides(self, item: Scene, points: Array, reach: Array, light: Array) -> Array:
         normal, point = self.normal(item), self.place(item["center"])
         offset = dot(point, normal)
         start = dot(points, normal) - offset
         end = dot(light, normal) - offset
-        if abs(end) <= ROUNDING * (np.abs(point).sum() + np.abs(light).sum()):
+        if abs(end) <= self.light_reach(light, np.abs(point).sum()):
             return np.zeros(len(points), bool)
         opposite = (np.abs(start) > reach) & (np.sign(start) != np.sign(end))
         light_depth, depth = dot(light, self.forward), dot(points, self.forward)

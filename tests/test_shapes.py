@@ -53,7 +53,7 @@ def test_sphere_blocks(
     start: tuple[float, float, float], end: tuple[float, float, float], blocks: bool
 ) -> None:
     to_end = (end[0] - start[0], end[1] - start[1], end[2] - start[2])
-    assert bool(sphere_blocks(start, to_end, end, 1.0, 1e-14)) is blocks
+    assert bool(sphere_blocks(start, to_end, end, 1.0, 1e-14, 1e-14)) is blocks
 
 
 @pytest.mark.parametrize(

@@ -60,8 +60,14 @@ def plane_side(planes: Planes, plane: int, point: Vec) -> float:
 def light_side(planes: Planes, plane: int, lights: Lights, light: int) -> float:
     """Return the signed distance of a light from a plane, 0 if rounding could explain it."""
     side = plane_side(planes, plane, pick(lights, light))
-    reach = ROUNDING * (planes.magnitude[plane] + lights.magnitude[light])
-    return side if abs(side) > reach else 0.0
+    return side if abs(side) > light_reach(lights, light, planes.magnitude[plane]) else 0.0
+
+
+@device
+def light_reach(lights: Lights, light: int, magnitude: float) -> float:
+    """Return how far from a surface of a magnitude rounding may have put a light that is on it."""
+    reach: float = ROUNDING * (magnitude + lights.world_magnitude[light])
+    return reach
 
 
 @device
@@ -73,16 +79,22 @@ def sphere_shadows(
     center: Vec,
     radius: float,
     reach: float,
+    end_reach: float,
 ) -> bool:
-    """Tell whether a sphere stands between a point and a light, in front of the image plane."""
+    """Tell whether a sphere stands between a point and a light, in front of the image plane.
+
+    Rounding may have moved the point by `reach` and the light by `end_reach`.
+    """
     from_center = sub(point, center)
     to_end = sub(light, point)
     end_from_center = sub(light, center)
     if light_depth < 0.0:
         # The shadow ray counts up to where it passes through the image plane.
-        to_end = scale(depth / (depth - light_depth), to_end)
+        share = depth / (depth - light_depth)
+        to_end = scale(share, to_end)
         end_from_center = add(from_center, to_end)
-    return sphere_blocks(from_center, to_end, end_from_center, radius, reach)
+        end_reach = reach + share * end_reach
+    return sphere_blocks(from_center, to_end, end_from_center, radius, reach, end_reach)
 
 
 @device
@@ -110,13 +122,14 @@ def _block_eight(
     magnitude = sphere_magnitude(center, radius)
     place = pick(lights, light)
     light_depth = lights.depth[light]
+    end_reach = light_reach(lights, light, magnitude)
     # The mask tells the compiler that no index is negative.
     begin = first & (LANES - 1)
     for lane in range(begin, begin + GROUP):
         point = load(packet, POINT, lane)
         reach = ROUNDING * (packet[MAGNITUDE + lane] + magnitude)
         depth = packet[DEPTH + lane]
-        shadow = sphere_shadows(point, depth, place, light_depth, center, radius, reach)
+        shadow = sphere_shadows(point, depth, place, light_depth, center, radius, reach, end_reach)
         packet[BLOCKED + lane] = 1.0 if shadow else packet[BLOCKED + lane]
 
 

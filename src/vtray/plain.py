@@ -13,7 +13,7 @@ from vtray.camera import camera_ray
 from vtray.compiled import device, kernel
 from vtray.interaction import Interaction, interact, material
 from vtray.nearest import plane_distance, sphere_distance
-from vtray.occlusion import light_side, plane_side, sphere_shadows
+from vtray.occlusion import light_reach, light_side, plane_side, sphere_shadows
 from vtray.plane import plane_blocks
 from vtray.rounding import ROUNDING
 from vtray.scene_arrays import SceneArrays
@@ -127,8 +127,10 @@ def _first_blocker(scene: SceneArrays, start: Interaction, light: int) -> int:
     blocker = NOTHING
     for k in range(count):
         center, radius = sphere_center(spheres, k), sphere_radius(spheres, k)
-        reach = ROUNDING * (start.magnitude + sphere_magnitude(center, radius))
-        if sphere_shadows(start.point, depth, place, light_depth, center, radius, reach):
+        magnitude = sphere_magnitude(center, radius)
+        reach = ROUNDING * (start.magnitude + magnitude)
+        end_reach = light_reach(lights, light, magnitude)
+        if sphere_shadows(start.point, depth, place, light_depth, center, radius, reach, end_reach):
             number = int(spheres.number[k])
             blocker = number if blocker == NOTHING else min(blocker, number)
     if blocker != NOTHING:

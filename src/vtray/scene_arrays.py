@@ -42,7 +42,11 @@ class Planes(NamedTuple):
 
 
 class Lights(NamedTuple):
-    """Places, distances in front of the image plane, intensities, magnitudes, all (n,)."""
+    """Places, distances in front of the image plane, intensities, magnitudes, all (n,).
+
+    The magnitude in world space is what the rounding of a light's place is relative to where it was
+    worked out, by hand or by a program, before it came here.
+    """
 
     x: Floats
     y: Floats
@@ -50,6 +54,7 @@ class Lights(NamedTuple):
     depth: Floats
     intensity: Floats
     magnitude: Floats
+    world_magnitude: Floats
 
 
 class Materials(NamedTuple):
@@ -223,13 +228,15 @@ def _pack_lights(scene: Scene, origin: Floats, unit: float, camera: CameraFrame)
     """Return the arrays of all lights."""
     points = _points([light.location for light in scene.lights], unit) - origin
     x, y, z = _columns(points)
+    magnitude = _magnitude(x, y, z)
     return Lights(
         x,
         y,
         z,
         depth=_dot((x, y, z), camera.forward),
         intensity=np.array([light.intensity for light in scene.lights], float),
-        magnitude=_magnitude(x, y, z),
+        magnitude=magnitude,
+        world_magnitude=magnitude + _magnitude(*origin),
     )
 
 

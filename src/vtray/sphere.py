@@ -43,12 +43,17 @@ def intersect_sphere(eye_from_center: Vec, direction: Vec, radius: float) -> tup
 
 @device
 def sphere_blocks(
-    from_center: Vec, to_end: Vec, end_from_center: Vec, radius: float, reach: float
+    from_center: Vec,
+    to_end: Vec,
+    end_from_center: Vec,
+    radius: float,
+    reach: float,
+    end_reach: float,
 ) -> bool:
     """Tell whether a sphere's surface lies between a point and the end of its shadow ray.
 
-    No square root and no division. A start that rounding could have moved across the surface is
-    on it: the surface then blocks only where the ray passes through the inside.
+    No square root and no division. A start or an end that rounding could have moved across the
+    surface is on it: the surface then blocks only where the ray crosses it elsewhere.
 
     Parameters
     ----------
@@ -62,9 +67,12 @@ def sphere_blocks(
         The sphere's radius.
     reach
         How far rounding may have moved the start.
+    end_reach
+        How far rounding may have moved the end.
     """
     radius2 = radius * radius
     slack = reach * (2.0 * radius + reach)  # (radius + reach)^2 - radius^2
+    end_slack = end_reach * (2.0 * radius + end_reach)
     start = dot(from_center, from_center) - radius2
     end = dot(end_from_center, end_from_center) - radius2
     toward = -dot(from_center, to_end)
@@ -73,7 +81,7 @@ def sphere_blocks(
     enters = (
         (toward > 0.0)
         & (dot(moment, moment) < radius2 * length2)
-        & ((end < 0.0) | (toward < length2))
+        & ((end < -end_slack) | (toward < length2))
     )
-    leaves = (end > slack) & ((start < -slack) | (toward > 0.0))
+    leaves = (end > end_slack) & ((start < -slack) | (toward > 0.0))
     return enters if start > slack else leaves
