@@ -40,8 +40,10 @@ def test_without_a_writable_home(variable: str, tmp_path: Path) -> None:
     )
     if variable == "VTRAY_CACHE_DIR":  # what was asked for cannot be had: nothing is kept
         assert done.stdout == "None\n"
+        assert "/proc/nowhere cannot be written to" in done.stderr
     else:
         assert done.stdout.startswith(str(tmp_path))
+        assert done.stderr == ""
 
 
 def test_folder_is_named_by_all_sources() -> None:
