@@ -1,7 +1,6 @@
 """Text that fits: broken into lines, so that nothing of it is cut."""
 
 import re
-from bisect import bisect_left
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
@@ -41,15 +40,16 @@ def write(
         if not is_math_text(words):  # then no line of it may become a formula either
             words = re.sub(r"(?<!\\)\$", r"\\$", words)
 
-        def fits(line: str) -> bool:
+        def length(line: str) -> float:
             text.set_text(line)
-            return _length(text, renderer) <= room
+            return _length(text, renderer)
 
-        words = "\n".join(part for line in words.split("\n") for part in _lines(line, fits))
+        lines = (part for line in words.split("\n") for part in _lines(line, length, room))
+        words = "\n".join(lines)
     text.set_text(words)
-    length = _length(text, renderer)
-    if length > room:
-        text.set_fontsize(max(0.97 * size * room / length, 0.5))
+    longest = _length(text, renderer)
+    if longest > room:
+        text.set_fontsize(max(0.97 * size * room / longest, 0.5))
 
 
 def _length(text: "Text", renderer: "RendererBase | None") -> float:
@@ -58,25 +58,32 @@ def _length(text: "Text", renderer: "RendererBase | None") -> float:
     return float(box.height if text.get_rotation() == 90 else box.width)
 
 
-def _lines(line: str, fits: Callable[[str], bool]) -> Iterator[str]:
+def _lines(line: str, length: Callable[[str], float], room: float) -> Iterator[str]:
     """Break a line."""
-    if fits(line):
+    if length(line) <= room:
         yield line
         return
     current = ""
     for word in WORD.findall(line):
         longer = f"{current} {word}" if current else word
-        if fits(longer):
+        if length(longer) <= room:
             current = longer
             continue
         if current:
             yield current
         current = word
-        while "$" not in current and len(current) > 1 and not fits(current):
-            # The least count of characters that is too long, less one.
-            most = (
-                bisect_left(range(2, len(current)), True, key=lambda k: not fits(current[:k])) + 1
-            )
+        while "$" not in current and len(current) > 1 and length(current) > room:
+            most = _count(current, length, room)
             yield current[:most]
             current = current[most:]
     yield current
+
+
+def _count(word: str, length: Callable[[str], float], room: float) -> int:
+    """Return how many characters of a word that is too long there is room for, at least one."""
+    most = min(max(int(len(word) * room / length(word)), 1), len(word) - 1)
+    while most > 1 and length(word[:most]) > room:
+        most -= 1
+    while most < len(word) - 1 and length(word[: most + 1]) <= room:
+        most += 1
+    return most

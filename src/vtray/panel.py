@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from vtray.color_bar import ColorBar
 from vtray.lettering import write
 from vtray.scale_bar import ScaleBar
-from vtray.sheet import INCH
+from vtray.sheet import INCH, whole_pixels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -192,9 +192,10 @@ class Panel:
             write(self.title, self.words, size, room * self._point, renderer)
             top = self.title.get_window_extent(renderer).y1
             above = float(top - self.ax.bbox.y1) / self._point
-            size *= 0.9
             if above <= most or size < LEAST_SIZE:
                 return above
+            # Lines get lower and hold more.
+            size *= min(0.95, math.sqrt(max(most, 0.0) / above))
 
     def fit(
         self, width: float, height: float, renderer: "RendererBase | None" = None
@@ -247,8 +248,7 @@ class Panel:
             left += (self.thick + beside) * self._point
         if not whole:
             return boxes
-        corners = [(round(b.x0), round(b.y0), round(b.width), round(b.height)) for b in boxes]
-        return [Bbox.from_bounds(x, y, max(w, 1), max(h, 1)) for x, y, w, h in corners]
+        return [Bbox.from_bounds(*whole_pixels(*b.bounds)) for b in boxes]
 
     def settle(self) -> None:
         """Keep the panel within the place of its axes from now on."""
@@ -265,7 +265,7 @@ class Panel:
             outer = self.outer(self.ax, renderer)
         cell = Bbox(outer.get_points()).transformed(figure.transSubfigure)
         whole = renderer is None or not renderer.option_scale_image()
-        wanted = (cell.width, cell.height, point, whole)
+        wanted = (round(cell.width, 3), round(cell.height, 3), point, whole)
         if self.fitted[0] != wanted:  # Matplotlib asks several times for each time it draws
             self.fitted = wanted, self.fit(cell.width / point, cell.height / point, renderer)
         zoom, rooms = self.fitted[1]
@@ -282,7 +282,9 @@ class Panel:
             block.x0, block.y0 + rooms.below * point, width * point, height * point
         )
         boxes = self.place(picture, rooms, whole=whole)
-        return boxes[self.all_axes().index(axes)].transformed(figure.transSubfigure.inverted())
+        # Matplotlib may name the axes around these instead.
+        which = self.all_axes().index(axes) if axes in self.all_axes() else 0
+        return boxes[which].transformed(figure.transSubfigure.inverted())
 
     def get_subplotspec(self) -> "SubplotSpec | None":
         """Return the place of the axes in a grid, by which Matplotlib's tight layout finds it."""
@@ -298,5 +300,8 @@ class Panel:
         return float(self.ax.figure.dpi) / INCH
 
     def _up(self, length: float) -> float:
-        """Round a length up to half a letter, so that figures alike are of the same size."""
-        return math.ceil(2 * length / self.em - 1e-6) * self.em / 2
+        """Round a length up to half an em, so that panels alike are of the same size.
+
+        A tenth of an em more, as a formula may be higher than letters, makes no difference.
+        """
+        return math.ceil(2 * length / self.em - 0.2) * self.em / 2

@@ -80,9 +80,22 @@ class Sheet:
         from vtray.shown_picture import ShownPicture
 
         height, width = pixels.shape[:2]
-        axes = self.axes(left, bottom, width * zoom, height * zoom)
+        axes = self.axes(*whole_pixels(left, bottom, width * zoom, height * zoom))
         ShownPicture.on(axes, pixels)
         return axes
+
+
+def whole_pixels(
+    left: float, bottom: float, width: float, height: float
+) -> tuple[float, float, float, float]:
+    """Return the rectangle of whole pixels that is nearest to one.
+
+    It is a hair smaller: for one that is larger, Matplotlib may take a pixel more, and stretch the
+    picture to that.
+    """
+    least = 1e-9
+    width, height = max(round(width), 1), max(round(height), 1)
+    return round(left) + least, round(bottom) + least, width - 2 * least, height - 2 * least
 
 
 def picture_zoom(width: int) -> int:
