@@ -122,9 +122,12 @@ def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from vtray.renderer import render
 
+    def warn(message: str) -> None:
+        _warn(f"{options.scene}: {message}", options)
+
     settings = settings_of(options)
     if options.quiet or not sys.stderr.isatty():
-        return render(scene, options.threads, **settings)
+        return render(scene, options.threads, warn=warn, **settings)
 
     from vtray.kernel_folder import is_compiled
     from vtray.progress import ProgressBar
@@ -133,7 +136,7 @@ def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
         print("vtray: compiling for this machine, only this once ...", file=sys.stderr)
     progress = ProgressBar()
     try:
-        return render(scene, options.threads, progress, **settings)
+        return render(scene, options.threads, progress, warn=warn, **settings)
     finally:
         progress.close()
 
