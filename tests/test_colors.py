@@ -23,6 +23,7 @@ import vtray
 from vtray import Color, ColorScale, Scene, SceneError
 from vtray.color_scale import color_table
 from vtray.colors import to_rgb
+from vtray.extras import pip_install
 
 POINTS = [(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)]
 
@@ -459,8 +460,8 @@ def test_names_that_the_package_cmap_does_not_know() -> None:
 def test_no_package_for_maps() -> None:
     last = run_without(["matplotlib", "cmap"], TABLES).splitlines()[-1]
     assert last == (
-        "vtray.errors.SceneError: cmap: colour maps need the package cmap, or Matplotlib; "
-        "install it: pip install 'vtray[color]'"
+        "vtray.errors.SceneError: cmap: colour maps need the package cmap, or Matplotlib: "
+        f"{pip_install('cmap')}"
     )
 
 

@@ -341,7 +341,7 @@ class Image:
         The picture itself is shown as it is, one pixel of the figure for each of its own (small
         pictures: a square of pixels for each), and nothing is drawn over it. The figure is none of
         pyplot's: save it by ``figure.savefig("figure.png")``. Needs Matplotlib:
-        ``pip install 'vtray[figure]'``.
+        ``pip install matplotlib``.
 
         Parameters
         ----------
