@@ -28,6 +28,7 @@ from vtray.recoloring import recolored, relit
 from vtray.relighting import Relighting
 from vtray.scene import Scene
 from vtray.settings import RenderSettings
+from vtray.unknown_names import explain_unknown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -198,6 +199,7 @@ class Image:
         scene = Scene(self.scene.camera, lights, self.scene.objects, self.scene.render)
         return self._relit(scene, lock)
 
+    @explain_unknown
     def recolor(
         self,
         index: int,
