@@ -104,7 +104,7 @@ def first() -> Scene:
 
 
 def room() -> Scene:
-    """Four balls in a room, with soft shadows from a square lamp of 64 lights."""
+    """Four balls in a room: soft shadows from a square lamp, and two round ones that fill them."""
     # The image plane is the open front of the room; the fourth wall would be behind it.
     walls = [
         wall((0, 1.52, 0), UP, (250, 240, 225)),

@@ -4,9 +4,13 @@ import math
 from random import Random
 from typing import Any
 
+import pytest
 from hypothesis import strategies as st
 
 Scene = dict[str, Any]
+
+may_be_dark = pytest.mark.filterwarnings("ignore:lights")
+"""For tests that render random scenes, of which some have no light."""
 
 
 def _xyz(x: float, y: float, z: float) -> dict[str, float]:

@@ -14,7 +14,7 @@ import vtray
 from conftest import JIT, compiled_only
 from examples import light, plane, scene, sphere, xyz
 from sample_places import mean, sample_places
-from strategies import crowd, scenes
+from strategies import crowd, may_be_dark, scenes
 from test_many_spheres import ALWAYS, NEVER
 from test_many_spheres import render as render_scene
 from vtray import acceleration
@@ -66,6 +66,7 @@ def assert_sampled(
     return marks
 
 
+@may_be_dark
 @settings(max_examples=100 if JIT else 15)
 @given(
     scenes(),
@@ -278,6 +279,7 @@ def test_seed_chooses_the_places(scattered: dict) -> None:
     assert difference.mean() < 0.05 * one.white
 
 
+@may_be_dark
 @settings(max_examples=30)
 @given(scenes(), st.sampled_from(FILTERS), st.integers(0, 2**32 - 1))
 def test_one_sample_is_the_picture_of_the_format(

@@ -12,7 +12,7 @@ import oracle
 import vtray
 from conftest import JIT
 from examples import light, plane, scene, sphere
-from strategies import scenes
+from strategies import may_be_dark, scenes
 from test_filters import FORMULAS
 
 BALLS = [sphere((0, 0, 5), 1), sphere((0.9, 0.4, 4), 0.5, lambert=0.5)]
@@ -93,6 +93,7 @@ def test_empty_pixels_have_exactly_the_background(samples: int, exposure: object
     np.testing.assert_array_equal(transparent.pixels[full][:, :3], black.pixels[full])
 
 
+@may_be_dark
 @settings(max_examples=60 if JIT else 15)
 @given(
     scenes(),
@@ -123,6 +124,7 @@ def test_exposure_of_1_shows_the_color_of_what_is_lit_squarely() -> None:
     assert (render(document, exposure=1).develop(16) == np.array((200, 100, 7)) * 257).all()
 
 
+@may_be_dark
 @settings(max_examples=60 if JIT else 15)
 @given(scenes(), st.floats(1e-3, 1e3))
 def test_exposure_is_a_factor(document: dict, exposure: float) -> None:

@@ -121,6 +121,32 @@ def test_unknown_keys_are_warned_of(small: Path, capfd: pytest.CaptureFixture[st
     assert capfd.readouterr() == ("", "")
 
 
+DARK = "so all that is seen is black"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "problem"),
+    [
+        (
+            r'"lights": \[.*?\]',
+            '"lights": []',
+            f"there are none, {DARK}; add one by scene.add_light",
+        ),
+        (r'"intensity": 1.0', '"intensity": 0', f"all have the intensity 0, {DARK}; give one more"),
+    ],
+)
+def test_darkness_is_warned_of(
+    old: str, new: str, problem: str, small: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    small.write_text(re.sub(old, new, small.read_text()))
+    output = ["--pixel", "6,4"] if "none" in problem else [str(small.with_name("a.png"))]
+    assert cli.run([str(small), *output]) == 0
+    (line,) = capfd.readouterr().err.splitlines()
+    assert line.startswith(f"Warning: {small}: lights: {problem}")
+    assert cli.run(["--quiet", str(small), *output]) == 0
+    assert capfd.readouterr().err == ""
+
+
 def test_stats(small: Path, capfd: pytest.CaptureFixture[str]) -> None:
     assert cli.run(["--stats", str(small), str(small.with_name("a.png"))]) == 0
     out, err = capfd.readouterr()
@@ -226,7 +252,7 @@ def test_pixel_outside_the_image(small: Path, capfd: pytest.CaptureFixture[str])
 
 
 def fail_with(monkeypatch: pytest.MonkeyPatch, error: BaseException) -> None:
-    def render(*_: object) -> None:
+    def render(*_: object, **__: object) -> None:
         raise error
 
     monkeypatch.setattr("vtray.renderer.render", render)

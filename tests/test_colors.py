@@ -3,6 +3,7 @@
 import copy
 import math
 import pickle
+import re
 import subprocess
 import sys
 from fractions import Fraction
@@ -23,6 +24,7 @@ import vtray
 from vtray import Color, ColorScale, Scene, SceneError
 from vtray.color_scale import color_table
 from vtray.colors import to_rgb
+from vtray.extras import pip_install
 
 POINTS = [(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)]
 
@@ -294,6 +296,59 @@ def test_arrays_that_are_none() -> None:
     assert refusal(ragged) == f"color[1]: {KINDS} (1, 2)"
 
 
+MASKED = "an array with masked numbers; leave out what is masked, or give array.filled(...)"
+
+
+def test_masked_colors() -> None:
+    rows = np.ma.masked_less(np.arange(12.0).reshape(4, 3) / 12, 0.2)
+    names = np.ma.array(["red", "lime", "blue", "tan"], mask=[0, 0, 1, 0])
+    for color in (rows, (255 * rows).astype(np.uint8), rows[0], names):
+        assert refusal(color) == f"color: {KINDS} {MASKED}"
+    assert colors_of(np.ma.array(names.data)) == colors_of(["red", "lime", "blue", "tan"])
+    # Values have a color for what there is not.
+    values = np.ma.array([0.0, 1, 2, 3], mask=[0, 0, 1, 0])
+    assert colors_of(values, cmap="gray", nan_color=(1, 2, 3))[2] == [1, 2, 3]
+
+
+@pytest.mark.parametrize("frame", [pd.DataFrame, pl.DataFrame])
+def test_tables_with_other_columns(frame: Any) -> None:
+    table = frame({"x": [1.0] * 4, "y": [2.0] * 4, "id": ["a"] * 4, "mass": [3.0] * 4})
+    got = 'got a table of shape (4, 4) with the columns "x", "y", "id", "mass"; choose'
+    numbers = "expected an array of numbers of shape (n, 3)"
+    with pytest.raises(SceneError) as caught:
+        Scene().add_spheres(table, 1)
+    remedy = 'three columns, as in table[["x", "y", "z"]]'
+    assert str(caught.value) == f"add_spheres: positions: {numbers}, {got} {remedy}"
+    with pytest.raises(SceneError, match=re.escape(f'{got} one column, as in table["radius"]')):
+        Scene().add_spheres(POINTS, table)
+    assert f'{got} three columns, as in table[["r", "g", "b"]]' in refusal(table)
+    assert f'{got} one column, as in table["value"]' in refusal(table, cmap="gray")
+    short = table[["x", "y"]]
+    with pytest.raises(SceneError, match=r'got a table of .*the columns "x", "y"; choose three'):
+        Scene().add_spheres(short, 1)
+
+
+def test_atoms_have_positions() -> None:
+    class Atoms:
+        """As those of ASE: a sequence of objects."""
+
+        positions = np.zeros((2, 3))
+
+        def __len__(self) -> int:
+            return 2
+
+        def __getitem__(self, index: int) -> object:
+            raise AssertionError("nobody looks at them one by one")
+
+    for things, remedy in (
+        (Atoms(), "give its attribute positions"),
+        (type("Molecule", (), {"get_positions": 1})(), "give what its get_positions() returns"),
+    ):
+        for call in (lambda it: Scene().add_spheres(it, 1), vtray.Camera.fit):
+            with pytest.raises(SceneError, match=f"positions: .*; {re.escape(remedy)}$"):
+                call(things)
+
+
 def test_names_that_pillow_has_looked_up() -> None:
     assert ImageColor.getrgb("plum") == to_rgb("plum") == (221, 160, 221)
 
@@ -459,8 +514,8 @@ def test_names_that_the_package_cmap_does_not_know() -> None:
 def test_no_package_for_maps() -> None:
     last = run_without(["matplotlib", "cmap"], TABLES).splitlines()[-1]
     assert last == (
-        "vtray.errors.SceneError: cmap: colour maps need the package cmap, or Matplotlib; "
-        "install it: pip install 'vtray[color]'"
+        "vtray.errors.SceneError: cmap: colour maps need the package cmap, or Matplotlib: "
+        f"{pip_install('cmap')}"
     )
 
 

@@ -230,7 +230,7 @@ def test_missing_extra_is_explained(
     assert folder.is_dir()
     monkeypatch.setitem(sys.modules, "flip_evaluator", None)
     assert diff.run(["gray.png", "gray.png"]) == 1
-    assert "pip install 'vtray[diff]'" in capfd.readouterr().err
+    assert f"{sys.executable} -m pip install flip-evaluator\n" in capfd.readouterr().err
 
 
 @pytest.mark.parametrize("option", ["--help", "--version"])

@@ -5,6 +5,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from PIL import Image
 
 import vtray
 from conftest import compiled_only
+from vtray.extras import PACKAGES
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text()
@@ -24,11 +26,25 @@ def blocks(kind: str) -> dict[str, str]:
     return dict(re.findall(pattern, README))
 
 
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+
+
+def modules(requirements: list[str]) -> set[str]:
+    """Return what the packages of requirements are imported as."""
+    names = (re.match(r"[\w-]+", text)[0] for text in requirements)
+    return {name.replace("-", "_") for name in names} - {"vtray"}
+
+
+# As after the README's first command, which installs no extra.
+NOT_INSTALLED = set().union(*map(modules, PROJECT["optional-dependencies"].values()))
+FRESH = f"import sys; sys.modules.update(dict.fromkeys({sorted(NOT_INSTALLED)}))\n"
+
+
 @compiled_only
 @pytest.mark.parametrize(("name", "code"), blocks("example").items())
 def test_examples_run(name: str, code: str, tmp_path: Path) -> None:
     (tmp_path / "scenes").symlink_to(ROOT / "scenes")
-    command = [sys.executable, "-W", "error", "-c", code]
+    command = [sys.executable, "-W", "error", "-c", FRESH + code]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     pictures = list(tmp_path.glob("*.png"))
@@ -63,6 +79,16 @@ def test_arrays_are_those_of_the_object(name: str, code: str, tmp_path: Path) ->
     (spheres,) = vtray.load(tmp_path / "scene.json").objects
     assert isinstance(spheres, vtray.Spheres)
     assert len(spheres) == 1000
+
+
+def test_remedies_are_what_the_extras_install() -> None:
+    extras = {name: modules(PROJECT["optional-dependencies"][name]) for name in PACKAGES}
+    assert {name: modules(list(packages)) for name, packages in PACKAGES.items()} == extras
+
+
+def test_caption_counts_the_lights_of_the_scene() -> None:
+    (count,) = re.findall(r"lit by (\d+) lights", README)
+    assert int(count) == len(vtray.load(ROOT / "scenes" / "room.json").lights)
 
 
 def test_blocks_are_found() -> None:

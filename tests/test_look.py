@@ -11,7 +11,7 @@ import oracle
 import vtray
 from conftest import JIT, compiled_only
 from examples import light, plane, scene, sphere, xyz
-from strategies import crowd, scenes
+from strategies import crowd, may_be_dark, scenes
 from test_many_spheres import ALWAYS, NEVER, render
 
 SLANTED = {"up": xyz(0.3, -1, 0.2), "projection": "orthographic"}
@@ -31,6 +31,7 @@ def assert_seen(image: vtray.Image, seen: oracle.Seen) -> None:
     np.testing.assert_array_equal(image.alpha, seen.ids >= 0)
 
 
+@may_be_dark
 @given(scenes())
 def test_equals_oracle(document: dict) -> None:
     seen = oracle.look(document)
@@ -142,7 +143,9 @@ def test_traced_when_asked_and_only_once(monkeypatch: pytest.MonkeyPatch) -> Non
 def test_looks_at_the_scene_as_it_was() -> None:
     world = load(scene([sphere((0, 0, 5), 1)], [light(0, 0, 0)], size=[9, 7]))
     image = vtray.render(world)
-    expected = vtray.render(load(scene([sphere((0, 0, 5), 1)], [], size=[9, 7]))).depth
+    expected = vtray.render(
+        load(scene([sphere((0, 0, 5), 1)], [light(9, 9, 9)], size=[9, 7]))
+    ).depth
     world.objects.clear()
     world.camera = vtray.Camera((0, 0, 0), (1, 0, 0), 1, (2, 2), (1, 1))
     np.testing.assert_array_equal(image.depth, expected)

@@ -13,7 +13,7 @@ import oracle
 import vtray
 from clouds import CLOUDS, cloud
 from conftest import JIT, compiled_only
-from strategies import crowd, scenes
+from strategies import crowd, may_be_dark, scenes
 from vtray import acceleration
 from vtray.acceleration import accelerate
 from vtray.explain import explain_pixel
@@ -47,6 +47,7 @@ def assert_same(scene: vtray.Scene, **options: Any) -> vtray.Image:
     return image
 
 
+@may_be_dark
 @given(scenes())
 def test_equals_oracle(scene: dict) -> None:
     image = render(vtray.loads(json.dumps(scene)), ALWAYS)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import oracle
 import vtray
 from conftest import CONFORMANCE, JIT, compiled_only
-from strategies import crowd, scenes
+from strategies import crowd, may_be_dark, scenes
 from vtray.acceleration import accelerate
 from vtray.plain import NOTHING, trace_pixel
 from vtray.scene_arrays import pack
@@ -29,6 +29,7 @@ def read_png(path: object) -> np.ndarray:
         return np.asarray(image.convert("RGB")).astype(int)
 
 
+@may_be_dark
 @given(scenes())
 def test_equals_oracle(scene: dict) -> None:
     image = vtray.render(load(scene), threads=1)
@@ -87,6 +88,7 @@ def numbers(document: object) -> list[tuple[Any, Any]]:
     return found
 
 
+@may_be_dark
 @given(scenes(), st.data())
 def test_any_number_gives_an_image_or_an_error(scene: dict, data: st.DataObject) -> None:
     places = numbers(scene)

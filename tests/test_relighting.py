@@ -12,7 +12,7 @@ import vtray
 from clouds import cloud
 from conftest import JIT
 from examples import light, plane, scene, sphere
-from strategies import colors, scenes
+from strategies import colors, may_be_dark, scenes
 from vtray.settings import FILTERS
 
 SETTINGS = st.fixed_dictionaries(
@@ -46,12 +46,15 @@ def assert_same(image: vtray.Image, expected: vtray.Image) -> None:
     assert image.locked == expected.locked
 
 
+@may_be_dark
 @settings(max_examples=80 if JIT else 20)
 @given(scenes(), SETTINGS, st.data())
 def test_equals_a_new_render(document: dict, how: dict, data: st.DataObject) -> None:
     if how["samples"] > 2 or not JIT:
         document["camera"]["size"] = [min(9, n) for n in document["camera"]["size"]]
     world = load(document)
+    # Not an argument, which excludes a lock.
+    world.render = vtray.RenderSettings(exposure=how.pop("exposure", "max"))
     image = vtray.render(world, threads=2, keep_lights=True, **how)
     assert_same(image, vtray.render(world, threads=1, **how))
 
@@ -61,7 +64,7 @@ def test_equals_a_new_render(document: dict, how: dict, data: st.DataObject) -> 
         vtray.Light(one.location, strength)
         for one, strength in zip(world.lights, intensities, strict=True)
     ]
-    relit = vtray.Scene(world.camera, lights, world.objects)
+    relit = vtray.Scene(world.camera, lights, world.objects, world.render)
     fresh = vtray.render(relit, threads=1, **how)
     assert_same(image.relight(intensities), fresh)
     assert_same(image.relight(intensities, lock=image), vtray.render(relit, lock=image, **how))
@@ -79,7 +82,8 @@ def test_equals_a_new_render(document: dict, how: dict, data: st.DataObject) -> 
     )
     objects = list(world.objects)
     objects[index] = changed
-    fresh = vtray.render(vtray.Scene(world.camera, lights, objects), threads=1, **how)
+    recolored = vtray.Scene(world.camera, lights, objects, world.render)
+    fresh = vtray.render(recolored, threads=1, **how)
     assert_same(image.relight(intensities).recolor(index, color), fresh)
     assert_same(image.recolor(index, color).relight(intensities), fresh)
 
@@ -217,9 +221,22 @@ def test_without_kept_lights(change: str) -> None:
         image.relight([2]) if change == "relight" else image.recolor(0, "red")
 
 
+def test_lights_that_are_off() -> None:
+    world = load(scene([sphere((0, 0, 5), 9)], [light(0, 0, 0, intensity=0)], size=[3, 2]))
+    with pytest.warns(UserWarning, match="^lights: all have the intensity 0, so all that is seen"):
+        assert not vtray.render(world).linear.any()
+    assert vtray.render(world, keep_lights=True).relight([1]).linear.any()  # warns of nothing
+
+
 def test_without_lights_or_objects() -> None:
-    for document in (scene([], [], size=[3, 2]), scene([sphere((0, 0, 5), 9)], [], size=[3, 2])):
-        image = vtray.render(load(document), keep_lights=True, samples=2)
+    how = {"keep_lights": True, "samples": 2}
+    empty = vtray.render(load(scene([], [], size=[3, 2])), **how)
+    with pytest.warns(
+        UserWarning, match=r"^lights: there are none, so all that is seen is black"
+    ) as caught:
+        dark = vtray.render(load(scene([sphere((0, 0, 5), 9)], [], size=[3, 2])), **how)
+    assert [warning.filename for warning in caught] == [__file__]
+    for image in (empty, dark):
         assert not image.relight([]).linear.any()
     with pytest.raises(
         vtray.SceneError, match="recolor: index: expected nothing, as there are no objects, got 0"

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 import oracle
 import vtray
 from examples import light, one_sphere, plane, scene, sphere
-from strategies import scenes
+from strategies import may_be_dark, scenes
 from test_documents import README, ROOT, blocks
 from vtray.explain import explain_pixel
 from vtray.ray_tree import RayTree
@@ -94,6 +94,7 @@ def test_a_sphere_of_an_array_has_an_index(dtype: type) -> None:
     assert str(hit.surface) == "objects[1], sphere 1"
 
 
+@may_be_dark
 @settings(max_examples=60)
 @given(scenes(), st.data())
 def test_random_scenes_agree_with_the_picture_and_the_oracle(
@@ -259,7 +260,7 @@ def test_lights_that_do_not_exist() -> None:
 
 def test_missing_matplotlib_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(vtray.VtrayError, match=r"pip install 'vtray\[figure\]'"):
+    with pytest.raises(vtray.VtrayError, match=r" -m pip install matplotlib$"):
         vtray.trace_pixel(lit_floor(), 0, 0).draw()
 
 

@@ -70,6 +70,7 @@ def test_scenes_keep_what_is_set_and_what_belongs_to_them() -> None:
         (SCENE.add_light, "w", "the arguments are location, intensity"),
         (vtray.render, "sample", 'did you mean "samples"?'),
         (vtray.render, "alpha", 'for a transparent background, background="transparent"'),
+        (vtray.Image.recolor, "vmin", "the limits of the colour map are clim=(low, high)"),
         (vtray.Camera.fit, "fov", 'did you mean "fov_degrees"?'),
         (vtray.Sphere, "colour", 'did you mean "color"?'),
         (vtray.Spheres, "alpha", "surfaces are opaque, and there is no transparency"),

@@ -140,10 +140,13 @@ def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
     from vtray.compiled import before_compiling
     from vtray.renderer import render
 
+    def warn(message: str) -> None:
+        _warn(f"{options.scene}: {message}", options)
+
     settings = settings_of(options)
     if options.quiet or not sys.stderr.isatty():
         before_compiling(None)
-        return render(scene, options.threads, **settings)
+        return render(scene, options.threads, warn=warn, **settings)
 
     from vtray.progress import ProgressBar
 
@@ -151,7 +154,7 @@ def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
     progress = ProgressBar()
     try:
         with LastStep(progress.close):
-            return render(scene, options.threads, progress, **settings)
+            return render(scene, options.threads, progress, warn=warn, **settings)
     finally:
         progress.close()
 

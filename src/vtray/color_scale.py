@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vtray.colors import Rgb, to_rgb
 from vtray.errors import SceneError
+from vtray.extras import pip_install
 from vtray.scene_words import nearest, show
 
 if TYPE_CHECKING:
@@ -187,8 +188,7 @@ def _table_of_cmap(name: str, place: str) -> Bytes:
     try:
         import cmap
     except ImportError:
-        hint = "pip install 'vtray[color]'"
-        problem = f"colour maps need the package cmap, or Matplotlib; install it: {hint}"
+        problem = f"colour maps need the package cmap, or Matplotlib: {pip_install('cmap')}"
         raise SceneError(f"{place}: {problem}") from None
     logger = logging.getLogger("cmap")
     was_disabled, logger.disabled = logger.disabled, True  # it tells of names that are used twice

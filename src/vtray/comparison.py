@@ -87,7 +87,7 @@ class Comparison:
         Raises
         ------
         ExtraError
-            The extra ``vtray[diff]`` is not installed.
+            The package ``flip-evaluator`` is not installed.
         """
         from vtray.flip import flip_error
 
@@ -130,7 +130,7 @@ class Comparison:
     def figure(self, *, dpi: float | None = None) -> "Figure":
         """Return both pictures and their difference side by side as a Matplotlib figure.
 
-        No pixel of them is changed. Needs Matplotlib: ``pip install 'vtray[figure]'``.
+        No pixel of them is changed. Needs Matplotlib: ``pip install matplotlib``.
 
         Parameters
         ----------

@@ -114,7 +114,7 @@ def compare(a: "Pixels", b: "Pixels") -> Likeness:
     DiffError
         The pictures are not of the same size, or are not 8-bit RGB.
     ExtraError
-        The extra ``vtray[diff]`` is not installed.
+        The package ``flip-evaluator`` is not installed.
     """
     found = comparison.compare(a, b)
     flip, error_map = flip_error(found.a, found.b, "vtray-diff")

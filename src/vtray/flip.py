@@ -29,7 +29,7 @@ def flip_error(a: "Pixels", b: "Pixels", user: str) -> "tuple[float, Pixels]":
     Raises
     ------
     ExtraError
-        The extra ``vtray[diff]`` is not installed.
+        The package ``flip-evaluator`` is not installed.
     """
     evaluate = need("flip_evaluator", "diff", user).evaluate
     import numpy as np

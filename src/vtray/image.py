@@ -29,6 +29,7 @@ from vtray.relighting import Relighting
 from vtray.scene import Scene
 from vtray.settings import RenderSettings
 from vtray.spheres import check_spares_data
+from vtray.unknown_names import explain_unknown
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -200,6 +201,7 @@ class Image:
         scene = Scene(self.scene.camera, lights, self.scene.objects, self.scene.render)
         return self._relit(scene, lock)
 
+    @explain_unknown
     def recolor(
         self,
         index: int,
@@ -347,7 +349,7 @@ class Image:
         Nothing is drawn over the picture. Unless both `width` and `dpi` are given, or `ax`, it is
         shown as it is: one pixel of the figure for each of its own (small pictures: a square of
         pixels for each). The figure is none of pyplot's: save it by
-        ``figure.savefig("figure.png")``. Needs Matplotlib: ``pip install 'vtray[figure]'``.
+        ``figure.savefig("figure.png")``. Needs Matplotlib: ``pip install matplotlib``.
 
         Fonts, their sizes and the width of lines are those of Matplotlib's ``rcParams``. Text that
         is too long is broken into lines.

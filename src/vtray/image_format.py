@@ -8,6 +8,7 @@ from typing import BinaryIO, NamedTuple
 
 from vtray.errors import OutputError
 from vtray.exr_file import read_exr, write_exr
+from vtray.extras import PACKAGES, pip_install
 from vtray.kinds import MAX_SIZE
 from vtray.npz_file import read_npz, write_npz
 from vtray.picture import AOVS, How, Picture, has_alpha
@@ -164,7 +165,7 @@ def _check_package(path: Path, module: str | None) -> None:
 
 def needs_package(path: Path, module: str) -> str:
     """Return the message that a package is missing, and how to get it."""
-    return f"{path}: this needs {module}; pip install 'vtray[formats]'"
+    return f"{path}: this needs {module}; {pip_install(*PACKAGES['formats'])}"
 
 
 def _endings(able: Callable[[Format], bool]) -> str:

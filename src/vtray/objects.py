@@ -20,6 +20,8 @@ _SURFACE = MappingProxyType({"color": Color(255, 255, 255), "lambert": 1.0})
 class Light(Frozen, frozen=True, gc=False):
     """A point light; its light does not fall off with distance.
 
+    In code, the intensity is 1 unless it is given.
+
     Attributes
     ----------
     location : Vector
@@ -40,6 +42,8 @@ class Light(Frozen, frozen=True, gc=False):
 
 class Sphere(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
     """A sphere with a matt surface, which can also be seen from inside.
+
+    In code, the colour is white and `lambert` 1 unless they are given.
 
     Attributes
     ----------
@@ -73,6 +77,8 @@ class Sphere(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
 
 class Plane(Frozen, frozen=True, gc=False, tag_field="type", tag="plane"):
     """A plane without edges and with two matt sides.
+
+    In code, the colour is white and `lambert` 1 unless they are given.
 
     Attributes
     ----------

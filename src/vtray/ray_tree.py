@@ -213,7 +213,7 @@ class RayTree:
 
         What this plane cuts of the scene is drawn as it is there; what lies outside of it (normal,
         other lights, whole outlines) is projected squarely onto it. Needs matplotlib:
-        ``pip install 'vtray[figure]'``.
+        ``pip install matplotlib``.
 
         Parameters
         ----------

@@ -16,6 +16,7 @@ from vtray.pool import Progress as StepProgress
 from vtray.relighting import Relighting
 from vtray.scene import Camera, Scene
 from vtray.scene_arrays import pack
+from vtray.scene_file import Warn
 from vtray.settings import RenderSettings
 from vtray.stopwatch import Stopwatch
 from vtray.tiles import TILE
@@ -48,6 +49,7 @@ def render(
     lock: HasWhite | None = None,
     keep_lights: bool = False,
     tile: int = TILE,
+    warn: Warn | None = None,
 ) -> Image:
     """Render a scene.
 
@@ -86,6 +88,9 @@ def render(
         Keep the light of each lamp apart, for `Image.relight` and `Image.recolor`.
     tile
         Side of a tile in pixels.
+    warn
+        Called with one line of text if there is something to see, but no light; `warnings.warn` by
+        default.
 
     Returns
     -------
@@ -109,6 +114,9 @@ def render(
     if lock is not None:
         locked_white(lock, exposure)
     scene.check()
+    problem = _darkness(scene, keep_lights=keep_lights)
+    if problem:
+        (warn or _warn)(problem)
     settings = scene.render.replace(
         samples=samples,
         filter=filter,
@@ -158,6 +166,25 @@ def render(
     clock.seconds["compile"] += loading
     image.stats = {**clock.seconds, **stats}
     return image
+
+
+def _darkness(scene: Scene, *, keep_lights: bool) -> str:
+    """Say why all that is seen is black, if that is known before; "" if it is not."""
+    if not scene.objects or any(light.intensity > 0 for light in scene.lights):
+        return ""
+    if not scene.lights:
+        remedy = "add one by scene.add_light, or some of vtray.lights; in a file, under that key"
+        return f"lights: there are none, so all that is seen is black; {remedy}"
+    if keep_lights:  # to be relit with other intensities
+        return ""
+    return "lights: all have the intensity 0, so all that is seen is black; give one more than 0"
+
+
+def _warn(message: str) -> None:
+    """Warn in the name of the code that called `render`."""
+    import warnings
+
+    warnings.warn(message, stacklevel=4)
 
 
 def _camera(scene: Scene, settings: RenderSettings) -> Camera:

@@ -179,8 +179,7 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
             Share of the light that the surfaces scatter, from 0 to 1, (n,), or one for all.
         cmap
             Turns values into colours: the name of a colour map of Matplotlib, such as "viridis" or,
-            reversed, "viridis_r", or a colour map of Matplotlib or of the package ``cmap``. A name
-            needs one of these two installed: ``pip install 'vtray[color]'``.
+            reversed, "viridis_r", or a colour map of Matplotlib or of the package ``cmap``.
         clim
             The values of the map's first and last colour; by default the least and the largest of
             all finite values.

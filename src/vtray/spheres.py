@@ -104,7 +104,8 @@ class Spheres(
     An array may be anything that NumPy makes an array of: its own arrays, those of other packages
     (by ``__array__`` or ``__dlpack__``), or lists. An array of a dtype named below is not copied,
     in whatever order it lies in memory: the attribute is then a read-only view of it, and changes
-    when it is changed; `Scene.check` looks at it again.
+    when it is changed; `Scene.check` looks at it again. The colour is white and `lambert` 1 unless
+    they are given.
 
     Attributes
     ----------
