@@ -165,11 +165,25 @@ def test_pictures_in_axes_stay_in_their_place(image: vtray.Image, layout: str | 
     shown = first.get_window_extent()
     assert shown.width / shown.height == pytest.approx(SIZE[0] / SIZE[1], rel=0.02)
     assert b"/MediaBox [ 0 0 504 216 ]" in saved(paper, "pdf")
-    # Again, with another scale: what was there is replaced.
-    image.figure(ax=first, colorbar=False, scalebar=False)
-    assert paper.axes == [first, second]
-    assert len(first.images) == 1
-    assert not first.texts
+
+
+def test_picture_in_the_same_axes_replaces_the_one_before(image: vtray.Image) -> None:
+    paper = blank(4, 3)
+    ax = paper.subplots()
+    place = ax.get_position()
+    image.figure(ax=ax, title="before", scalebar="nm")
+    image.figure(ax=ax, title="after")
+    assert ax.get_title("left") == "after"
+    assert (len(ax.images), len(paper.axes)) == (1, 2)
+    ax.clear()
+    ax.plot([1, 2])
+    paper.canvas.draw()
+    assert not paper.axes[1].get_visible()
+    assert ax.get_position().bounds == place.bounds
+    image.figure(ax=ax)
+    assert_legible(paper)
+    ax.remove()
+    paper.canvas.draw()
 
 
 def test_axes_within_axes_and_figures(image: vtray.Image) -> None:

@@ -104,6 +104,8 @@ class ColorBar:
     @classmethod
     def draw(cls, axes: "Axes", scale: Any, label: str, *, flat: bool) -> "ColorBar":  # noqa: ANN401
         """Draw the colours of a scale; in a flat figure each in shadow on the left to lit."""
+        from matplotlib import rcParams
+
         table: Pixels = scale.table
         low, high = (0.0, 1.0) if scale.low == scale.high else (scale.low, scale.high)
         if scale.low == scale.high:
@@ -121,7 +123,7 @@ class ColorBar:
         axes.yaxis.set_label_position("right")
         axes.set_xticks([0, 1] if flat else [], ["shadow", "light"] if flat else [])
         axes.tick_params(axis="x", which="both", length=0)
-        axes.set_ylabel(label)
+        axes.set_ylabel(label, labelpad=0.4 * rcParams["font.size"])
         mark_size = float(axes.yaxis.get_major_ticks(1)[0].label2.get_fontsize())
         return cls(axes, scale, label, mark_size, float(axes.yaxis.label.get_fontsize()))
 

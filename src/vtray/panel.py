@@ -90,7 +90,8 @@ class Panel:
         if isinstance(self.outer, Panel):  # what was drawn on these axes before
             self.outer.remove()
             self.outer = self.outer.outer
-        self.parts: list[Any] = [ShownPicture.on(ax, pixels)]
+        self.shown = ShownPicture.on(ax, pixels)
+        self.parts: list[Any] = [self.shown]
         self.bars: list[ColorBar] = []
         if scales:
             figure = ax.figure
@@ -102,8 +103,10 @@ class Panel:
         self.parts += [bar.axes for bar in self.bars]
         self.gap = 1.4 * self.em
         self.thick = max([1.2 * self.em, *(bar.least_width() for bar in self.bars)])
-        self.title = ax.set_title(title, loc="left", y=1.0, pad=0.35 * self.em, va="bottom")
-        self.title_size = float(self.title.get_fontsize())
+        self.title: Any = None
+        if title:
+            self.title = ax.set_title(title, loc="left", y=1.0, pad=0.35 * self.em, va="bottom")
+            self.title_size = float(self.title.get_fontsize())
         self.note: Any = None
         if bar is not None:
             self._draw_scale_bar(bar)
@@ -145,8 +148,10 @@ class Panel:
     def remove(self) -> None:
         """Take all of it off the axes, which go back to their place."""
         for part in self.parts:
-            part.remove()
-        self.ax.set_title("", loc="left")
+            if part.figure is not None:  # else the axes were cleared
+                part.remove()
+        if self.title is not None:
+            self.title.set_text("")
         self.ax.set_axes_locator(self.outer)
 
     def rooms(
@@ -259,6 +264,9 @@ class Panel:
         """Return where the picture or a colour bar is, in parts of the figure."""
         from matplotlib.transforms import Bbox
 
+        if None in {self.ax.figure, self.shown.figure}:  # removed or cleared
+            axes.set_visible(axes is self.ax)
+            return Bbox(axes.get_position(original=True).get_points())
         figure, point = self.ax.figure, self._point
         outer = self.ax.get_position(original=True)
         if self.outer is not None:
