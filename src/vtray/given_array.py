@@ -3,8 +3,6 @@
 import sys
 from typing import Any
 
-from vtray.scene_words import quoted, show
-
 COORDINATES = ("x", "y", "z")
 RED_GREEN_BLUE = ("r", "g", "b")
 
@@ -27,6 +25,8 @@ def show_array(given: Any) -> str:  # noqa: ANN401
         return _table(given)
     if hasattr(given, "dtype") and hasattr(given, "shape"):
         return f"an array of dtype {given.dtype} and shape {given.shape}"
+    from vtray.scene_words import show
+
     return show(given)
 
 
@@ -48,6 +48,8 @@ def remedy_for(given: Any, columns: tuple[str, ...]) -> str:  # noqa: ANN401
     if is_masked(given):
         return "; leave out what is masked, or give array.filled(...)"
     if _columns(given):
+        from vtray.scene_words import quoted
+
         names = ", ".join(map(quoted, columns))
         chosen = (
             f"one column, as in table[{names}]"
@@ -70,6 +72,8 @@ def _columns(given: Any) -> list[str]:  # noqa: ANN401
 
 def _table(given: Any) -> str:  # noqa: ANN401
     """Write a table, in short."""
+    from vtray.scene_words import quoted
+
     names = [quoted(name) for name in _columns(given)]
     shown = [*names[:8], "..."] if len(names) > 8 else names
     return f"a table of shape {tuple(given.shape)} with the columns {', '.join(shown)}"
