@@ -41,6 +41,21 @@ print(peak_memory())
     assert film < peak < 2 * film
 
 
+def test_any_count_of_threads_is_harmless() -> None:
+    # Anything that is made for each thread asked for would not fit.
+    script = """
+import resource, sys
+resource.setrlimit(resource.RLIMIT_AS, (6 * 10**9, 6 * 10**9))
+import numpy as np, vtray
+spheres = vtray.Spheres(np.random.default_rng(1).normal(size=(70_000, 3)), 0.01, (9, 9, 9), 1)
+scene = vtray.loads(sys.argv[1])
+scene.objects.append(spheres)
+picture = vtray.render(scene, threads=10**9).pixels
+print(int((picture != vtray.render(scene, threads=1).pixels).sum()))
+"""
+    assert run(script, json.dumps(one_sphere())) == [0]
+
+
 def test_thousand_renders_leak_nothing() -> None:
     document = one_sphere()
     script = """

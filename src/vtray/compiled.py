@@ -181,7 +181,10 @@ def _in_thread(function: Callable[..., Value], *arguments: object) -> Value:
         except BaseException as error:  # noqa: BLE001 - raised again by who waits
             outcome.set_exception(error)
 
-    threading.Thread(target=work, daemon=True).start()
+    try:
+        threading.Thread(target=work, daemon=True).start()
+    except RuntimeError:  # no more threads are allowed
+        work()
     # Once Polars is imported, Ctrl-C does not end a wait any more: look from time to time.
     while not wait((outcome,), _POLL_SECONDS).done:
         pass
