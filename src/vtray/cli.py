@@ -1,7 +1,6 @@
 """The command line: reads the arguments, calls the rest, prints, and sets the exit status."""
 
 import argparse
-import os
 import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
@@ -118,8 +117,6 @@ def _load(options: argparse.Namespace) -> "Scene":
 
 def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
     """Render the scene; on a terminal, show what takes long."""
-    # NumPy's linear algebra, unused here, starts a thread for each core that spins for 40 ms.
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from vtray.renderer import render
 
     settings = settings_of(options)

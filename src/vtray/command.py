@@ -44,6 +44,9 @@ def run_command(action: Callable[[], int], *, too_large: str) -> int:
         What to do when memory runs out.
     """
     _open_closed_streams()
+    # NumPy's linear algebra, unused here, starts a thread for each core that spins for 40 ms, and
+    # ends the process where no more threads are allowed.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
         status = _until_printed(action)
     except KeyboardInterrupt:

@@ -36,7 +36,7 @@ def hash_arrays(arrays: Iterable[NDArray[Any]], threads: int) -> bytes:
     def hash_piece(k: int) -> None:
         # A copy only where the numbers do not stand in memory one after the other.
         flat = np.ascontiguousarray(pieces[k]).reshape(-1)
-        digests[k] = blake3(flat.view(np.uint8)).digest()
+        digests[k] = blake3(flat.view(np.uint8).data).digest()
 
     run_tasks(range(len(pieces)), lambda: hash_piece, threads)
     kinds = [(values.dtype.str, values.shape) for values in rows]
