@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from vtray.command import SUCCESS, leave, print_result, run_command
 from vtray.errors import OutputError
+from vtray.memory import check_memory_of_start
 from vtray.options import parse, settings_of
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ def main() -> NoReturn:
 
 def run(arguments: Sequence[str]) -> int:
     """Do what the arguments say; return the exit status."""
-    return run_command(lambda: _run(parse(arguments)), too_large="choose a smaller camera.size")
+    return run_command(lambda: _run(parse(arguments)))
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -33,6 +34,7 @@ def _run(options: argparse.Namespace) -> int:
     told = _take_over(options)
     if options.pixel is None:
         _check_output(options)
+    check_memory_of_start()
     clock = Stopwatch()
     scene = _load(options)
     if options.pixel is None:

@@ -175,7 +175,7 @@ def color_table(cmap: "ColorMap", place: str = "cmap") -> Bytes:
 def _named_table(name: str, place: str) -> Bytes:
     try:
         import matplotlib as mpl
-    except ImportError:
+    except ModuleNotFoundError:
         return _table_of_cmap(name, place)
     if name not in mpl.colormaps:
         raise _unknown(name, list(mpl.colormaps), place)
@@ -186,7 +186,7 @@ def _table_of_cmap(name: str, place: str) -> Bytes:
     """Return the colours of a map of the package ``cmap``."""
     try:
         import cmap
-    except ImportError:
+    except ModuleNotFoundError:
         hint = "pip install 'vtray[color]'"
         problem = f"colour maps need the package cmap, or Matplotlib; install it: {hint}"
         raise SceneError(f"{place}: {problem}") from None

@@ -22,6 +22,7 @@ from functools import cached_property, update_wrapper
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar, cast
 
+from vtray.errors import RenderError
 from vtray.native_call import NativeCall, Pinned, Types, UnsupportedError, caller, unpack, unpinned
 from vtray.object_code import (
     compile_object,
@@ -153,6 +154,8 @@ class Kernel(Device):
                 if file:
                     write_object_code(file, compiled)
             return caller(link(compiled), compiled.layout)
+        except (RenderError, MemoryError):  # Numba would take more
+            raise
         except Exception:  # noqa: BLE001 - whatever it is, Numba either can do it or explains it
             return None
 

@@ -130,7 +130,7 @@ def main() -> NoReturn:
 
 def run(arguments: Sequence[str]) -> int:
     """Do what the arguments say; return the exit status."""
-    return run_command(lambda: _run(_parse(arguments)), too_large="compare smaller images")
+    return run_command(lambda: _run(_parse(arguments)))
 
 
 def _parse(arguments: Sequence[str]) -> argparse.Namespace:

@@ -27,6 +27,7 @@ import msgspec
 from vtray.atomic_file import write_whole
 from vtray.errors import OutputError
 from vtray.kernel_folder import SUFFIX, cache_folder
+from vtray.memory import check_memory_of_compiler, check_memory_of_start
 from vtray.native_call import Layout, TupleLayout
 
 _HASH_BYTES = 32
@@ -96,6 +97,7 @@ def compile_object(
     options
         Numba's.
     """
+    check_memory_of_compiler()
     import numba
 
     # The wrappers through which Python would call it need Numba in memory.
@@ -154,6 +156,7 @@ def _helpers() -> dict[str, int]:
 @cache
 def _linker() -> object:
     """Return LLVM's linker."""
+    check_memory_of_start()
     from llvmlite import binding
 
     binding.initialize_native_target()

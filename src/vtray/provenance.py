@@ -116,7 +116,7 @@ def _read_text(path: Path) -> str | None:
     try:
         with path.open("rb") as file:
             return form.read(file)
-    except ImportError as error:
+    except ModuleNotFoundError as error:
         raise ProvenanceError(needs_package(path, error.name or "more")) from None
     except OSError as error:
         if error.errno is None:  # not the system's: the library found no picture of its format
