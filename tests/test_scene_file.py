@@ -189,7 +189,7 @@ def test_unreadable_file(error: Exception, message: str, monkeypatch: pytest.Mon
     def refuse_to_open(*_: object) -> None:
         raise error
 
-    monkeypatch.setattr("builtins.open", refuse_to_open)
+    monkeypatch.setattr("vtray.scene_file.read_input", refuse_to_open)
     with pytest.raises(SceneError, match=f"room.json: {message}"):
         load("room.json")
 

@@ -12,10 +12,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.bvh import MAX_SPHERES, WIDTH, Bvh, Frame, Leaves, no_bvh
+from vtray.bvh import WIDTH, Bvh, Frame, Leaves, no_bvh
 from vtray.bvh_build import Built, build
 from vtray.errors import RenderError
 from vtray.fingerprint import arrays_of, hash_arrays
+from vtray.kinds import MAX_SPHERES
 from vtray.memory import check_memory_of_spheres
 from vtray.pool import Progress
 from vtray.scene import Plane, Scene, Sphere

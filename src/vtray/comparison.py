@@ -9,7 +9,8 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from vtray.errors import VtrayError
+from vtray.errors import UnfitFileError, VtrayError, why_unreadable
+from vtray.input_file import open_input
 
 if TYPE_CHECKING:
     import numpy as np
@@ -225,7 +226,7 @@ def read_picture(path: Path) -> "Pixels":
     from PIL import Image as PillowImage
 
     try:
-        with PillowImage.open(path) as image:
+        with open_input(path) as file, PillowImage.open(file) as image:
             mode = image.mode
             if not image.has_transparency_data:
                 picture = image.convert("RGB")
@@ -234,6 +235,8 @@ def read_picture(path: Path) -> "Pixels":
                 picture.paste(image, mask=image.convert("RGBA").getchannel("A"))
     except MemoryError:
         raise
+    except UnfitFileError as error:
+        raise DiffError(f"{path}: {why_unreadable(error, 'picture')}") from None
     except Exception as error:  # a damaged file can raise anything
         reason = getattr(error, "strerror", None) or "it is no image, or a damaged one"
         message = f"{path}: cannot be read: {reason[:1].lower()}{reason[1:]}"

@@ -14,6 +14,7 @@ from msgspec import UNSET
 
 from vtray.checked import make_unchecked
 from vtray.errors import SceneError, why_unreadable
+from vtray.input_file import read_input
 from vtray.scene import (
     Color,
     Direction,
@@ -30,7 +31,6 @@ from vtray.scene import (
 Warn = Callable[[str], None]
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
-_MAX_WARNINGS = 20
 _DECODER = msgspec.json.Decoder(SceneInFile)
 _LIGHT = msgspec.json.Decoder(Light)
 _OBJECT = msgspec.json.Decoder(Sphere | Plane | SpheresInFile)
@@ -60,8 +60,7 @@ def load(path: str | os.PathLike[str], *, warn: Warn | None = None) -> Scene:
     """
     name = os.fsdecode(path)
     try:
-        with open(path, "rb") as file:
-            raw = file.read()
+        raw = read_input(path)
     except (OSError, ValueError, MemoryError) as error:
         raise SceneError(f"{name}: {why_unreadable(error, 'scene file')}") from None
     return _loads(raw, name, os.path.dirname(name), warn or _warn)
@@ -89,6 +88,10 @@ def loads(text: str | bytes, name: str = "<string>", *, warn: Warn | None = None
     SceneError
         As for `load`.
     """
+    given: object = text
+    if not isinstance(given, (str, bytes)):
+        got = f"got {type(given).__name__} (vtray.load reads a file, vtray.load_dict a dictionary)"
+        raise SceneError(f"{name}: expected the text of a scene, as str or bytes, {got}")
     if isinstance(text, bytes):
         return _loads(text, name, "", warn or _warn)
     try:
@@ -207,16 +210,8 @@ def _explain(raw: bytes, name: str, warn: Warn) -> None:
         raise SceneError(f"{name}: {problem}") from None
     except RecursionError:
         raise SceneError(f"{name}: nested too deeply; a scene needs 4 levels") from None
-    for line in _few(checker.unknown, "keys"):
+    for line in checker.unknown.lines():
         warn(f"{name}: {line}")
-
-
-def _few(unknown: list[str], what: str) -> list[str]:
-    """Cut a long list of warnings."""
-    more = len(unknown) - _MAX_WARNINGS
-    if more <= 0:
-        return unknown
-    return [*unknown[:_MAX_WARNINGS], f"{more} more unknown {what}, ignored"]
 
 
 def _read_spheres(found: SceneInFile, name: str, folder: str, warn: Warn) -> list[Object]:
@@ -227,7 +222,7 @@ def _read_spheres(found: SceneInFile, name: str, folder: str, warn: Warn) -> lis
         objects, unknown = with_arrays(found.objects, folder)
     except SceneError as problem:
         raise SceneError(f"{name}: {problem}") from None
-    for line in _few(unknown, "arrays"):
+    for line in unknown:
         warn(f"{name}: {line}")
     return objects
 
