@@ -194,6 +194,14 @@ def test_unreadable_file(error: Exception, message: str, monkeypatch: pytest.Mon
         load("room.json")
 
 
+@pytest.mark.parametrize("text", [None, 7, {}, bytearray(b"{}"), Path("room.json")])
+def test_what_is_no_text(text: object) -> None:
+    words = f"room.json: expected the text of a scene, as str or bytes, got {type(text).__name__} "
+    with pytest.raises(SceneError) as error:
+        loads(text, "room.json")
+    assert str(error.value).startswith(words)
+
+
 def test_reading_imports_nothing_slow(tmp_path: Path) -> None:
     path = tmp_path / "room.json"
     path.write_text(TEXT)

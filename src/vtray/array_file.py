@@ -136,8 +136,7 @@ def _read(
     _check_room({"": head})
     if isinstance(head, bytes):
         raise _damaged("", "its beginning is that of no array")
-    if head.bytes > size - head.size:
-        raise _damaged("", f"{size - head.size} bytes of numbers, not {head.bytes}")
+    _check_length("", head, size)
     check({alone: _stand_in("", head)}, [])
     file.seek(0)
     return {alone: _guarded("", np.lib.format.read_array, file)}, []
@@ -158,12 +157,11 @@ def _read_npz(file: BinaryIO, names: Collection[str], check: Check) -> "tuple[Ar
                 head = _guarded(name, _read_head, stream)
             if isinstance(head, bytes):
                 strange[name] = head
-            elif head.bytes > member.file_size - head.size:
-                numbers = member.file_size - head.size
-                raise _damaged(name, f"{numbers} bytes of numbers, not {head.bytes}")
             else:
                 heads[name] = head
         _check_room(heads)
+        for name, head in heads.items():
+            _check_length(name, head, found[name].file_size)
         arrays = strange | {name: _stand_in(name, head) for name, head in heads.items()}
         others = [name for name in members if name not in found]
         check(arrays, others)
@@ -201,6 +199,12 @@ def _check_room(heads: Mapping[str, _Head]) -> None:
     if needed > available:
         sizes = f"{readable(needed)}, {readable(available)} is available"
         raise ArrayFileError(f"is too large to hold in memory: {sizes}")
+
+
+def _check_length(name: str, head: _Head, size: int) -> None:
+    """Raise ArrayFileError if an array, of so many bytes, is shorter than it says."""
+    if head.bytes > size - head.size:
+        raise _damaged(name, f"{size - head.size} bytes of numbers, not {head.bytes}")
 
 
 def _stand_in(name: str, head: _Head) -> "Array":

@@ -100,10 +100,6 @@ def read_provenance(path: str | Path) -> Provenance:
         raise ProvenanceError(message)
     try:
         return msgspec.json.decode(text, type=Provenance)
-    except RecursionError:
-        problem = "is not understood: nested too deeply"
-        message = f"{path}: what it says of how it was made {problem}"
-        raise ProvenanceError(message) from None
     except (msgspec.DecodeError, UnicodeEncodeError) as error:
         version = _version(text)
         by = f" by vtray {version}" if version else ""

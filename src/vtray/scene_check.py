@@ -44,6 +44,8 @@ class FileChecker:
     ----------
     line_of : callable
         Gives the line, counted from 1, of an offset in the file.
+    ignored : int
+        How many unknown keys there are in parts that are not read.
 
     Attributes
     ----------
@@ -51,9 +53,9 @@ class FileChecker:
         The keys that the format does not know.
     """
 
-    def __init__(self, line_of: Callable[[int], int]) -> None:
+    def __init__(self, line_of: Callable[[int], int], ignored: int = 0) -> None:
         self.line_of = line_of
-        self.unknown = Unknown("key")
+        self.unknown = Unknown("key", ignored)
 
     def check(self, found: Tree, kind: Kind, place: str = "") -> Any:  # noqa: ANN401
         """Convert a value to a kind; raise SceneError where that cannot be done."""

@@ -99,12 +99,14 @@ class Unknown:
     ----------
     what : str
         What they are, "key" or "array".
+    more : int
+        How many there are beside those that are noted.
     """
 
-    def __init__(self, what: str) -> None:
+    def __init__(self, what: str, more: int = 0) -> None:
         self._what = what
         self._lines: list[str] = []
-        self._more = 0
+        self._more = more
 
     def add(self, place: str, word: str, known: list[str]) -> None:
         """Note one at a place; to look for the nearest known word takes long."""
