@@ -189,6 +189,15 @@ def test_nesting_in_all_formats(
         vtray.read_provenance(tmp_path / f"a{ending}")
 
 
+def test_texts_too_long_are_not_read(tmp_path: Path) -> None:
+    np.savez_compressed(tmp_path / "a.npz", provenance=np.array("{" * 10**6))
+    with pytest.raises(vtray.ProvenanceError, match="provenance is no text, or too long"):
+        vtray.read_provenance(tmp_path / "a.npz")
+    write(tmp_path / "a.png", "{" * 2 * 10**6)
+    with pytest.raises(vtray.ProvenanceError, match="does not say how it was made"):
+        vtray.read_provenance(tmp_path / "a.png")
+
+
 def test_what_is_understood(tmp_path: Path) -> None:
     assert vtray.read_provenance(write(tmp_path / "a.png", told())).filter == "box"
 

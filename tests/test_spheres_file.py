@@ -21,6 +21,7 @@ import vtray
 from scene_text import changed, message_of, read, replaced
 from test_broken_scene_files import VALUES
 from test_spheres import BYTE, CAMERA, CENTERS, COUNT, FIVE_NUMBERS, columns
+from vtray import memory
 from vtray.errors import OutputError, SceneError
 from vtray.scene import Color, Light, Scene, Sphere
 from vtray.scene_file import load, loads
@@ -391,7 +392,10 @@ def zipped(**members: bytes) -> None:
     [
         ({"shape": (10**8, 3)}, "is damaged or cut short (99 bytes of numbers, not 2400000000)"),
         ({"shape": (10**9, 3), "descr": "|u1"}, "is damaged or cut short (99 bytes of numbers, no"),
-        ({"shape": (10**12, 3)}, "is too large to hold in memory: 24,000.0 GB, "),
+        (
+            {"shape": (10**12, 3)},
+            "is too large to hold in memory: it needs 24,000.0 GB of memory, ",
+        ),
         ({"shape": (-1, -99)}, "is damaged or cut short ("),
         ({"shape": (0, 10**40)}, "is damaged or cut short ("),
     ],
@@ -399,7 +403,8 @@ def zipped(**members: bytes) -> None:
 def test_claims_are_checked_before_room_is_made(
     head: dict[str, Any], message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("vtray.array_file.available_memory", lambda: 4 * 10**9)
+    limit = memory._Limit(2, 4 * 10**9, "")
+    monkeypatch.setattr(memory, "_limits", lambda: [limit])
     Path("atoms.npy").write_bytes(claimed(**head, numbers=99))
     found = message_of(text_of("atoms.npy", **REST))
     assert found.startswith(f"objects[1].data: atoms.npy: {message}")

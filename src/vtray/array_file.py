@@ -7,15 +7,15 @@ may claim, or hold compressed, more than any memory has.
 import io
 import struct
 import zipfile
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
+from typing import IO, TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 from vtray.atomic_file import write_whole
 from vtray.errors import SceneError, why_unreadable
 from vtray.input_file import open_input
 from vtray.json_tree import short
-from vtray.memory import available_memory, readable
+from vtray.memory import lack_of_memory
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -93,6 +93,29 @@ def write_arrays(path: Path, arrays: Mapping[str, Any]) -> None:
     write_whole(path, lambda file: np.savez(file, allow_pickle=False, **arrays))
 
 
+def read_text(file: BinaryIO, name: str, longest: int) -> str | None:
+    """Return the text of a .npz file that is an array of this name, None if there is none.
+
+    Raises
+    ------
+    Exception
+        Of any kind, if the file is damaged, or the text takes more than so many bytes.
+    """
+    import numpy as np
+
+    with zipfile.ZipFile(file) as whole:
+        member = f"{name}.npy"
+        if member not in whole.namelist():
+            return None
+        with whole.open(member) as stream:
+            head = _read_head(stream)
+        if isinstance(head, bytes) or head.bytes > longest:
+            message = f"{name} is no text, or too long"
+            raise ValueError(message)
+        with whole.open(member) as stream:
+            return str(np.lib.format.read_array(stream))
+
+
 class _Head(NamedTuple):
     """What an array in a file says of itself.
 
@@ -133,9 +156,7 @@ def _read(
     size = file.seek(0, io.SEEK_END)
     file.seek(0)
     head = _guarded("", _read_head, file)
-    _check_room({"": head})
-    if isinstance(head, bytes):
-        raise _damaged("", "its beginning is that of no array")
+    _check_room([head])
     _check_length("", head, size)
     check({alone: _stand_in("", head)}, [])
     file.seek(0)
@@ -159,7 +180,7 @@ def _read_npz(file: BinaryIO, names: Collection[str], check: Check) -> "tuple[Ar
                 strange[name] = head
             else:
                 heads[name] = head
-        _check_room(heads)
+        _check_room(heads.values())
         for name, head in heads.items():
             _check_length(name, head, found[name].file_size)
         arrays = strange | {name: _stand_in(name, head) for name, head in heads.items()}
@@ -171,7 +192,7 @@ def _read_npz(file: BinaryIO, names: Collection[str], check: Check) -> "tuple[Ar
     return arrays, others
 
 
-def _read_head(file: BinaryIO) -> "_Head | bytes":
+def _read_head(file: IO[bytes]) -> "_Head | bytes":
     """Read what an array says of itself; return the beginning of what is no array."""
     import numpy as np
 
@@ -192,13 +213,11 @@ def _read_head(file: BinaryIO) -> "_Head | bytes":
     return _Head(shape, dtype, len(beginning) + len(length) + size)
 
 
-def _check_room(heads: Mapping[str, _Head]) -> None:
+def _check_room(heads: Iterable[_Head]) -> None:
     """Raise ArrayFileError if arrays do not fit into memory."""
-    needed = sum(head.bytes for head in heads.values())
-    available = available_memory()
-    if needed > available:
-        sizes = f"{readable(needed)}, {readable(available)} is available"
-        raise ArrayFileError(f"is too large to hold in memory: {sizes}")
+    lack = lack_of_memory(sum(head.bytes for head in heads))
+    if lack:
+        raise ArrayFileError(f"is too large to hold in memory: it needs {lack}")
 
 
 def _check_length(name: str, head: _Head, size: int) -> None:

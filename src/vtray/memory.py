@@ -90,6 +90,18 @@ def available_memory() -> int:
     return max(min(limit.left for limit in _limits()), 0)
 
 
+def lack_of_memory(needed: int | Bytes) -> str | None:
+    """Say what is needed, with the rest of the start, and what there is; None if it is enough."""
+    each = needed if isinstance(needed, Bytes) else Bytes(needed, needed, needed)
+    used = _used()
+    for limit in _limits():
+        to_come = max(START[limit.counts] - used[limit.counts], 0)
+        total = each[limit.counts] + to_come
+        if total > limit.left:
+            return f"{readable(total)} of memory, {limit}"
+    return None
+
+
 def why_out_of_memory(error: BaseException) -> str | None:
     """Say what is missing if an error comes from a lack of memory; None if it does not.
 
@@ -140,15 +152,11 @@ class _Limit(NamedTuple):
 
 
 def _check(needed: int | Bytes, what: str, instead: str) -> None:
-    """Raise RenderError if there is less memory than needed, and than the rest of the start."""
-    each = needed if isinstance(needed, Bytes) else Bytes(needed, needed, needed)
-    used = _used()
-    for limit in _limits():
-        to_come = max(START[limit.counts] - used[limit.counts], 0)
-        total = each[limit.counts] + to_come
-        if total > limit.left:
-            message = f"{what} {readable(total)} of memory, {limit}; expected {instead}"
-            raise RenderError(message)
+    """Raise RenderError if there is less memory than needed."""
+    lack = lack_of_memory(needed)
+    if lack:
+        message = f"{what} {lack}; expected {instead}"
+        raise RenderError(message)
 
 
 def _limits() -> Iterator[_Limit]:
