@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import vtray
@@ -60,6 +61,23 @@ picture = vtray.render(scene, threads=10**9).pixels
 print(int((picture != vtray.render(scene, threads=1).pixels).sum()))
 """
     assert run(script, json.dumps(one_sphere())) == [0]
+
+
+def test_command_starts_no_threads_of_numpy(tmp_path: Path) -> None:
+    # Where no more threads are allowed, NumPy's linear algebra would end the process.
+    np.save(tmp_path / "c.npy", np.zeros((1, 3)))
+    color = {"r": 1, "g": 2, "b": 3}
+    spheres = {"type": "spheres", "data": "c.npy", "radius": 1, "color": color}
+    (tmp_path / "scene.json").write_text(json.dumps({**one_sphere(), "objects": [spheres]}))
+    script = """
+import contextlib, io, os, sys
+from vtray import cli
+with contextlib.redirect_stderr(io.StringIO()):
+    print(cli.run([sys.argv[1], "picture.png"]))
+import numpy
+print(len(os.listdir("/proc/self/task")) if sys.platform == "linux" else 1)
+"""
+    assert run(script, str(tmp_path / "scene.json")) == [1, 1]
 
 
 def test_thousand_renders_leak_nothing() -> None:
