@@ -15,6 +15,7 @@ from PIL import Image as PillowImage
 
 import vtray
 from examples import one_sphere
+from vtray import memory
 from vtray.comparison import DiffError
 
 Pixels = np.ndarray
@@ -139,3 +140,13 @@ def test_figure_shows_all_three_as_they_are() -> None:
         left, top = round(box.x0), round(len(canvas) - box.y1)
         np.testing.assert_array_equal(canvas[top : top + 70, left : left + 301], expected)
     assert [text.get_text() for text in figure.texts][:2] == ["a", "b"]
+
+
+def test_picture_too_large_for_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "a.png"
+    PillowImage.new("RGB", (100, 100)).save(path)
+    assert vtray.compare(path, path).pixels == 10_000
+    monkeypatch.setattr(memory, "_limits", lambda: [memory._Limit(2, 10**5, "")])
+    problem = "a picture of 100 x 100 pixels needs .* of memory, 0 MB is available"
+    with pytest.raises(vtray.VtrayError, match=f"{path}: {problem}"):
+        vtray.compare(path, path)

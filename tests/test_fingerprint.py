@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 import time
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ from hypothesis import strategies as st
 import vtray
 from conftest import compiled_only
 from strategies import scenes
-from vtray.fingerprint import PIECE, add_up, scene_hash
+from vtray.fingerprint import PIECE, hash_arrays, scene_hash
 
 CAMERA = vtray.Camera((0, 0, 0), (0, 0, 1), 1, (4, 3), (0.1, 0.1))
 
@@ -97,24 +98,55 @@ def changed() -> list[vtray.Scene]:
 def test_any_change_is_another_scene() -> None:
     hashes = [scene_hash(scene) for scene in changed()]
     assert len(set(hashes)) == len(hashes)
-    assert {len(text) for text in hashes} == {24}
+    assert {len(text) for text in hashes} == {32}
 
 
 @given(count=st.integers(0, 300), place=st.integers(0, 299), bit=st.integers(0, 7))
 def test_any_bit_of_an_array_counts(count: int, place: int, bit: int) -> None:
     array = np.random.default_rng(count).integers(0, 256, count).astype(np.uint8)
-    before = add_up([array], 1)
+    before = hash_arrays([array], 1)
     if place < count:
         array[place] ^= 1 << bit
-    assert (add_up([array], 1) != before) == (place < count)
+    assert (hash_arrays([array], 1) != before) == (place < count)
 
 
 def test_threads_and_pieces_make_no_difference() -> None:
     array = np.random.default_rng(1).integers(0, 256, 5 * PIECE + 3).astype(np.uint8)
-    assert add_up([array], 1) == add_up([array], 3)
-    assert len(add_up([array], 1)) == 6
+    assert hash_arrays([array], 1) == hash_arrays([array], 3)
     scene = many()
     assert scene_hash(scene, 1) == scene_hash(scene, 3)
+
+
+def test_order_in_memory_makes_no_difference() -> None:
+    array = np.random.default_rng(1).normal(size=(PIECE // 8, 3))
+    for same in (np.asfortranarray(array), np.repeat(array, 2, axis=0)[::2]):
+        assert hash_arrays([same], 2) == hash_arrays([array], 2)
+    # The same bytes of another shape or kind are something else, and so is another division.
+    others = [array.reshape(3, -1), array.view("<i8"), array.ravel()]
+    assert len({hash_arrays([other], 2) for other in [array, *others]}) == 4
+    assert hash_arrays([array[:9], array[9:]], 2) != hash_arrays([array[:8], array[8:]], 2)
+
+
+def test_numbers_that_keep_sum_and_checksum_are_told() -> None:
+    # CRC-32 is linear: of 33 changes that each keep the sum, some together keep the checksum too.
+    words = np.zeros(2 * 33, np.uint64)
+    before, plain = hash_arrays([words], 1), zlib.crc32(words.data)
+    changes: dict[int, tuple[int, int]] = {}  # by the highest bit: the checksum's change, by which
+    for k in range(33):
+        words[:] = 0
+        words[2 * k : 2 * k + 2] = 1, 2**64 - 1
+        change, chosen = zlib.crc32(words.data) ^ plain, 1 << k
+        while change and change.bit_length() in changes:
+            other, others = changes[change.bit_length()]
+            change, chosen = change ^ other, chosen ^ others
+        if not change:
+            break
+        changes[change.bit_length()] = change, chosen
+    for k in range(33):
+        words[2 * k : 2 * k + 2] = (1, 2**64 - 1) if chosen >> k & 1 else (0, 0)
+    assert words.any()
+    assert (int(words.sum()), zlib.crc32(words.data)) == (0, plain)
+    assert hash_arrays([words], 1) != before
 
 
 def test_another_process_finds_the_same() -> None:

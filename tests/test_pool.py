@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import pytest
 
-from vtray.pool import run_tasks
+from vtray.pool import available_cores, run_tasks, useful_threads
 
 
 def assert_threads(count: int) -> None:
@@ -101,8 +101,42 @@ def test_fewer_threads_than_asked_for_do_the_work_too(monkeypatch: pytest.Monkey
     run_tasks(range(50), lambda: done.append, 10)
     assert sorted(done) == list(range(50))
 
-    with pytest.raises(RuntimeError, match="can't start"):
-        run_tasks(range(50), lambda: done.append, 10)
+    # None at all: the calling thread does the work, and shows its progress.
+    callers: list[threading.Thread] = []
+    seen: list[tuple[int, int]] = []
+    run_tasks(
+        range(3),
+        lambda: lambda _: callers.append(threading.current_thread()),
+        10,
+        progress=lambda *counts: seen.append(counts),
+    )
+    assert callers == [threading.current_thread()] * 3
+    assert seen == [(0, 3), (1, 3), (2, 3), (3, 3)]
+    with pytest.raises(ZeroDivisionError):
+        run_tasks([1, 0, 1], lambda: lambda task: 1 // task, 10)
+
+
+def test_a_thread_without_memory_leaves_its_tasks_to_others() -> None:
+    done: list[int] = []
+    tries: list[int] = []
+
+    def new_worker() -> Callable[[int], None]:
+        tries.append(1)
+        if len(tries) < 5:
+            raise MemoryError
+        return done.append
+
+    run_tasks(range(50), new_worker, 4)  # the fifth is the calling thread
+    assert sorted(done) == list(range(50))
+    tries.clear()
+    with pytest.raises(MemoryError):
+        run_tasks(range(50), new_worker, 1)
+
+
+def test_threads_are_those_of_use() -> None:
+    most = max(64, available_cores())
+    cases = {(3, 9): 3, (9, 3): 3, (1, 0): 1, (9, 0): 1, (10**18, 10**6): most}
+    assert {case: useful_threads(*case) for case in cases} == cases
 
 
 def test_interrupt_while_threads_are_started(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,6 +16,7 @@ import vtray
 from pictures import hand_made, png_chunks, settings_dict
 from vtray.fingerprint import scene_hash
 from vtray.image_format import FORMATS
+from vtray.provenance import Provenance
 from vtray.settings import RenderSettings
 
 SETTINGS = {
@@ -165,6 +166,37 @@ def test_what_is_not_understood(text: str, message: str, tmp_path: Path) -> None
         vtray.read_provenance(path)
     assert str(error.value).startswith(f"{path}: ")
     assert "\n" not in str(error.value)
+
+
+NESTED = ["[" * 100_000, "[" * 100_000 + "]" * 100_000, '{"a":' * 50_000 + "1" + "}" * 50_000]
+
+
+@pytest.mark.parametrize("text", [*NESTED, *(f'{{"seed": {nested}}}' for nested in NESTED)])
+def test_what_is_nested_deeply_is_not_understood(text: str, tmp_path: Path) -> None:
+    path = write(tmp_path / "a.png", text)
+    with pytest.raises(vtray.ProvenanceError, match="is not understood: ") as error:
+        vtray.read_provenance(path)
+    assert len(str(error.value)) < 1000
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+def test_nesting_in_all_formats(
+    ending: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    depth = 50_000  # a JPEG holds 64 kB of it
+    monkeypatch.setattr(Provenance, "to_text", lambda _: '{"seed": ' + "[" * depth)
+    hand_made().save(tmp_path / f"a{ending}")
+    with pytest.raises(vtray.ProvenanceError, match=r"is not understood: .* - at `\$.seed`$"):
+        vtray.read_provenance(tmp_path / f"a{ending}")
+
+
+def test_texts_too_long_are_not_read(tmp_path: Path) -> None:
+    np.savez_compressed(tmp_path / "a.npz", provenance=np.array("{" * 10**6))
+    with pytest.raises(vtray.ProvenanceError, match="provenance is no text, or too long"):
+        vtray.read_provenance(tmp_path / "a.npz")
+    write(tmp_path / "a.png", "{" * 2 * 10**6)
+    with pytest.raises(vtray.ProvenanceError, match="does not say how it was made"):
+        vtray.read_provenance(tmp_path / "a.png")
 
 
 def test_what_is_understood(tmp_path: Path) -> None:

@@ -189,9 +189,17 @@ def test_unreadable_file(error: Exception, message: str, monkeypatch: pytest.Mon
     def refuse_to_open(*_: object) -> None:
         raise error
 
-    monkeypatch.setattr("builtins.open", refuse_to_open)
+    monkeypatch.setattr("vtray.scene_file.read_input", refuse_to_open)
     with pytest.raises(SceneError, match=f"room.json: {message}"):
         load("room.json")
+
+
+@pytest.mark.parametrize("text", [None, 7, {}, bytearray(b"{}"), Path("room.json")])
+def test_what_is_no_text(text: object) -> None:
+    words = f"room.json: expected the text of a scene, as str or bytes, got {type(text).__name__} "
+    with pytest.raises(SceneError) as error:
+        loads(text, "room.json")
+    assert str(error.value).startswith(words)
 
 
 def test_reading_imports_nothing_slow(tmp_path: Path) -> None:

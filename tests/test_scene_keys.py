@@ -14,9 +14,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import vtray
-from scene_text import TEXT, changed, message_of, read, replaced
+from scene_text import ABSENT, TEXT, changed, message_of, read, replaced
 from strategies import directions, scenes
 from vtray import Camera, Color, Direction, RenderSettings, Scene, SceneError
+from vtray.json_tree import JsonTree
+from vtray.scene_file import loads
 from vtray.schema import scene_schema
 from vtray.settings import FILTERS
 
@@ -483,3 +485,43 @@ def test_import_is_light() -> None:
     )
     assert "vtray.lights" in listed.stdout
     assert set(vtray.__all__) <= set(dir(vtray))
+
+
+@pytest.mark.parametrize(
+    ("change", "end"),
+    [
+        ({"note": "a: b"}, "more unknown keys, ignored"),
+        ({"color": {"r": 1, "g": 2, "b": 3, "a": 4}}, "more unknown keys, ignored"),
+        ({"type": "ball"}, 'objects[9].type: expected "sphere", "plane" or "spheres", got "ball"'),
+        ({"radius": ABSENT}, "objects[9].radius: missing; expected a number ≥ 0"),
+    ],
+)
+def test_of_many_mistakes_few_are_looked_at(
+    change: dict[str, Any], end: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read: list[int] = []
+    slowly = JsonTree._object
+    monkeypatch.setattr(JsonTree, "_object", lambda *a: read.append(1) or slowly(*a))
+    data = changed({})
+    ball = data["objects"][0]
+    wrong = {key: value for key, value in {**ball, **change}.items() if value is not ABSENT}
+    data["objects"] = [ball] * 9 + [wrong] * 2000
+    said: list[str] = []
+    try:
+        loads(json.dumps(data), "room.json", warn=said.append)
+    except SceneError as error:
+        said.append(str(error))
+    warned = len(said) == 21
+    assert said[-1] == f"room.json: {'1980 ' if warned else ''}{end}"
+    assert warned or len(said) == 1
+    assert len(read) < 100
+
+
+def test_a_key_given_twice_among_many_unknown_ones_is_found() -> None:
+    ball = json.dumps(changed({})["objects"][0])
+    odd = ball.replace('"radius"', '"note": 1, "radius"')
+    twice = ball.replace('"radius"', '"radius": 2, "note": ":", "radius"')
+    balls = ", ".join([odd] * 50 + [twice] + [odd])
+    text = json.dumps(changed({"objects": []})).replace('"objects": []', f'"objects": [{balls}]')
+    with pytest.raises(SceneError, match=r"objects\[50\].radius: given twice, on line 1;"):
+        loads(text, "room.json", warn=lambda _: None)

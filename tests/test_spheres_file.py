@@ -20,6 +20,7 @@ import vtray
 from scene_text import changed, message_of, read, replaced
 from test_broken_scene_files import VALUES
 from test_spheres import BYTE, CAMERA, CENTERS, COUNT, FIVE_NUMBERS, columns
+from vtray import memory, scene_words
 from vtray.errors import OutputError, SceneError
 from vtray.scene import Color, Light, Scene, Sphere
 from vtray.scene_file import load, loads
@@ -178,6 +179,7 @@ BAD_KEYS: list[tuple[dict[str, object], str]] = [
     ({"data": "atoms.txt"}, f'data: {PATH}, got "atoms.txt"'),
     ({"data": "atoms"}, f'data: {PATH}, got "atoms"'),
     ({"data": ""}, f'data: {PATH}, got ""'),
+    ({"data": "atoms.npz\n"}, f'data: {PATH}, got "atoms.npz\\n"'),
     ({"data": ["atoms.npz"]}, f'data: {PATH}, got ["atoms.npz"]'),
     ({"data": None}, f"data: {PATH}, got null"),
     ({"radius": -1}, "radius: expected a number ≥ 0, got -1"),
@@ -370,6 +372,89 @@ def test_bad_files(name: str, raw: bytes, message: str) -> None:
     )
 
 
+def claimed(shape: tuple[int, ...], descr: str = "<f8", numbers: int = 0) -> bytes:
+    """Return an array that claims to have a shape, with some bytes of zeros."""
+    file = io.BytesIO()
+    head = {"descr": descr, "fortran_order": False, "shape": shape}
+    np.lib.format.write_array_header_1_0(file, head)
+    return file.getvalue() + bytes(numbers)
+
+
+def zipped(**members: bytes) -> None:
+    with zipfile.ZipFile("atoms.npz", "w", zipfile.ZIP_DEFLATED) as file:
+        for name, content in members.items():
+            file.writestr(f"{name}.npy", content)
+
+
+@pytest.mark.parametrize(
+    ("head", "message"),
+    [
+        ({"shape": (10**8, 3)}, "is damaged or cut short (99 bytes of numbers, not 2400000000)"),
+        ({"shape": (10**9, 3), "descr": "|u1"}, "is damaged or cut short (99 bytes of numbers, no"),
+        (
+            {"shape": (10**12, 3)},
+            "is too large to hold in memory: it needs 24,000.0 GB of memory, ",
+        ),
+        ({"shape": (-1, -99)}, "is damaged or cut short ("),
+        ({"shape": (0, 10**40)}, "is damaged or cut short ("),
+    ],
+)
+def test_claims_are_checked_before_room_is_made(
+    head: dict[str, Any], message: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    limit = memory._Limit(2, 4 * 10**9, "")
+    monkeypatch.setattr(memory, "_limits", lambda: [limit])
+    Path("atoms.npy").write_bytes(claimed(**head, numbers=99))
+    found = message_of(text_of("atoms.npy", **REST))
+    assert found.startswith(f"objects[1].data: atoms.npy: {message}")
+    zipped(center=claimed(**head, numbers=99))
+    found = message_of(text_of(**REST)).replace("center: ", "", 1)
+    assert found.startswith(f"{WHERE}: {message}")
+
+
+def test_too_long_a_claim_is_not_read() -> None:
+    zipped(center=b"\x93NUMPY\x02\x00" + (10**6).to_bytes(4, "little") + bytes(10**6))
+    problem = "is damaged or cut short (the description of the array is too long)"
+    assert message_of(text_of(**REST)).startswith(f"{WHERE}: center: {problem}")
+
+
+@pytest.mark.parametrize("save", [np.savez, np.savez_compressed])
+def test_arrays_are_refused_before_they_are_read(
+    save: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise AssertionError("was read")
+
+    monkeypatch.setattr("vtray.spheres_file.MAX_SPHERES", COUNT + 1)
+    save("atoms.npz", **columns(center=np.zeros((COUNT, 3))))
+    assert len(spheres_of()) == COUNT  # beside the two objects of the scene
+    data = json.loads(text_of())
+    data["objects"].append(data["objects"][1])
+    monkeypatch.setattr("vtray.spheres_file.MAX_SPHERES", 2 * COUNT)
+    message = message_of(json.dumps(data))
+    left = f"expected fewer spheres, got {COUNT}, {COUNT - 1} of {2 * COUNT} are left"
+    assert message == f"objects[2].data: atoms.npz: center: {left}"
+    monkeypatch.setattr(np.lib.format, "read_array", fail)
+    monkeypatch.setattr("vtray.spheres_file.MAX_SPHERES", 3)
+    assert "expected fewer spheres, got 5, 2 of 3 are left" in message_of(text_of())
+    save("atoms.npz", **columns(radius=np.zeros(3)))
+    assert f"{FIVE_NUMBERS} shape (3,)" in message_of(text_of())
+
+
+def test_of_many_members_few_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    compared: list[str] = []
+    slowly = scene_words.nearest
+    monkeypatch.setattr(
+        scene_words, "nearest", lambda word, *rest: compared.append(word) or slowly(word, *rest)
+    )
+    members = {f"note{k}": claimed((0,)) for k in range(2000)}
+    zipped(**members, **{name: raw_npy(array) for name, array in columns().items()})
+    warnings: list[str] = []
+    loads(text_of(), "room.json", warn=warnings.append)
+    assert warnings[20:] == ["room.json: 1980 more unknown arrays, ignored"]
+    assert len(compared) == 20
+
+
 def test_pickles_are_never_loaded() -> None:
     class Bomb:
         def __reduce__(self) -> Any:
@@ -413,7 +498,7 @@ def test_unreadable_file(error: Exception, message: str, monkeypatch: pytest.Mon
     def refuse_to_open(*_: object) -> None:
         raise error
 
-    monkeypatch.setattr(Path, "open", refuse_to_open)
+    monkeypatch.setattr("vtray.array_file.open_input", refuse_to_open)
     assert message_of(text_of()).startswith(f"{WHERE}: {message}")
 
 
@@ -543,6 +628,7 @@ VALID = [{"data": "atoms.npz"}, {"data": "a/b.npz", **REST}, {"data": "atoms.npy
 NOT_VALID = [
     {},
     {"data": "atoms.txt"},
+    {"data": "atoms.npz\n"},
     {"data": 7},
     {"data": "atoms.npy"},
     {"data": "atoms.npz", "radius": -1},

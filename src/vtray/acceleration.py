@@ -12,10 +12,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.bvh import MAX_SPHERES, WIDTH, Bvh, Frame, Leaves, no_bvh
+from vtray.bvh import WIDTH, Bvh, Frame, Leaves, no_bvh
 from vtray.bvh_build import Built, build
 from vtray.errors import RenderError
-from vtray.fingerprint import add_up, arrays_of
+from vtray.fingerprint import arrays_of, hash_arrays
+from vtray.kinds import MAX_SPHERES
 from vtray.memory import check_memory_of_spheres
 from vtray.pool import Progress
 from vtray.scene import Plane, Scene, Sphere
@@ -83,7 +84,7 @@ class Acceleration:
     source: Source
     items: list[Item]
     first: NDArray[np.int64]
-    fingerprint: int
+    fingerprint: bytes
 
     @property
     def nodes(self) -> int:
@@ -166,16 +167,16 @@ def _are_same(these: list[Item], those: list[Item]) -> bool:
 
 
 def _make(
-    items: list[Item], fingerprint: int, threads: int, progress: Progress | None
+    items: list[Item], fingerprint: bytes, threads: int, progress: Progress | None
 ) -> Acceleration:
     """Give numbers to the spheres, and build the hierarchy."""
     sizes = [len(item) if isinstance(item, Spheres) else 1 for item in items]
     count = sum(sizes)
-    check_memory_of_spheres(count)
-    source = collect(items)
     if count > MAX_SPHERES:
         message = f"objects: expected at most {MAX_SPHERES} spheres, got {count}"
         raise RenderError(message)
+    check_memory_of_spheres(count)
+    source = collect(items)
     if count <= FEW:
         built = Built(_in_order(source), no_bvh(), Frame(1.0, (0.0, 0.0, 0.0)), 0, _largest(source))
     else:
@@ -263,7 +264,7 @@ def _join(parts: list[Source], name: str) -> NDArray[Any]:
     return joined
 
 
-def _fingerprint(items: list[Item], threads: int) -> int:
-    """Return a number that changes if a number in the arrays does, which may be written to."""
+def _fingerprint(items: list[Item], threads: int) -> bytes:
+    """Return what changes if a number in the arrays does, which may be written to."""
     arrays = [array for item in items if isinstance(item, Spheres) for array in arrays_of(item)]
-    return hash(tuple(add_up(arrays, threads)))
+    return hash_arrays(arrays, threads)

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.compiled import device
+from vtray.kinds import MAX_SPHERES
 from vtray.vector import Vec
 
 WIDTH = 8
@@ -28,16 +29,13 @@ SIDES = 6 * WIDTH
 LEAF = 8
 """Spheres of a leaf at the most."""
 
-COUNT_BITS = 4
-"""Low bits of a leaf's code, which say how many spheres it has."""
+COUNT_BITS = 31 - (MAX_SPHERES - 1).bit_length()
+"""Low bits of a leaf's code, which say how many spheres it has; the others say the first."""
 
 COUNT_MASK = (1 << COUNT_BITS) - 1
 
 EMPTY = -1
 """In place of a child: there is none. (As a leaf, it has no spheres.)"""
-
-MAX_SPHERES = 1 << (31 - COUNT_BITS)
-"""So many spheres can be told apart in a leaf's code."""
 
 MAX_DEPTH = 96
 """From this depth on, nodes are split into halves, which bounds the depth of all trees."""

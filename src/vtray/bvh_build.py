@@ -27,7 +27,7 @@ from vtray.bvh_nodes import (
 from vtray.compiled import pinned, uncompiled
 from vtray.key_sort import sort_keys
 from vtray.morton import make_grid
-from vtray.pool import Progress, run_tasks
+from vtray.pool import Progress, run_tasks, useful_threads
 from vtray.vector import Vec
 
 CHUNK = 1 << 16
@@ -185,7 +185,7 @@ def _join(parts: list[Bvh], threads: int) -> tuple[Bvh, NDArray[np.int64]]:
         shift = np.repeat(roots[run], sizes[run] * WIDTH)
         np.add(child, shift, out=child, where=child >= 0, casting="unsafe")
 
-    runs = [run for run in np.array_split(np.arange(len(parts)), threads) if len(run)]
+    runs = np.array_split(np.arange(len(parts)), useful_threads(threads, len(parts)))
     run_tasks(runs, lambda: put, threads)
     return bvh, roots
 

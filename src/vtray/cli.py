@@ -2,7 +2,6 @@
 
 import argparse
 import contextlib
-import os
 import sys
 import warnings
 from collections.abc import Iterator, Sequence
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from vtray.command import SUCCESS, print_note, print_result, run_command
 from vtray.errors import printable
+from vtray.memory import check_memory_of_start
 from vtray.options import parse, settings_of
 from vtray.signals import LastStep
 
@@ -28,7 +28,7 @@ def run(arguments: Sequence[str]) -> int:
         with _warnings_printed(options):
             return _run(options)
 
-    return run_command(action, too_large="choose a smaller camera.size")
+    return run_command(action)
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -38,6 +38,7 @@ def _run(options: argparse.Namespace) -> int:
     told = _take_over(options)
     if options.pixel is None:
         _check_output(options)
+    check_memory_of_start()
     clock = Stopwatch()
     scene = _load(options)
     if options.pixel is None:
@@ -135,8 +136,6 @@ def _load(options: argparse.Namespace) -> "Scene":
 
 def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
     """Render the scene; on a terminal, show what takes long."""
-    # NumPy's linear algebra, unused here, starts a thread for each core that spins for 40 ms.
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from vtray.compiled import before_compiling
     from vtray.renderer import render
 

@@ -176,7 +176,7 @@ def color_table(cmap: "ColorMap", place: str = "cmap") -> Bytes:
 def _named_table(name: str, place: str) -> Bytes:
     try:
         import matplotlib as mpl
-    except ImportError:
+    except ModuleNotFoundError:
         return _table_of_cmap(name, place)
     if name not in mpl.colormaps:
         raise _unknown(name, list(mpl.colormaps), place)

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from typing import NoReturn
 
 from vtray.errors import OutputError, UsageError, VtrayError, printable
+from vtray.memory import why_out_of_memory
 from vtray.signals import INTERRUPTED
 
 SUCCESS = 0
@@ -33,17 +34,18 @@ class Parser(argparse.ArgumentParser):
         raise UsageError(full)
 
 
-def run_command(action: Callable[[], int], *, too_large: str) -> int:
+def run_command(action: Callable[[], int]) -> int:
     """Run a command and return its exit status; every failure is one line on stderr.
 
     Parameters
     ----------
     action
         What the command does; it returns the exit status.
-    too_large
-        What to do when memory runs out.
     """
     _open_closed_streams()
+    # NumPy's linear algebra, unused here, starts a thread for each core that spins for 40 ms, and
+    # ends the process where no more threads are allowed.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
         status = _until_printed(action)
     except KeyboardInterrupt:
@@ -52,12 +54,8 @@ def run_command(action: Callable[[], int], *, too_large: str) -> int:
         return FAILURE
     except VtrayError as error:
         return _fail(str(error))
-    except MemoryError:
-        return _fail(f"out of memory; {too_large}")
-    except OSError as error:  # no bug of vtray's: something is missing, or has no place
-        return _fail(str(error))
     except Exception as error:  # noqa: BLE001 - a user never sees a traceback
-        return _fail(f"this is a bug in vtray, please report it: {error!r}")
+        return _fail(why_out_of_memory(error) or _explain(error))
     return status
 
 
@@ -105,6 +103,14 @@ def _until_printed(action: Callable[[], int]) -> int:
         status = SUCCESS
     print_result("")
     return status
+
+
+def _explain(error: Exception) -> str:
+    """Say what an error is that is not meant for the user."""
+    # No bug of vtray's: something is missing, has no place, or cannot be loaded.
+    if isinstance(error, (OSError, ImportError)):
+        return str(error)
+    return f"this is a bug in vtray, please report it: {error!r}"
 
 
 def _fail(message: str) -> int:

@@ -9,7 +9,9 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from vtray.errors import VtrayError
+from vtray.errors import UnfitFileError, VtrayError, why_unreadable
+from vtray.input_file import open_input
+from vtray.memory import lack_of_memory
 
 if TYPE_CHECKING:
     import numpy as np
@@ -24,6 +26,9 @@ if TYPE_CHECKING:
 MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")
 """Pillow's names for images of at most 8 bits per channel, in colours of a monitor."""
 
+
+BYTES_PER_PIXEL = 4 + 4 + 3
+"""A picture as Pillow reads it, as RGB, and as an array."""
 
 LEAST_SHOWN = 64
 """The least value in a difference picture of what is not equal."""
@@ -225,15 +230,21 @@ def read_picture(path: Path) -> "Pixels":
     from PIL import Image as PillowImage
 
     try:
-        with PillowImage.open(path) as image:
+        with open_input(path) as file, PillowImage.open(file) as image:
             mode = image.mode
+            lack = lack_of_memory(image.width * image.height * BYTES_PER_PIXEL)
+            if lack:
+                message = f"{path}: a picture of {image.width} x {image.height} pixels needs {lack}"
+                raise DiffError(message)
             if not image.has_transparency_data:
                 picture = image.convert("RGB")
             else:
                 picture = PillowImage.new("RGB", image.size)
                 picture.paste(image, mask=image.convert("RGBA").getchannel("A"))
-    except MemoryError:
+    except (MemoryError, DiffError):
         raise
+    except UnfitFileError as error:
+        raise DiffError(f"{path}: {why_unreadable(error, 'picture')}") from None
     except Exception as error:  # a damaged file can raise anything
         reason = getattr(error, "strerror", None) or "it is no image, or a damaged one"
         message = f"{path}: cannot be read: {reason[:1].lower()}{reason[1:]}"

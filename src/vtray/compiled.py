@@ -25,6 +25,7 @@ from typing import Any, ClassVar, TypeVar, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vtray.errors import RenderError
 from vtray.native_call import NativeCall, Pinned, Types, UnsupportedError, caller, unpack, unpinned
 from vtray.object_code import (
     compile_object,
@@ -182,7 +183,8 @@ class Kernel(Device):
                 if file:
                     write_object_code(file, compiled)
             return caller(link(compiled), compiled.layout)
-        except Warning:  # who makes errors of warnings wants to see them
+        # Who makes errors of warnings wants to see them; and short of memory, Numba would take more.
+        except (Warning, RenderError, MemoryError):
             raise
         except Exception:  # noqa: BLE001 - whatever it is, Numba either can do it or explains it
             return None
@@ -212,7 +214,10 @@ def _in_thread(function: Callable[..., Value], *arguments: object) -> Value:
         except BaseException as error:  # noqa: BLE001 - raised again by who waits
             outcome.set_exception(error)
 
-    threading.Thread(target=work, daemon=True).start()
+    try:
+        threading.Thread(target=work, daemon=True).start()
+    except RuntimeError:  # no more threads are allowed
+        work()
     # Once Polars is imported, Ctrl-C does not end a wait any more: look from time to time.
     while not wait((outcome,), _POLL_SECONDS).done:
         pass

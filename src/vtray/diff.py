@@ -123,7 +123,7 @@ def compare(a: "Pixels", b: "Pixels") -> Likeness:
 
 def run(arguments: Sequence[str]) -> int:
     """Do what the arguments say; return the exit status."""
-    return run_command(lambda: _run(_parse(arguments)), too_large="compare smaller images")
+    return run_command(lambda: _run(_parse(arguments)))
 
 
 def _parse(arguments: Sequence[str]) -> argparse.Namespace:

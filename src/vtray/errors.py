@@ -42,6 +42,10 @@ class UsageError(VtrayError):
     """The command was called wrongly."""
 
 
+class UnfitFileError(OSError):
+    """A file is not of a kind or a size that can be read; its second argument says so."""
+
+
 def why_unreadable(error: Exception, wanted: str) -> str:
     """Say why a file cannot be read, to follow its name.
 
@@ -58,6 +62,8 @@ def why_unreadable(error: Exception, wanted: str) -> str:
         return f"no such file; expected a {wanted}"
     if isinstance(error, PermissionError):
         return f"may not be read: permission denied; expected a readable {wanted}"
+    if isinstance(error, UnfitFileError):
+        return f"{error.strerror}; expected a {wanted}"
     if isinstance(error, MemoryError):
         return "is too large to hold in memory"
     return f"cannot be read: {getattr(error, 'strerror', None) or error}"

@@ -48,7 +48,7 @@ def need(module: str, extra: str, user: str) -> ModuleType:
     """
     try:
         return import_module(module)
-    except ImportError as error:
+    except ModuleNotFoundError as error:
         package = module.partition(".")[0]
         message = f"{user} needs {package}, which is not installed: {pip_install(*PACKAGES[extra])}"
         raise ExtraError(message) from error

@@ -152,7 +152,7 @@ class Image:
 
     @cached_property
     def scene_hash(self) -> str:
-        """A hash of the scene, 24 hexadecimal digits: that of the same scene loaded again."""
+        """A hash of the scene, 32 hexadecimal digits: that of the same scene loaded again."""
         return scene_hash(self._original)
 
     def expose(

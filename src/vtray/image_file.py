@@ -25,7 +25,7 @@ def write_picture(picture: Picture, path: Path, how: How) -> None:
     form = find_format(path)
     try:
         write_whole(path, lambda file: form.write(picture, how, file))
-    except ImportError as error:
+    except ModuleNotFoundError as error:
         raise OutputError(needs_package(path, error.name or "more")) from error
 
 

@@ -4,12 +4,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.compiled import device
-from vtray.pool import run_tasks
+from vtray.pool import run_tasks, useful_threads
 
 Keys = NDArray[np.uint64]
 
 SMALL = 1 << 16
-"""Fewer keys than this are sorted by one thread."""
+"""A thread for fewer keys than this is not worth its start."""
 
 FEW_THREADS = 2
 """Up to so many threads, one is as fast: sample sort does twice the work."""
@@ -26,7 +26,8 @@ def sort_keys(keys: Keys, threads: int) -> Keys:
     Sample sort: Blelloch et al., "A Comparison of Sorting Algorithms for the Connection Machine
     CM-2", 1991.
     """
-    if threads <= FEW_THREADS or len(keys) < SMALL:
+    threads = useful_threads(threads, len(keys) // SMALL)
+    if threads <= FEW_THREADS:
         keys.sort()
         return keys
     parts = np.array_split(keys, threads)

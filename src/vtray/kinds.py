@@ -16,6 +16,7 @@ Byte = Annotated[
     Annotated[int, Meta(ge=0, le=255)] | Annotated[float, Meta(ge=0, le=255, multiple_of=1)],
     Meta(description="an integer from 0 to 255"),
 ]
+MAX_SPHERES = 2**27  # as many as a leaf of the hierarchy can name
 MAX_SIZE = 2**31 - 1  # the largest side of a PNG
 Size = Annotated[
     Annotated[int, Meta(ge=1, le=MAX_SIZE)]
@@ -27,7 +28,11 @@ PositivePair = Annotated[tuple[Positive, Positive], Meta(description="an array o
 Projection = Literal["perspective", "orthographic"]
 Margin = Annotated[float, Meta(ge=0, lt=0.5, description="a number from 0 to less than 0.5")]
 FieldOfView = Annotated[float, Meta(gt=0, lt=180, description="a number of degrees > 0 and < 180")]
-DataPath = Annotated[str, Meta(pattern=r"\.np[yz]$", description="the path of a .npz or .npy file")]
+# The end, in the words of Python and of JavaScript: a $ of Python's may stand before a newline.
+END = r"(?![\s\S])"
+DataPath = Annotated[
+    str, Meta(pattern=rf"\.np[yz]{END}", description="the path of a .npz or .npy file")
+]
 
 
 class FieldError(ValueError):

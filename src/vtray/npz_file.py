@@ -2,7 +2,8 @@
 
 from typing import BinaryIO
 
-from vtray.picture import How, Picture
+from vtray.array_file import read_text
+from vtray.picture import LONGEST_TEXT, How, Picture
 
 NAME = "provenance"
 """The array, of one text, that says how a picture was made."""
@@ -23,7 +24,4 @@ def write_npz(picture: Picture, how: How, file: BinaryIO) -> None:
 
 def read_npz(file: BinaryIO) -> str | None:
     """Return what a .npz file says of how its picture was made, None if it says nothing."""
-    import numpy as np
-
-    with np.load(file, allow_pickle=False) as arrays:
-        return str(arrays[NAME]) if NAME in arrays.files else None
+    return read_text(file, NAME, LONGEST_TEXT)

@@ -25,6 +25,7 @@ from typing import Any
 import msgspec
 
 from vtray.kernel_folder import SUFFIX, cache_folder, read_kept
+from vtray.memory import check_memory_of_compiler, check_memory_of_start
 from vtray.native_call import Layout, TupleLayout
 from vtray.own_files import write_own
 
@@ -99,6 +100,7 @@ def compile_object(
     options
         Numba's.
     """
+    check_memory_of_compiler()
     import numba
 
     # The wrappers through which Python would call it need Numba in memory.
@@ -157,6 +159,7 @@ def _helpers() -> dict[str, int]:
 @cache
 def _linker() -> object:
     """Return LLVM's linker."""
+    check_memory_of_start()
     from llvmlite import binding
 
     binding.initialize_native_target()

@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 AOVS = ("depth", "normals", "ids")
 """What files may hold beside the picture itself: its arbitrary output variables."""
 
+LONGEST_TEXT = 1 << 20
+"""Bytes that a file may hold to say how its picture was made; it takes some hundred."""
+
 
 class Picture(Protocol):
     """A picture, as `vtray.Image` is one."""

@@ -14,7 +14,7 @@ import struct
 import zlib
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vtray.picture import How, Picture
+from vtray.picture import LONGEST_TEXT, How, Picture
 from vtray.version import SOFTWARE
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ def read_png(file: BinaryIO) -> str | None:
         length, name = struct.unpack(">I4s", head)
         if name in (b"IDAT", b"IEND"):
             return None
-        if name != b"tEXt":
+        if name != b"tEXt" or length > LONGEST_TEXT:
             file.seek(length + 4, 1)
             continue
         data, check = file.read(length), file.read(4)

@@ -1,5 +1,6 @@
 """A pool of threads that takes tasks from a queue."""
 
+import os
 import threading
 from collections.abc import Callable, Iterable
 from queue import Empty, SimpleQueue
@@ -12,6 +13,30 @@ POLL_SECONDS = 0.05
 """How often the waiting thread looks at the progress and at Ctrl-C."""
 
 
+LEAST_ALLOWED = 64
+"""So many threads may be asked for on any machine; more only where there are more cores."""
+
+
+def available_cores() -> int:
+    """Return how many cores this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def useful_threads(threads: int, work: int) -> int:
+    """Return how many threads are of use, at least 1, however many are asked for.
+
+    Parameters
+    ----------
+    threads
+        How many may be used.
+    work
+        How many of them would have something to do.
+    """
+    return max(min(threads, work, max(available_cores(), LEAST_ALLOWED)), 1)
+
+
 def run_tasks(
     tasks: Iterable[Task],
     new_worker: Callable[[], Callable[[Task], object]],
@@ -21,6 +46,9 @@ def run_tasks(
     progress: Progress | None = None,
 ) -> None:
     """Run all tasks; the calling thread waits, so that Ctrl-C works.
+
+    There are no more threads than are of use, and fewer where the system allows no more or memory
+    is short; if it allows none, the calling thread does the work.
 
     Parameters
     ----------
@@ -45,6 +73,7 @@ def run_tasks(
     try:
         pool.start(threads)
         pool.wait(progress)
+        pool.finish(progress)
     except BaseException:
         pool.give_up()
         pool.wait(None)
@@ -77,12 +106,12 @@ class _Pool(Generic[Task]):
 
     def start(self, threads: int) -> None:
         """Start the threads, or as many as the system allows."""
-        for _ in range(min(threads, self._total)):
+        if self._total == 0:
+            return
+        for _ in range(useful_threads(threads, self._total)):
             try:
                 threading.Thread(target=self._work, daemon=True).start()
-            except RuntimeError:
-                if self._started == 0:
-                    raise
+            except (RuntimeError, MemoryError):
                 break
             self._started += 1
 
@@ -98,6 +127,16 @@ class _Pool(Generic[Task]):
                 return
             self._wake.wait(POLL_SECONDS)
             self._wake.clear()
+
+    def finish(self, progress: Progress | None) -> None:
+        """Do in the calling thread what is left because no other thread could."""
+        if not self._waiting.empty():
+            worker = self._new_worker()
+            while (task := self._next()) is not None:
+                worker(task)
+                self._done.put(None)
+                if progress is not None:
+                    progress(self._done.qsize(), self._total)
 
     def give_up(self) -> None:
         """Drop the tasks that wait, and hurry those that run."""
@@ -116,7 +155,10 @@ class _Pool(Generic[Task]):
         """Take tasks until there are none."""
         self._begun.append(True)
         try:
-            worker = self._new_worker()
+            try:
+                worker = self._new_worker()
+            except MemoryError:
+                return  # the others have the tasks, or else the calling thread
             while (task := self._next()) is not None:
                 worker(task)
                 self._done.put(None)

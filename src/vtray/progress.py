@@ -1,5 +1,6 @@
 """The progress bar of the command line."""
 
+import contextlib
 import sys
 import threading
 import time
@@ -45,7 +46,8 @@ def announced(text: str) -> Iterator[None]:
     """Print a line on stderr if what is done within takes long."""
     timer = threading.Timer(DELAY_SECONDS, print, (text,), {"file": sys.stderr})
     timer.daemon = True
-    timer.start()
+    with contextlib.suppress(RuntimeError):  # no more threads are allowed
+        timer.start()
     try:
         yield
     finally:

@@ -8,7 +8,8 @@ from msgspec import Meta
 
 from vtray.errors import OutputError, ProvenanceError, why_unreadable
 from vtray.image_format import FORMATS, find_format, needs_package
-from vtray.kinds import NonNegative, SizePair
+from vtray.input_file import open_input
+from vtray.kinds import END, NonNegative, SizePair
 from vtray.picture import How, Picture
 from vtray.settings import Background, Exposure, FilterName, RenderSettings, Samples, Seed
 from vtray.version import __version__
@@ -36,7 +37,7 @@ class Provenance(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_onl
     """
 
     version: str
-    scene: Annotated[str, Meta(pattern="^[0-9a-f]{16,64}$")]
+    scene: Annotated[str, Meta(pattern=f"^[0-9a-f]{{16,64}}{END}")]
     samples: Samples
     filter: FilterName
     seed: Seed
@@ -114,10 +115,12 @@ def _read_text(path: Path) -> str | None:
         message = f"{path}: expected a picture that vtray has written, one of {', '.join(FORMATS)}"
         raise ProvenanceError(message) from None
     try:
-        with path.open("rb") as file:
+        with open_input(path) as file:
             return form.read(file)
-    except ImportError as error:
+    except ModuleNotFoundError as error:
         raise ProvenanceError(needs_package(path, error.name or "more")) from None
+    except MemoryError:
+        raise
     except OSError as error:
         if error.errno is None:  # not the system's: the library found no picture of its format
             raise ProvenanceError(_damaged(path, error)) from None
@@ -136,7 +139,7 @@ def _version(text: str) -> str:
     """Return the version that wrote a provenance that is not understood, "" if it is not there."""
     try:
         found = msgspec.json.decode(text)
-    except (msgspec.DecodeError, UnicodeEncodeError):
+    except (msgspec.DecodeError, UnicodeEncodeError, RecursionError):
         return ""
     version = found.get("version") if isinstance(found, dict) else ""
     return version[:40] if isinstance(version, str) and version.isprintable() else ""

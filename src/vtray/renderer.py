@@ -13,6 +13,7 @@ from vtray.image import Image
 from vtray.look import Look
 from vtray.memory import check_memory
 from vtray.pool import Progress as StepProgress
+from vtray.pool import available_cores
 from vtray.relighting import Relighting
 from vtray.scene import Camera, Scene
 from vtray.scene_arrays import pack
@@ -20,7 +21,7 @@ from vtray.scene_file import Warn
 from vtray.settings import RenderSettings
 from vtray.stopwatch import Stopwatch
 from vtray.tiles import TILE
-from vtray.tracing import Tracer, available_cores, compile_kernels
+from vtray.tracing import Tracer, compile_kernels
 from vtray.unknown_names import explain_unknown
 
 Progress = Callable[[str, int, int], None]
@@ -61,7 +62,8 @@ def render(
     scene
         The scene.
     threads
-        How many threads to use, at least 1; None for all cores.
+        How many threads to use, at least 1; None for all cores. No more are used than there is
+        work for.
     progress
         Called from time to time with what is being done, ``"build"`` or ``"trace"``, how many of
         its tasks are done, and how many there are.

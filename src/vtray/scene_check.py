@@ -18,6 +18,7 @@ from vtray.json_tree import CLEAN, Members, Tree, Written
 from vtray.kinds import FieldError
 from vtray.scene_words import (
     Struct,
+    Unknown,
     either,
     expected,
     given_kind,
@@ -43,16 +44,18 @@ class FileChecker:
     ----------
     line_of : callable
         Gives the line, counted from 1, of an offset in the file.
+    ignored : int
+        How many unknown keys there are in parts that are not read.
 
     Attributes
     ----------
-    unknown : list of str
-        One line for each key that the format does not know.
+    unknown : Unknown
+        The keys that the format does not know.
     """
 
-    def __init__(self, line_of: Callable[[int], int]) -> None:
+    def __init__(self, line_of: Callable[[int], int], ignored: int = 0) -> None:
         self.line_of = line_of
-        self.unknown: list[str] = []
+        self.unknown = Unknown("key", ignored)
 
     def check(self, found: Tree, kind: Kind, place: str = "") -> Any:  # noqa: ANN401
         """Convert a value to a kind; raise SceneError where that cannot be done."""
@@ -79,8 +82,7 @@ class FileChecker:
             if key in hints:
                 values[key] = self.check(value, hints[key], where)
             elif key not in known:
-                text = f"unknown key, ignored; the nearest known key is {nearest(key, known)}"
-                self.unknown.append(f"{where}: {text}")
+                self.unknown.add(where, key, known)
                 self._check_ignored(value, where)
         for key in hints:
             if key not in values and key in required_keys(cls):

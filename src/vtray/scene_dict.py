@@ -9,7 +9,7 @@ import msgspec
 from vtray.errors import SceneError
 from vtray.scene import Scene
 from vtray.scene_file import Warn, loads
-from vtray.scene_words import join, nearest, show
+from vtray.scene_words import Unknown, join, nearest, show
 from vtray.spheres import COLUMNS, Spheres, array_words, from_arrays
 
 _KEYS = ["type", *COLUMNS]
@@ -67,9 +67,10 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
         # Not a number is null in JSON; say what it was.
         _check(given, "", name)
         raise
+    unknown = Unknown("key")
     for index, item in arrays.items():
-        scene.objects[index] = _spheres(item, f"objects[{index}]", name, warnings)
-    for line in warnings:
+        scene.objects[index] = _spheres(item, f"objects[{index}]", name, unknown)
+    for line in [*warnings, *(f"{name}: {line}" for line in unknown.lines())]:
         if warn is None:
             _warn(line)
         else:
@@ -82,8 +83,8 @@ def _has_arrays(item: object) -> bool:
     return isinstance(item, Mapping) and item.get("type") == "spheres" and "data" not in item
 
 
-def _spheres(item: Mapping[str, Any], place: str, name: str, warnings: list[str]) -> Spheres:
-    """Make spheres of the arrays in a dictionary; append a line for each unknown key."""
+def _spheres(item: Mapping[str, Any], place: str, name: str, unknown: Unknown) -> Spheres:
+    """Make spheres of the arrays in a dictionary; note the unknown keys."""
     strange = [key for key in item if key not in _KEYS]
     for key in COLUMNS:
         if key not in item:
@@ -100,9 +101,7 @@ def _spheres(item: Mapping[str, Any], place: str, name: str, warnings: list[str]
     except SceneError as problem:
         raise SceneError(f"{name}: {problem}") from None
     for key in strange:
-        known = nearest(str(key), _KEYS)
-        text = f"unknown key, ignored; the nearest known key is {known}"
-        warnings.append(f"{name}: {join(place, str(key))}: {text}")
+        unknown.add(join(place, str(key)), str(key), _KEYS)
     return spheres
 
 

@@ -14,6 +14,7 @@ from msgspec import UNSET
 
 from vtray.checked import make_unchecked
 from vtray.errors import SceneError, why_unreadable
+from vtray.input_file import is_given, read_input
 from vtray.scene import (
     Color,
     Direction,
@@ -29,8 +30,10 @@ from vtray.scene import (
 
 Warn = Callable[[str], None]
 
+SHOWN_UNKNOWN = 20
+"""Unknown keys of which there are warnings; of more, only how many there are."""
+
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
-_MAX_WARNINGS = 20
 _DECODER = msgspec.json.Decoder(SceneInFile)
 _LIGHT = msgspec.json.Decoder(Light)
 _OBJECT = msgspec.json.Decoder(Sphere | Plane | SpheresInFile)
@@ -42,7 +45,8 @@ def load(path: str | os.PathLike[str], *, warn: Warn | None = None) -> Scene:
     Parameters
     ----------
     path : str or path
-        The file, JSON in UTF-8. Paths in it are relative to its folder.
+        The file, JSON in UTF-8. Paths in it are relative to its folder, or, if it is a pipe such as
+        ``/dev/stdin``, to the current one.
     warn : callable, optional
         Called with one line of text for each key or array that the format does not know;
         `warnings.warn` by default.
@@ -60,11 +64,11 @@ def load(path: str | os.PathLike[str], *, warn: Warn | None = None) -> Scene:
     """
     name = os.fsdecode(path)
     try:
-        with open(path, "rb") as file:
-            raw = file.read()
+        raw = read_input(path)
     except (OSError, ValueError, MemoryError) as error:
         raise SceneError(f"{name}: {why_unreadable(error, 'scene file')}") from None
-    return _loads(raw, name, os.path.dirname(name), warn or _warn)
+    folder = "" if is_given(path) else os.path.dirname(name)
+    return _loads(raw, name, folder, warn or _warn)
 
 
 def loads(text: str | bytes, name: str = "<string>", *, warn: Warn | None = None) -> Scene:
@@ -89,6 +93,10 @@ def loads(text: str | bytes, name: str = "<string>", *, warn: Warn | None = None
     SceneError
         As for `load`.
     """
+    given: object = text
+    if not isinstance(given, (str, bytes)):
+        got = f"got {type(given).__name__} (vtray.load reads a file, vtray.load_dict a dictionary)"
+        raise SceneError(f"{name}: expected the text of a scene, as str or bytes, {got}")
     if isinstance(text, bytes):
         return _loads(text, name, "", warn or _warn)
     try:
@@ -200,23 +208,16 @@ def _explain(raw: bytes, name: str, warn: Warn) -> None:
         )
         raise SceneError(f"{name}: {problem}")
     try:
-        tree = JsonTree(raw, _clean_parts(raw))
-        checker = FileChecker(tree.line)
+        clean, ignored = _clean_parts(raw)
+        tree = JsonTree(raw, clean)
+        checker = FileChecker(tree.line, ignored)
         checker.check(tree.read(), SceneInFile)
     except SceneError as problem:
         raise SceneError(f"{name}: {problem}") from None
     except RecursionError:
         raise SceneError(f"{name}: nested too deeply; a scene needs 4 levels") from None
-    for line in _few(checker.unknown, "keys"):
+    for line in checker.unknown.lines():
         warn(f"{name}: {line}")
-
-
-def _few(unknown: list[str], what: str) -> list[str]:
-    """Cut a long list of warnings."""
-    more = len(unknown) - _MAX_WARNINGS
-    if more <= 0:
-        return unknown
-    return [*unknown[:_MAX_WARNINGS], f"{more} more unknown {what}, ignored"]
 
 
 def _read_spheres(found: SceneInFile, name: str, folder: str, warn: Warn) -> list[Object]:
@@ -227,7 +228,7 @@ def _read_spheres(found: SceneInFile, name: str, folder: str, warn: Warn) -> lis
         objects, unknown = with_arrays(found.objects, folder)
     except SceneError as problem:
         raise SceneError(f"{name}: {problem}") from None
-    for line in _few(unknown, "arrays"):
+    for line in unknown:
         warn(f"{name}: {line}")
     return objects
 
@@ -239,30 +240,78 @@ def _warn(message: str) -> None:
     warnings.warn(message, stacklevel=5)
 
 
-def _clean_parts(raw: bytes) -> dict[int, int] | None:
-    """Find the lights and objects that are right, so that a million of them cost little.
+def _clean_parts(raw: bytes) -> tuple[dict[int, int] | None, int]:
+    """Find the lights and objects that need not be read, so that a million of them cost little.
 
-    Gives their first and end offsets; None if the syntax is broken.
+    They are right; or so are they but for unknown keys, after enough others of which there will be
+    warnings; or they come after one that is wrong, and so after the error.
+
+    Returns
+    -------
+    clean : dict of int to int or None
+        Their first and end offsets; None if the syntax is broken.
+    ignored : int
+        How many unknown keys are in them.
     """
     try:
         split = msgspec.json.decode(raw, type=_Split)
     except msgspec.ValidationError:
-        return {}
+        return {}, 0
     except (msgspec.DecodeError, RecursionError):
-        return None
+        return None, 0
     clean: dict[int, int] = {}
+    ignored = 0
     for key, decoder in (("lights", _LIGHT), ("objects", _OBJECT)):
-        end = 0
-        for part in _split_list(getattr(split, key)):
+        whole = getattr(split, key)
+        end = max(raw.find(whole), 0)
+        is_wrong = False
+        shown = 0
+        for part in _split_list(whole):
             start = raw.find(part, end)
             end = start + len(part)
-            try:
-                keys = _KEYS_OF[type(decoder.decode(part))]
-            except (msgspec.MsgspecError, RecursionError):
-                continue
-            if part.count(b":") == keys:
-                clean[start] = end
-    return clean
+            if not is_wrong:
+                try:
+                    value = decoder.decode(part)
+                except (msgspec.MsgspecError, RecursionError):
+                    is_wrong = True
+                    continue
+                keys = _KEYS_OF[type(value)]
+                if part.count(b":") != keys:
+                    is_shown = not keys or shown < SHOWN_UNKNOWN
+                    unknown = 0 if is_shown else _count_unknown(part, value)
+                    if not unknown:
+                        shown += 1
+                        continue
+                    ignored += unknown
+            clean[start] = end
+    return clean, ignored
+
+
+def _count_unknown(part: bytes, value: msgspec.Struct) -> int:
+    """Count the unknown keys of a light or an object that is right but for them, as it was read.
+
+    Gives 0 where a closer look is needed, as a key may be given twice.
+    """
+    try:
+        found = msgspec.json.decode(part)
+        colons = _colons_in(found)
+    except (msgspec.MsgspecError, RecursionError):
+        return 0
+    # A colon that is written as an escape is not in the file.
+    if colons != part.count(b":") or b"\\u003" in part:
+        return 0
+    inner = ((found[key], getattr(value, key)) for key in value.__struct_fields__)
+    pairs = [(found, value), *((one, two) for one, two in inner if isinstance(two, msgspec.Struct))]
+    return sum(len(one) - _keys(type(two)) for one, two in pairs)
+
+
+def _colons_in(found: object) -> int:
+    """Count the colons of a value of JSON: one for each key, and those in texts."""
+    if isinstance(found, dict):
+        return len(found) + sum(map(_colons_in, found)) + sum(map(_colons_in, found.values()))
+    if isinstance(found, list):
+        return sum(map(_colons_in, found))
+    return found.count(":") if isinstance(found, str) else 0
 
 
 def _split_list(raw: msgspec.Raw) -> Iterator[bytes]:

@@ -15,6 +15,7 @@ Struct: TypeAlias = type[msgspec.Struct]
 _PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
 _UNIONS = (types.UnionType, typing.Union)
 _SHOWN_ITEMS = 4
+_SHOWN_UNKNOWN = 20
 _SHOWN_DEPTH = 2
 
 
@@ -89,6 +90,38 @@ def tag_field(cls: Struct) -> list[str]:
     """Give the key that holds the tag of a Struct, in a list; empty if it has none."""
     field = cls.__struct_config__.tag_field
     return [field] if field else []
+
+
+class Unknown:
+    """The lines about keys or arrays that are not known: a few, and how many more there are.
+
+    Parameters
+    ----------
+    what : str
+        What they are, "key" or "array".
+    more : int
+        How many there are beside those that are noted.
+    """
+
+    def __init__(self, what: str, more: int = 0) -> None:
+        self._what = what
+        self._lines: list[str] = []
+        self._more = more
+
+    def add(self, place: str, word: str, known: list[str]) -> None:
+        """Note one at a place; to look for the nearest known word takes long."""
+        if len(self._lines) == _SHOWN_UNKNOWN:
+            self._more += 1
+            return
+        what = self._what
+        close = nearest(word, known)
+        text = f"unknown {what}, ignored; the nearest known {what} is {close}"
+        self._lines.append(f"{place}: {text}")
+
+    def lines(self) -> list[str]:
+        """Give the lines."""
+        more = [f"{self._more} more unknown {self._what}s, ignored"] if self._more else []
+        return self._lines + more
 
 
 def nearest(word: str, known: list[str], cutoff: float = 0.0) -> str:

@@ -270,6 +270,18 @@ def check_arrays(
     SceneError
         If one of them is not right.
     """
+    shaped = check_shapes(values, place, called)
+    at = {name: place + called.get(name, name) for name in COLUMNS}
+    return {name: _check_numbers(array, name, at[name]) for name, array in shaped.items()}
+
+
+def check_shapes(
+    values: Mapping[str, object], place: str, called: Mapping[str, str] = _NO_NAMES
+) -> dict[str, AnyArray]:
+    """Check the dtypes and the shapes of the arrays of spheres, but none of their numbers.
+
+    Parameters, and what is raised, are those of `check_arrays`.
+    """
     at = {name: place + called.get(name, name) for name in COLUMNS}
     found = {name: _to_array(values[name], name, at[name]) for name in COLUMNS}
     center = _check_center(found["center"], values["center"], at["center"])
@@ -284,7 +296,7 @@ def check_arrays(
             problem = _wrong_shape(found[name], values[name], name, words)
             raise SceneError(f"{at[name]}: {problem}")
         shaped[name] = found[name]
-    return {name: _check_numbers(array, name, at[name]) for name, array in shaped.items()}
+    return shaped
 
 
 def _to_array(found: Any, name: str, place: str) -> AnyArray:  # noqa: ANN401

@@ -2,16 +2,18 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from msgspec import UNSET
 
-from vtray.array_file import read_arrays
+from vtray.array_file import ArrayFileError, read_arrays
 from vtray.errors import SceneError
 from vtray.json_tree import short
+from vtray.kinds import MAX_SPHERES
 from vtray.scene import Object, Plane, Sphere, SpheresInFile
 from vtray.scene_check import hints_of
-from vtray.scene_words import expected, nearest
-from vtray.spheres import COLUMNS, Spheres, array_words, from_arrays
+from vtray.scene_words import Unknown, expected, nearest
+from vtray.spheres import COLUMNS, Spheres, array_words, check_shapes, from_arrays
 
 
 def with_arrays(
@@ -31,7 +33,7 @@ def with_arrays(
     objects : list
         The same, with `Spheres` instead of what names their files.
     unknown : list of str
-        One line for each array that is not known.
+        Lines about the arrays that are not known.
 
     Raises
     ------
@@ -39,35 +41,48 @@ def with_arrays(
         If a file cannot be read, or an array is missing, not right, or given twice.
     """
     complete: list[Object] = []
-    unknown: list[str] = []
+    unknown = Unknown("array")
+    count = len(objects)
     for index, item in enumerate(objects):
         if isinstance(item, SpheresInFile):
-            complete.append(_read_spheres(item, Path(folder), f"objects[{index}]", unknown))
+            place = f"objects[{index}]"
+            count -= 1
+            spheres = _read_spheres(item, Path(folder), place, MAX_SPHERES - count, unknown)
+            count += len(spheres)
+            complete.append(spheres)
         else:
             complete.append(item)
-    return complete, unknown
+    return complete, unknown.lines()
 
 
-def _read_spheres(item: SpheresInFile, folder: Path, place: str, unknown: list[str]) -> Spheres:
-    """Read one file of arrays; append a line to `unknown` for each that is not known."""
+def _read_spheres(
+    item: SpheresInFile, folder: Path, place: str, most: int, unknown: Unknown
+) -> Spheres:
+    """Read one file of arrays of at most so many spheres; note those that are not known."""
     file = short(item.data, 100)
     where = f"{place}.data: {file}"
-    try:
-        arrays, others = read_arrays(folder / item.data, COLUMNS, alone="center")
-    except SceneError as problem:
-        raise SceneError(f"{where}: {problem}") from None
     given = {name: getattr(item, name, UNSET) for name in COLUMNS}
     given = {name: value for name, value in given.items() if value is not UNSET}
-    for name in COLUMNS:
-        if name in given and name in arrays:
-            twice = f"given here and in {file}; expected it in one of them"
-            raise SceneError(f"{place}.{name}: {twice}")
-        if name not in given and name not in arrays:
-            raise _missing(name, place, file, others)
+
+    def check(arrays: dict[str, Any], others: list[str]) -> None:
+        for name in COLUMNS:
+            if name in given and name in arrays:
+                twice = f"given here and in {file}; expected it in one of them"
+                raise SceneError(f"{place}.{name}: {twice}")
+            if name not in given and name not in arrays:
+                raise _missing(name, place, file, others)
+        shaped = check_shapes({**arrays, **given}, f"{where}: ")
+        if len(shaped["center"]) > most:
+            count = f"{len(shaped['center'])}, {most} of {MAX_SPHERES} are left"
+            raise SceneError(f"{where}: center: expected fewer spheres, got {count}")
+
+    try:
+        arrays, others = read_arrays(folder / item.data, COLUMNS, alone="center", check=check)
+    except ArrayFileError as problem:
+        raise SceneError(f"{where}: {problem}") from None
     spheres = from_arrays({**arrays, **given}, f"{where}: ").read_from(folder / item.data)
     for other in others:
-        text = f"unknown array, ignored; the nearest known array is {nearest(other, list(COLUMNS))}"
-        unknown.append(f"{where}: {short(other)}: {text}")
+        unknown.add(f"{where}: {short(other)}", other, list(COLUMNS))
     return spheres
 
 

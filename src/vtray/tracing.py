@@ -1,6 +1,5 @@
 """From the arrays of a scene to a film: which rays are cast, tile by tile, in one pass or two."""
 
-import os
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -42,13 +41,6 @@ class Traced(NamedTuple):
     peak: float
     rays: int
     kept: tuple[KeptLight, ...] = ()
-
-
-def available_cores() -> int:
-    """Return how many cores this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 class Tracer:
