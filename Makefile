@@ -16,7 +16,7 @@ run: .venv/ready ## render an example scene to room.png
 	$(BIN)/vtray --threads 2 --stats scenes/room.json room.png
 
 test: .venv/ready ## run all tests, kernels compiled
-	$(BIN)/pytest
+	$(BIN)/pytest -n 2
 
 coverage: .venv/ready ## run the tests without the compiler, and see that they reach 95 % of lines
 	NUMBA_DISABLE_JIT=1 $(BIN)/coverage run -m pytest -q

@@ -1,16 +1,27 @@
 """Each finder finds nothing in a few attempts, and finds what is broken on purpose."""
 
+import json
 from pathlib import Path
+from random import Random
 
 import pytest
 
+import oracle
 from conftest import compiled_only
-from fuzz import damage
+from fuzz import damage, truth
 from fuzz.finders import FINDERS, try_once
 
 pytestmark = compiled_only
 
-ATTEMPTS = {"scenes": 40, "arguments": 60, "arrays": 40, "pictures": 60, "kernels": 60, "faults": 6}
+ATTEMPTS = {
+    "scenes": 40,
+    "arguments": 60,
+    "arrays": 40,
+    "pictures": 60,
+    "kernels": 60,
+    "faults": 6,
+    "truth": 50,
+}
 
 
 @pytest.mark.parametrize("name", FINDERS)
@@ -30,8 +41,17 @@ def test_what_is_found_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     assert "AssertionError" in (folder / "why.txt").read_text()
 
 
-def test_the_same_seed_makes_the_same_attempt(tmp_path: Path) -> None:
-    from random import Random
+def test_a_wrong_picture_is_found_and_saved_as_a_small_scene(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(oracle, "ROUNDING", 1e-3)  # of another bound, hits and shadows are others
+    number = next(k for k in range(20) if not try_once("truth", 4, k, tmp_path))
+    folder = tmp_path / f"truth-4-{number}"
+    scene, small = (json.loads((folder / f"{n}.json").read_text()) for n in ("scene", "smaller"))
+    assert truth.fault_of(small) is not None
+    assert len(small["objects"]) <= len(scene["objects"])
 
+
+def test_the_same_seed_makes_the_same_attempt(tmp_path: Path) -> None:
     one, two = (damage.damaged_bytes(bytes(100), Random(7)) for _ in range(2))
     assert one == two != bytes(100)

@@ -183,7 +183,7 @@ class Kernel(Device):
                 if file:
                     write_object_code(file, compiled)
             return caller(link(compiled), compiled.layout)
-        # Who makes errors of warnings wants to see them; and short of memory, Numba would take more.
+        # Who makes errors of warnings wants to see them; short of memory, Numba would take more.
         except (Warning, RenderError, MemoryError):
             raise
         except Exception:  # noqa: BLE001 - whatever it is, Numba either can do it or explains it

@@ -14,7 +14,7 @@ FINDERS = {
     "pictures": "damaged pictures to replay",
     "kernels": "damaged kernels on disk",
     "faults": "signals and limits at random moments",
-    "oracle": "random scenes beside their picture worked out plainly",
+    "truth": "random scenes beside their picture as the rules say it",
 }
 
 
