@@ -39,7 +39,7 @@ def hand_made(
     depth = np.where(alpha > 0, random.uniform(1, 9, (height, width)), np.inf)
     normals = random.normal(size=(height, width, 3))
     ids = random.integers(0, 2**31 - 1, (height, width, 2)).astype(np.int32)
-    ids[alpha == 0] = -1
+    ids[alpha == 0], linear[alpha == 0] = -1, 0
 
     def look() -> Surfaces:
         assert covered, "this picture must do without"

@@ -1,6 +1,7 @@
 """What is seen where nothing is, the share that is covered, and exposures that are given."""
 
 import json
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ import oracle
 import vtray
 from conftest import JIT
 from examples import light, plane, scene, sphere
+from pictures import read_exr
 from strategies import scenes
 from test_filters import FORMULAS
 
@@ -57,7 +59,21 @@ def test_alpha_is_the_share_that_is_covered(filter_name: str) -> None:
     assert (alpha[share == 0] == 0).all()
     assert (alpha[share == 1] == 1).all()
     assert ((share > 0.1) & (share < 0.9)).sum() > 10
-    assert np.abs(alpha - share).max() < (0.02 if JIT else 0.15)
+    assert np.abs(alpha - share.clip(0, 1)).max() < (0.02 if JIT else 0.15)
+
+
+def test_alpha_is_from_0_to_1_with_filters_that_have_negative_sides(tmp_path: Path) -> None:
+    image = render(balls(), samples=16, filter="mitchell", background="transparent")
+    assert image.alpha.min() == 0
+    assert image.alpha.max() == 1
+    image.save(tmp_path / "a.exr")
+    _, channels = read_exr((tmp_path / "a.exr").read_bytes())
+    np.testing.assert_array_equal(channels["A"], image.alpha.astype(np.float32))
+    light = np.dstack([channels[name] for name in "RGB"])
+    seen = image.alpha > 0
+    np.testing.assert_array_equal(light[seen], (image.linear[seen] / 255).astype(np.float32))
+    assert not light[~seen].any()
+    assert image.linear[~seen].any()
 
 
 @pytest.mark.parametrize("samples", [1, 4])

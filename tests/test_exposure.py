@@ -1,9 +1,12 @@
 """From light to pixels."""
 
+import math
+
 import numpy as np
 import pytest
 
 import vtray
+from pictures import hand_made
 from vtray.errors import RenderError
 from vtray.exposure import BRIGHTEST, check_brightness, develop
 
@@ -75,6 +78,29 @@ def test_background_where_all_is_black() -> None:
     assert develop(linear, 0.0, color, lambda: alpha).tolist() == [[[1, 2, 3], [0, 0, 0]]]
     alone = develop(linear, 0.0, "transparent", lambda: alpha)
     assert alone.tolist() == [[[0, 0, 0, 0], [0, 0, 0, 255]]]
+
+
+@pytest.mark.parametrize("background", ["black", "transparent", vtray.Color(90, 60, 30)])
+@pytest.mark.parametrize("bits", [8, 16])
+@pytest.mark.parametrize(
+    ("white", "light", "share"),
+    [
+        (255 / 1e308, 1000.0, 1),  # an exposure of 1e308
+        (5e-324, 1.0, 1),
+        (1e304, 1e304, 1),  # the brightest there can be
+        (1e304, 5e303, 0.5),
+        (1e304, 1e303, 0.1),
+        (math.inf, 1e303, 0),  # an exposure of 5e-324
+    ],
+)
+def test_exposures_at_the_ends_of_the_range(
+    white: float, light: float, share: float, bits: int, background: object
+) -> None:
+    image = hand_made(1, 1, background=background)
+    image.linear, image.white = np.full((1, 1, 3), light), white
+    image._alpha = np.ones((1, 1))
+    pixels = vtray.Image.develop(image, bits)[..., :3]
+    assert pixels.tolist() == [[[math.floor(share * (2**bits - 1))] * 3]]
 
 
 def test_lights_too_bright_for_a_double() -> None:

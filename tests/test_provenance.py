@@ -1,6 +1,7 @@
 """What a file says of how its picture was made."""
 
 import json
+import subprocess
 import sys
 from pathlib import Path
 
@@ -245,6 +246,33 @@ def test_damaged_files(
         assert "\n" not in str(error)
     else:
         assert isinstance(found, vtray.Provenance)
+
+
+SILENT = """
+import sys, vtray
+for path in sys.argv[1:]:
+    try:
+        vtray.read_provenance(path)
+    except vtray.ProvenanceError as error:
+        print(error)
+"""
+
+
+@pytest.mark.parametrize("ending", [".tif", ".jpg", ".webp"])
+def test_libraries_say_nothing_of_damaged_files(
+    ending: str, files: dict[str, bytes], tmp_path: Path
+) -> None:
+    random = np.random.default_rng(7)
+    paths = [tmp_path / f"{k}{ending}" for k in range(60)]
+    for path in paths:
+        data = bytearray(files[ending])
+        for place in random.integers(len(data) if random.random() < 0.5 else 80, size=8):
+            data[place] = random.integers(256)
+        path.write_bytes(data[: random.integers(len(data))] if random.random() < 0.3 else data)
+    command = [sys.executable, "-W", "always", "-c", SILENT, *map(str, paths)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout
+    assert done.stderr == ""
 
 
 def test_missing_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -82,8 +82,12 @@ def put_on_background(
     its share is the fourth channel.
     """
     cover = alpha.clip(0.0, 1.0)[..., None]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        light = maximum * linear / white if white > 0.0 else np.zeros_like(linear)
+    light = np.zeros_like(linear)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        if white > 0.0:
+            # In units of a power of two, so that what overflows is white.
+            unit = -math.frexp(white)[1]
+            light = maximum * np.ldexp(linear, unit) / math.ldexp(white, unit)
         if background == "transparent":
             light = np.where(cover > 0.0, light / cover, 0.0)
     light[linear == white] = maximum if white > 0.0 else 0.0

@@ -58,9 +58,12 @@ def _channels(picture: Picture, how: How) -> "dict[str, NDArray[Any]]":
         for k, name in enumerate(names):
             channels[name] = np.ascontiguousarray(planes[..., k])
 
-    add(("R", "G", "B"), picture.linear / 255.0, np.float32)
+    light = picture.linear / 255.0
     if picture.settings.background != "black":
         add(("A",), picture.alpha[..., None], np.float32)
+        # What covers nothing sends no light; filters with negative sides leave a little.
+        light = np.where(picture.alpha[..., None] > 0.0, light, 0.0)
+    add(("R", "G", "B"), light, np.float32)
     if "depth" in how.aov:
         add(("Z",), picture.depth[..., None], np.float32)
     if "normals" in how.aov:

@@ -161,7 +161,8 @@ def write_pixels(
             film.linear[row, column, 2] = blue / weight
             peak = max(peak, red / weight, green / weight, blue / weight)
         if is_wanted(film.coverage):
-            film.coverage[row, column] = sums.covered[k] / weight
+            # Filters with negative sides go a little beyond.
+            film.coverage[row, column] = min(max(sums.covered[k] / weight, 0.0), 1.0)
     return peak
 
 

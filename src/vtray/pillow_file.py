@@ -4,6 +4,7 @@ All three say how the picture was made in the same two tags of Exif, which are T
 """
 
 import io
+import logging
 import warnings
 from typing import BinaryIO
 
@@ -44,9 +45,12 @@ def read_exif(file: BinaryIO) -> str | None:
     """Return what a TIFF, JPEG or WebP says of how it was made, None if it says nothing."""
     from PIL import Image as PillowImage
 
+    log = logging.getLogger(PillowImage.__name__.partition(".")[0])
+    if not log.handlers:  # for what is wrong with a file is ours to say: it would be printed
+        log.addHandler(logging.NullHandler())
     with warnings.catch_warnings():
         # Only the head is read, so that many pixels are no danger.
-        warnings.simplefilter("ignore", PillowImage.DecompressionBombWarning)
+        warnings.simplefilter("ignore")
         with PillowImage.open(file) as image:
             text = image.getexif().get(TAG_DESCRIPTION)
     return text if isinstance(text, str) and text.startswith("{") else None
