@@ -126,18 +126,23 @@ class _Render:
         camera = scene["camera"]
         self.width, self.height = (int(n) for n in camera["size"])
         self.pixel = [dtype(r) for r in camera["resolution"]]
-        self.focus = dtype(camera["focus"])
+        self.eye_distance = self.focus = dtype(camera["focus"])
         self.center = self.vector(camera["center"])
         normal = self.vector(camera["normal"])
         if "up" in camera:
             self.right, self.down, self.forward = upright_axes(normal, self.vector(camera["up"]))
         else:
             self.right, self.down, self.forward = axes(normal)
-        self.eye = -self.focus * self.forward
         self.parallel = camera.get("projection", "perspective") == "orthographic"
-        # How far from the eye a ray may start.
-        across, below = self.width * self.pixel[0], self.height * self.pixel[1]
-        self.extent = across + below if self.parallel else dtype(0)
+        # Rays from an eye far away start where they pass a plane nearby.
+        view = self.width * self.pixel[0] + self.height * self.pixel[1]
+        if self.focus > 2.0**30 * view:
+            self.focus = view
+        share = dtype(1) if self.parallel else 1 - self.focus / self.eye_distance
+        self.shift = [share * length for length in self.pixel]
+        # How far from there a ray may start.
+        self.extent = self.width * self.shift[0] + self.height * self.shift[1]
+        self.eye = -self.focus * self.forward
         # At the same distance spheres come before planes.
         objects = scene["objects"]
         self.order = sorted(range(len(objects)), key=lambda k: objects[k]["type"] == "plane")
@@ -171,15 +176,17 @@ class _Render:
             if mine.any():
                 shaded = self.shade(item, starts[mine], rays[mine], depth[mine])
                 linear[mine], normals[mine], shadows[mine] = shaded
+        depth = depth + (self.eye_distance - self.focus)
         return Seen(linear, depth, normals, np.array([*self.order, -1])[hit], shadows)
 
     def rays(self, columns: Array, rows: Array) -> tuple[Array, Array]:
         """Return where rays start, minus the eye, and their unit directions, both (..., 3)."""
-        u = ((columns - self.dtype(self.width) / 2) * self.pixel[0])[..., None]
-        v = ((rows - self.dtype(self.height) / 2) * self.pixel[1])[..., None]
-        aside = u * self.right + v * self.down
-        ray = np.broadcast_to(self.forward, aside.shape) if self.parallel else aside - self.eye
-        start = aside if self.parallel else np.zeros_like(aside)
+        u = (columns - self.dtype(self.width) / 2)[..., None]
+        v = (rows - self.dtype(self.height) / 2)[..., None]
+        start = u * self.shift[0] * self.right + v * self.shift[1] * self.down
+        aside = u * self.pixel[0] * self.right + v * self.pixel[1] * self.down
+        ray = aside + self.eye_distance * self.forward
+        ray = np.broadcast_to(self.forward, aside.shape) if self.parallel else ray
         return start, ray / np.sqrt(dot(ray, ray))[..., None]
 
     def nearest(self, starts: Array, rays: Array) -> tuple[Array, Array]:
@@ -202,8 +209,10 @@ class _Render:
         squared = radius * radius - dot(foot, foot)
         half = np.sqrt(squared)
         distance = np.full(middle.shape, np.inf, self.dtype)
+        magnitude = self.magnitude(item) + self.extent + self.focus
         for t in (middle + half, middle - half):  # the near one last: it wins
-            seen = (squared > 0) & (t * forward - self.focus > ROUNDING * (np.abs(t) + self.focus))
+            bound = ROUNDING * (np.abs(t) + magnitude)
+            seen = (squared > 0) & (t * forward - self.focus > bound)
             distance[seen] = t[seen]
         return distance
 
@@ -222,7 +231,8 @@ class _Render:
         points = self.eye + distance[:, None] * rays + starts
         if item["type"] == "sphere":
             normal = points - self.place(item["center"])
-            normal = normal / np.sqrt(dot(normal, normal))[:, None]
+            length = np.sqrt(dot(normal, normal))[:, None]
+            normal = np.where(length > 0, normal / length, -rays)
         else:
             normal = np.broadcast_to(self.normal(item), points.shape)
         normal = np.where((dot(normal, rays) > 0)[:, None], -normal, normal)

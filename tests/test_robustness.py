@@ -192,6 +192,16 @@ def test_plane_in_the_image_plane_is_behind_it(normal: tuple[float, ...], by: fl
     np.testing.assert_array_equal(with_wall, without)
 
 
+@pytest.mark.parametrize("normal", [(0, 0, 1), TILTED, (-0.7, 0.1, -0.4)])
+@pytest.mark.parametrize("radius", [1e3, 6.371e6, 1e10])
+def test_the_ground_under_the_image_plane_is_behind_it(
+    normal: tuple[float, ...], radius: float
+) -> None:
+    unit = np.array(normal) / np.sqrt(np.square(normal).sum())
+    camera = {"normal": xyz(*normal), "center": xyz(*(radius * unit)), "focus": 2}
+    assert (render(scene([sphere((0, 0, 0), radius)], [], **camera)).ids == -1).all()
+
+
 @pytest.mark.parametrize("name", HARD)
 def test_rounding_stays_within_its_bound(name: str) -> None:
     document = HARD[name]

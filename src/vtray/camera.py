@@ -13,11 +13,12 @@ class CameraFrame(NamedTuple):
     Attributes
     ----------
     eye
-        Where the rays start: ``-focus * forward``; in an orthographic view that of the middle.
+        Where the rays start: ``-focus * forward``; where they start side by side, that of the
+        middle.
     right, down, forward
         The unit axes x', y', z' of the camera.
     focus
-        The distance from the eye to the image plane.
+        The distance from there to the image plane.
     pixel
         From one pixel to the next across and down, and the distance from the eye, in a unit of
         their own: they only make directions, and must not vanish beside things that are huge.
@@ -65,7 +66,7 @@ def camera_axes(forward: Vec) -> tuple[Vec, Vec]:
 
 @device
 def is_shifted(camera: CameraFrame) -> bool:
-    """Tell whether rays start side by side, as in an orthographic view, not all at the eye."""
+    """Tell whether rays start side by side, as in an orthographic view, not all at one place."""
     return camera.extent > 0.0
 
 
@@ -90,9 +91,16 @@ def camera_ray(camera: CameraFrame, column: float, row: float) -> tuple[Vec, Vec
     in_plane = add(
         scale(across * camera.pixel[0], camera.right), scale(below * camera.pixel[1], camera.down)
     )
-    ray = add(in_plane, scale(camera.pixel[2], camera.forward))
+    ray = _enlarged(add(in_plane, scale(camera.pixel[2], camera.forward)))
     length = math.sqrt(dot(ray, ray))
     offset = add(
         scale(across * camera.shift[0], camera.right), scale(below * camera.shift[1], camera.down)
     )
     return offset, (ray[0] / length, ray[1] / length, ray[2] / length)
+
+
+@device
+def _enlarged(ray: Vec) -> Vec:
+    """Return a vector times a power of two, so that its squares do not vanish."""
+    largest = max(abs(ray[0]), abs(ray[1]), abs(ray[2]))
+    return scale(2.0**900 if largest < 2.0**-400 else 1.0, ray)

@@ -61,7 +61,7 @@ def interact(
     point = _ray_point(scene.camera, offset, direction, distance)
     if primitive < sphere_count(scene.spheres):
         center = sphere_center(scene.spheres, slot)
-        normal = _sphere_normal(point, center)
+        normal = _sphere_normal(point, center, direction)
         magnitude = sphere_magnitude(center, sphere_radius(scene.spheres, slot))
     else:
         normal = pick(scene.planes, slot)
@@ -79,11 +79,18 @@ def _ray_point(camera: CameraFrame, offset: Vec, direction: Vec, distance: float
 
 
 @device
-def _sphere_normal(point: Vec, center: Vec) -> Vec:
-    """Return the unit normal of a sphere at a point of it."""
+def _sphere_normal(point: Vec, center: Vec, direction: Vec) -> Vec:
+    """Return the unit normal of a sphere at a point where a ray of a direction hits it.
+
+    That of a sphere so small that rounding put the point in its centre is towards the ray.
+    """
     outward = sub(point, center)
-    length = math.sqrt(dot(outward, outward))
-    return outward[0] / length, outward[1] / length, outward[2] / length
+    length2 = dot(outward, outward)
+    length = math.sqrt(length2) if length2 > 0.0 else -1.0
+    x = outward[0] if length2 > 0.0 else direction[0]
+    y = outward[1] if length2 > 0.0 else direction[1]
+    z = outward[2] if length2 > 0.0 else direction[2]
+    return x / length, y / length, z / length
 
 
 @device
@@ -133,7 +140,7 @@ def gather_interactions(
         distance = packet[BLOCKED + hit]
         point = _ray_point(camera, offset, direction, distance)
         surface = load(packet, NORMAL, hit)
-        normal = _sphere_normal(point, surface)
+        normal = _sphere_normal(point, surface, direction)
         curved = packet[COSINE + hit] > 0.0
         normal = (
             normal[0] if curved else surface[0],

@@ -1,5 +1,6 @@
 """What the picture's rays meet, beside light: traced only when it is asked for."""
 
+import sys
 from typing import NamedTuple
 
 import numpy as np
@@ -56,8 +57,12 @@ class Look:
     def __call__(self) -> Surfaces:
         """Trace the ray through the middle of each pixel."""
         film = Tracer(self._packed.arrays, self._threads).surfaces()
+        with np.errstate(over="ignore"):
+            depth = film.distance * self._packed.unit + self._packed.before
+        # What is farther away than a double can say is there all the same.
+        np.minimum(depth, sys.float_info.max, out=depth, where=film.primitive >= 0)
         return Surfaces(
-            film.distance * self._packed.unit,
+            depth,
             film.normal,
             locate_all(self._scene, self._kept, film.primitive),
         )

@@ -30,13 +30,19 @@ from vtray.vector import Vec, add, dot, pick, scale, sub
 
 @device
 def sphere_distance(
-    eye_from_center: Vec, direction: Vec, radius: float, forward: float, focus: float
+    eye_from_center: Vec,
+    direction: Vec,
+    radius: float,
+    forward: float,
+    focus: float,
+    magnitude: float,
 ) -> float:
     """Return the distance to the first point of a sphere in front of the image plane, or inf."""
     near, far = intersect_sphere(eye_from_center, direction, radius)
-    if near * forward - focus > ROUNDING * (abs(near) + focus):
+    magnitude += focus
+    if near * forward - focus > ROUNDING * (abs(near) + magnitude):
         return near
-    if far * forward - focus > ROUNDING * (abs(far) + focus):
+    if far * forward - focus > ROUNDING * (abs(far) + magnitude):
         return far
     return math.inf
 
@@ -96,8 +102,9 @@ def nearest_sphere(
     packet: Packet, first: int, camera: CameraFrame, spheres: SphereArrays, slot: int
 ) -> None:
     """Let a sphere take those of a group of lanes in which it is nearer than the hit so far."""
-    eye_from_center = sub(camera.eye, sphere_center(spheres, slot))
-    radius = sphere_radius(spheres, slot)
+    center, radius = sphere_center(spheres, slot), sphere_radius(spheres, slot)
+    eye_from_center = sub(camera.eye, center)
+    magnitude = sphere_magnitude(center, radius) + camera.extent
     number = spheres.number[slot]
     # The mask tells the compiler that no index is negative.
     begin = first & (LANES - 1)
@@ -107,7 +114,7 @@ def nearest_sphere(
         offset = load(packet, OFFSET, lane)
         from_center = add(eye_from_center, offset) if shifted else eye_from_center
         forward = packet[FORWARD + lane]
-        distance = sphere_distance(from_center, direction, radius, forward, camera.focus)
+        distance = sphere_distance(from_center, direction, radius, forward, camera.focus, magnitude)
         _take_nearer(packet, lane, distance, number, slot)
 
 

@@ -129,9 +129,7 @@ def _block_eight(
         point = load(packet, POINT, lane)
         reach = ROUNDING * (packet[MAGNITUDE + lane] + magnitude)
         depth = packet[DEPTH + lane]
-        shadow = sphere_shadows(
-            point, depth, place, light_depth, center, radius, reach, end_reach
-        )
+        shadow = sphere_shadows(point, depth, place, light_depth, center, radius, reach, end_reach)
         packet[BLOCKED + lane] = 1.0 if shadow else packet[BLOCKED + lane]
 
 

@@ -15,7 +15,7 @@ from vtray.ray_tree import Exposed, Hit, RayTree, ShadowRay, Surface, View
 from vtray.scene import Plane, Scene
 from vtray.scene_arrays import Packed, pack
 from vtray.spheres import Spheres
-from vtray.vector import Vec, add
+from vtray.vector import Vec, add, scale
 
 if TYPE_CHECKING:
     from vtray.image import Image
@@ -75,12 +75,13 @@ def trace_rays(
     cosines = np.zeros(len(scene.lights))
     blockers = np.full(len(scene.lights), NOTHING)
     traced = trace_plainly(packed.arrays, column, row, cosines, blockers)
-    origin = uncompiled(add)(packed.arrays.camera.eye, traced.offset)
+    start = _world(scene, packed, uncompiled(add)(packed.arrays.camera.eye, traced.offset))
+    eye = uncompiled(add)(start, uncompiled(scale)(-packed.before, traced.direction))
     hit, lights = None, []
     if traced.primitive != NOTHING:
         hit = Hit(
             _surface(scene, kept, packed, traced.primitive),
-            traced.distance * packed.unit,
+            traced.distance * packed.unit + packed.before,
             _world(scene, packed, traced.interaction.point),
             traced.interaction.normal,
         )
@@ -90,7 +91,7 @@ def trace_rays(
             lights.append(_shadow_ray(scene, hit, k, float(cosines[k]), blocker))
     return RayTree(
         (column, row),
-        _world(scene, packed, origin),
+        eye,
         traced.direction,
         hit,
         tuple(lights),

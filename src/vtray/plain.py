@@ -100,9 +100,10 @@ def _nearest_hit(scene: SceneArrays, offset: Vec, direction: Vec) -> tuple[float
     forward = dot(direction, camera.forward)
     nearest, primitive, slot = math.inf, NOTHING, 0
     for k in range(sphere_count(spheres)):
-        from_center = add(sub(camera.eye, sphere_center(spheres, k)), offset)
-        radius = sphere_radius(spheres, k)
-        distance = sphere_distance(from_center, direction, radius, forward, camera.focus)
+        center, radius = sphere_center(spheres, k), sphere_radius(spheres, k)
+        from_center = add(sub(camera.eye, center), offset)
+        magnitude = sphere_magnitude(center, radius) + camera.extent
+        distance = sphere_distance(from_center, direction, radius, forward, camera.focus, magnitude)
         number = int(spheres.number[k])
         if distance < nearest or (distance == nearest and number < primitive):
             nearest, primitive, slot = distance, number, k
@@ -130,9 +131,7 @@ def _first_blocker(scene: SceneArrays, start: Interaction, light: int) -> int:
         magnitude = sphere_magnitude(center, radius)
         reach = ROUNDING * (start.magnitude + magnitude)
         end_reach = light_reach(lights, light, magnitude)
-        if sphere_shadows(
-            start.point, depth, place, light_depth, center, radius, reach, end_reach
-        ):
+        if sphere_shadows(start.point, depth, place, light_depth, center, radius, reach, end_reach):
             number = int(spheres.number[k])
             blocker = number if blocker == NOTHING else min(blocker, number)
     if blocker != NOTHING:

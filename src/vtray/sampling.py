@@ -15,6 +15,9 @@ from vtray.sampler import IMAGE_PLACE, pixel_keys, scrambled, sobol_points
 from vtray.settings import RenderSettings
 from vtray.workspace import Pixels
 
+WIDEST = 2.0**400
+"""A growth of footprints by which each holds the whole scene."""
+
 
 class Sampling(NamedTuple):
     """Which rays are cast for which pixels.
@@ -72,7 +75,8 @@ def filter_footprint(settings: RenderSettings, camera: CameraFrame) -> Footprint
     """Return how wide the part of the scene is that a pixel is made of."""
     reach = FILTERS[settings.filter].radius * math.sqrt(2.0)
     width, height, distance = camera.pixel
-    return Footprint(reach * max(camera.shift), reach * max(width, height) / distance)
+    growth = min(reach * max(width, height) / distance, WIDEST)
+    return Footprint(reach * max(camera.shift), growth)
 
 
 @device

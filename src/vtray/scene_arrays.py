@@ -8,6 +8,7 @@ space in memory; each is brought into this space where it is used.
 """
 
 import math
+import sys
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -25,6 +26,14 @@ from vtray.sphere_arrays import SphereArrays
 from vtray.vector import Vec
 
 Floats = NDArray[np.float64]
+
+FARTHEST_START = 2.0**30
+"""Rays start no farther before the image plane than so many times its width and height.
+
+An eye that is farther away sees the scene along rays that differ by less than 1e-9: they start side
+by side, where they pass a plane nearby. Started at the eye, rounding would move what they meet, and
+lose what is near the image plane: from 1e15 times the size of the scene on, all of it.
+"""
 
 LARGEST_RATIO = 2.0**100
 """Spheres so tiny beside all else that this is exceeded are traced without their hierarchy."""
@@ -108,10 +117,13 @@ class Packed(NamedTuple):
         What the kernels read.
     unit
         Length in scene units of length 1 in the arrays, a power of two.
+    before
+        Length in scene units of each ray from the eye to where it starts in the arrays.
     """
 
     arrays: SceneArrays
     unit: float
+    before: float
 
 
 def pack(scene: Scene, kept: Acceleration) -> Packed:
@@ -131,7 +143,14 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
         _pack_lights(scene, origin, unit, camera),
         _pack_materials(kept, planes),
     )
-    return Packed(arrays, unit)
+    return Packed(arrays, unit, scene.camera.focus - start_distance(scene.camera))
+
+
+def start_distance(camera: Camera) -> float:
+    """Return how far before the image plane rays start, in scene units."""
+    across, below = (n * length for n, length in zip(camera.size, camera.resolution, strict=True))
+    view = across + below
+    return camera.focus if camera.focus <= FARTHEST_START * view else view
 
 
 def _exponent(value: float) -> int:
@@ -145,15 +164,21 @@ def _unit_length(scene: Scene, planes: list[Plane], kept: Acceleration) -> float
     places = [camera.center, *(plane.center for plane in planes)]
     places += [light.location for light in scene.lights]
     coordinates = max(max(abs(p.x), abs(p.y), abs(p.z)) for p in places)
-    highest = max(_camera_exponent(camera), _exponent(coordinates), _exponent(kept.largest))
+    highest = max(_start_exponent(camera), _exponent(coordinates), _exponent(kept.largest))
     # The unit itself and its inverse must be ordinary doubles.
     return math.ldexp(1.0, max(highest - 200, -1000))
 
 
-def _camera_exponent(camera: Camera) -> int:
-    """Return an e with all lengths of a camera below 2**e, and the largest not far below."""
+def _start_exponent(camera: Camera) -> int:
+    """Return an e with all coordinates below 2**e at which rays start, and not far below."""
+    start = start_distance(camera)
+    together = camera.projection != "orthographic" and start == camera.focus
+    return _exponent(start) if together else max(_exponent(start), _view_exponent(camera))
+
+
+def _view_exponent(camera: Camera) -> int:
+    """Return an e with width and height of the view below 2**e, and the larger not far below."""
     return max(
-        _exponent(camera.focus),
         _exponent(camera.resolution[0]) + _exponent(camera.size[0]),
         _exponent(camera.resolution[1]) + _exponent(camera.size[1]),
     )
@@ -166,16 +191,17 @@ def _pack_camera(camera: Camera, unit: float) -> CameraFrame:
         right, down = camera_axes(forward)
     else:
         right, down = view_axes(forward, unit_vector(camera.up))
-    focus = camera.focus / unit
+    start = start_distance(camera)
+    focus = start / unit
     width, height = camera.resolution
     if camera.projection == "orthographic":
-        shift = width / unit, height / unit
-        extent = camera.size[0] * shift[0] + camera.size[1] * shift[1]
-        pixel = 0.0, 0.0, 1.0
+        share, pixel = 1.0, (0.0, 0.0, 1.0)
     else:
-        own = -_camera_exponent(camera)
-        shift, extent = (0.0, 0.0), 0.0
-        pixel = math.ldexp(width, own), math.ldexp(height, own), math.ldexp(camera.focus, own)
+        # How much of the way from the eye to the image plane lies before the start of the rays.
+        share = 1.0 - start / camera.focus
+        pixel = _pack_pixel(camera)
+    shift = share * width / unit, share * height / unit
+    extent = camera.size[0] * shift[0] + camera.size[1] * shift[1]
     return CameraFrame(
         eye=(-focus * forward[0], -focus * forward[1], -focus * forward[2]),
         right=right,
@@ -188,6 +214,15 @@ def _pack_camera(camera: Camera, unit: float) -> CameraFrame:
         width=int(camera.size[0]),
         height=int(camera.size[1]),
     )
+
+
+def _pack_pixel(camera: Camera) -> Vec:
+    """Return a pixel's width and height and the focus, in a unit in which they make directions."""
+    # Far above 1, so that what is far smaller keeps its digits.
+    own = 500 - max(_view_exponent(camera), _exponent(camera.focus))
+    width, height = (math.ldexp(length, own) for length in camera.resolution)
+    # Not 0: there is a ray in the middle, however near the eye is.
+    return width, height, max(math.ldexp(camera.focus, own), sys.float_info.min)
 
 
 def _pack_to_boxes(kept: Acceleration, origin: Vec, unit: float) -> ToBoxes:
