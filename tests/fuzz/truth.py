@@ -1,0 +1,272 @@
+"""Finds scenes whose picture is not what the rules say.
+
+Random scenes, made to provoke rounding, are rendered with a hierarchy and without. The light must
+be that of the oracle to the last bit; and a pixel that is more than 1 off from the oracle in
+extended precision must lie at an edge, as near as rounding can tell. In the folder of the tests,
+
+    python -m fuzz.truth --seconds 600 --seed 1 --failures found
+
+which prints what it finds, and saves each scene, made as small as it can be, in the folder `found`.
+"""
+
+import argparse
+import itertools
+import json
+import math
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import oracle
+import vtray
+from vtray import acceleration
+
+Scene = dict[str, Any]
+Random = np.random.Generator
+
+FEW, ALL = 10**9, 0
+"""For ``acceleration.FEW``: no hierarchy, or always one."""
+
+WIDTH, HEIGHT = 12, 9
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Search as long as the command line says; the exit status is 1 if there are failures."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--seconds", type=float, default=60.0, help="how long to search")
+    parser.add_argument("--seed", type=int, default=time.time_ns() % 2**32)
+    parser.add_argument("--failures", type=Path, default=Path("failures"), help="a folder")
+    options = parser.parse_args(argv)
+    return 1 if run(options.seconds, options.seed, options.failures) else 0
+
+
+def run(seconds: float, seed: int, failures: Path) -> int:
+    """Search for some seconds, save the failures in a folder, and return how many there are."""
+    print(f"truth: seed {seed}", flush=True)
+    end = time.monotonic() + seconds
+    found = 0
+    for number in itertools.count():
+        if time.monotonic() > end:
+            break
+        scene = random_scene(np.random.default_rng((seed, number)))
+        fault = fault_of(scene)
+        if fault is not None:
+            found += 1
+            failures.mkdir(parents=True, exist_ok=True)
+            path = failures / f"truth-{seed}-{number}.json"
+            path.write_text(json.dumps(smaller(scene), indent=1))
+            print(f"{path}: {fault}", flush=True)
+    print(f"truth: {number} scenes, {found} failures", flush=True)
+    return found
+
+
+def fault_of(scene: Scene) -> str | None:
+    """Return what is wrong with the picture of a scene."""
+    exact = oracle.look(scene)
+    for few in (FEW, ALL):
+        linear = _render(scene, few)
+        wrong = np.argwhere((linear != exact.linear).any(axis=2))
+        if len(wrong):
+            row, column = wrong[0]
+            how = "hierarchy" if few == ALL else "few spheres"
+            return f"{how}: {len(wrong)} pixels are not the oracle's, first {column},{row}"
+    return _off_the_truth(scene, exact)
+
+
+def smaller(scene: Scene) -> Scene:
+    """Return a scene with a fault without the objects and lights that do not matter for it."""
+    for kind in ("objects", "lights"):
+        for item in list(scene[kind]):
+            less = {**scene, kind: [other for other in scene[kind] if other is not item]}
+            if fault_of(less) is not None:
+                scene = less
+    return scene
+
+
+def _render(scene: Scene, few: int) -> np.ndarray:
+    """Return the light of a scene, rendered with a hierarchy from so many spheres on."""
+    before, acceleration.FEW = acceleration.FEW, few
+    try:
+        return vtray.render(vtray.loads(json.dumps(scene)), threads=1).linear
+    finally:
+        acceleration.FEW = before
+
+
+def _off_the_truth(scene: Scene, exact: oracle.Seen) -> str | None:
+    """Return which pixels are off the oracle in extended precision, other than at an edge."""
+    truth = oracle.look(scene, dtype=np.longdouble)
+    white = float(truth.linear.max())
+    step = white / 255 or 1.0
+    rows, columns = np.nonzero(np.abs(exact.linear - truth.linear).max(axis=2) > step)
+    if len(rows) == 0:
+        return None
+    light = exact.linear[rows, columns]
+    depth = np.where(exact.ids >= 0, exact.depth, truth.depth)[rows, columns]
+    reach = _rounding_in_pixels(scene, depth.astype(float))
+    low, high = truth.linear[rows, columns], truth.linear[rows, columns]
+    for far, way in itertools.product((1, 8, 64), range(8)):
+        across, below = (far * reach * f(way * math.pi / 4) for f in (math.cos, math.sin))
+        near = oracle.look(scene, columns + across, rows + below, np.longdouble).linear
+        low, high = np.minimum(low, near), np.maximum(high, near)
+    off = ((light < low - step) | (light > high + step)).any(axis=1) & (reach < 1e-3)
+    # Where two surfaces touch, rounding may decide which of them is nearer.
+    hit, other = exact.ids[rows, columns], truth.ids[rows, columns]
+    both = (hit != other) & (hit >= 0) & (other >= 0)
+    gap = np.abs(depth[both] - truth.depth[rows, columns][both])
+    bound = reach[both] * max(scene["camera"]["resolution"]) + np.spacing(depth[both].astype(float))
+    off[both] &= gap > bound
+    if not off.any():
+        return None
+    first = int(np.argmax(off))
+    place = f"{columns[first]},{rows[first]}"
+    return f"{off.sum()} pixels are off the truth, first {place}: {light[first]}, {low[first]}"
+
+
+def _rounding_in_pixels(scene: Scene, depth: np.ndarray) -> np.ndarray:
+    """Return how far rounding may move what is seen at some depths, in pixels, (n,)."""
+    camera = scene["camera"]
+    objects, middle = scene["objects"], camera["center"]
+    sizes = [abs(item["center"][axis] - middle[axis]) for item in objects for axis in "xyz"]
+    sizes += [item.get("radius", 0.0) for item in objects]
+    view = WIDTH * camera["resolution"][0] + HEIGHT * camera["resolution"][1]
+    start = camera["focus"] if camera["focus"] <= 2.0**30 * view else view
+    depth = np.where(np.isfinite(depth), depth - (camera["focus"] - start), start)
+    pixel = min(camera["resolution"])
+    if camera.get("projection") != "orthographic":
+        pixel = pixel * np.maximum(depth, start) / start
+    return oracle.ROUNDING * (max(sizes, default=0.0) + start + view + depth) / pixel
+
+
+# From here on: how scenes are made.
+
+
+def random_scene(random: Random) -> Scene:
+    """Return a scene: things of all sizes that touch, coincide, and are cut by the image plane."""
+    size = 10.0 ** random.choice([0, 0, 0, -6, 3, 9])
+    world = size * random.choice([0.0, 0.0, 0.0, 1.0, 1e3, 1e6]) * random.normal(size=3)
+    count = int(random.choice([1, 3, 6, 40], p=[0.3, 0.3, 0.3, 0.1]))
+    spheres = [_sphere(random, size) for _ in range(count)]
+    planes = [_plane(random, size, spheres) for _ in range(random.integers(0, 3))]
+    for item in spheres[1:]:
+        _bring_together(random, item, spheres[0])
+    objects = [*spheres, *planes]
+    lights = [_light(random, size, objects) for _ in range(random.integers(1, 4))]
+    scene = {"camera": _camera(random, size, objects), "lights": lights, "objects": objects}
+    for place in _places(scene):
+        np.add(place, world, out=place)
+    return {
+        "camera": _written(scene["camera"]),
+        "lights": [_written(item) for item in lights],
+        "objects": [_written(objects[k]) for k in random.permutation(len(objects))],
+    }
+
+
+def _places(scene: Scene) -> Iterator[np.ndarray]:
+    """Give all points of a scene that is being made."""
+    yield scene["camera"]["center"]
+    yield from (item["center"] for item in scene["objects"])
+    yield from (item["location"] for item in scene["lights"])
+
+
+def _written(item: dict[str, Any]) -> dict[str, Any]:
+    """Return a part of a scene as a file has it."""
+
+    def plain(key: str, value: object) -> object:
+        if not isinstance(value, np.ndarray):
+            return value
+        return dict(zip("rgb" if key == "color" else "xyz", value.tolist(), strict=True))
+
+    return {key: plain(key, value) for key, value in item.items()}
+
+
+def _point(random: Random, size: float) -> np.ndarray:
+    """Return a place, often one with round numbers."""
+    if random.random() < 0.3:
+        return size * random.integers(-8, 9, 3) / 4
+    return size * random.uniform(-2, 2, 3)
+
+
+def _way(random: Random) -> np.ndarray:
+    """Return a unit vector, often along an axis."""
+    if random.random() < 0.3:
+        return np.roll([0.0, 0.0, random.choice([-1.0, 1.0])], random.integers(3))
+    way = random.normal(size=3)
+    return way / np.sqrt(way @ way)
+
+
+def _material(random: Random) -> dict[str, Any]:
+    return {"color": random.integers(0, 256, 3), "lambert": float(random.uniform(0.2, 1))}
+
+
+def _sphere(random: Random, size: float) -> dict[str, Any]:
+    radius = random.choice([0.0, 1e-9, 1e-3, 0.1, 0.5, 1.0, 1.0, 1e3, 1e7], p=_OFTEN)
+    radius = float(size * radius * random.choice([1.0, random.uniform(0.5, 2)]))
+    return {"type": "sphere", "center": _point(random, size), "radius": radius, **_material(random)}
+
+
+_OFTEN = [0.03, 0.02, 0.05, 0.2, 0.3, 0.2, 0.1, 0.05, 0.05]
+
+
+def _bring_together(random: Random, item: dict[str, Any], other: dict[str, Any]) -> None:
+    """Sometimes let two spheres touch from outside or inside, or coincide."""
+    kind = random.integers(12)
+    if kind < 2:
+        away = other["radius"] + item["radius"] * (1 if kind == 0 else -1)
+        item["center"] = other["center"] + away * _way(random)
+    elif kind == 2:
+        item["center"], item["radius"] = other["center"].copy(), other["radius"]
+
+
+def _plane(random: Random, size: float, spheres: list[dict[str, Any]]) -> dict[str, Any]:
+    center, normal = _point(random, size), _way(random)
+    ball = spheres[random.integers(len(spheres))]
+    if random.random() < 0.5:  # through a ball's centre, or touching it
+        center = ball["center"] + random.choice([0.0, ball["radius"]]) * normal
+    return {"type": "plane", "center": center, "normal": normal, **_material(random)}
+
+
+def _light(random: Random, size: float, objects: list[dict[str, Any]]) -> dict[str, Any]:
+    item = objects[random.integers(len(objects))]
+    kind = random.integers(6)
+    place = _point(random, size * random.choice([2, 2, 2, 1e3, 1e10]))
+    if kind < 3 and item.get("radius", 0.0) > 1e-6 * size:  # on it, inside of it, in its centre
+        place = item["center"] + (1.0, 0.5, 0.0)[kind] * item["radius"] * _way(random)
+    elif kind < 3 and item["type"] == "plane":
+        across = np.cross(item["normal"], _way(random))
+        place = item["center"] + size * random.uniform(0, 3) * across
+    return {"location": place, "intensity": float(random.uniform(0.2, 1))}
+
+
+def _camera(random: Random, size: float, objects: list[dict[str, Any]]) -> dict[str, Any]:
+    item = objects[random.integers(len(objects))]
+    center, normal = _point(random, 2 * size), _way(random)
+    kind = random.integers(8)
+    if kind == 0:  # the image plane cuts an object in half
+        center = item["center"].copy()
+    elif kind == 1 and item["type"] == "sphere":  # or touches it
+        center = item["center"] + item["radius"] * normal
+    elif kind < 6 and np.any(item["center"] != center):  # or looks at it
+        normal = item["center"] - center
+    focus = size * random.choice([0.01, 0.5, 2.0, 2.0, 100.0, 1e5, 1e8, 1e11, 1e16])
+    view = size * random.choice([0.2, 1.0, 3.0])
+    camera = {
+        "center": center,
+        "normal": normal,
+        "focus": float(focus),
+        "size": [WIDTH, HEIGHT],
+        "resolution": [float(view / WIDTH), float(view / HEIGHT)],
+    }
+    if random.random() < 0.3:
+        camera["projection"] = "orthographic"
+    up = _way(random)
+    if random.random() < 0.3 and np.abs(np.cross(up, normal)).max() > 1e-3 * np.abs(normal).max():
+        camera["up"] = up
+    return camera
+
+
+if __name__ == "__main__":
+    sys.exit(main())
