@@ -3,10 +3,10 @@
 A hit point ``eye + t * direction`` is the result of about twenty roundings, each of at most half a
 machine epsilon of the magnitudes that take part. Instead of moving the start of a shadow ray off
 its surface by some offset, vtray asks how far a point is from a surface: nearer than rounding could
-have carried it means *on* the surface, and a surface does not block a ray that starts on it, unless
-the ray crosses it elsewhere. The same holds for a light, whose place was rounded where it was worked
-out, in world space. The same bound decides whether a hit lies in front of the image plane, and
-whether a light is above the horizon of the surface that it shines on.
+have carried it means *on* the surface, which does not block a ray that starts on it, unless the ray
+crosses it elsewhere. The same holds for a light, whose place was rounded where it was worked out,
+in world space. The same bound decides whether a hit lies in front of the image plane, and whether a
+light is above the horizon of the surface that it shines on.
 
 References
 ----------

@@ -88,9 +88,11 @@ def _off_the_truth(scene: Scene, exact: oracle.Seen) -> str | None:
         low, high = np.minimum(low, near), np.maximum(high, near)
     off = ((light < low - step) | (light > high + step)).any(axis=1) & (reach < 1e-3)
     # Where two surfaces touch, rounding may decide which of them is nearer.
-    gap = np.abs(exact.depth - truth.depth)[rows, columns]
-    other = (exact.ids != truth.ids)[rows, columns]
-    off &= ~(other & (gap <= reach * max(scene["camera"]["resolution"])))
+    hit, other = exact.ids[rows, columns], truth.ids[rows, columns]
+    both = (hit != other) & (hit >= 0) & (other >= 0)
+    gap = np.abs(depth[both] - truth.depth[rows, columns][both])
+    bound = reach[both] * max(scene["camera"]["resolution"]) + np.spacing(depth[both].astype(float))
+    off[both] &= gap > bound
     if not off.any():
         return None
     first = int(np.argmax(off))
