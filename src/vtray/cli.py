@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from vtray.command import SUCCESS, leave, print_result, run_command
 from vtray.errors import OutputError
-from vtray.memory import check_memory_of_start
+from vtray.memory import BYTES_PER_PIXEL_AND_MORE, check_memory, check_memory_of_start
 from vtray.options import parse, settings_of
 
 if TYPE_CHECKING:
@@ -87,12 +87,15 @@ def _check_output(options: argparse.Namespace) -> None:
 
 
 def _check_picture(scene: "Scene", options: argparse.Namespace) -> None:
-    """Raise OutputError if the output cannot hold the picture that the scene asks for."""
-    from vtray.image_format import check_format
+    """Raise an error if the output, or memory, cannot hold the picture that the scene asks for."""
+    from vtray.image_format import check_format, find_format
 
     background = options.background or scene.render.background
     size = options.size or scene.render.size or scene.camera.size
-    check_format(options.output, options.bits, options.aov or (), background, size)
+    how = check_format(options.output, options.bits, options.aov or (), background, size)
+    least = find_format(options.output).memory[how.bits]
+    width, height = map(int, size)
+    check_memory(width, height, least=BYTES_PER_PIXEL_AND_MORE if how.aov else least)
 
 
 def _warn(message: str, options: argparse.Namespace) -> None:

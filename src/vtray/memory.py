@@ -20,6 +20,9 @@ BYTES_PER_PIXEL = 3 * 8 + 3 + 4
 BYTES_PER_SAMPLED_PIXEL = BYTES_PER_PIXEL + 8 + 4 + 8 + 1 + 1
 """The same with coverage, and what says which pixels get samples."""
 
+BYTES_PER_PIXEL_AND_MORE = 175
+"""With a background, or with depth, normals or ids, as measured."""
+
 BYTES_PER_SPHERE = 80
 """The hierarchy, and what it takes to build it, beside the arrays that were given."""
 
@@ -55,11 +58,21 @@ _REMEDY = "more memory for this process"
 _LOADER = ("failed to map segment", "cannot map zero-fill", "cannot allocate", "out of memory")
 
 
-def check_memory(width: int, height: int, samples: int = 1) -> None:
-    """Raise RenderError if an image of this size cannot be held in memory."""
+def check_memory(width: int, height: int, samples: int = 1, least: int = 0) -> None:
+    """Raise RenderError if an image of this size cannot be held in memory.
+
+    Parameters
+    ----------
+    width, height
+        In pixels.
+    samples
+        Of each pixel.
+    least
+        Bytes that each pixel takes at least, for what is done with it later.
+    """
     what = f"camera.size: an image of {width} x {height} pixels needs"
     bytes_per_pixel = BYTES_PER_PIXEL if samples == 1 else BYTES_PER_SAMPLED_PIXEL
-    _check(width * height * bytes_per_pixel, what, "a smaller size")
+    _check(width * height * max(bytes_per_pixel, least), what, "a smaller size")
 
 
 def check_memory_of_lights(rays: int, lights: int) -> None:
