@@ -45,6 +45,8 @@ class Bytes(NamedTuple):
     resident: int
 
 
+NOTHING = Bytes(0, 0, 0)
+
 START = Bytes(330_000_000, 100_000_000, 110_000_000)
 """What the least picture takes once kernels are compiled, as measured with Python 3.11 on Linux:
 with 310, 80 and 105 MB it failed."""
@@ -103,12 +105,20 @@ def available_memory() -> int:
     return max(min(limit.left for limit in _limits()), 0)
 
 
-def lack_of_memory(needed: int | Bytes) -> str | None:
-    """Say what is needed, with the rest of the start, and what there is; None if it is enough."""
+def lack_of_memory(needed: int | Bytes, start: Bytes = NOTHING) -> str | None:
+    """Say what is needed and what there is; None if it is enough.
+
+    Parameters
+    ----------
+    needed
+        Bytes that are needed now.
+    start
+        What the process will have taken when all libraries are loaded.
+    """
     each = needed if isinstance(needed, Bytes) else Bytes(needed, needed, needed)
     used = _used()
     for limit in _limits():
-        to_come = max(START[limit.counts] - used[limit.counts], 0)
+        to_come = max(start[limit.counts] - used[limit.counts], 0)
         total = each[limit.counts] + to_come
         if total > limit.left:
             return f"{readable(total)} of memory, {limit}"
@@ -165,8 +175,8 @@ class _Limit(NamedTuple):
 
 
 def _check(needed: int | Bytes, what: str, instead: str) -> None:
-    """Raise RenderError if there is less memory than needed."""
-    lack = lack_of_memory(needed)
+    """Raise RenderError if there is less memory than needed, with the rest of the start."""
+    lack = lack_of_memory(needed, START)
     if lack:
         message = f"{what} {lack}; expected {instead}"
         raise RenderError(message)
