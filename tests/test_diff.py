@@ -226,6 +226,16 @@ def test_out_of_memory_says_what_to_do(
     assert err.endswith("; expected a smaller picture or scene, or more memory for this process\n")
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="needs limits of memory")
+def test_too_little_memory_does_not_end_the_process(tmp_path: Path) -> None:
+    Image.new("RGB", (800, 600)).save(tmp_path / "a.png")
+    command = f"ulimit -v 200000; exec {COMMAND} a.png a.png"
+    shell = ["bash", "-c", command]
+    done = subprocess.run(shell, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert done.stderr.startswith("Error: to compare pictures of 800 x 600 pixels needs 115 MB of")
+
+
 def test_missing_extra_is_explained(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:

@@ -148,6 +148,16 @@ def limited(scene_file: Path, option: str, *arguments: str) -> str:
             r"camera.size: an image of 10000 x 10000 pixels needs 3.\d GB of memory, \d.\d GB is "
             r"available \(the limit of this process is 3.1 GB, ulimit -v\); expected a smaller",
         ),
+        (
+            "-v 3000000",
+            ["--size", "5000x5000", "--bits", "16"],
+            r"camera.size: an image of 5000 x 5000 pixels needs 3.\d GB of memory, ",
+        ),
+        (
+            "-v 3000000",
+            ["--size", "5000x5000", "--alpha"],
+            r"camera.size: an image of 5000 x 5000 pixels needs 4.\d GB of memory, ",
+        ),
     ],
 )
 def test_limits_of_the_process(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from vtray.command import SUCCESS, print_note, print_result, run_command
 from vtray.errors import printable
-from vtray.memory import check_memory_of_start
+from vtray.memory import BYTES_PER_PIXEL_AND_MORE, check_memory, check_memory_of_start
 from vtray.options import parse, settings_of
 from vtray.signals import LastStep
 
@@ -90,14 +90,17 @@ def _check_output(options: argparse.Namespace) -> None:
 
 
 def _check_picture(scene: "Scene", options: argparse.Namespace) -> None:
-    """Raise OutputError if the output cannot hold the picture, or holds a part of the scene."""
-    from vtray.image_format import check_format
+    """Raise an error if the output is a part of the scene, or cannot hold the picture."""
+    from vtray.image_format import check_format, find_format
     from vtray.spheres import check_spares_data
 
     check_spares_data(options.output, scene.objects)
     background = options.background or scene.render.background
     size = options.size or scene.render.size or scene.camera.size
-    check_format(options.output, options.bits, options.aov or (), background, size)
+    how = check_format(options.output, options.bits, options.aov or (), background, size)
+    least = find_format(options.output).memory[how.bits]
+    width, height = map(int, size)
+    check_memory(width, height, least=BYTES_PER_PIXEL_AND_MORE if how.aov else least)
 
 
 @contextlib.contextmanager

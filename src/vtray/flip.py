@@ -7,13 +7,19 @@ Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 202
 
 from typing import TYPE_CHECKING
 
+from vtray.errors import VtrayError
 from vtray.extras import need
+from vtray.memory import lack_of_memory
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
     Pixels = NDArray[np.uint8]
+
+
+BYTES_PER_PIXEL = 240
+"""What the library takes, as measured."""
 
 
 def flip_error(a: "Pixels", b: "Pixels", user: str) -> "tuple[float, Pixels]":
@@ -30,10 +36,17 @@ def flip_error(a: "Pixels", b: "Pixels", user: str) -> "tuple[float, Pixels]":
     ------
     ExtraError
         The package ``flip-evaluator`` is not installed.
+    VtrayError
+        There is not enough memory, for lack of which the library would end the process.
     """
     evaluate = need("flip_evaluator", "diff", user).evaluate
     import numpy as np
 
+    height, width = a.shape[:2]
+    lack = lack_of_memory(height * width * BYTES_PER_PIXEL)
+    if lack:
+        message = f"to compare pictures of {width} x {height} pixels needs {lack}"
+        raise VtrayError(message)
     reference, test = (np.ascontiguousarray(pixels, np.float32) / 255 for pixels in (a, b))
     colors, mean, _ = evaluate(reference, test, "LDR", applyMagma=True)
     return float(mean), np.round(colors * 255).astype(np.uint8)

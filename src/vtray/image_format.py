@@ -36,6 +36,9 @@ class Format(NamedTuple):
         The module of another package that is needed, by the bits of a channel.
     side
         The largest width and height.
+    memory
+        Bytes of memory that a pixel takes while it is written, by the bits of a channel, as
+        measured, its light and its 8 bits included.
     """
 
     write: Callable[[Picture, How, BinaryIO], None]
@@ -45,6 +48,7 @@ class Format(NamedTuple):
     aov: bool
     needs: Mapping[int, str] = MappingProxyType({})
     side: int = MAX_SIZE
+    memory: Mapping[int, int] = MappingProxyType({8: 31, 16: 120, 32: 80})
 
 
 _TIFF = Format(write_tiff, read_exif, (8, 16), alpha=True, aov=False, needs={16: "tifffile"})
@@ -56,7 +60,7 @@ FORMATS = {
     ".tiff": _TIFF,
     ".jpg": _JPEG,
     ".jpeg": _JPEG,
-    ".webp": Format(write_webp, read_exif, (8,), alpha=True, aov=False, side=16383),
+    ".webp": Format(write_webp, read_exif, (8,), alpha=True, aov=False, side=16383, memory={8: 60}),
     ".exr": Format(write_exr, read_exr, (32,), alpha=True, aov=True, needs={32: "OpenEXR"}),
     ".npz": Format(write_npz, read_npz, (8, 16), alpha=True, aov=True),
 }

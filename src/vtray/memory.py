@@ -20,6 +20,9 @@ BYTES_PER_PIXEL = 3 * 8 + 3 + 4
 BYTES_PER_SAMPLED_PIXEL = BYTES_PER_PIXEL + 8 + 4 + 8 + 1 + 1
 """The same with coverage, and what says which pixels get samples."""
 
+BYTES_PER_PIXEL_AND_MORE = 175
+"""With a background, or with depth, normals or ids, as measured."""
+
 BYTES_PER_SPHERE = 80
 """The hierarchy, and what it takes to build it, beside the arrays that were given."""
 
@@ -42,6 +45,8 @@ class Bytes(NamedTuple):
     resident: int
 
 
+NOTHING = Bytes(0, 0, 0)
+
 START = Bytes(330_000_000, 100_000_000, 110_000_000)
 """What the least picture takes once kernels are compiled, as measured with Python 3.11 on Linux:
 with 310, 80 and 105 MB it failed."""
@@ -55,11 +60,21 @@ _REMEDY = "more memory for this process"
 _LOADER = ("failed to map segment", "cannot map zero-fill", "cannot allocate", "out of memory")
 
 
-def check_memory(width: int, height: int, samples: int = 1) -> None:
-    """Raise RenderError if an image of this size cannot be held in memory."""
+def check_memory(width: int, height: int, samples: int = 1, least: int = 0) -> None:
+    """Raise RenderError if an image of this size cannot be held in memory.
+
+    Parameters
+    ----------
+    width, height
+        In pixels.
+    samples
+        Of each pixel.
+    least
+        Bytes that each pixel takes at least, for what is done with it later.
+    """
     what = f"camera.size: an image of {width} x {height} pixels needs"
     bytes_per_pixel = BYTES_PER_PIXEL if samples == 1 else BYTES_PER_SAMPLED_PIXEL
-    _check(width * height * bytes_per_pixel, what, "a smaller size")
+    _check(width * height * max(bytes_per_pixel, least), what, "a smaller size")
 
 
 def check_memory_of_lights(rays: int, lights: int) -> None:
@@ -90,12 +105,20 @@ def available_memory() -> int:
     return max(min(limit.left for limit in _limits()), 0)
 
 
-def lack_of_memory(needed: int | Bytes) -> str | None:
-    """Say what is needed, with the rest of the start, and what there is; None if it is enough."""
+def lack_of_memory(needed: int | Bytes, start: Bytes = NOTHING) -> str | None:
+    """Say what is needed and what there is; None if it is enough.
+
+    Parameters
+    ----------
+    needed
+        Bytes that are needed now.
+    start
+        What the process will have taken when all libraries are loaded.
+    """
     each = needed if isinstance(needed, Bytes) else Bytes(needed, needed, needed)
     used = _used()
     for limit in _limits():
-        to_come = max(START[limit.counts] - used[limit.counts], 0)
+        to_come = max(start[limit.counts] - used[limit.counts], 0)
         total = each[limit.counts] + to_come
         if total > limit.left:
             return f"{readable(total)} of memory, {limit}"
@@ -152,8 +175,8 @@ class _Limit(NamedTuple):
 
 
 def _check(needed: int | Bytes, what: str, instead: str) -> None:
-    """Raise RenderError if there is less memory than needed."""
-    lack = lack_of_memory(needed)
+    """Raise RenderError if there is less memory than needed, with the rest of the start."""
+    lack = lack_of_memory(needed, START)
     if lack:
         message = f"{what} {lack}; expected {instead}"
         raise RenderError(message)

@@ -11,7 +11,7 @@ from vtray.compiled import loading_seconds
 from vtray.exposure import check_brightness, locked_white, warm_up, white_of
 from vtray.image import Image
 from vtray.look import Look
-from vtray.memory import check_memory
+from vtray.memory import BYTES_PER_PIXEL_AND_MORE, check_memory
 from vtray.pool import Progress as StepProgress
 from vtray.pool import available_cores
 from vtray.relighting import Relighting
@@ -129,7 +129,8 @@ def render(
     )
     shown = _snapshot(scene, _camera(scene, settings))
     width, height = shown.camera.size
-    check_memory(int(width), int(height), int(settings.samples))
+    behind = 0 if settings.background == "black" else BYTES_PER_PIXEL_AND_MORE
+    check_memory(int(width), int(height), int(settings.samples), behind)
     check_brightness(shown.lights)
     clock = Stopwatch()
     loaded = loading_seconds()

@@ -1,8 +1,8 @@
 """Random scenes beside their picture as the rules say it, worked out plainly.
 
 Scenes made to provoke rounding are rendered with a hierarchy and without. The light must be that
-of the oracle to the last bit; and a pixel that is more than 1 off from the one in extended precision
-must lie at an edge, as near as rounding can tell.
+of the oracle to the last bit; and a pixel that is more than 1 off from what it is in extended
+precision must lie at an edge, as near as rounding can tell.
 """
 
 import itertools
