@@ -24,8 +24,8 @@ SMALL = 1 << 24
 STEP = 1 << 22
 """Bytes that are read from a pipe at a time."""
 
-_GIVEN = re.compile(r"/dev/stdin|(?:/dev|/proc/self)/fd/[0-9]{1,9}")
-"""The names of pipes that are given on purpose, as by ``<(command)``."""
+_GIVEN = re.compile(r"/dev/stdin|(?:/dev|/proc/self)/fd/([0-9]{1,9})")
+"""The names of what is open already, given on purpose, as by ``<(command)``."""
 
 _KINDS = {
     stat.S_IFIFO: "a pipe",
@@ -55,16 +55,10 @@ def open_input(path: str | os.PathLike[str]) -> BinaryIO:
         The file cannot be read, is none of these, or a pipe holds too much; `why_unreadable` in
         `vtray.errors` says it.
     """
-    given = is_given(path)
-    _check_kind(os.stat(path), given)
-    # Were the file replaced by a pipe meanwhile, opening it would wait for a writer.
-    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0)
-    handle = os.open(path, flags | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0))
+    handle = _open_given(path) if is_given(path) else _open_named(path)
     try:
         found = os.fstat(handle)
-        _check_kind(found, given)
-        if not stat.S_ISREG(found.st_mode):
-            os.set_blocking(handle, True)
+        _check_kind(found, is_given(path))
         file = os.fdopen(handle, "rb")
     except BaseException:
         os.close(handle)
@@ -78,6 +72,20 @@ def open_input(path: str | os.PathLike[str]) -> BinaryIO:
 def is_given(path: str | os.PathLike[str]) -> bool:
     """Tell whether a path is none of a folder, but a name of what the process was given."""
     return isinstance(path, (str, os.PathLike)) and bool(_GIVEN.fullmatch(os.fsdecode(path)))
+
+
+def _open_given(path: str | os.PathLike[str]) -> int:
+    """Return a descriptor of what is open already; by its name, a socket cannot be opened."""
+    match = _GIVEN.fullmatch(os.fsdecode(path))
+    return os.dup(int(match[1] or 0) if match else 0)
+
+
+def _open_named(path: str | os.PathLike[str]) -> int:
+    """Return a descriptor of a file; never wait for the writer of a pipe."""
+    _check_kind(os.stat(path), given=False)
+    # The file may be replaced by a pipe meanwhile.
+    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0)
+    return os.open(path, flags | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0))
 
 
 def read_input(path: str | os.PathLike[str]) -> bytes:
