@@ -370,7 +370,7 @@ def test_label_without_a_colour_map() -> None:
 
 def test_missing_matplotlib_is_named(image: vtray.Image, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(vtray.VtrayError, match=r"Image.figure needs .*install 'vtray\[figure\]'"):
+    with pytest.raises(vtray.VtrayError, match=r"Image.figure needs .*-m pip install matplotlib"):
         image.figure()
 
 

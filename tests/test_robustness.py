@@ -199,7 +199,8 @@ def test_the_ground_under_the_image_plane_is_behind_it(
 ) -> None:
     unit = np.array(normal) / np.sqrt(np.square(normal).sum())
     camera = {"normal": xyz(*normal), "center": xyz(*(radius * unit)), "focus": 2}
-    assert (render(scene([sphere((0, 0, 0), radius)], [], **camera)).ids == -1).all()
+    ground = scene([sphere((0, 0, 0), radius)], [light(0, 0, 0)], **camera)
+    assert (render(ground).ids == -1).all()
 
 
 @pytest.mark.parametrize("name", HARD)

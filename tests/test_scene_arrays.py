@@ -1,5 +1,7 @@
 """Packing a scene into arrays."""
 
+import math
+
 import pytest
 
 import vtray
@@ -44,7 +46,9 @@ def test_places_are_relative_to_the_image_plane_in_units_of_a_power_of_two() -> 
         return [value * packed.unit for value in values]
 
     assert lengths(*camera.eye, camera.focus) == [0, 0, -10, 10]
-    assert (camera.pixel, camera.width) == ((0.5 / 16, 0.5 / 16, 10 / 16), 4)
+    # In a unit of their own, in which the largest length is just below 2**500.
+    assert [math.ldexp(length, 4 - 500) for length in camera.pixel] == [0.5, 0.5, 10]
+    assert camera.width == 4
     assert lengths(*sphere_center(spheres, 0), sphere_radius(spheres, 0)) == [0, 0, 6, 2]
     assert [float(column[0]) for column in planes[:3]] == [0, -1, 0]
     assert lengths(planes.offset[0], planes.height[0]) == [-3, -3]
@@ -62,7 +66,7 @@ def test_unit_keeps_squares_of_squares_within_range(size: float) -> None:
     packed = pack(scene([sphere], center=(0, 0, 0), focus=size, resolution=(size / 8, size / 8)))
     radius = sphere_radius(packed.arrays.spheres, 0)
     assert 0 < radius**4 < 1e290
-    assert all(0 < length <= 1 for length in packed.arrays.camera.pixel)
+    assert all(0 < length**2 < 1e302 for length in packed.arrays.camera.pixel)
 
 
 def test_empty_scene() -> None:

@@ -150,9 +150,10 @@ def _temporary(target: Path) -> Iterator[tuple[BinaryIO, str]]:
     handle, name, lock = _open_temporary(target)
 
     def remove() -> None:
-        # Where it has taken the name of the target, there is nothing left to remove.
+        # Where it has taken the name of the target, the old name may be that of another process.
         with contextlib.suppress(OSError):
-            os.unlink(name)
+            if lock is None or os.path.samestat(os.fstat(lock), os.lstat(name)):
+                os.unlink(name)
 
     with LastStep(remove):
         try:

@@ -65,7 +65,7 @@ def _render(scene: Scene, few: int) -> np.ndarray:
     """Return the light of a scene, rendered with a hierarchy from so many spheres on."""
     before, acceleration.FEW = acceleration.FEW, few
     try:
-        return vtray.render(vtray.loads(json.dumps(scene)), threads=1).linear
+        return vtray.render(vtray.loads(json.dumps(scene)), threads=1, warn=str).linear
     finally:
         acceleration.FEW = before
 
