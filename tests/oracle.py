@@ -244,7 +244,7 @@ class _Render:
             way = place - points
             height = dot(normal, way)
             cosine = height / np.sqrt(dot(way, way))
-            cosine[~(height > ROUNDING * (error + np.abs(place).sum()))] = 0
+            cosine[~(height > self.light_reach(place, error))] = 0
             shadows[:, k] = (cosine > 0) & self.blocked(points, error, place)
             cosine[shadows[:, k]] = 0
             strength = cosine * self.dtype(item["lambert"]) * self.dtype(light["intensity"])

@@ -161,6 +161,12 @@ def test_hard_links_stay_whole_on_a_full_disk(
     assert path.read_bytes() == b"old"
 
 
+def test_null_character(tmp_path: Path) -> None:
+    for attempt in (check_writable, lambda path: write_whole(path, put(b"data"))):
+        with pytest.raises(OutputError, match=r"a\\x00b: cannot be written: no file name may"):
+            attempt(tmp_path / "a\0b")
+
+
 def test_long_names(tmp_path: Path) -> None:
     path = tmp_path / ("語" * 85)  # 255 bytes
     write_whole(path, put(b"data"))

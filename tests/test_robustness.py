@@ -157,12 +157,14 @@ def test_camera_does_not_vanish_beside_something_huge() -> None:
     assert (picture > 200).all()
 
 
+@pytest.mark.parametrize("by", [0.0, 1e6, -12345.678])
 @pytest.mark.parametrize("normal", [TILTED, (0, -1, 0), (1e-9, 1, -1e-9)])
-def test_light_in_a_plane_gives_it_nothing(normal: tuple[float, ...]) -> None:
+def test_light_in_a_plane_gives_it_nothing(normal: tuple[float, ...], by: float) -> None:
     # The light grazes the plane: rounding alone would decide which pixels it reaches.
     across = (normal[1], -normal[0], 0.0)
     place = tuple(p + 3 * a for p, a in zip((0, 1, 6), across, strict=True))
-    assert render(scene([plane((0, 1, 6), normal)], [light(*place)])).linear.max() == 0
+    document = scene([plane((0, 1, 6), normal)], [light(*place)])
+    assert render(shifted(document, by)).linear.max() == 0
 
 
 @pytest.mark.parametrize("normal", [TILTED, (0, 0, 1), (0.1, 0, -0.9)])

@@ -63,7 +63,7 @@ def check_spares(path: Path, inputs: Iterable[Path], what: str, remedy: str) -> 
         What to do instead.
     """
     for source in inputs:
-        with contextlib.suppress(OSError):  # what is not there cannot be destroyed
+        with contextlib.suppress(OSError, ValueError):  # what is not there cannot be destroyed
             if os.path.samefile(path, source) and path.is_file():
                 message = f"{path}: {what}; {remedy}"
                 raise OutputError(message)
@@ -247,6 +247,9 @@ def _usual_mode() -> int:
 @contextlib.contextmanager
 def _explained(path: Path) -> Iterator[None]:
     """Turn an OSError into an OutputError that names the file."""
+    if "\0" in os.fspath(path):
+        message = f"{path}: cannot be written: no file name may hold a null character"
+        raise OutputError(message)
     try:
         yield
     except OSError as error:

@@ -84,7 +84,7 @@ def trace_pixel(
     lights = scene.lights
     for light in range(lights.x.shape[0]):
         to_light = sub(pick(lights, light), found.point)
-        reach = ROUNDING * (found.magnitude + lights.magnitude[light])
+        reach = light_reach(lights, light, found.magnitude)
         cosines[light] = lambert_cosine(found.normal, to_light, reach)
         blockers[light] = _first_blocker(scene, found, light)
         if blockers[light] == NOTHING:

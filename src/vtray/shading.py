@@ -3,6 +3,7 @@
 import math
 
 from vtray.compiled import device
+from vtray.occlusion import light_reach
 from vtray.packet import (
     BLOCKED,
     COLOR,
@@ -17,7 +18,6 @@ from vtray.packet import (
     load,
     store,
 )
-from vtray.rounding import ROUNDING
 from vtray.scene_arrays import Lights
 from vtray.vector import Vec, add, dot, pick, scale, sub
 
@@ -36,7 +36,8 @@ def lambert_cosine(normal: Vec, to_light: Vec, reach: float) -> float:
     to_light
         The light's place minus the point.
     reach
-        How far rounding may have moved the point: a light no higher than that is on the horizon.
+        How far rounding may have moved the point or the light: one no higher than that is on the
+        horizon.
     """
     height = dot(normal, to_light)
     length2 = dot(to_light, to_light)
@@ -51,11 +52,10 @@ def find_cosines(packet: Packet, hits: int, lights: Lights, light: int) -> int:
     What faces away counts as blocked, so that no shadow ray is cast from there.
     """
     place = pick(lights, light)
-    magnitude = lights.magnitude[light]
     facing = 0
     for lane in range(hits):
         to_light = sub(place, load(packet, POINT, lane))
-        reach = ROUNDING * (packet[MAGNITUDE + lane] + magnitude)
+        reach = light_reach(lights, light, packet[MAGNITUDE + lane])
         cosine = lambert_cosine(load(packet, NORMAL, lane), to_light, reach)
         packet[COSINE + lane] = cosine
         packet[BLOCKED + lane] = 0.0 if cosine > 0.0 else 1.0
