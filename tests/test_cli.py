@@ -31,6 +31,14 @@ def test_success_is_silent(small: Path, capfd: pytest.CaptureFixture[str]) -> No
     assert output.read_bytes().startswith(b"\x89PNG")
 
 
+def test_options_may_stand_anywhere(small: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    output = small.with_name("picture.png")
+    assert cli.run([str(small), "--size", "6x4", str(output)]) == 0
+    assert cli.run([str(small), str(output), "--quiet"]) == 0
+    assert capfd.readouterr() == ("", "")
+    assert output.exists()
+
+
 USAGE = "usage: vtray [-t THREADS] SCENE OUTPUT (more: vtray --help)"
 WRONG_USAGE = [
     ([], "the following arguments are required: SCENE"),

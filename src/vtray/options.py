@@ -58,7 +58,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     _add_settings(parser)
     _add_output(parser)
     _add_reports(parser)
-    options = parser.parse_args(arguments)
+    options = parser.parse_intermixed_args(arguments)  # SCENE and OUTPUT may stand apart
     if options.output is None and options.pixel is None:
         parser.error("OUTPUT is missing")
     options.lock = None  # no option, but a picture that is replayed may have been locked
