@@ -403,8 +403,10 @@ def _check_own(scene: Path, name: str, spheres: Spheres) -> None:
 
 def _arrays_of(scene: Path) -> list[str]:
     """Return what files of arrays a scene file names, none if it is no scene file."""
+    from vtray.input_file import read_input
+
     try:
-        found = msgspec.json.decode(scene.read_bytes(), type=_Objects)
+        found = msgspec.json.decode(read_input(scene), type=_Objects)
     except (OSError, msgspec.DecodeError, RecursionError):
         return []
     return [item.data for item in found.objects]
