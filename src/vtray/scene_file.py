@@ -30,9 +30,6 @@ from vtray.scene import (
 
 Warn = Callable[[str], None]
 
-SHOWN_UNKNOWN = 20
-"""Unknown keys of which there are warnings; of more, only how many there are."""
-
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _DECODER = msgspec.json.Decoder(SceneInFile)
 _LIGHT = msgspec.json.Decoder(Light)
@@ -253,6 +250,8 @@ def _clean_parts(raw: bytes) -> tuple[dict[int, int] | None, int]:
     ignored : int
         How many unknown keys are in them.
     """
+    from vtray.scene_words import SHOWN_UNKNOWN
+
     try:
         split = msgspec.json.decode(raw, type=_Split)
     except msgspec.ValidationError:

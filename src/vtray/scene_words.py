@@ -15,8 +15,10 @@ Struct: TypeAlias = type[msgspec.Struct]
 _PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
 _UNIONS = (types.UnionType, typing.Union)
 _SHOWN_ITEMS = 4
-_SHOWN_UNKNOWN = 20
 _SHOWN_DEPTH = 2
+
+SHOWN_UNKNOWN = 20
+"""Unknown keys of which there are warnings; of more, only how many there are."""
 
 
 def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
@@ -110,7 +112,7 @@ class Unknown:
 
     def add(self, place: str, word: str, known: list[str]) -> None:
         """Note one at a place; to look for the nearest known word takes long."""
-        if len(self._lines) == _SHOWN_UNKNOWN:
+        if len(self._lines) == SHOWN_UNKNOWN:
             self._more += 1
             return
         what = self._what
