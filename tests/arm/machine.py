@@ -17,7 +17,6 @@ from typing import NamedTuple
 ROOT = Path(__file__).parents[2]
 PACKAGES = ["python3-minimal", "libpython3-stdlib", "libstdc++6"]
 PLATFORMS = ["manylinux2014_aarch64"] + [f"manylinux_2_{k}_aarch64" for k in (17, 26, 27, 28)]
-EXTRAS = ["color"]
 
 
 class Machine(NamedTuple):
@@ -148,8 +147,5 @@ def _call(*command: object) -> str:
 def _requirements() -> list[str]:
     """Return what vtray needs, in the versions that are installed here."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    wanted = list(project["dependencies"])
-    for extra in EXTRAS:
-        wanted += project["optional-dependencies"][extra]
-    names = [requirement.split(">")[0] for requirement in wanted]
+    names = [requirement.split(">")[0] for requirement in project["dependencies"]]
     return [f"{name}=={version(name)}" for name in names]
