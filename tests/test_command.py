@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -229,6 +230,21 @@ def test_standard_streams(vtray_command: Command, scene_file: Path, tmp_path: Pa
     # A file of this name can still be meant.
     done = vtray_command(scene_file, "./-", cwd=tmp_path)
     assert (tmp_path / "-").read_bytes() == expected
+
+
+def test_sockets_as_standard_streams(scene_file: Path, tmp_path: Path) -> None:
+    # Some programs that call others connect them so; a socket cannot be opened by its name.
+    ours, theirs = socket.socketpair()
+    program = [Path(sys.executable).with_name("vtray"), "-", "-"]
+    process = subprocess.Popen(program, stdin=theirs, stdout=theirs, stderr=subprocess.PIPE)
+    theirs.close()
+    picture = tmp_path / "picture.png"
+    with ours, ours.makefile("rb") as stream:
+        ours.sendall(scene_file.read_bytes())
+        ours.shutdown(socket.SHUT_WR)
+        picture.write_bytes(stream.read())
+    assert (process.communicate(), process.returncode) == ((None, b""), 0)
+    assert read(picture).max() == 255
 
 
 def test_process_substitution(scene_file: Path, tmp_path: Path) -> None:
