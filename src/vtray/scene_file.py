@@ -7,6 +7,7 @@ problem is slow, lives in `vtray.json_tree` and `vtray.scene_check`, and is impo
 import os
 from collections import Counter
 from collections.abc import Callable, Iterator
+from functools import cache
 from typing import Any
 
 import msgspec
@@ -137,6 +138,7 @@ def _check_utf8(raw: bytes, name: str) -> None:
         raise SceneError(f"{name}: {problem}") from None
 
 
+@cache
 def _keys(*classes: type[msgspec.Struct]) -> int:
     """Count the keys of objects of a file, their tags included."""
     fields = sum(len(cls.__struct_fields__) for cls in classes)
@@ -293,11 +295,13 @@ def _count_unknown(part: bytes, value: msgspec.Struct) -> int:
     """
     try:
         found = msgspec.json.decode(part)
-        colons = _colons_in(found)
+        colons = part.count(b":")
+        # Most have no objects within objects, and no colon in a text.
+        keys = len(found) + sum(len(value) for value in found.values() if type(value) is dict)
+        # A colon that is written as an escape is not in the file.
+        if keys != colons and (_colons_in(found) != colons or b"\\u003" in part):
+            return 0
     except (msgspec.MsgspecError, RecursionError):
-        return 0
-    # A colon that is written as an escape is not in the file.
-    if colons != part.count(b":") or b"\\u003" in part:
         return 0
     inner = ((found[key], getattr(value, key)) for key in value.__struct_fields__)
     pairs = [(found, value), *((one, two) for one, two in inner if isinstance(two, msgspec.Struct))]
