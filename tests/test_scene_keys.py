@@ -525,3 +525,35 @@ def test_a_key_given_twice_among_many_unknown_ones_is_found() -> None:
     text = json.dumps(changed({"objects": []})).replace('"objects": []', f'"objects": [{balls}]')
     with pytest.raises(SceneError, match=r"objects\[50\].radius: given twice, on line 1;"):
         loads(text, "room.json", warn=lambda _: None)
+
+
+def test_unknown_values_are_passed_over(monkeypatch: pytest.MonkeyPatch) -> None:
+    read: list[int] = []
+    slowly = JsonTree._object
+    monkeypatch.setattr(JsonTree, "_object", lambda *a: read.append(1) or slowly(*a))
+    said: list[str] = []
+    balls = [changed({})["objects"][0]] * 2000
+    loads(json.dumps(changed({"extra": balls})), "room.json", warn=said.append)
+    assert said == ['room.json: extra: unknown key, ignored; the nearest known key is "camera"']
+    assert len(read) < 100
+
+
+TOO_LARGE = "expected a number within the range of a double, up to about 1.8e308, got"
+
+
+@pytest.mark.parametrize(
+    ("extra", "message"),
+    [
+        ('{"a": 1, "a": 2}', "extra.a: given twice, on line 1"),
+        ('[{"é": 1, "é": 2}]', 'extra[0]["é"]: given twice, on line 1'),
+        ('{"\\u0061": 1, "a": 2}', "extra.a: given twice, on line 1"),
+        ('[{"b": [1e999]}]', f"extra[0].b[0]: {TOO_LARGE} 1e999"),
+        ("-1" + "0" * 400, f"extra: {TOO_LARGE} -1000"),
+        ('"\\ud800"', "half of a surrogate pair stands alone"),
+    ],
+)
+def test_what_holds_for_unknown_values_too(extra: str, message: str) -> None:
+    text = json.dumps(changed({"extra": 0})).replace('"extra": 0', f'"extra": {extra}')
+    with pytest.raises(SceneError) as caught:
+        loads(text, "room.json", warn=lambda _: None)
+    assert message in str(caught.value)

@@ -3,10 +3,13 @@
 It is slow and used only to explain what is wrong with a scene file; see `vtray.scene_file`.
 """
 
+import math
 import re
-from typing import NamedTuple, NoReturn, TypeAlias
+from collections.abc import Container
+from functools import cached_property
+from typing import Any, NamedTuple, NoReturn, TypeAlias
 
-from vtray.errors import SceneError
+from vtray.errors import SceneError, printable
 
 MAX_DEPTH = 100  # a scene needs 4
 
@@ -83,10 +86,19 @@ class JsonTree:
     clean : dict of int to int, optional
         First and end offset of values that need not be read. Without it, only the syntax is
         looked at: simple objects in arrays are passed over quickly, and kept nowhere.
+    known : container of str, optional
+        The keys of the document whose values are looked at closely; others are passed over where
+        they are right.
     """
 
-    def __init__(self, raw: bytes, clean: dict[int, int] | None = None) -> None:
+    def __init__(
+        self,
+        raw: bytes,
+        clean: dict[int, int] | None = None,
+        known: Container[str] | None = None,
+    ) -> None:
         self.raw = raw
+        self.known = known
         self.clean = clean or {}
         self.only_syntax = clean is None
         self.at = 0
@@ -133,9 +145,24 @@ class JsonTree:
             if self._next() != b":":
                 self._fail('":" after the key')
             self.at += 1
-            members.append(Member(key, offset, self._value(depth)))
+            members.append(Member(key, offset, self._value_of(key, depth)))
             if self._ends(b"}"):
                 return Members(members)
+
+    def _value_of(self, key: str, depth: int) -> Tree:
+        if depth > 1 or self.only_syntax or self.known is None or key in self.known:
+            return self._value(depth)
+        self._next()
+        end = _end_of_plain(self._latin, self.at)
+        if end is None:
+            return self._value(depth)
+        self.at = end
+        return CLEAN
+
+    @cached_property
+    def _latin(self) -> str:
+        """The document with a character for each byte, which does for all but what texts say."""
+        return self.raw.decode("latin-1")
 
     def _array(self, depth: int) -> "list[Tree]":
         items: list[Tree] = []
@@ -220,10 +247,36 @@ def _text(written: bytes) -> str:
     return text
 
 
+def _end_of_plain(document: str, at: int) -> int | None:
+    """Return where a value of right syntax ends, None if it needs a close look.
+
+    That is so for keys given twice, and numbers beyond the range of a double.
+    """
+    import json
+
+    decoder = json.JSONDecoder(
+        object_pairs_hook=_check_keys, parse_float=_check_number, parse_int=_check_number
+    )
+    try:
+        end: int = decoder.raw_decode(document, at)[1]
+    except (ValueError, RecursionError):
+        return None
+    # Keys may be equal that are not written alike.
+    return None if document.find("\\u", at, end) >= 0 else end
+
+
+def _check_keys(pairs: list[tuple[str, Any]]) -> None:
+    """Raise ValueError if a key is given twice."""
+    if len({key for key, _ in pairs}) < len(pairs):
+        raise ValueError
+
+
+def _check_number(text: str) -> None:
+    """Raise ValueError if a number is beyond the range of a double."""
+    if math.isinf(float(text)):
+        raise ValueError
+
+
 def short(text: str, limit: int = 40) -> str:
     """Cut a long text, and escape what a terminal would not show as it is."""
-    if len(text) > limit:
-        text = text[: limit - 3] + "..."
-    return "".join(
-        char if char.isprintable() else char.encode("unicode_escape").decode() for char in text
-    )
+    return printable(text[: limit - 3] + "..." if len(text) > limit else text)

@@ -208,7 +208,7 @@ def _explain(raw: bytes, name: str, warn: Warn) -> None:
         raise SceneError(f"{name}: {problem}")
     try:
         clean, ignored = _clean_parts(raw)
-        tree = JsonTree(raw, clean)
+        tree = JsonTree(raw, clean, SceneInFile.__struct_fields__)
         checker = FileChecker(tree.line, ignored)
         checker.check(tree.read(), SceneInFile)
     except SceneError as problem:
