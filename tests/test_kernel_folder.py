@@ -52,6 +52,22 @@ def test_folder_is_named_by_all_sources() -> None:
     assert folder.name.startswith("kernels-")
 
 
+def test_an_edit_anywhere_in_the_package_is_noticed(tmp_path: Path) -> None:
+    package = tmp_path / "vtray"
+    inner = package / "geometry" / "shapes"
+    inner.mkdir(parents=True)
+    (package / "a.py").write_text("a = 1")
+    (inner / "b.py").write_text("b = 1")
+    hashes = [kernel_folder._source_hash(package)]
+    (inner / "b.py").write_text("b = 2")
+    hashes.append(kernel_folder._source_hash(package))
+    (inner / "b.py").rename(package / "b.py")
+    hashes.append(kernel_folder._source_hash(package))
+    assert len(set(hashes)) == 3
+    (inner / "b.pyc").write_bytes(b"no source")
+    assert kernel_folder._source_hash(package) == hashes[-1]
+
+
 def test_what_is_made_is_private(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("VTRAY_CACHE_DIR", str(tmp_path / "home"))
     mask = os.umask(0o002)  # as many systems have it

@@ -164,9 +164,10 @@ def _delete(folder: Path) -> None:
         folder.rmdir()
 
 
-def _source_hash() -> str:
-    """Return a short hash of all sources of the package."""
+def _source_hash(package: Path = Path(__file__).parent) -> str:
+    """Return a short hash of all sources of the package, also of those in folders of its own."""
     digest = hashlib.sha256()
-    for source in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(source.name.encode() + b"\0" + source.read_bytes() + b"\0")
+    for source in sorted(package.rglob("*.py")):
+        name = source.relative_to(package).as_posix()
+        digest.update(name.encode() + b"\0" + source.read_bytes() + b"\0")
     return digest.hexdigest()[:16]
