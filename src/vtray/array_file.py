@@ -90,7 +90,7 @@ def write_arrays(path: Path, arrays: Mapping[str, Any]) -> None:
     """
     import numpy as np
 
-    write_whole(path, lambda file: np.savez(file, allow_pickle=False, **arrays))
+    write_whole(path, lambda file: np.savez(file, **arrays))
 
 
 def read_text(file: BinaryIO, name: str, longest: int) -> str | None:

@@ -19,7 +19,7 @@ def write_npz(picture: Picture, how: How, file: BinaryIO) -> None:
     for name in how.aov:
         arrays[name] = getattr(picture, name)
     arrays[NAME] = np.array(how.provenance)
-    np.savez(file, allow_pickle=False, **arrays)
+    np.savez(file, **arrays)
 
 
 def read_npz(file: BinaryIO) -> str | None:
