@@ -87,7 +87,9 @@ SHAPES: dict[str, Callable[[np.random.Generator, int], np.ndarray]] = {
     "equal": lambda random, n: np.full(n, 2**64 - 1, np.uint64),
     "few values": lambda random, n: random.integers(0, 3, n, np.uint64),
     "nearly all in front": lambda random, n: np.uint64(2) ** random.integers(0, 9, n, np.uint64),
-    "one far away": lambda random, n: np.where(np.arange(n) == n // 3, 2**63, 7).astype(np.uint64),
+    "one far away": lambda random, n: np.where(
+        np.arange(n) == n // 3, np.uint64(2**63), np.uint64(7)
+    ),
 }
 
 

@@ -82,6 +82,9 @@ def _open_given(path: str | os.PathLike[str]) -> int:
 
 def _open_named(path: str | os.PathLike[str]) -> int:
     """Return a descriptor of a file; never wait for the writer of a pipe."""
+    if "\0" in os.fsdecode(path):  # versions of Python say it in other words
+        message = "embedded null byte"
+        raise ValueError(message)
     _check_kind(os.stat(path), given=False)
     # The file may be replaced by a pipe meanwhile.
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0)

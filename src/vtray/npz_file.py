@@ -1,6 +1,6 @@
 """NumPy's .npz: the arrays of a picture as they are."""
 
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from vtray.array_file import read_text
 from vtray.picture import LONGEST_TEXT, How, Picture
@@ -13,7 +13,7 @@ def write_npz(picture: Picture, how: How, file: BinaryIO) -> None:
     """Write light, pixels, alpha unless the background is black, and what else is asked for."""
     import numpy as np
 
-    arrays = {"linear": picture.linear, "pixels": picture.develop(how.bits)}
+    arrays: dict[str, Any] = {"linear": picture.linear, "pixels": picture.develop(how.bits)}
     if picture.settings.background != "black":
         arrays["alpha"] = picture.alpha
     for name in how.aov:
