@@ -247,6 +247,12 @@ def test_sockets_as_standard_streams(scene_file: Path, tmp_path: Path) -> None:
     assert read(picture).max() == 255
 
 
+def test_picture_for_a_closed_stream_is_an_error(scene_file: Path) -> None:
+    done = run_in_shell("SCENE - >&-", scene_file)
+    message = "Error: /dev/stdout: cannot be written: bad file descriptor\n"
+    assert (done.returncode, done.stderr) == (1, message)
+
+
 def test_process_substitution(scene_file: Path, tmp_path: Path) -> None:
     program = Path(sys.executable).with_name("vtray")
     copy = tmp_path / "copy.png"

@@ -29,6 +29,22 @@ def write(file):
 write_whole(Path(sys.argv[1]), write)
 """
 
+KERNEL = """
+import os, signal, sys, time
+from pathlib import Path
+from vtray.own_files import write_own
+from vtray.signals import leave_on_signals
+
+leave_on_signals()
+
+def replace(*_):
+    os.kill(os.getpid(), signal.SIGTERM)
+    time.sleep(9)
+
+os.replace = replace
+write_own(Path(sys.argv[1]), b"code")
+"""
+
 AT_AN_IMPORT = """
 import builtins, os, signal, sys
 
@@ -84,6 +100,12 @@ def test_nothing_is_left_of_a_file_half_written(name: str, status: int, tmp_path
     assert (done.returncode, done.stdout, done.stderr) == (status, b"", b"")
     assert [item.name for item in tmp_path.iterdir()] == ["a.png"]
     assert path.read_bytes() == b"precious"
+
+
+def test_nothing_is_left_of_a_kernel_half_written(tmp_path: Path) -> None:
+    done = run(KERNEL, tmp_path / "a.kernel")
+    assert (done.returncode, done.stderr) == (-signal.SIGTERM, b"")
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_what_is_to_be_ignored_is_ignored(tmp_path: Path) -> None:

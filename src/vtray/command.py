@@ -90,8 +90,11 @@ def leave(status: int) -> NoReturn:
 
 def _open_closed_streams() -> None:
     """Let what is printed vanish where the caller has closed standard output or error."""
-    for name in ("stdout", "stderr"):
+    for number, name in ((1, "stdout"), (2, "stderr")):
         if getattr(sys, name) is None:
+            # No other file gets its number, and a picture that is to go there finds it closed.
+            while os.open(os.devnull, os.O_RDONLY) < number:
+                pass
             setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115 - until the process ends
 
 

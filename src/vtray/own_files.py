@@ -15,6 +15,8 @@ from functools import reduce
 from operator import or_
 from pathlib import Path
 
+from vtray.signals import LastStep
+
 HAS_OWNERS = hasattr(os, "geteuid")
 
 _FLAGS = ("O_NOFOLLOW", "O_NONBLOCK", "O_BINARY")  # not all systems have all; no pipe is waited for
@@ -65,14 +67,19 @@ def write_own(file: Path, content: bytes) -> None:
     """
     # A file made so can be read and written by its owner alone.
     opened, name = tempfile.mkstemp(prefix=f"{file.name}.", dir=file.parent)
-    try:
-        with os.fdopen(opened, "wb") as stream:
-            stream.write(content)
-        os.replace(name, file)
-    except BaseException:
+
+    def remove() -> None:
         with contextlib.suppress(OSError):
             os.unlink(name)
-        raise
+
+    with LastStep(remove):
+        try:
+            with os.fdopen(opened, "wb") as stream:
+                stream.write(content)
+            os.replace(name, file)
+        except BaseException:
+            remove()
+            raise
 
 
 def _open(path: Path, names: tuple[str, ...], kind: int) -> int:
