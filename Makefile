@@ -23,10 +23,10 @@ coverage: .venv/ready ## run the tests without the compiler, and see that they r
 	$(BIN)/coverage report
 
 memtest: .venv/ready ## see that memory stays within bounds
-	$(BIN)/pytest tests/test_memory.py
+	$(BIN)/pytest tests/whole/test_memory.py
 
 fuzz: .venv/ready ## try to break vtray for five minutes; SECONDS=3600 for longer, SEED=N to repeat
-	cd tests && PYTHONWARNINGS=ignore ../$(BIN)/python -m fuzz --failures ../build/fuzz \
+	cd tests && PYTHONWARNINGS=ignore PYTHONPATH=reference ../$(BIN)/python -m fuzz --failures ../build/fuzz \
 		--seconds $(or $(SECONDS),300) $(if $(SEED),--seed $(SEED))
 
 arm: .venv/ready ## compare pictures with those of an emulated aarch64 machine; needs Debian
@@ -43,14 +43,14 @@ format: .venv/ready ## bring the sources into shape
 	$(BIN)/ruff check --fix
 
 schema: .venv/ready ## write docs/scene.schema.json
-	$(BIN)/python -m vtray.schema > docs/scene.schema.json
+	$(BIN)/python -m vtray.scene.files.schema > docs/scene.schema.json
 
 scenes: .venv/ready ## make the example scenes and their pictures again
 	$(BIN)/python scenes/make_scenes.py --render
 
 gallery: .venv/ready ## make the pictures of the gallery and of the docs again
 	$(BIN)/python examples/make_gallery.py
-	$(BIN)/python tests/pages.py
+	$(BIN)/python tests/reference/pages.py
 
 docs: .venv/ready ## build the site of the docs, build/site
 	$(BIN)/mkdocs build --strict

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vtray import Direction, Plane, Scene, Sphere, Vector
-from vtray.camera import camera_axes
-from vtray.vector import Vec, dot, scale, sub
+from vtray.geometry.vector import Vec, dot, scale, sub
+from vtray.scene.placing.directions import camera_axes
 
 CHUNK = 1 << 16
 

@@ -6,8 +6,9 @@ from collections.abc import Mapping, Sequence
 
 import vtray_process
 from measure import Timing, in_seconds
-from rendering import Row
 from tables import megabytes, ratio, table
+
+from rendering import Row
 
 Scaling = Mapping[int, Sequence[Row]]
 

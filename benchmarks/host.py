@@ -8,7 +8,7 @@ from camera_space import Cloud, Surface, View
 from host_scene import HostScene
 from measure import Phases, seconds_after
 
-from vtray.vector import Vec, dot
+from vtray.geometry.vector import Vec, dot
 
 
 def write_scene(view: View, folder: Path) -> Path:

@@ -9,7 +9,7 @@ from camera_space import Cloud, Surface, View
 from measure import Phases, seconds_after
 from peer import Peer, answer
 
-from vtray.vector import Vec
+from vtray.geometry.vector import Vec
 
 # No display, no antialiasing, no progress; linear light in the file, as vtray writes it.
 OPTIONS = ("-D", "-A", "-V", "+FN", "File_Gamma=1")

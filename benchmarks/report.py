@@ -19,8 +19,9 @@ from cube_report import (
 from from_arrays import ArraysRow
 from measure import Timing, in_seconds
 from peers import CUBE_PEERS, PEERS
-from rendering import THREADS, Row
 from tables import ratio, table
+
+from rendering import THREADS, Row
 
 BEGIN = "<!-- benchmark:begin -->"
 END = "<!-- benchmark:end -->"

@@ -20,9 +20,10 @@ from from_arrays import time_arrays
 from machine import cores, machine
 from peers import CUBE_PEERS
 from plot import draw_scaling
-from rendering import THREADS, time_cube, time_scene, time_threads
 from report import Results, full_report, replace_between_markers, summary
 from scenes import SCENES
+
+from rendering import THREADS, time_cube, time_scene, time_threads
 
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE / "results.md"

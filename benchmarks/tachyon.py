@@ -9,7 +9,7 @@ from camera_space import Cloud, Surface, View
 from measure import Phases, seconds_after
 from peer import Peer, answer
 
-from vtray.vector import Vec
+from vtray.geometry.vector import Vec
 
 OPTIONS = ("-fullshade", "-aasamples", "0", "-format", "PNG")
 

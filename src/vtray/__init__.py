@@ -10,19 +10,19 @@ image.save("scene.png")
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from vtray import colors, lights
-    from vtray.color_scale import ColorScale
-    from vtray.comparison import compare
-    from vtray.errors import OutputError, ProvenanceError, RenderError, SceneError, VtrayError
-    from vtray.image import Image
-    from vtray.pixel_rays import trace_pixel
-    from vtray.provenance import Provenance, read_provenance
-    from vtray.renderer import render
-    from vtray.scene import Camera, Color, Direction, Light, Plane, Scene, Sphere, Vector
-    from vtray.scene_dict import load_dict
-    from vtray.scene_file import load, loads
-    from vtray.settings import RenderSettings
-    from vtray.spheres import Spheres
-    from vtray.version import __version__
+    from vtray.base.errors import OutputError, ProvenanceError, RenderError, SceneError, VtrayError
+    from vtray.base.version import __version__
+    from vtray.figures.comparison import compare
+    from vtray.image.image import Image
+    from vtray.image.provenance import Provenance, read_provenance
+    from vtray.rendering.pixel_rays import trace_pixel
+    from vtray.rendering.renderer import render
+    from vtray.scene.colors.color_scale import ColorScale
+    from vtray.scene.files.scene_dict import load_dict
+    from vtray.scene.files.scene_file import load, loads
+    from vtray.scene.scene import Camera, Color, Direction, Light, Plane, Scene, Sphere, Vector
+    from vtray.scene.settings import RenderSettings
+    from vtray.scene.spheres import Spheres
 
 __all__ = [
     "Camera",
@@ -58,34 +58,34 @@ __all__ = [
 # Nothing is loaded before it is first needed: neither NumPy nor the compiler, and for the command
 # not even what reads a scene, so that Ctrl-C is taken care of first.
 _MODULES = {
-    "Camera": "cameras",
-    "Color": "triples",
-    "ColorScale": "color_scale",
-    "Direction": "triples",
-    "Image": "image",
-    "Light": "objects",
-    "OutputError": "errors",
-    "Plane": "objects",
-    "Provenance": "provenance",
-    "ProvenanceError": "errors",
-    "RenderError": "errors",
-    "RenderSettings": "settings",
-    "Scene": "scene",
-    "SceneError": "errors",
-    "Sphere": "objects",
-    "Spheres": "spheres",
-    "Vector": "triples",
-    "VtrayError": "errors",
-    "__version__": "version",
+    "Camera": "scene.camera",
+    "Color": "scene.vectors",
+    "ColorScale": "scene.colors.color_scale",
+    "Direction": "scene.vectors",
+    "Image": "image.image",
+    "Light": "scene.objects",
+    "OutputError": "base.errors",
+    "Plane": "scene.objects",
+    "Provenance": "image.provenance",
+    "ProvenanceError": "base.errors",
+    "RenderError": "base.errors",
+    "RenderSettings": "scene.settings",
+    "Scene": "scene.scene",
+    "SceneError": "base.errors",
+    "Sphere": "scene.objects",
+    "Spheres": "scene.spheres",
+    "Vector": "scene.vectors",
+    "VtrayError": "base.errors",
+    "__version__": "base.version",
     "colors": "colors",
-    "compare": "comparison",
+    "compare": "figures.comparison",
     "lights": "lights",
-    "load": "scene_file",
-    "load_dict": "scene_dict",
-    "loads": "scene_file",
-    "read_provenance": "provenance",
-    "render": "renderer",
-    "trace_pixel": "pixel_rays",
+    "load": "scene.files.scene_file",
+    "load_dict": "scene.files.scene_dict",
+    "loads": "scene.files.scene_file",
+    "read_provenance": "image.provenance",
+    "render": "rendering.renderer",
+    "trace_pixel": "rendering.pixel_rays",
 }
 """The module that each public name comes from."""
 

@@ -5,7 +5,7 @@ Signals are taken care of before all else, so that Ctrl-C ends a command from it
 
 import sys
 
-from vtray.signals import leave_on_signals
+from vtray.base.signals import leave_on_signals
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 def main() -> "NoReturn":
     """Run the command ``vtray`` and exit."""
     leave_on_signals()
-    from vtray.cli import run
-    from vtray.command import leave
+    from vtray.commands.cli import run
+    from vtray.commands.command import leave
 
     leave(run(sys.argv[1:]))
 
@@ -24,8 +24,8 @@ def main() -> "NoReturn":
 def diff() -> "NoReturn":
     """Run the command ``vtray-diff`` and exit."""
     leave_on_signals()
-    from vtray.command import leave
-    from vtray.diff import run
+    from vtray.commands.command import leave
+    from vtray.commands.diff import run
 
     leave(run(sys.argv[1:]))
 

@@ -11,12 +11,12 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "reference"))
 
 from machine import ROOT, aarch64_machine, this_machine
-
 from machine_code import inexact_in
-from vtray.object_code import read_object_code
+
+from vtray.base.compiler.object_code import read_object_code
 
 FOLDER = ROOT / "build" / "arm"
 DRAWINGS = Path(__file__).with_name("drawings.py")

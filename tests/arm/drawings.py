@@ -17,9 +17,9 @@ import numpy as np
 
 import vtray
 from vtray import Camera, Image, Scene, lights
-from vtray.color_scale import color_table
-from vtray.filters import FILTERS, filter_places
-from vtray.scene_arrays import camera_axes
+from vtray.scene.colors.color_scale import color_table
+from vtray.scene.placing.directions import camera_axes
+from vtray.transport.sampling.filters import FILTERS, filter_places
 
 Drawing = Callable[[], Image]
 

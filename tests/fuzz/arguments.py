@@ -6,6 +6,7 @@ from pathlib import Path
 from random import Random
 
 from examples import light, scene, sphere
+
 from fuzz.promises import run_quietly
 
 OPTIONS = [

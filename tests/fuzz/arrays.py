@@ -6,8 +6,8 @@ from pathlib import Path
 from random import Random
 
 import numpy as np
-
 from examples import light, scene
+
 from fuzz.damage import damaged_bytes
 from fuzz.promises import run_quietly
 

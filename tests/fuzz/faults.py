@@ -12,12 +12,13 @@ from pathlib import Path
 from random import Random
 
 from examples import light, scene, sphere
+
 from fuzz.promises import check_printed
 
 # Tells when the first line has run: before that, Python itself is in charge.
 COMMAND = """
 import sys
-from vtray.signals import leave_on_signals
+from vtray.base.signals import leave_on_signals
 leave_on_signals()
 sys.__stdout__.write("begun\\n")
 sys.__stdout__.flush()

@@ -4,8 +4,8 @@ from pathlib import Path
 from random import Random
 
 from fuzz.damage import damaged_bytes
-from vtray.native_call import TupleLayout
-from vtray.object_code import ObjectCode, read_object_code, write_object_code
+from vtray.base.compiler.native_call import TupleLayout
+from vtray.base.compiler.object_code import ObjectCode, read_object_code, write_object_code
 
 
 def attempt(random: Random, folder: Path) -> None:

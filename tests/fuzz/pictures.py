@@ -6,12 +6,13 @@ from functools import cache
 from pathlib import Path
 from random import Random
 
-import vtray
 from examples import light, scene, sphere
+
+import vtray
 from fuzz.damage import damaged_bytes
-from vtray.errors import ProvenanceError
-from vtray.image_format import FORMATS
-from vtray.provenance import Provenance, read_provenance
+from vtray.base.errors import ProvenanceError
+from vtray.image.formats.image_format import FORMATS
+from vtray.image.provenance import Provenance, read_provenance
 
 
 def attempt(random: Random, folder: Path) -> None:

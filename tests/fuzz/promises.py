@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
-from vtray import cli
+from vtray.commands import cli
 
 STARTS = ("Error: ", "Warning: ")
 

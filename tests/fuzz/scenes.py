@@ -6,8 +6,8 @@ from random import Random
 from typing import Any
 
 import numpy as np
-
 from examples import light, plane, scene, sphere, xyz
+
 from fuzz.damage import damaged_json
 from fuzz.promises import run_quietly
 

@@ -14,10 +14,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-
 import oracle
+
 import vtray
-from vtray import acceleration
+from vtray.rendering import hierarchy as acceleration
 
 Scene = dict[str, Any]
 Random = np.random.Generator

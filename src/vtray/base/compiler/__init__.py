@@ -1,0 +1,1 @@
+"""The compiler: how kernels are compiled, kept and called."""

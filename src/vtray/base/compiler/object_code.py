@@ -1,0 +1,216 @@
+"""Compiled kernels on disk, and their way into memory without Numba.
+
+Importing Numba takes longer than rendering most scenes, and only its compiler is needed. So each
+kernel's object code, as LLVM has made it, goes into a file of its own, from which LLVM's linker
+loads it within a millisecond.
+
+A file is used only if all that could make its code wrong is as it was: the types of the arguments,
+the processor, Python, Numba with its settings, and LLVM are part of its name, the sources of vtray
+that of its folder, and it begins with a hash of the rest. In any other case the kernel is compiled
+again, and the file replaced as a whole, so that several processes may do so at once.
+"""
+
+import contextlib
+import hashlib
+import os
+import sys
+from collections.abc import Callable, Mapping
+from functools import cache
+from importlib.machinery import PathFinder
+from importlib.util import find_spec, module_from_spec
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from vtray.base.compiler.kernel_folder import SUFFIX, cache_folder, read_kept
+from vtray.base.compiler.native_call import Layout, TupleLayout
+from vtray.base.memory import check_memory_of_compiler, check_memory_of_start
+from vtray.base.own_files import write_own
+
+SETTINGS_FILE = Path(".numba_config.yaml")
+"""Settings of Numba's, in the folder in which Python was started.
+
+References
+----------
+https://numba.readthedocs.io/en/stable/reference/envvars.html
+"""
+
+_HASH_BYTES = 32
+_number = count()
+
+
+class ObjectCode(msgspec.Struct, frozen=True):
+    """A compiled kernel.
+
+    Attributes
+    ----------
+    symbol
+        The name of its function in the code.
+    layout
+        What it returns.
+    code
+        An object file of this machine.
+    """
+
+    symbol: str
+    layout: str | TupleLayout
+    code: bytes
+
+
+def object_file(kernel: str, types: str) -> Path | None:
+    """Return the file for a kernel with arguments of some types, None if nothing can be kept."""
+    folder = cache_folder()
+    if folder is None:
+        return None
+    circumstances = [*_circumstances(), *_numba_settings()]
+    key = hashlib.sha256("\n".join([kernel, types, *circumstances]).encode()).hexdigest()
+    return folder / f"{kernel}-{key[:16]}{SUFFIX}"
+
+
+def read_object_code(file: Path) -> ObjectCode | None:
+    """Return what a file holds, None if it is missing, damaged, or not to be trusted."""
+    content = read_kept(file) or b""
+    checksum, body = content[:_HASH_BYTES], content[_HASH_BYTES:]
+    with contextlib.suppress(msgspec.DecodeError):
+        if checksum == hashlib.sha256(body).digest():
+            return msgspec.msgpack.decode(body, type=ObjectCode)
+    return None
+
+
+def write_object_code(file: Path, compiled: ObjectCode) -> None:
+    """Write a file, whole; if that fails, the next process compiles again."""
+    body = msgspec.msgpack.encode(compiled)
+    with contextlib.suppress(OSError):
+        write_own(file, hashlib.sha256(body).digest() + body)
+
+
+def compile_object(
+    function: Callable[..., object], arguments: tuple[object, ...], options: Mapping[str, Any]
+) -> ObjectCode:
+    """Compile a function with Numba.
+
+    Parameters
+    ----------
+    function
+        The Python function.
+    arguments
+        Values of the types that it is compiled for.
+    options
+        Numba's.
+    """
+    check_memory_of_compiler()
+    import numba
+
+    # The wrappers through which Python would call it need Numba in memory.
+    unwrapped: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    compiler: Any = numba.njit(function, **options, **unwrapped)
+    typeof: Any = numba.typeof
+    types = tuple(map(typeof, arguments))
+    compiler.compile(types)
+    result = compiler.overloads[types]
+    _, _, (code, _) = result.library.serialize_using_object_code()
+    return ObjectCode(result.fndesc.llvm_func_name, _layout(result.signature.return_type), code)
+
+
+def link(compiled: ObjectCode) -> int:
+    """Load object code into memory for the rest of the process; return its function's address.
+
+    Raises
+    ------
+    RuntimeError
+        It is not object code of this machine, or it needs something that there is not.
+    """
+    try:
+        return _link(compiled, {})
+    except RuntimeError:  # a symbol is missing
+        return _link(compiled, _helpers())
+
+
+def _link(compiled: ObjectCode, helpers: Mapping[str, int]) -> int:
+    """Load object code that may call C's library, and the helpers at some addresses."""
+    from llvmlite.binding import JITLibraryBuilder
+
+    builder = JITLibraryBuilder().add_object_img(compiled.code).add_current_process()
+    for name, address in helpers.items():
+        builder.import_symbol(name, address)
+    library = builder.export_symbol(compiled.symbol).link(_linker(), f"kernel{next(_number)}")
+    entry: int = library[compiled.symbol]
+    # While Python ends, a thread may still be in there.
+    library.detach()
+    return entry
+
+
+def _helpers() -> dict[str, int]:
+    """Return the addresses of the C functions that Numba calls, for instance to reshape an array.
+
+    Importing them without the rest of Numba takes 3 ms.
+    """
+    spec = find_spec("numba")
+    found = spec and PathFinder.find_spec("numba._helperlib", spec.submodule_search_locations)
+    if not found or not found.loader:
+        return {}
+    module = module_from_spec(found)
+    found.loader.exec_module(module)
+    return {f"numba_{name}": address for name, address in module.c_helpers.items()}
+
+
+@cache
+def _linker() -> object:
+    """Return LLVM's linker."""
+    check_memory_of_start()
+    from llvmlite import binding
+
+    binding.initialize_native_target()
+    binding.initialize_native_asmprinter()
+    return binding.create_lljit_compiler(suppress_errors=True)
+
+
+def _layout(returned: Any) -> Layout:  # noqa: ANN401 - a type of Numba's
+    """Return how a value of a type of Numba's lies in memory."""
+    import numba
+    from numba.np.numpy_support import as_dtype
+
+    types: Any = numba.types
+    if isinstance(returned, types.NoneType):
+        return ""
+    if isinstance(returned, types.BaseTuple):
+        made_by = getattr(returned, "instance_class", tuple)
+        items = [_layout(item) for item in returned.types]
+        return TupleLayout(f"{made_by.__module__}:{made_by.__qualname__}", items)
+    return str(as_dtype(returned).str[1:])
+
+
+@cache
+def _circumstances() -> list[str]:
+    """Return what the compiled code depends on, besides the sources and the arguments."""
+    import llvmlite
+    from llvmlite import binding
+
+    return [
+        sys.version,
+        _numba_version(),
+        llvmlite.__version__,
+        binding.get_process_triple(),
+        binding.get_host_cpu_name(),
+        binding.get_host_cpu_features().flatten(),
+    ]
+
+
+def _numba_settings() -> list[str]:
+    """Return what Numba reads before it compiles: the environment, and a file in this folder."""
+    found = sorted(f"{name}={value}" for name, value in os.environ.items() if name[:6] == "NUMBA_")
+    with contextlib.suppress(OSError):
+        # Without the package that reads it, Numba passes it over.
+        if SETTINGS_FILE.is_file() and find_spec("yaml"):
+            found.append(f"{SETTINGS_FILE}={SETTINGS_FILE.read_bytes().hex()}")
+    return found
+
+
+def _numba_version() -> str:
+    """Return the version of Numba, without importing it."""
+    numba = find_spec("numba")
+    if numba is None or numba.origin is None:
+        return "none"
+    return Path(numba.origin).with_name("_version.py").read_text()

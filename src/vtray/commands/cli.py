@@ -1,0 +1,192 @@
+"""The command line: reads the arguments, calls the rest, prints, and sets the exit status."""
+
+import argparse
+import contextlib
+import sys
+import warnings
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from vtray.base.errors import printable
+from vtray.base.memory import BYTES_PER_PIXEL_AND_MORE, check_memory, check_memory_of_start
+from vtray.base.signals import LastStep
+from vtray.commands.command import SUCCESS, print_note, print_result, run_command
+from vtray.commands.options import parse, settings_of
+
+if TYPE_CHECKING:
+    from vtray.base.stopwatch import Stopwatch
+    from vtray.image.image import Image
+    from vtray.image.provenance import Provenance
+    from vtray.scene.scene import Scene
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Do what the arguments say; return the exit status."""
+
+    def action() -> int:
+        options = parse(arguments)
+        with _warnings_printed(options):
+            return _run(options)
+
+    return run_command(action)
+
+
+def _run(options: argparse.Namespace) -> int:
+    """Read the scene, render it, and write the image or explain the pixel."""
+    from vtray.base.stopwatch import Stopwatch
+
+    told = _take_over(options)
+    if options.pixel is None:
+        _check_output(options)
+    check_memory_of_start()
+    clock = Stopwatch()
+    scene = _load(options)
+    if options.pixel is None:
+        _check_picture(scene, options)
+    if told is not None:
+        _compare(told, scene, options)
+    clock.lap("read")
+    image = _render(scene, options)
+    clock.lap("render")
+    if options.pixel is not None:
+        from vtray.commands.explain import explain_pixel
+
+        print_result(explain_pixel(scene, image, *options.pixel))
+    else:
+        image.save(options.output, bits=options.bits, aov=options.aov or ())
+    clock.lap("write")
+    if options.stats:
+        _print_stats(clock, image)
+    return SUCCESS
+
+
+def _take_over(options: argparse.Namespace) -> "Provenance | None":
+    """Take over the settings of the picture that is to be made again, if there is one."""
+    if options.replay is None:
+        return None
+    from vtray.commands.replay import take_over
+
+    return take_over(options)
+
+
+def _compare(told: "Provenance", scene: "Scene", options: argparse.Namespace) -> None:
+    """Warn of what is not as it was when a picture was made."""
+    from vtray.commands.replay import differences
+
+    for difference in differences(told, scene):
+        _warn(f"{options.replay}: {difference}", options)
+
+
+def _check_output(options: argparse.Namespace) -> None:
+    """Raise OutputError, before any work is done, if the output cannot be written."""
+    from vtray.base.atomic_file import check_spares, check_writable
+    from vtray.image.formats.image_format import check_format
+
+    scene, output = options.scene, options.output
+    check_format(output, options.bits, options.aov or (), options.background)
+    check_writable(output)
+    remedy = "choose another name for the image"
+    check_spares(output, [scene], "is the scene file itself", remedy)
+
+
+def _check_picture(scene: "Scene", options: argparse.Namespace) -> None:
+    """Raise an error if the output is a part of the scene, or cannot hold the picture."""
+    from vtray.image.formats.image_format import check_format, find_format
+    from vtray.scene.spheres import check_spares_data
+
+    check_spares_data(options.output, scene.objects)
+    background = options.background or scene.render.background
+    size = options.size or scene.render.size or scene.camera.size
+    how = check_format(options.output, options.bits, options.aov or (), background, size)
+    least = find_format(options.output).memory[how.bits]
+    width, height = map(int, size)
+    check_memory(width, height, least=BYTES_PER_PIXEL_AND_MORE if how.aov else least)
+
+
+@contextlib.contextmanager
+def _warnings_printed(options: argparse.Namespace) -> Iterator[None]:
+    """Print what Python warns of as this command prints its own warnings."""
+
+    def show(message: Warning | str, *_: object, **__: object) -> None:
+        _warn(str(message), options)
+
+    with warnings.catch_warnings():
+        warnings.showwarning = show
+        yield
+
+
+def _warn(message: str, options: argparse.Namespace) -> None:
+    """Print a warning on stderr."""
+    if not options.quiet:
+        print_note(f"Warning: {printable(message)}")
+
+
+def _load(options: argparse.Namespace) -> "Scene":
+    """Read the scene file."""
+    from vtray.scene.files.scene_file import load
+
+    def warn(message: str) -> None:
+        _warn(message, options)
+
+    if options.quiet or not sys.stderr.isatty():
+        return load(options.scene, warn=warn)
+
+    from vtray.commands.progress import announced
+
+    with announced(printable(f"vtray: reading {options.scene} ...")):
+        return load(options.scene, warn=warn)
+
+
+def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
+    """Render the scene; on a terminal, show what takes long."""
+    from vtray.base.compiler.compiled import before_compiling
+    from vtray.rendering.renderer import render
+
+    def warn(message: str) -> None:
+        _warn(f"{options.scene}: {message}", options)
+
+    settings = settings_of(options)
+    if options.quiet or not sys.stderr.isatty():
+        before_compiling(None)
+        return render(scene, options.threads, warn=warn, **settings)
+
+    from vtray.commands.progress import ProgressBar
+
+    before_compiling(_announce_compiling)
+    progress = ProgressBar()
+    try:
+        with LastStep(progress.close):
+            return render(scene, options.threads, progress, warn=warn, **settings)
+    finally:
+        progress.close()
+
+
+def _announce_compiling(is_kept: bool) -> None:
+    """Print on stderr why the render takes longer than the next one will."""
+    once = ", once for this machine" if is_kept else ""
+    print_note(f"vtray: compiling what this scene needs{once} ...")
+
+
+def _print_stats(clock: "Stopwatch", image: "Image") -> None:
+    """Print on stderr what the render took."""
+    from vtray.base.memory import peak_memory
+
+    stats = image.stats
+    steps = ("build", "pack", "trace", "develop")
+    # Loading NumPy and LLVM counts as compiling.
+    compiling = clock.seconds["render"] - sum(stats[step] for step in steps)
+    seconds = {
+        "read": clock.seconds["read"],
+        "compile": compiling,
+        **{step: stats[step] for step in steps},
+        "write": clock.seconds["write"],
+    }
+    lines = [f"{step:12}{value:10.4f} s" for step, value in seconds.items()]
+    lines.append(f"{'rays':12}{stats['rays']:,.0f}")
+    lines.append(f"{'rays/second':12}{stats['rays'] / max(stats['trace'], 1e-9):,.0f}")
+    if stats["nodes"]:
+        lines.append(f"{'nodes':12}{stats['nodes']:,.0f}")
+        lines.append(f"{'depth':12}{stats['depth']:,.0f}")
+        lines.append(f"{'hierarchy':12}{stats['memory'] / 1e6:,.0f} MB")
+    lines.append(f"{'peak memory':12}{peak_memory() / 1e6:,.0f} MB")
+    print_note("\n".join(lines))

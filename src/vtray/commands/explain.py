@@ -1,0 +1,25 @@
+"""How a pixel got its value, in words: what ``vtray --pixel`` prints."""
+
+from vtray.image.image import Image
+from vtray.rendering.pixel_rays import trace_rays
+from vtray.scene.scene import Scene
+
+
+def explain_pixel(scene: Scene, image: Image, column: int, row: int) -> str:
+    """Return how a pixel got its value, as text of some lines.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    image
+        Its picture: exposure needs the brightest channel of all pixels.
+    column, row
+        The pixel, from the left and from the top.
+
+    Raises
+    ------
+    RenderError
+        There is no such pixel.
+    """
+    return f"{trace_rays(scene, image, column, row, caller='--pixel')}\n"

@@ -1,0 +1,51 @@
+"""A picture made again: the settings that its file tells, and what has changed since."""
+
+import argparse
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from vtray.base.version import __version__
+from vtray.commands.options import SETTINGS
+from vtray.image.formats.image_format import find_format
+from vtray.image.provenance import Provenance, read_provenance
+from vtray.scene.scene import Scene
+
+
+class Exposed(NamedTuple):
+    """What a render can be locked to instead of a picture: the light that becomes white."""
+
+    white: float
+
+
+def take_over(options: argparse.Namespace) -> Provenance:
+    """Set what the options leave open as the picture says that is replayed.
+
+    Raises
+    ------
+    ProvenanceError
+        If the picture does not say it, or something that is not understood.
+    """
+    told = read_provenance(options.replay)
+    if told.lock is not None and options.exposure is None:
+        options.lock = Exposed(told.lock)
+    for name in SETTINGS:
+        decided = name == "exposure" and options.lock is not None
+        if getattr(options, name) is None and not decided:
+            setattr(options, name, getattr(told, name))
+    if options.output is not None:
+        # Another format than that of the picture may have other bits.
+        if options.bits is None and told.bits in find_format(options.output).bits:
+            options.bits = told.bits
+        if options.aov is None:
+            options.aov = told.aov
+    return told
+
+
+def differences(told: Provenance, scene: Scene) -> Iterator[str]:
+    """Say what is not as it was, so that the picture may be another."""
+    from vtray.scene.fingerprint import scene_hash
+
+    if told.version != __version__:
+        yield f"was made by vtray {told.version}, this is {__version__}: the picture may differ"
+    if told.scene != scene_hash(scene):
+        yield "was made from another scene, or this one has changed since: the picture will differ"

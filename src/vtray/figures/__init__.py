@@ -1,0 +1,1 @@
+"""Figures, comparisons, and rays drawn and told."""

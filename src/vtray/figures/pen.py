@@ -1,0 +1,95 @@
+"""The marks that a drawing of rays is made of."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.figures.scale_bar import length_text
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Floats = NDArray[np.float64]
+
+INK, FAINT, RAY, LIT, BLOCKED = "#22262b", "#8b9199", "#1f5fa8", "#e39b00", "#c23b3b"
+
+
+class Pen:
+    """Draws marks on axes, at places in their coordinates."""
+
+    def __init__(self, ax: "Axes") -> None:
+        self.ax = ax
+
+    def line(
+        self,
+        start: Floats,
+        end: Floats,
+        color: str,
+        *,
+        arrow: float | None = None,
+        **style: Any,  # noqa: ANN401
+    ) -> None:
+        """Draw a straight line, with an arrow head at a part of its length if wanted."""
+        self.ax.plot(*np.array([start, end]).T, color=color, zorder=5, **style)
+        if arrow is not None:
+            self.arrow(start, start + arrow * (end - start), color, lw=0)
+
+    def arrow(self, start: Floats, tip: Floats, color: str, lw: float) -> None:
+        """Draw an arrow, whose shaft has the width `lw`."""
+        shape = {"arrowstyle": "-|>", "color": color, "lw": lw, "mutation_scale": 14}
+        shape |= {"shrinkA": 0, "shrinkB": 0}
+        self.ax.annotate("", tuple(tip), tuple(start), arrowprops=shape, zorder=7)
+
+    def note(
+        self,
+        text: str,
+        place: Floats,
+        shift: tuple[float, float],
+        *,
+        color: str = INK,
+        **style: Any,  # noqa: ANN401
+    ) -> None:
+        """Write beside a place, legible on whatever is there."""
+        from matplotlib.patheffects import withStroke
+
+        self.ax.annotate(
+            text,
+            (float(place[0]), float(place[1])),
+            shift,
+            textcoords="offset points",
+            fontsize=8.5,
+            color=color,
+            path_effects=[withStroke(linewidth=2.5, foreground="white", alpha=0.9)],
+            zorder=10,
+            annotation_clip=False,
+            **style,
+        )
+
+    def sun(self, place: Floats, color: str, size: float) -> None:
+        """Draw a light."""
+        self.ax.plot(*place, marker=(12, 1, 0), ms=17 * size, mfc=color, mec="none", zorder=7)
+        self.ax.plot(*place, "o", ms=8 * size, mfc="#fff3cf", mec=color, mew=1.2 * size, zorder=8)
+
+    def scale(self, start: float, length: float) -> None:
+        """Draw a scale bar below the axes, from `start` in their coordinates."""
+        transform = self.ax.get_xaxis_transform()
+        self.ax.plot(
+            [start, start + length],
+            [-0.03] * 2,
+            color=INK,
+            lw=2,
+            transform=transform,
+            clip_on=False,
+            solid_capstyle="butt",
+        )
+        self.ax.text(
+            start + length / 2,
+            -0.04,
+            length_text(length),
+            transform=transform,
+            ha="center",
+            va="top",
+            fontsize=8,
+            color=INK,
+        )

@@ -1,0 +1,416 @@
+"""The rays of a pixel as a drawing: a cut through the scene along the camera ray."""
+
+import math
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.errors import RenderError
+from vtray.base.extras import need
+from vtray.figures.pen import BLOCKED, FAINT, INK, LIT, RAY, Pen
+from vtray.figures.scale_bar import is_orthographic, round_length
+from vtray.figures.section import (
+    Section,
+    choose_section,
+    cut_spheres,
+    spheres_of,
+    where_blocked,
+    widen,
+)
+from vtray.geometry.vector import Vec
+from vtray.scene.scene import Plane
+from vtray.scene.spheres import Spheres
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from vtray.figures.ray_tree import RayTree, ShadowRay, Surface
+
+Floats = NDArray[np.float64]
+
+MOST_LABELS = 4
+"""With more lights, only the main one has a label, and the rest are thin."""
+
+NEAR = 0.02
+"""An image plane nearer to the eye than this share of the drawing is not drawn."""
+
+FAR = 1.3
+"""Lights farther away than this many camera rays are not drawn, only the way to them."""
+
+
+def draw(tree: "RayTree", ax: "Axes | None", light: int | None) -> "Axes":
+    """Draw the rays of a pixel; see `RayTree.draw`."""
+    need("matplotlib", "figure", "RayTree.draw")
+    ray = _main_ray(tree, light)
+    if ax is None:
+        from vtray.figures.shown_figure import ShownFigure
+
+        ax = ShownFigure.new(8, 5.5, dpi=150).add_axes((0.02, 0.08, 0.96, 0.82))
+    drawing = _Drawing(tree, choose_section(tree, ray), ax)
+    drawing.frame()
+    drawing.surroundings()
+    drawing.camera()
+    if tree.hit is None:
+        drawing.miss()
+    else:
+        drawing.surface(tree.hit.surface, filled=True)
+        few = len(tree.lights) <= MOST_LABELS
+        for other in tree.lights:
+            drawing.shadow_ray(other, thin=not few and other is not ray)
+        drawing.hit()
+    drawing.captions(ray)
+    return ax
+
+
+def _main_ray(tree: "RayTree", light: int | None) -> "ShadowRay | None":
+    """Return the shadow ray that lies in the plane of the drawing."""
+    if light is not None:
+        if not 0 <= light < len(tree.lights):
+            message = f"light: expected one of the {len(tree.lights)} shadow rays, got {light}"
+            raise RenderError(message)
+        return tree.lights[light]
+    # The one that adds most; if none does, one that something blocks.
+    return max(
+        tree.lights,
+        key=lambda ray: (sum(ray.adds), ray.blocker is not None and ray.cosine > 0),
+        default=None,
+    )
+
+
+class _Drawing(Pen):
+    """A drawing of rays while it is made."""
+
+    def __init__(self, tree: "RayTree", section: Section, ax: "Axes") -> None:
+        self.tree = tree
+        super().__init__(ax)
+        self.section = section
+        self.origin = section(tree.origin)
+        self.ray = section.turn(tree.direction)
+        view = tree.view
+        steep = float(np.dot(tree.direction, view.forward))
+        self.pixel = self.origin + self.ray * (view.focus / steep)
+        self.end = self.origin + self.ray * self._ray_length()
+        self.box = self._find_box()
+        self.size = float(np.hypot(*(self.box[1] - self.box[0])))
+        self.labels: list[Floats] = []
+        self.drawn: set[Surface] = set()
+
+    def _ray_length(self) -> float:
+        """Return how long the camera ray is drawn."""
+        tree = self.tree
+        if tree.hit is not None:
+            return tree.hit.distance
+        steep = float(np.dot(tree.direction, tree.view.forward))
+        reach = 3 * tree.view.focus
+        for item in tree.scene.objects:
+            if not isinstance(item, Plane) and (not isinstance(item, Spheres) or len(item)):
+                center, _ = spheres_of(item)
+                ahead = (center - np.array(tree.origin)) @ np.array(tree.view.forward)
+                reach = max(reach, 1.15 * float(np.median(ahead)))
+        return reach / steep
+
+    def _find_box(self) -> Floats:
+        """Return the corners of what is shown: lower left, upper right."""
+        points = [self.origin, self.pixel, self.end, *self._image_plane()]
+        length = float(np.hypot(*(self.end - self.origin)))
+        hit = self.tree.hit
+        if hit is not None:
+            radius = hit.surface.radius
+            if radius is not None:
+                reach = min(radius, 0.5 * length)
+                middle = self.section(hit.surface.center)
+                if radius > reach:
+                    middle = self.end
+                points += [middle - reach, middle + reach]
+            for ray in self.tree.lights:
+                way = self.section(ray.location) - self.end
+                points.append(self.end + way * min(1.0, 0.6 * length / max(np.hypot(*way), 1e-300)))
+                if np.hypot(*way) < FAR * length:
+                    points.append(self.section(ray.location))
+        corners = np.array(points)
+        low, high = corners.min(0), corners.max(0)
+        margin = 0.06 * float(np.hypot(*(high - low)))
+        return widen(
+            np.array([low - margin, high + np.array([2 * margin, margin])]), self._aspect()
+        )
+
+    def _aspect(self) -> float:
+        """Return the width of the axes over their height."""
+        area = self.ax.get_window_extent()
+        return float(area.width / area.height)
+
+    def _image_plane(self) -> tuple[Floats, Floats]:
+        """Return the ends of the image in the drawing."""
+        view, tree = self.tree.view, self.tree
+        up = self.section.up
+        along = np.array([up @ view.right, up @ view.down])
+        steep = float(np.dot(tree.direction, view.forward))
+        place = (
+            np.array(tree.origin) + np.array(tree.direction) * (view.focus / steep) - view.center
+        )
+        pixel = np.array([place @ view.right, place @ view.down])
+        half = np.array(view.size) * view.resolution / 2
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ends = np.stack([(-half - pixel) / along, (half - pixel) / along])
+        first = np.nanmax(np.where(along == 0, -np.inf, ends.min(0)))
+        last = np.nanmin(np.where(along == 0, np.inf, ends.max(0)))
+        straight = np.array([0.0, 1.0])
+        return self.pixel + first * straight, self.pixel + last * straight
+
+    def frame(self) -> None:
+        """Set up the axes."""
+        self.ax.set_aspect("equal")
+        self.ax.set_xlim(*map(float, self.box[:, 0]))
+        self.ax.set_ylim(*map(float, self.box[:, 1]))
+        self.ax.set_axis_off()
+
+    def front(self, artist: Any) -> Any:  # noqa: ANN401
+        """Show an artist only in front of the image plane, where objects exist."""
+        from matplotlib.patches import Rectangle
+
+        (left, bottom), (right, top) = self.box
+        start = max(left, min(self.pixel[0], right))
+        region = Rectangle(
+            (start, bottom), right - start, top - bottom, transform=self.ax.transData
+        )
+        artist.set_clip_path(region)
+        return artist
+
+    def surroundings(self) -> None:
+        """Draw what the plane of the drawing cuts, apart from what rays meet."""
+        scene = self.tree.scene
+        from matplotlib.collections import EllipseCollection
+
+        centers, radii = cut_spheres(scene, self.section, self.box)
+        circles = EllipseCollection(
+            2 * radii,
+            2 * radii,
+            np.zeros(len(radii)),
+            units="xy",
+            offsets=centers,
+            transOffset=self.ax.transData,
+            facecolors="#eef0f2",
+            edgecolors="#c3c8ce",
+            linewidths=0.8,
+            zorder=1,
+        )
+        self.front(self.ax.add_collection(circles, autolim=False))
+        for item in scene.objects:
+            if isinstance(item, Plane):
+                normal = np.array([item.normal.x, item.normal.y, item.normal.z], float)
+                normal /= np.abs(normal).max()
+                center = np.array([item.center.x, item.center.y, item.center.z])
+                self.draw_plane(center, normal / np.linalg.norm(normal), "#eef0f2", "#b4bac1", 1)
+
+    def draw_plane(
+        self,
+        center: Floats,
+        normal: Floats,
+        face: str | Vec,
+        edge: str,
+        zorder: float,
+    ) -> None:
+        """Draw the line in which a plane meets the plane of the drawing."""
+        from matplotlib.patches import Polygon
+
+        slope = self.section.turn(normal)
+        if np.hypot(*slope) < 1e-9:
+            return
+        distance = float(normal @ (center - self.section.origin)) / np.hypot(*slope)
+        slope = slope / np.hypot(*slope)
+        foot = self.section(self.section.origin) + slope * distance
+        along = np.array([-slope[1], slope[0]])
+        # Its body lies on the side away from the eye.
+        thick = slope * math.copysign(0.02 * self.size, (foot - self.origin) @ slope)
+        middle = foot + along * float((self.box.mean(0) - foot) @ along)
+        ends = [middle - 2 * self.size * along, middle + 2 * self.size * along]
+        body = Polygon([*ends, ends[1] + thick, ends[0] + thick], fc=face, ec="none", zorder=zorder)
+        self.front(self.ax.add_patch(body))
+        (line,) = self.ax.plot(*np.array(ends).T, color=edge, lw=1.2, zorder=zorder)
+        self.front(line)
+
+    def camera(self) -> None:
+        """Draw the eye, the image plane with its pixel, and the camera ray."""
+        ends = self._image_plane()
+        name = "start of the ray" if is_orthographic(self.tree.scene.camera) else "eye"
+        self.ax.plot(*self.origin, "o", ms=7, color=INK, zorder=7)
+        if np.hypot(*(self.pixel - self.origin)) > NEAR * self.size:
+            self.ax.plot(*np.array(ends).T, color=INK, lw=2.2, solid_capstyle="butt", zorder=4)
+            self.ax.plot(*self.pixel, "s", ms=5, mfc="white", mec=RAY, mew=1.6, zorder=7)
+            low = min(ends, key=lambda end: float(end[1]))
+            self.note("image plane", low, (-5, 1), ha="right", va="bottom")
+            self.note(name, self.origin, (0, -9), ha="center", va="top")
+        else:  # no room to show it: the edges of the view instead
+            for end in ends:
+                way = (end - self.origin) / max(float(np.hypot(*(end - self.origin))), 1e-300)
+                self.line(self.origin, self.origin + way * 2 * self.size, FAINT, lw=0.8)
+            text = f"{name}\nimage plane {self.tree.view.focus:.3g} in front"
+            self.note(text, self.origin, (-5, -9), ha="left", va="top")
+        self.line(self.origin, self.end, RAY, lw=1.8, arrow=0.55)
+
+    def miss(self) -> None:
+        """Say that the ray goes on."""
+        self.arrow(self.pixel, self.end, RAY, lw=0)
+        self.note("hits nothing", self.end, (-6, 9), ha="right", va="bottom", color=RAY)
+
+    def surface(self, surface: "Surface", *, filled: bool) -> None:
+        """Draw a sphere or a plane that a ray meets."""
+        self.drawn.add(surface)
+        red, green, blue = surface.color
+        color = (red / 255, green / 255, blue / 255)
+        center = np.array(surface.center)
+        if surface.radius is None:
+            assert surface.normal is not None  # noqa: S101
+            self.draw_plane(center, np.array(surface.normal), color, INK, 2)
+            return
+        from matplotlib.patches import Circle
+
+        cut = float(self.section.cut(center, surface.radius))
+        middle = self.section(center)
+        if not cut > 0.97 * surface.radius:
+            outline = Circle(
+                tuple(middle),
+                surface.radius,
+                fill=False,
+                ec=FAINT,
+                lw=0.8,
+                ls=(0, (2, 2)),
+                zorder=2,
+            )
+            self.front(self.ax.add_patch(outline))
+        if cut > 0:
+            body = Circle(
+                tuple(middle), cut, fc=(*color, 0.85 if filled else 0.35), ec=INK, lw=1.2, zorder=2
+            )
+            self.front(self.ax.add_patch(body))
+
+    def shadow_ray(self, ray: "ShadowRay", *, thin: bool) -> None:
+        """Draw the ray to a light: solid if it arrives, dashed up to what blocks it."""
+        goal, shown = self._light_place(ray)
+        color = LIT if ray.arrives else BLOCKED
+        strength = 0.3 if thin else 1.0
+        if ray.arrives:
+            head = None if thin else 0.55 if shown else 1.0
+            self.line(self.end, goal, LIT, lw=1.8 * strength, arrow=head, alpha=strength)
+            text = f"adds {_numbers(ray.adds)}"
+        elif ray.cosine == 0:
+            self.line(self.end, goal, BLOCKED, lw=1.1, ls=(0, (1, 2.5)), alpha=strength)
+            text = "behind the surface"
+        else:
+            assert ray.blocker is not None  # noqa: S101
+            stop = self.section(where_blocked(self.tree, ray))
+            if ray.blocker not in self.drawn:
+                self.surface(ray.blocker, filled=False)
+            if not thin:
+                self.line(self.end, stop, BLOCKED, lw=1.8, ls=(0, (4, 2.2)))
+            self.line(stop, goal, BLOCKED, lw=1.0, ls=(0, (1, 2.5)), alpha=0.7 * strength)
+            size = 5 if thin else 9
+            self.ax.plot(*stop, "X", ms=size, mfc=BLOCKED, mec="white", mew=size / 9, zorder=8)
+            text = f"blocked by {ray.blocker}"
+        if shown:
+            self.sun(goal, LIT, 0.5 if thin else 1.0)
+        if not thin:
+            away = "" if shown else f", {ray.distance:.3g} away"
+            self.light_label(f"lights[{ray.light}]{away}\n{text}", goal, color)
+
+    def _light_place(self, ray: "ShadowRay") -> tuple[Floats, bool]:
+        """Return where a shadow ray ends in the drawing, and whether the light is there."""
+        place = self.section(ray.location)
+        low, high = self.box
+        if (low <= place).all() and (place <= high).all():
+            return place, True
+        way = place - self.end
+        inner = np.array([low, high]) * 0.78 + self.box.mean(0) * 0.22  # room for the text
+        with np.errstate(divide="ignore", invalid="ignore"):
+            steps = np.where(way > 0, (inner[1] - self.end) / way, (inner[0] - self.end) / way)
+        return self.end + way * float(np.nanmin(steps)), False
+
+    def light_label(self, text: str, place: Floats, color: str) -> None:
+        """Write beside a light, away from its ray and from other labels."""
+        extent = self.box[1] - self.box[0]
+        share = (place - self.box[0]) / extent
+        above = (place[1] >= self.end[1] and share[1] < 0.92) or share[1] < 0.08
+        level = share[1] + (0.07 if above else -0.07)
+        if any(np.hypot(*(other - [share[0], level])) < 0.15 for other in self.labels):
+            above = not above
+            level = share[1] + (0.07 if above else -0.07)
+        self.labels.append(np.array([share[0], level]))
+        side = "left" if share[0] < 0.25 else "right" if share[0] > 0.75 else "center"
+        shift = ({"left": -8, "right": 8, "center": 0}[side], 12 if above else -12)
+        dark = "#8a5d00" if color == LIT else color
+        self.note(text, place, shift, color=dark, ha=side, va="bottom" if above else "top")
+
+    def hit(self) -> None:
+        """Draw the hit and the normal there."""
+        hit = self.tree.hit
+        assert hit is not None  # noqa: S101
+        normal = self.section.turn(hit.normal)
+        tip = self.end + normal * 0.13 * self.size
+        self.arrow(self.end, tip, INK, lw=1.6)
+        away = normal / max(float(np.hypot(*normal)), 1e-9)
+        self.note(
+            "normal", tip, _points(7 * away), ha=_side(away[0]), va=_level(away[1]), color=INK
+        )
+        self.ax.plot(*self.end, "o", ms=5, color=INK, zorder=9)
+        if hit.surface.radius is None:
+            side, level = _side(-away[0]), _level(-away[1])
+            self.note(str(hit.surface), self.end, _points(-14 * away), ha=side, va=level)
+        else:
+            middle, radius = self.section(hit.surface.center), hit.surface.radius
+            room = 0.18 * (self.box[1, 0] - self.box[0, 0])
+            if 2 * radius > room:
+                self.note(str(hit.surface), middle, (0, 0), ha="center", va="center")
+            elif middle[0] + radius + room < self.box[1, 0]:
+                place = middle + np.array([radius, 0.0])
+                self.note(str(hit.surface), place, (6, 0), ha="left", va="center")
+            else:
+                above = away[1] < 0  # on the side that the normal leaves free
+                place = middle + np.array([radius, radius if above else -radius])
+                level = "bottom" if above else "top"
+                self.note(str(hit.surface), place, (0, 3 if above else -3), ha="right", va=level)
+
+    def captions(self, ray: "ShadowRay | None") -> None:
+        """Write what is shown, and how long a unit is."""
+        tree = self.tree
+        column, row = tree.pixel
+        title = f"pixel ({column}, {row})"
+        if tree.hit is not None:
+            title += f"  ·  light {_numbers(tree.light)}"
+        if tree.exposed is not None:
+            title += f"  ·  value {_numbers(tree.exposed.value)}"
+            color = tuple(channel / 255 for channel in tree.exposed.value)
+            style: dict[str, Any] = {"mfc": color, "mec": INK, "mew": 0.6, "clip_on": False}
+            self.ax.plot(0.008, 1.032, "s", ms=11, transform=self.ax.transAxes, **style)
+        left = 0.0 if tree.exposed is None else 0.028
+        style = {"transform": self.ax.transAxes, "color": INK, "fontsize": 10.5}
+        self.ax.text(left, 1.03, title, va="center", **style)
+        other = "upright in the image" if ray is None else f"and the ray to lights[{ray.light}]"
+        text = f"A cut along the camera ray {other}; what lies off this plane is projected onto it."
+        if len(tree.lights) > MOST_LABELS:
+            arriving = sum(ray.arrives for ray in tree.lights)
+            text = f"{arriving} of {len(tree.lights)} lights arrive.  {text}"
+        style = {"transform": self.ax.transAxes, "color": FAINT, "fontsize": 7.5}
+        self.ax.text(1, -0.03, text, ha="right", va="top", **style)
+        length = round_length(0.2 * float(self.box[1, 0] - self.box[0, 0]))
+        self.scale(float(self.box[0, 0]), length)
+
+
+def _numbers(values: Iterable[float]) -> str:
+    """Return the channels of a colour as people read them."""
+    return "(" + ", ".join(f"{value:.3g}" for value in values) + ")"
+
+
+def _points(shift: Floats) -> tuple[float, float]:
+    return float(shift[0]), float(shift[1])
+
+
+def _side(x: float) -> str:
+    """Return how text is aligned that lies to this side."""
+    return "center" if abs(x) < 0.4 else "left" if x > 0 else "right"
+
+
+def _level(y: float) -> str:
+    """Return how text is aligned that lies at this height."""
+    return "center" if abs(y) < 0.4 else "bottom" if y > 0 else "top"

@@ -1,0 +1,69 @@
+"""The rays of a pixel in words: what ``vtray --pixel`` prints."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from vtray.figures.ray_tree import Exposed, Hit, RayTree, ShadowRay
+
+
+def describe(tree: "RayTree") -> str:
+    """Return how a pixel got its value, as text of some lines."""
+    (column, row), (width, height) = tree.pixel, tree.view.size
+    lines = [
+        f"pixel        column {column}, row {row} of {width} x {height}",
+        f"ray          from {_vector(tree.origin)} towards {_vector(tree.direction)}",
+    ]
+    if tree.hit is None:
+        lines.append("hit          nothing in front of the image plane")
+    else:
+        lines += _describe_hit(tree.hit)
+        for ray in tree.lights:
+            lines += _describe_light(ray, tree.hit)
+    lines.append(f"light        {_vector(tree.light)}, the sum over all lights")
+    if tree.exposed is not None:
+        lines += _describe_exposure(tree.exposed, tree.light)
+    return "\n".join(lines)
+
+
+def _describe_hit(hit: "Hit") -> list[str]:
+    """Return the lines on what the ray hit."""
+    red, green, blue = hit.surface.color
+    return [
+        f"hit          {hit.surface}, {hit.distance:.10g} away",
+        f"  point      {_vector(hit.point)}",
+        f"  normal     {_vector(hit.normal)}, on the ray's side",
+        f"  material   color ({red:g}, {green:g}, {blue:g}), lambert {hit.surface.lambert:g}",
+    ]
+
+
+def _describe_light(ray: "ShadowRay", hit: "Hit") -> list[str]:
+    """Return the lines on a light: its direction, what blocks it or what it adds."""
+    name = f"lights[{ray.light}]"
+    first = f"{name:12} towards {_vector(ray.direction)}, {ray.distance:.10g} away"
+    if ray.cosine == 0.0:
+        return [first, "  adds       nothing: it is behind the surface"]
+    if ray.blocker is not None:
+        return [first, f"  adds       nothing: {ray.blocker}, is in the way"]
+    factors = f"cosine {ray.cosine:.6g} x lambert {hit.surface.lambert:g}"
+    factors += f" x intensity {ray.intensity:g} x color"
+    return [first, f"  adds       {_vector(ray.adds)} = {factors}"]
+
+
+def _describe_exposure(exposed: "Exposed", light: Sequence[float]) -> list[str]:
+    """Return the lines on the value before and after exposure."""
+    lines = []
+    if exposed.light != light:
+        lines.append(f"samples      {_vector(exposed.light)}, the mean of all rays of the pixel")
+    what = "the brightest channel of the picture" if exposed.brightest else "what becomes 255"
+    white = f"{exposed.white:.10g}"
+    formula = f"floor(255 x light / {white}), {white} is {what}"
+    lines.append(f"exposure     {formula if exposed.white > 0.0 else 'the whole picture is black'}")
+    behind = f", {100 * exposed.background:.3g} % of it background" if exposed.background else ""
+    lines.append(f"value        ({', '.join(map(str, exposed.value))}){behind}")
+    return lines
+
+
+def _vector(vector: Sequence[float]) -> str:
+    """Return a vector as people read it."""
+    return "(" + ", ".join(f"{part + 0.0:.6g}" for part in vector) + ")"

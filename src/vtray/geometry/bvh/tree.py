@@ -1,0 +1,108 @@
+"""The bounding volume hierarchy: which spheres a ray, or a beam of rays, may meet.
+
+A node has up to eight children, whose boxes stand side by side in float32, so that one loop of
+eight lanes tests them all. The boxes are rounded outwards, and wider than rounding errors of what
+is tested against them, so that nothing is ever missed; what is hit is decided by the spheres
+themselves, in doubles. The hierarchy does not depend on the camera.
+
+References
+----------
+Wald, Benthin, Boulos, "Getting Rid of Packets: Efficient SIMD Single-Ray Traversal using
+Multi-branching BVHs", 2008.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.capacity import MAX_SPHERES
+from vtray.base.compiler.compiled import device
+from vtray.geometry.vector import Vec
+
+WIDTH = 8
+"""Children of a node at the most."""
+
+SIDES = 6 * WIDTH
+"""Numbers of a node in ``Bvh.sides``: eight for each side of a box."""
+
+LEAF = 8
+"""Spheres of a leaf at the most."""
+
+COUNT_BITS = 31 - (MAX_SPHERES - 1).bit_length()
+"""Low bits of a leaf's code, which say how many spheres it has; the others say the first."""
+
+COUNT_MASK = (1 << COUNT_BITS) - 1
+
+EMPTY = -1
+"""In place of a child: there is none. (As a leaf, it has no spheres.)"""
+
+MAX_DEPTH = 96
+"""From this depth on, nodes are split into halves, which bounds the depth of all trees."""
+
+STACK = (MAX_DEPTH + 32) * WIDTH
+"""Nodes that can wait at the same time on a way through a tree."""
+
+
+class Frame(NamedTuple):
+    """The space of the boxes: ``world * scale - origin``, in which all coordinates are at most 4.
+
+    Attributes
+    ----------
+    scale
+        A power of two.
+    origin
+        The middle of the spheres' centres, scaled.
+    """
+
+    scale: float
+    origin: Vec
+
+
+class Bvh(NamedTuple):
+    """A hierarchy; the root is node 0, and without nodes there is no hierarchy.
+
+    Attributes
+    ----------
+    sides
+        For each node the low sides x, y, z, then the high sides x, y, z of its eight children,
+        (nodes * 48,).
+    child
+        For each child the number of its node, or the `leaf_code` of its leaf, (nodes * 8,).
+    """
+
+    sides: NDArray[np.float32]
+    child: NDArray[np.int32]
+
+
+class Leaves(NamedTuple):
+    """The spheres in the order of the leaves.
+
+    Attributes
+    ----------
+    data
+        x, y, z of the centre and the radius of each sphere, side by side, in world space, (4 * n,).
+    number
+        The number of each sphere in the scene, (n,).
+    """
+
+    data: NDArray[np.float64]
+    number: NDArray[np.int32]
+
+
+@device
+def leaf_code(first: int, count: int) -> int:
+    """Return what stands in ``Bvh.child`` for a leaf."""
+    return ~(first << COUNT_BITS | count)
+
+
+@device
+def leaf_range(code: int) -> tuple[int, int]:
+    """Return the first sphere of a leaf, and the first that no longer belongs to it."""
+    first = ~code >> COUNT_BITS
+    return first, first + (~code & COUNT_MASK)
+
+
+def no_bvh() -> Bvh:
+    """Return a hierarchy without nodes."""
+    return Bvh(np.empty(0, np.float32), np.empty(0, np.int32))

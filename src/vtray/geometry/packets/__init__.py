@@ -1,0 +1,1 @@
+"""The fast path for rays that run near each other."""

@@ -1,0 +1,109 @@
+"""The scratch memory of a thread."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.geometry.bvh.tree import STACK
+from vtray.geometry.packets.packet import BLOCK, LANES
+from vtray.geometry.packets.ray_bounds import Cones, new_cones
+from vtray.geometry.world import SceneArrays
+
+TABLE = 2 * LANES
+"""Places of the hash table in which lanes are grouped."""
+
+
+Pixels = NDArray[np.int64]
+"""Pixels of a block, as row * BLOCK + column."""
+
+
+class Sums(NamedTuple):
+    """What the samples of pixels add up to: light in three rows, coverage, and weight."""
+
+    light: NDArray[np.float64]
+    covered: NDArray[np.float64]
+    weight: NDArray[np.float64]
+
+
+class Workspace(NamedTuple):
+    """A thread's notes on the packet at hand.
+
+    Attributes
+    ----------
+    near
+        Which spheres may be met, one per sphere; nothing if there is a hierarchy.
+    above, below
+        Whether any point lies on that side of a plane, clear of rounding, one per plane.
+    cones
+        The cones around the groups of rays.
+    stack, stack_enter
+        Nodes that wait on a way through the hierarchy, and where the beam enters them.
+    order
+        The lanes with a hit in the order of their groups.
+    group
+        How many groups there are, and then the first hit of each, and the end of the last.
+    curve
+        The pixels of a block along a curve.
+    pixels
+        Those that are traced.
+    sums
+        The sums of the samples of the pixels of a packet.
+    table, owner, member, size
+        The hash table of what is hit: a number for each, what it is, which lanes hit it, how many.
+    """
+
+    near: NDArray[np.bool_]
+    above: NDArray[np.bool_]
+    below: NDArray[np.bool_]
+    cones: Cones
+    stack: NDArray[np.int64]
+    stack_enter: NDArray[np.float64]
+    order: NDArray[np.int64]
+    group: NDArray[np.int64]
+    curve: Pixels
+    pixels: Pixels
+    sums: Sums
+    table: NDArray[np.int64]
+    owner: NDArray[np.int64]
+    member: NDArray[np.int64]
+    size: NDArray[np.int64]
+
+
+def curve_of_block() -> Pixels:
+    """Return the pixels of a block, as row * BLOCK + column, in the order of Morton's curve.
+
+    Those of a group of lanes, and those of a part of a packet, are near each other: 4 by 2 and 8 by
+    8 pixels, if all pixels are traced.
+    """
+    code = np.arange(BLOCK * BLOCK)
+    column = code & 1 | code >> 1 & 2 | code >> 2 & 4 | code >> 3 & 8
+    row = code >> 1 & 1 | code >> 2 & 2 | code >> 3 & 4 | code >> 4 & 8
+    return row * BLOCK + column
+
+
+def new_workspace(scene: SceneArrays) -> Workspace:
+    """Return the scratch memory of one thread for a scene."""
+    planes = scene.planes.x.shape[0]
+    few = len(scene.spheres.number) if len(scene.bvh.child) == 0 else 0
+
+    def integers(size: int) -> NDArray[np.int64]:
+        return np.zeros(size, np.int64)
+
+    return Workspace(
+        near=np.zeros(few, np.bool_),
+        above=np.zeros(planes, np.bool_),
+        below=np.zeros(planes, np.bool_),
+        cones=new_cones(),
+        stack=integers(STACK),
+        stack_enter=np.zeros(STACK),
+        order=integers(LANES),
+        group=integers(LANES + 2),
+        curve=curve_of_block(),
+        pixels=integers(LANES),
+        sums=Sums(np.zeros(3 * LANES), np.zeros(LANES), np.zeros(LANES)),
+        table=integers(TABLE),
+        owner=integers(LANES),
+        member=integers(LANES),
+        size=integers(LANES),
+    )

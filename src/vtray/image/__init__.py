@@ -1,0 +1,1 @@
+"""What comes out: a picture, its exposure, and how it was made."""

@@ -1,0 +1,1 @@
+"""Image files: a table of formats, and a module for each library that writes them."""

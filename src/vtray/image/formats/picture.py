@@ -1,0 +1,73 @@
+"""What a file of a picture is made from, as the formats see it."""
+
+from collections.abc import Collection
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+from vtray.scene.settings import RenderSettings
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+AOVS = ("depth", "normals", "ids")
+"""What files may hold beside the picture itself: its arbitrary output variables."""
+
+LONGEST_TEXT = 1 << 20
+"""Bytes that a file may hold to say how its picture was made; it takes some hundred."""
+
+
+class Picture(Protocol):
+    """A picture, as `vtray.Image` is one."""
+
+    linear: "Floats"
+    white: float
+    settings: RenderSettings
+    locked: bool
+
+    @property
+    def scene_hash(self) -> str:
+        """A hash of the scene."""
+
+    @property
+    def alpha(self) -> "Floats":
+        """How much of each pixel is covered, from 0 to 1, (height, width)."""
+
+    @property
+    def depth(self) -> "Floats":
+        """Distance along the ray, infinite where nothing is, (height, width)."""
+
+    @property
+    def normals(self) -> "Floats":
+        """Unit normals in world space, 0 where nothing is, (height, width, 3)."""
+
+    @property
+    def ids(self) -> "NDArray[np.int32]":
+        """Places in the scene and in the object's arrays, -1 where nothing is, (h, w, 2)."""
+
+    def develop(self, bits: int) -> "NDArray[Any]":
+        """Return exposed pixels of 8 or 16 bits, (height, width, 3), or 4 with alpha."""
+
+
+class How(NamedTuple):
+    """How a picture is to be written.
+
+    Attributes
+    ----------
+    bits
+        Bits of each channel.
+    aov
+        What to write beside the picture, of `AOVS`.
+    provenance
+        How the picture was made, as ASCII text; "" to leave that out.
+    """
+
+    bits: int = 8
+    aov: Collection[str] = ()
+    provenance: str = ""
+
+
+def has_alpha(background: object) -> bool:
+    """Tell whether a background leaves what is not covered transparent."""
+    return background == "transparent"

@@ -1,0 +1,145 @@
+"""How a picture was made, as its file tells it: enough to make it again from the same scene."""
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import msgspec
+from msgspec import Meta
+
+from vtray.base.errors import OutputError, ProvenanceError, why_unreadable
+from vtray.base.input_file import open_input
+from vtray.base.version import __version__
+from vtray.image.formats.image_format import FORMATS, find_format, needs_package
+from vtray.image.formats.picture import How, Picture
+from vtray.scene.checks.limits import END, NonNegative, SizePair
+from vtray.scene.settings import Background, Exposure, FilterName, RenderSettings, Samples, Seed
+
+
+class Provenance(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """How a picture was made.
+
+    Attributes
+    ----------
+    version : str
+        The version of vtray.
+    scene : str
+        The hash of the scene.
+    samples, filter, seed, exposure, background
+        As in the settings of the render, those that were left out too.
+    size : tuple of int
+        Width and height of the picture in pixels.
+    lock : float or None
+        The light that became white, where another picture decided that.
+    bits : int
+        Bits of each channel of the file.
+    aov : tuple of str
+        What the file holds beside the picture.
+    """
+
+    version: str
+    scene: Annotated[str, Meta(pattern=f"^[0-9a-f]{{16,64}}{END}")]
+    samples: Samples
+    filter: FilterName
+    seed: Seed
+    size: SizePair
+    exposure: Exposure
+    background: Background
+    lock: NonNegative | None
+    bits: Literal[8, 16, 32]
+    aov: tuple[Literal["depth", "normals", "ids"], ...]
+
+    @property
+    def settings(self) -> RenderSettings:
+        """The settings of the render."""
+        names = RenderSettings.__struct_fields__
+        return RenderSettings(**{name: getattr(self, name) for name in names})
+
+    def to_text(self) -> str:
+        """Return the JSON that stands in files, all of it ASCII."""
+        return msgspec.json.encode(self).decode("ascii")
+
+
+def describe(picture: Picture, how: How) -> Provenance:
+    """Return how a picture was made, and how it is written."""
+    height, width = picture.linear.shape[:2]
+    values = {
+        **msgspec.structs.asdict(picture.settings),
+        "version": __version__,
+        "scene": picture.scene_hash,
+        "size": (width, height),
+        "lock": float(picture.white) if picture.locked else None,
+        "bits": how.bits,
+        "aov": tuple(how.aov),
+    }
+    return msgspec.convert(values, Provenance)
+
+
+def read_provenance(path: str | Path) -> Provenance:
+    """Read from a picture that vtray has written how it was made.
+
+    Parameters
+    ----------
+    path
+        The picture, in any format that vtray writes.
+
+    Returns
+    -------
+    Provenance
+        The version of vtray, the hash of the scene, and all settings.
+
+    Raises
+    ------
+    ProvenanceError
+        If the file cannot be read, says nothing of how it was made, or something that this
+        version of vtray does not know.
+    """
+    path = Path(path)
+    text = _read_text(path)
+    if not text:
+        message = f"{path}: does not say how it was made; expected a picture that vtray has written"
+        raise ProvenanceError(message)
+    try:
+        return msgspec.json.decode(text, type=Provenance)
+    except (msgspec.DecodeError, UnicodeEncodeError) as error:
+        version = _version(text)
+        by = f" by vtray {version}" if version else ""
+        message = f"{path}: what it says of how it was made{by} is not understood: {error}"
+        raise ProvenanceError(message) from None
+
+
+def _read_text(path: Path) -> str | None:
+    """Return what a file says of how it was made."""
+    try:
+        form = find_format(path)
+    except OutputError:
+        message = f"{path}: expected a picture that vtray has written, one of {', '.join(FORMATS)}"
+        raise ProvenanceError(message) from None
+    try:
+        with open_input(path) as file:
+            return form.read(file)
+    except ModuleNotFoundError as error:
+        raise ProvenanceError(needs_package(path, error.name or "more")) from None
+    except MemoryError:
+        raise
+    except OSError as error:
+        if error.errno is None:  # not the system's: the library found no picture of its format
+            raise ProvenanceError(_damaged(path, error)) from None
+        raise ProvenanceError(f"{path}: {why_unreadable(error, 'picture')}") from None
+    except Exception as error:  # noqa: BLE001 - a damaged file makes libraries raise almost anything
+        raise ProvenanceError(_damaged(path, error)) from None
+
+
+def _damaged(path: Path, error: Exception) -> str:
+    kinds = ", ".join(FORMATS)
+    reason = str(error).splitlines()[0] if str(error) else repr(error)
+    return f"{path}: is damaged, or none of {kinds} as its name says ({reason[:100]})"
+
+
+def _version(text: str) -> str:
+    """Return the version that wrote a provenance that is not understood, "" if it is not there."""
+    try:
+        found = msgspec.json.decode(text)
+    except (msgspec.DecodeError, UnicodeEncodeError, RecursionError):
+        return ""
+    version = found.get("version") if isinstance(found, dict) else ""
+    return version[:40] if isinstance(version, str) and version.isprintable() else ""

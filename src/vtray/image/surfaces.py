@@ -1,0 +1,27 @@
+"""What the middle rays of a picture meet, beside light."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+class Surfaces(NamedTuple):
+    """What the ray through the middle of each pixel meets.
+
+    Attributes
+    ----------
+    depth
+        Distance along the ray in scene units, infinite where nothing is, (height, width).
+    normals
+        Unit normals in world space on the ray's side, 0 where nothing is, (height, width, 3).
+    ids
+        Place in ``scene.objects``, and place in the arrays of that object, 0 if it has none; both
+        -1 where nothing is; int32, (height, width, 2).
+    """
+
+    depth: Floats
+    normals: Floats
+    ids: NDArray[np.int32]

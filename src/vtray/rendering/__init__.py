@@ -1,0 +1,1 @@
+"""A picture step by step: scene, arrays, hierarchy, passes, image."""

@@ -1,0 +1,223 @@
+"""From a scene to the arrays that kernels read."""
+
+import math
+import sys
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.compiler.compiled import input_array
+from vtray.geometry.bvh.tree import no_bvh
+from vtray.geometry.camera_rays import CameraFrame
+from vtray.geometry.shapes.sphere_arrays import SphereArrays
+from vtray.geometry.vector import Vec
+from vtray.geometry.world import Lights, Materials, Planes, SceneArrays, ToBoxes
+from vtray.rendering.hierarchy import Acceleration
+from vtray.scene.placing.directions import camera_axes, view_axes
+from vtray.scene.placing.directions import unit as unit_vector
+from vtray.scene.scene import Camera, Plane, Scene, Vector
+
+Floats = NDArray[np.float64]
+
+FARTHEST_START = 2.0**30
+"""Rays start no farther before the image plane than so many times its width and height.
+
+An eye that is farther away sees the scene along rays that differ by less than 1e-9: they start side
+by side, where they pass a plane nearby. Started at the eye, rounding would move what they meet, and
+lose what is near the image plane: from 1e15 times the size of the scene on, all of it.
+"""
+
+LARGEST_RATIO = 2.0**100
+"""Spheres so tiny beside all else that this is exceeded are traced without their hierarchy."""
+
+
+class Packed(NamedTuple):
+    """The arrays of a scene, and what leads back from them to the scene.
+
+    Attributes
+    ----------
+    arrays
+        What the kernels read.
+    unit
+        Length in scene units of length 1 in the arrays, a power of two.
+    before
+        Length in scene units of each ray from the eye to where it starts in the arrays.
+    """
+
+    arrays: SceneArrays
+    unit: float
+    before: float
+
+
+def pack(scene: Scene, kept: Acceleration) -> Packed:
+    """Return the arrays of a scene, whose spheres are ready for tracing."""
+    planes = [item for item in scene.objects if isinstance(item, Plane)]
+    unit = _unit_length(scene, planes, kept)
+    camera = _pack_camera(scene.camera, unit)
+    origin = _points([scene.camera.center], unit)[0]
+    x, y, z = map(float, origin)
+    to_boxes = _pack_to_boxes(kept, (x, y, z), unit)
+    arrays = SceneArrays(
+        camera,
+        SphereArrays(*kept.leaves, 1.0 / unit, (x, y, z)),
+        kept.bvh if to_boxes.ratio < LARGEST_RATIO else no_bvh(),
+        to_boxes,
+        _pack_planes(planes, origin, unit, camera),
+        _pack_lights(scene, origin, unit, camera),
+        _pack_materials(kept, planes),
+    )
+    return Packed(arrays, unit, scene.camera.focus - start_distance(scene.camera))
+
+
+def start_distance(camera: Camera) -> float:
+    """Return how far before the image plane rays start, in scene units."""
+    across, below = (n * length for n, length in zip(camera.size, camera.resolution, strict=True))
+    view = across + below
+    return camera.focus if camera.focus <= FARTHEST_START * view else view
+
+
+def _exponent(value: float) -> int:
+    """Return the smallest e with abs(value) < 2**e, very low for 0."""
+    return math.frexp(value)[1] if value else -2000
+
+
+def _unit_length(scene: Scene, planes: list[Plane], kept: Acceleration) -> float:
+    """Return the power of two by which the lengths of a scene are divided."""
+    camera = scene.camera
+    places = [camera.center, *(plane.center for plane in planes)]
+    places += [light.location for light in scene.lights]
+    coordinates = max(max(abs(p.x), abs(p.y), abs(p.z)) for p in places)
+    highest = max(_start_exponent(camera), _exponent(coordinates), _exponent(kept.largest))
+    # The unit itself and its inverse must be ordinary doubles.
+    return math.ldexp(1.0, max(highest - 200, -1000))
+
+
+def _start_exponent(camera: Camera) -> int:
+    """Return an e with all coordinates below 2**e at which rays start, and not far below."""
+    start = start_distance(camera)
+    together = camera.projection != "orthographic" and start == camera.focus
+    return _exponent(start) if together else max(_exponent(start), _view_exponent(camera))
+
+
+def _view_exponent(camera: Camera) -> int:
+    """Return an e with width and height of the view below 2**e, and the larger not far below."""
+    return max(
+        _exponent(camera.resolution[0]) + _exponent(camera.size[0]),
+        _exponent(camera.resolution[1]) + _exponent(camera.size[1]),
+    )
+
+
+def _pack_camera(camera: Camera, unit: float) -> CameraFrame:
+    """Return the camera's frame, lengths in units."""
+    forward = unit_vector(camera.normal)
+    if camera.up is None:
+        right, down = camera_axes(forward)
+    else:
+        right, down = view_axes(forward, unit_vector(camera.up))
+    start = start_distance(camera)
+    focus = start / unit
+    width, height = camera.resolution
+    if camera.projection == "orthographic":
+        share, pixel = 1.0, (0.0, 0.0, 1.0)
+    else:
+        # How much of the way from the eye to the image plane lies before the start of the rays.
+        share = 1.0 - start / camera.focus
+        pixel = _pack_pixel(camera)
+    shift = share * width / unit, share * height / unit
+    extent = camera.size[0] * shift[0] + camera.size[1] * shift[1]
+    return CameraFrame(
+        eye=(-focus * forward[0], -focus * forward[1], -focus * forward[2]),
+        right=right,
+        down=down,
+        forward=forward,
+        focus=focus,
+        pixel=pixel,
+        shift=shift,
+        extent=extent,
+        width=int(camera.size[0]),
+        height=int(camera.size[1]),
+    )
+
+
+def _pack_pixel(camera: Camera) -> Vec:
+    """Return a pixel's width and height and the focus, in a unit in which they make directions."""
+    # Far above 1, so that what is far smaller keeps its digits.
+    own = 500 - max(_view_exponent(camera), _exponent(camera.focus))
+    width, height = (math.ldexp(length, own) for length in camera.resolution)
+    # Not 0: there is a ray in the middle, however near the eye is.
+    return width, height, max(math.ldexp(camera.focus, own), sys.float_info.min)
+
+
+def _pack_to_boxes(kept: Acceleration, origin: Vec, unit: float) -> ToBoxes:
+    """Return what leads to the space of the boxes."""
+    ratio = kept.frame.scale * unit
+    (x, y, z), (a, b, c) = origin, kept.frame.origin
+    return ToBoxes(ratio, (x * ratio - a, y * ratio - b, z * ratio - c))
+
+
+def _pack_materials(kept: Acceleration, planes: list[Plane]) -> Materials:
+    """Return the materials of all primitives."""
+    colors = [(plane.color.r, plane.color.g, plane.color.b) for plane in planes]
+    return Materials(
+        input_array(kept.source.color, np.uint8),
+        input_array(kept.source.lambert, np.float64),
+        input_array(np.array(colors, np.uint8).reshape(-1, 3), np.uint8),
+        input_array([plane.lambert for plane in planes], np.float64),
+    )
+
+
+def _pack_planes(planes: list[Plane], origin: Floats, unit: float, camera: CameraFrame) -> Planes:
+    """Return the arrays of all planes."""
+    points = _points([plane.center for plane in planes], unit) - origin
+    normals = np.array([unit_vector(plane.normal) for plane in planes], np.float64).reshape(-1, 3)
+    x, y, z = _columns(normals)
+    from_eye = points - np.array(camera.eye)
+    return Planes(
+        x,
+        y,
+        z,
+        offset=_dot(points.T, (x, y, z)),
+        height=_dot(from_eye.T, (x, y, z)),
+        magnitude=_magnitude(*_columns(points)),
+    )
+
+
+def _pack_lights(scene: Scene, origin: Floats, unit: float, camera: CameraFrame) -> Lights:
+    """Return the arrays of all lights."""
+    points = _points([light.location for light in scene.lights], unit) - origin
+    x, y, z = _columns(points)
+    magnitude = _magnitude(x, y, z)
+    return Lights(
+        x,
+        y,
+        z,
+        depth=_dot((x, y, z), camera.forward),
+        intensity=np.array([light.intensity for light in scene.lights], float),
+        magnitude=magnitude,
+        world_magnitude=magnitude + _magnitude(*origin),
+    )
+
+
+def _points(places: list[Vector], unit: float) -> Floats:
+    """Return places as an (n, 3) array, lengths in units."""
+    return np.array([(p.x, p.y, p.z) for p in places], float).reshape(-1, 3) / unit
+
+
+def _columns(rows: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return the columns of an (n, 3) array, each contiguous."""
+    columns = np.ascontiguousarray(rows.T)
+    return columns[0], columns[1], columns[2]
+
+
+def _magnitude(x: Floats, y: Floats, z: Floats) -> Floats:
+    """Return the sums of the absolute coordinates, always in this order."""
+    sums: Floats = np.abs(x) + np.abs(y) + np.abs(z)
+    return sums
+
+
+def _dot(a: Sequence[Floats] | Floats, b: Sequence[Floats] | Vec) -> Floats:
+    """Return the scalar products of vectors, each given as its three coordinates."""
+    products: Floats = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    return products

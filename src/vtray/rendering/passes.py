@@ -1,0 +1,175 @@
+"""From the arrays of a scene to a film: which rays are cast, tile by tile, in one pass or two."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.compiler.compiled import pinned
+from vtray.base.memory import check_memory_of_lights
+from vtray.base.pool import Progress, run_tasks
+from vtray.base.tiles import TILE, Tile, split_into_tiles
+from vtray.geometry.packets.packet import new_packet
+from vtray.geometry.packets.workspace import new_workspace
+from vtray.geometry.world import SceneArrays
+from vtray.scene.settings import RenderSettings
+from vtray.transport.film import Film, new_film
+from vtray.transport.integrators.direct import trace_tile
+from vtray.transport.light_buffer import KeptLight, new_kept_light
+from vtray.transport.sampling.adaptive import mark_rows
+from vtray.transport.sampling.filters import FILTERS
+from vtray.transport.sampling.pixel_samples import (
+    Sampling,
+    filter_footprint,
+    filter_samples,
+    middle_rays,
+)
+
+
+class Traced(NamedTuple):
+    """What tracing gave.
+
+    Attributes
+    ----------
+    film
+        What was wanted.
+    peak
+        The largest channel of its light.
+    rays
+        How many rays were cast.
+    kept
+        What was kept of the rays of each pass; nothing unless asked for.
+    """
+
+    film: Film
+    peak: float
+    rays: int
+    kept: tuple[KeptLight, ...] = ()
+
+
+class Tracer:
+    """Casts the rays of a picture.
+
+    Parameters
+    ----------
+    scene
+        The arrays of the scene.
+    threads
+        How many threads to use at the most.
+    tile
+        Side of a tile in pixels.
+    progress
+        Called from time to time with the tiles done and their number.
+    """
+
+    def __init__(
+        self,
+        scene: SceneArrays,
+        threads: int,
+        tile: int = TILE,
+        progress: Progress | None = None,
+    ) -> None:
+        self._scene = scene
+        self._size = scene.camera.width, scene.camera.height
+        self._threads = threads
+        self._tile = tile
+        self._progress = progress
+        self._passes = 1
+        self._done = 0
+
+    def surfaces(self) -> Film:
+        """Return distance, normal and primitive of the middle rays."""
+        wanted = new_film(*self._size, "distance", "normal", "primitive")
+        return self._trace(middle_rays(), wanted).film
+
+    def light(self, settings: RenderSettings, *, keep: bool = False) -> Traced:
+        """Return the light of all pixels, and their coverage if they have samples.
+
+        Parameters
+        ----------
+        settings
+            How many samples, and which.
+        keep
+            Whether to keep what each ray hits and which lights reach it.
+        """
+        if settings.samples == 1:
+            return self._middles(middle_rays(), keep, "linear")
+        self._passes = 2
+        footprint = filter_footprint(settings, self._scene.camera)
+        wanted = "linear", "primitive", "shadows", "rims"
+        found = self._middles(middle_rays(footprint), keep, *wanted)
+        marks, peak = self._mark(found.film, settings)
+        coverage = (found.film.primitive >= 0).astype(np.float64)
+        film = new_film(0, 0)._replace(linear=found.film.linear, coverage=coverage)
+        if keep:
+            film = film._replace(kept=self._keep(marks, int(settings.samples)))
+        sampled = self._trace(filter_samples(settings, marks), film)
+        kept = (*found.kept, film.kept) if keep else ()
+        return Traced(film, max(peak, sampled.peak), found.rays + sampled.rays, kept)
+
+    def _middles(self, sampling: Sampling, keep: bool, *wanted: str) -> Traced:
+        """Trace one ray for each pixel."""
+        film = new_film(*self._size, *wanted)
+        if keep:
+            film = film._replace(kept=self._keep(np.ones(self._size[::-1], np.bool_), 1))
+        return self._trace(sampling, film)._replace(kept=(film.kept,) if keep else ())
+
+    def _keep(self, marks: NDArray[np.bool_], samples: int) -> KeptLight:
+        """Return where to keep what the samples of the marked pixels meet."""
+        count, lights = int(np.count_nonzero(marks)) * samples, len(self._scene.lights.x)
+        check_memory_of_lights(count, lights)
+        first = np.cumsum(marks, dtype=np.int64).reshape(marks.shape)
+        first = np.where(marks, (first - 1) * samples, -1)
+        return new_kept_light(first, count, lights)
+
+    def _mark(self, film: Film, settings: RenderSettings) -> tuple[NDArray[np.bool_], float]:
+        """Return which pixels need samples, and the largest channel of the others."""
+        width, height = self._size
+        marks = np.empty((height, width), np.bool_)
+        near = int(np.ceil(FILTERS[settings.filter].radius))
+        peaks = []
+
+        def mark(top: int) -> None:
+            peaks.append(mark_rows(film, near, top, min(top + TILE, height), marks))
+
+        run_tasks(range(0, height, TILE), lambda: mark, self._threads)
+        return marks, max(peaks)
+
+    def _trace(self, sampling: Sampling, film: Film) -> Traced:
+        """Cast rays, and write to a film."""
+        stop = np.zeros(1, np.bool_)
+        results: list[tuple[float, int]] = []
+        world, places = pinned(self._scene), pinned(sampling)
+        canvas, flag = pinned(film), pinned(stop)
+
+        def new_worker() -> Callable[[Tile], None]:
+            packet, work = pinned(new_packet()), pinned(new_workspace(self._scene))
+
+            def trace(tile: Tile) -> None:
+                results.append(trace_tile(world, places, *tile, canvas, packet, work, flag))
+
+            return trace
+
+        def hurry() -> None:
+            stop[0] = True
+
+        tiles = split_into_tiles(*self._size, self._tile)
+        progress = self._progress_of(len(tiles))
+        run_tasks(tiles, new_worker, self._threads, stop=hurry, progress=progress)
+        return Traced(film, max(peak for peak, _ in results), sum(rays for _, rays in results))
+
+    def _progress_of(self, tiles: int) -> Progress | None:
+        """Return what shows the progress of a pass as a part of all passes."""
+        tell, before, passes = self._progress, self._done, self._passes
+        self._done += tiles
+        return tell and (lambda done, _: tell(before + done, passes * tiles))
+
+
+def compile_kernels(scene: SceneArrays, settings: RenderSettings) -> None:
+    """Compile what is needed to trace a scene, or load it from disk."""
+    stop = np.zeros(1, np.bool_)
+    packet, work = new_packet(), new_workspace(scene)
+    trace_tile(scene, middle_rays(), 0, 0, 0, 0, new_film(0, 0), packet, work, stop)
+    if settings.samples > 1:
+        mark_rows(new_film(0, 0), 0, 0, 0, np.zeros((0, 0), np.bool_))

@@ -1,0 +1,180 @@
+"""Tracing the rays of one pixel, to be looked at."""
+
+import operator
+from typing import TYPE_CHECKING, SupportsIndex
+
+import numpy as np
+
+from vtray.base.compiler.compiled import uncompiled
+from vtray.base.errors import RenderError
+from vtray.base.exact_math import hypotenuse
+from vtray.figures.ray_tree import Exposed, Hit, RayTree, ShadowRay, Surface, View
+from vtray.geometry.vector import Vec, add, scale
+from vtray.rendering.hierarchy import Acceleration, accelerate, locate
+from vtray.rendering.pack import Packed, pack
+from vtray.scene.scene import Plane, Scene
+from vtray.scene.spheres import Spheres
+from vtray.transport.integrators.reference import NOTHING
+from vtray.transport.integrators.reference import trace_pixel as trace_plainly
+
+if TYPE_CHECKING:
+    from vtray.image.image import Image
+
+
+def trace_pixel(scene: "Scene | Image", x: SupportsIndex, y: SupportsIndex) -> RayTree:
+    """Trace the rays of one pixel and return them all.
+
+    Parameters
+    ----------
+    scene
+        The scene; or a rendered image, whose exposure is then explained as well.
+    x, y
+        Column from the left and row from the top, from 0.
+
+    Returns
+    -------
+    RayTree
+        The ray through the middle of the pixel, what it hits, and the rays to the lights.
+
+    Raises
+    ------
+    RenderError
+        There is no such pixel.
+    SceneError
+        The scene is not valid.
+
+    Examples
+    --------
+    >>> tree = vtray.trace_pixel(scene, 210, 230)
+    >>> print(tree)
+    >>> tree.draw().figure.savefig("rays.png")
+    """
+    if isinstance(scene, Scene):
+        scene.check()
+        return trace_rays(scene, None, x, y)
+    return trace_rays(scene.scene, scene, x, y)
+
+
+def trace_rays(
+    scene: Scene,
+    image: "Image | None",
+    x: SupportsIndex,
+    y: SupportsIndex,
+    caller: str = "trace_pixel",
+) -> RayTree:
+    """Trace the rays of one pixel of a checked scene; see `trace_pixel`."""
+    camera = scene.camera if image is None else image.scene.camera
+    width, height = (int(pixels) for pixels in camera.size)
+    column, row = operator.index(x), operator.index(y)
+    if not (0 <= column < width and 0 <= row < height):
+        message = f"{caller}: expected 0,0 to {width - 1},{height - 1}, got {column},{row}"
+        raise RenderError(message)
+    kept = accelerate(scene)  # which the given scene may have already
+    scene = Scene(camera, list(scene.lights), list(scene.objects))
+    packed = pack(scene, kept)
+    cosines = np.zeros(len(scene.lights))
+    blockers = np.full(len(scene.lights), NOTHING)
+    traced = trace_plainly(packed.arrays, column, row, cosines, blockers)
+    start = _world(scene, packed, uncompiled(add)(packed.arrays.camera.eye, traced.offset))
+    eye = uncompiled(add)(start, uncompiled(scale)(-packed.before, traced.direction))
+    hit, lights = None, []
+    if traced.primitive != NOTHING:
+        hit = Hit(
+            _surface(scene, kept, packed, traced.primitive),
+            traced.distance * packed.unit + packed.before,
+            _world(scene, packed, traced.interaction.point),
+            traced.interaction.normal,
+        )
+        for k in range(len(scene.lights)):
+            number = int(blockers[k])
+            blocker = None if number == NOTHING else _surface(scene, kept, packed, number)
+            lights.append(_shadow_ray(scene, hit, k, float(cosines[k]), blocker))
+    return RayTree(
+        (column, row),
+        eye,
+        traced.direction,
+        hit,
+        tuple(lights),
+        traced.value,
+        _view(scene, packed),
+        None if image is None else _exposed(image, column, row),
+        scene,
+    )
+
+
+def _shadow_ray(
+    scene: Scene, hit: Hit, number: int, cosine: float, blocker: Surface | None
+) -> ShadowRay:
+    """Return the ray from a hit to a light."""
+    light, point = scene.lights[number], hit.point
+    place = (light.location.x, light.location.y, light.location.z)
+    way = (place[0] - point[0], place[1] - point[1], place[2] - point[2])
+    distance = hypotenuse(*way)
+    if distance:
+        way = (way[0] / distance, way[1] / distance, way[2] / distance)
+    # In the order of the kernels, so that the sum has the same bits.
+    strength = cosine * hit.surface.lambert * light.intensity if blocker is None else 0.0
+    red, green, blue = hit.surface.color
+    adds = (strength * red, strength * green, strength * blue)
+    return ShadowRay(number, place, light.intensity, way, distance, cosine, blocker, adds)
+
+
+def _surface(scene: Scene, kept: Acceleration, packed: Packed, primitive: int) -> Surface:
+    """Return the sphere or the plane that has this number in the arrays."""
+    count = len(kept.leaves.number)
+    if primitive >= count:
+        planes = [place for place, item in enumerate(scene.objects) if isinstance(item, Plane)]
+        number = primitive - count
+        columns = packed.arrays.planes
+        normal = tuple(float(column[number]) for column in (columns.x, columns.y, columns.z))
+        return _single(scene, planes[number], (normal[0], normal[1], normal[2]))
+    place, index = locate(scene, kept, primitive)
+    item = scene.objects[place]
+    if not isinstance(item, Spheres):
+        return _single(scene, place, None)
+    x, y, z = map(float, item.center[index])
+    red, green, blue = map(float, item.color if item.color.ndim == 1 else item.color[index])
+    radius = float(np.broadcast_to(item.radius, len(item))[index])
+    lambert = float(np.broadcast_to(item.lambert, len(item))[index])
+    return Surface(place, index, (x, y, z), radius, None, (red, green, blue), lambert)
+
+
+def _single(scene: Scene, place: int, normal: Vec | None) -> Surface:
+    """Return the surface of an object that is one sphere or, with a normal, one plane."""
+    item = scene.objects[place]
+    assert not isinstance(item, Spheres)  # noqa: S101
+    center = (item.center.x, item.center.y, item.center.z)
+    color = (float(item.color.r), float(item.color.g), float(item.color.b))
+    radius = None if isinstance(item, Plane) else item.radius
+    return Surface(place, None, center, radius, normal, color, item.lambert)
+
+
+def _view(scene: Scene, packed: Packed) -> View:
+    """Return the camera in world space."""
+    camera, frame = scene.camera, packed.arrays.camera
+    center = (camera.center.x, camera.center.y, camera.center.z)
+    size, pixel = (frame.width, frame.height), camera.resolution
+    return View(center, frame.right, frame.down, frame.forward, camera.focus, size, pixel)
+
+
+def _exposed(image: "Image", column: int, row: int) -> Exposed:
+    """Return what a picture made of the light of a pixel."""
+    red, green, blue = map(float, image.linear[row, column])
+    white = float(image.white)
+    return Exposed(
+        light=(red, green, blue),
+        white=white,
+        brightest=white == float(image.linear.max()),
+        background=0.0 if image.settings.background == "black" else 1 - image.alpha[row, column],
+        value=tuple(int(channel) for channel in image.pixels[row, column]),
+    )
+
+
+def _world(scene: Scene, packed: Packed, point: Vec) -> Vec:
+    """Return a point of the arrays in world space."""
+    center, unit = scene.camera.center, packed.unit
+    return (
+        center.x + point[0] * unit,
+        center.y + point[1] * unit,
+        center.z + point[2] * unit,
+    )

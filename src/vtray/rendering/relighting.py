@@ -1,0 +1,58 @@
+"""Other lights and colours for a picture, without tracing it again."""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.pool import run_tasks
+from vtray.base.tiles import TILE
+from vtray.rendering.hierarchy import Acceleration, collect, spheres_of
+from vtray.rendering.pack import pack
+from vtray.scene.scene import Scene
+from vtray.transport.light_buffer import KeptLight, add_up_rows
+
+
+class Relighting:
+    """Adds up the light of a picture anew.
+
+    Parameters
+    ----------
+    kept
+        The spheres of the scene that was traced.
+    passes
+        What was kept of the rays of each pass; a later one replaces pixels of those before it.
+    samples
+        How many rays each pixel of the last pass has, if there are two.
+    threads
+        How many threads to use at the most.
+    """
+
+    def __init__(
+        self, kept: Acceleration, passes: tuple[KeptLight, ...], samples: int, threads: int
+    ) -> None:
+        self._kept = kept
+        self._passes = passes
+        self._samples = samples
+        self._threads = threads
+
+    def __call__(self, scene: Scene) -> NDArray[np.float64]:
+        """Return the linear light, (height, width, 3), of the scene with other lights or colours.
+
+        Parameters
+        ----------
+        scene
+            The scene that was traced, but for the intensities of its lights and the colours of its
+            objects.
+        """
+        spheres = replace(self._kept, source=collect(spheres_of(scene)))
+        arrays = pack(scene, spheres).arrays
+        linear = np.zeros((arrays.camera.height, arrays.camera.width, 3))
+        for kept, samples in zip(self._passes, (1, self._samples), strict=False):
+
+            def add_up(top: int, kept: KeptLight = kept, samples: int = samples) -> None:
+                bottom = min(top + TILE, len(linear))
+                add_up_rows(arrays, kept, samples, top, bottom, linear)
+
+            run_tasks(range(0, len(linear), TILE), lambda: add_up, self._threads)
+        return linear

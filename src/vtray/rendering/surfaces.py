@@ -1,0 +1,46 @@
+"""What the picture's rays meet, beside light: traced only when it is asked for."""
+
+import sys
+
+import numpy as np
+
+from vtray.image.surfaces import Surfaces
+from vtray.rendering.hierarchy import Acceleration, locate_all
+from vtray.rendering.pack import Packed
+from vtray.rendering.passes import Tracer
+from vtray.scene.scene import Scene
+
+
+class Look:
+    """Looks at a scene as it was rendered, whatever has become of it since.
+
+    Parameters
+    ----------
+    scene
+        The scene as it was rendered.
+    kept
+        Its spheres.
+    packed
+        Its arrays.
+    threads
+        How many threads to use at the most.
+    """
+
+    def __init__(self, scene: Scene, kept: Acceleration, packed: Packed, threads: int) -> None:
+        self._scene = scene
+        self._kept = kept
+        self._packed = packed
+        self._threads = threads
+
+    def __call__(self) -> Surfaces:
+        """Trace the ray through the middle of each pixel."""
+        film = Tracer(self._packed.arrays, self._threads).surfaces()
+        with np.errstate(over="ignore"):
+            depth = film.distance * self._packed.unit + self._packed.before
+        # What is farther away than a double can say is there all the same.
+        np.minimum(depth, sys.float_info.max, out=depth, where=film.primitive >= 0)
+        return Surfaces(
+            depth,
+            film.normal,
+            locate_all(self._scene, self._kept, film.primitive),
+        )

@@ -1,0 +1,1 @@
+"""What a scene may hold, and the words for what it may not."""

@@ -1,0 +1,79 @@
+"""What was given where an array is expected, for messages: no values of a table, but its names."""
+
+import sys
+from typing import Any
+
+COORDINATES = ("x", "y", "z")
+RED_GREEN_BLUE = ("r", "g", "b")
+
+
+def is_masked(given: object) -> bool:
+    """Tell whether an array has masked numbers."""
+    # Who has no masked arrays need not wait for NumPy to load them.
+    if "numpy.ma" not in sys.modules:
+        return False
+    import numpy as np
+
+    return bool(np.ma.is_masked(given))
+
+
+def show_array(given: Any) -> str:  # noqa: ANN401
+    """Write what was given, in short."""
+    if is_masked(given):
+        return "an array with masked numbers"
+    if _columns(given):
+        return _table(given)
+    if hasattr(given, "dtype") and hasattr(given, "shape"):
+        return f"an array of dtype {given.dtype} and shape {given.shape}"
+    from vtray.scene.checks.scene_words import show
+
+    return show(given)
+
+
+def show_shape(given: Any, shape: tuple[int, ...]) -> str:  # noqa: ANN401
+    """Write the wrong shape of what was given."""
+    return _table(given) if _columns(given) else f"shape {shape}"
+
+
+def remedy_for(given: Any, columns: tuple[str, ...]) -> str:  # noqa: ANN401
+    """Say what to give instead, to follow the problem; "" if nothing is known.
+
+    Parameters
+    ----------
+    given
+        What was given.
+    columns
+        What the columns of a table may be called that has what was expected.
+    """
+    if is_masked(given):
+        return "; leave out what is masked, or give array.filled(...)"
+    if _columns(given):
+        from vtray.scene.checks.scene_words import quoted
+
+        names = ", ".join(map(quoted, columns))
+        chosen = (
+            f"one column, as in table[{names}]"
+            if len(columns) == 1
+            else f"three columns, as in table[[{names}]]"
+        )
+        return f"; choose {chosen}"
+    if columns == COORDINATES and hasattr(given, "positions"):
+        return "; give its attribute positions"
+    if columns == COORDINATES and hasattr(given, "get_positions"):
+        return "; give what its get_positions() returns"
+    return ""
+
+
+def _columns(given: Any) -> list[str]:  # noqa: ANN401
+    """Return the names of the columns of a data frame; none for what is no such."""
+    columns = getattr(given, "columns", None)
+    return list(map(str, columns)) if columns is not None and hasattr(given, "shape") else []
+
+
+def _table(given: Any) -> str:  # noqa: ANN401
+    """Write a table, in short."""
+    from vtray.scene.checks.scene_words import quoted
+
+    names = [quoted(name) for name in _columns(given)]
+    shown = [*names[:8], "..."] if len(names) > 8 else names
+    return f"a table of shape {tuple(given.shape)} with the columns {', '.join(shown)}"

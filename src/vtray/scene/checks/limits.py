@@ -1,0 +1,50 @@
+"""The kinds of value in a scene: their limits, and the words for them.
+
+Each description completes "expected ..." in an error message.
+"""
+
+from typing import Annotated, Literal
+
+from msgspec import Meta
+
+Real = Annotated[float, Meta(description="a finite number")]
+Positive = Annotated[float, Meta(gt=0, description="a number > 0")]
+NonNegative = Annotated[float, Meta(ge=0, description="a number ≥ 0")]
+Fraction = Annotated[float, Meta(ge=0, le=1, description="a number from 0 to 1")]
+# An integer may be written 255 or 255.0: JSON knows only numbers.
+Byte = Annotated[
+    Annotated[int, Meta(ge=0, le=255)] | Annotated[float, Meta(ge=0, le=255, multiple_of=1)],
+    Meta(description="an integer from 0 to 255"),
+]
+MAX_SIZE = 2**31 - 1  # the largest side of a PNG
+Size = Annotated[
+    Annotated[int, Meta(ge=1, le=MAX_SIZE)]
+    | Annotated[float, Meta(ge=1, le=MAX_SIZE, multiple_of=1)],
+    Meta(description=f"an integer from 1 to {MAX_SIZE}"),
+]
+SizePair = Annotated[tuple[Size, Size], Meta(description="an array of two integers > 0")]
+PositivePair = Annotated[tuple[Positive, Positive], Meta(description="an array of two numbers > 0")]
+Projection = Literal["perspective", "orthographic"]
+Margin = Annotated[float, Meta(ge=0, lt=0.5, description="a number from 0 to less than 0.5")]
+FieldOfView = Annotated[float, Meta(gt=0, lt=180, description="a number of degrees > 0 and < 180")]
+# The end, in the words of Python and of JavaScript: a $ of Python's may stand before a newline.
+END = r"(?![\s\S])"
+DataPath = Annotated[
+    str, Meta(pattern=rf"\.np[yz]{END}", description="the path of a .npz or .npy file")
+]
+
+
+class FieldError(ValueError):
+    """Says that one field does not fit the others, where a type looks at them together.
+
+    Parameters
+    ----------
+    field : str
+        The field.
+    message : str
+        What was expected of it.
+    """
+
+    def __init__(self, field: str, message: str) -> None:
+        super().__init__(message)
+        self.field = field

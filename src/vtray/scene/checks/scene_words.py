@@ -1,0 +1,171 @@
+"""The words for places, values and expectations in the messages about scenes."""
+
+import re
+import types
+import typing
+from collections.abc import Iterable
+from typing import Any, TypeAlias
+
+import msgspec
+
+from vtray.scene.checks.json_tree import Members, Written, short
+
+Struct: TypeAlias = type[msgspec.Struct]
+
+_PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
+_UNIONS = (types.UnionType, typing.Union)
+_SHOWN_ITEMS = 4
+_SHOWN_DEPTH = 2
+
+SHOWN_UNKNOWN = 20
+"""Unknown keys of which there are warnings; of more, only how many there are."""
+
+
+def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
+    """Say what a kind of value is, to follow the word "expected"."""
+    kind = given_kind(kind)
+    if hasattr(kind, "__metadata__"):
+        return str(kind.__metadata__[-1].description)
+    if typing.get_origin(kind) is typing.Literal:
+        return either(map(repr if in_code else quoted, typing.get_args(kind)))
+    structs = struct_kinds(kind)
+    if not structs and len(options(kind)) > 1:
+        words = [expected(option, in_code=in_code) for option in options(kind)]
+        return either(word for option in words for word in option.split(" or ", 1))
+    if not structs:
+        return "a list" if in_code else "an array"
+    if in_code:
+        names = either(cls.__name__ for cls in structs)
+        triple = len(structs) == 1 and len(structs[0].__struct_fields__) == 3
+        return f"{names} or three numbers" if triple else names
+    if tags(structs):
+        (field,) = tag_field(structs[0])
+        return f"an object with {quoted(field)}: {either(map(quoted, tags(structs)))}"
+    fields = structs[0].__struct_fields__
+    *most, last = fields[: len(fields) - len(structs[0].__struct_defaults__)] or fields
+    return f"an object with the keys {', '.join(most)} and {last}"
+
+
+def either(words: Iterable[str]) -> str:
+    """Join words as in "a, b or c"."""
+    *most, last = words
+    return f"{', '.join(most)} or {last}" if most else last
+
+
+def options(kind: Any) -> tuple[Any, ...]:  # noqa: ANN401
+    """Give the kinds that a union allows, or the only one."""
+    return typing.get_args(kind) if typing.get_origin(kind) in _UNIONS else (kind,)
+
+
+def is_optional(kind: Any) -> bool:  # noqa: ANN401
+    """Tell whether a kind allows None, which a file writes as null or leaves out."""
+    return type(None) in options(kind)
+
+
+def given_kind(kind: Any) -> Any:  # noqa: ANN401
+    """Give the kind that a value has where one is given: neither None nor left out."""
+    absent = (type(None), msgspec.UnsetType)
+    found = options(kind)
+    given = tuple(option for option in found if option not in absent)
+    return kind if len(given) == len(found) else typing.Union[given]  # noqa: UP007
+
+
+def struct_kinds(kind: Any) -> tuple[Struct, ...]:  # noqa: ANN401
+    """Give the Structs that a kind allows; empty if it allows anything else but None."""
+    found = options(given_kind(kind))
+    return found if all(isinstance(item, msgspec.StructMeta) for item in found) else ()
+
+
+def struct_options(kind: Any) -> tuple[Struct, ...]:  # noqa: ANN401
+    """Give the Structs that a kind allows, maybe beside other values."""
+    found: tuple[Struct, ...] = options(kind)
+    return tuple(item for item in found if isinstance(item, msgspec.StructMeta))
+
+
+def tags(structs: Iterable[Struct]) -> list[str]:
+    """Give the tags by which a file tells the Structs apart; empty if it need not."""
+    found = (cls.__struct_config__.tag for cls in structs)
+    return [str(tag) for tag in found if tag is not None]
+
+
+def tag_field(cls: Struct) -> list[str]:
+    """Give the key that holds the tag of a Struct, in a list; empty if it has none."""
+    field = cls.__struct_config__.tag_field
+    return [field] if field else []
+
+
+class Unknown:
+    """The lines about keys or arrays that are not known: a few, and how many more there are.
+
+    Parameters
+    ----------
+    what : str
+        What they are, "key" or "array".
+    more : int
+        How many there are beside those that are noted.
+    """
+
+    def __init__(self, what: str, more: int = 0) -> None:
+        self._what = what
+        self._lines: list[str] = []
+        self._more = more
+
+    def add(self, place: str, word: str, known: list[str]) -> None:
+        """Note one at a place; to look for the nearest known word takes long."""
+        if len(self._lines) == SHOWN_UNKNOWN:
+            self._more += 1
+            return
+        what = self._what
+        close = nearest(word, known)
+        text = f"unknown {what}, ignored; the nearest known {what} is {close}"
+        self._lines.append(f"{place}: {text}")
+
+    def lines(self) -> list[str]:
+        """Give the lines."""
+        more = [f"{self._more} more unknown {self._what}s, ignored"] if self._more else []
+        return self._lines + more
+
+
+def nearest(word: str, known: list[str], cutoff: float = 0.0) -> str:
+    """Give the most similar known word in quotes, "" if none is similar enough."""
+    import difflib
+
+    close = difflib.get_close_matches(word, known, n=1, cutoff=cutoff)
+    return quoted(close[0]) if close else ""
+
+
+def quoted(text: str) -> str:
+    """Write a text as JSON does, cut short."""
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{short(escaped)}"'
+
+
+def join(place: str, key: str) -> str:
+    """Append a key to a place such as objects[3]."""
+    if not _PLAIN_KEY.fullmatch(key):
+        return f"{place}[{quoted(key)}]"
+    return f"{place}.{short(key)}" if place else short(key)
+
+
+def show(found: object, depth: int = 0) -> str:
+    """Write a value as JSON does, or as Python does if it was given in code, cut short."""
+    if isinstance(found, Written):
+        return short(found.decode())
+    if isinstance(found, Members):
+        shown = found[:_SHOWN_ITEMS] if depth < _SHOWN_DEPTH else []
+        items = [f"{quoted(key)}: {show(value, depth + 1)}" for key, _, value in shown]
+        return _brackets("{}", items, len(found))
+    if isinstance(found, (list, tuple)):
+        shown = found[:_SHOWN_ITEMS] if depth < _SHOWN_DEPTH else []
+        items = [show(value, depth + 1) for value in shown]
+        return _brackets("[]" if isinstance(found, list) else "()", items, len(found))
+    try:
+        return short(repr(found))
+    except ValueError:
+        return "an integer of thousands of digits"
+
+
+def _brackets(pair: str, items: list[str], count: int) -> str:
+    if count > len(items):
+        items.append("...")
+    return pair[0] + ", ".join(items) + pair[1]

@@ -1,0 +1,1 @@
+"""Colours: names, maps, and arrays of them."""

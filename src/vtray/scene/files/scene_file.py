@@ -1,0 +1,325 @@
+"""Reads scene files.
+
+The good path is one msgspec decode and a count of the colons. Everything that explains a
+problem is slow, lives in `vtray.scene.checks`, and is imported only then.
+"""
+
+import os
+from collections import Counter
+from collections.abc import Callable, Iterator
+from functools import cache
+from typing import Any
+
+import msgspec
+from msgspec import UNSET
+
+from vtray.base.errors import SceneError, why_unreadable
+from vtray.base.input_file import is_given, read_input
+from vtray.scene.checks.checked import make_unchecked
+from vtray.scene.scene import (
+    Color,
+    Direction,
+    Light,
+    Object,
+    Plane,
+    Scene,
+    SceneInFile,
+    Sphere,
+    SpheresInFile,
+    Vector,
+)
+
+Warn = Callable[[str], None]
+
+_BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+_DECODER = msgspec.json.Decoder(SceneInFile)
+_LIGHT = msgspec.json.Decoder(Light)
+_OBJECT = msgspec.json.Decoder(Sphere | Plane | SpheresInFile)
+
+
+def load(path: str | os.PathLike[str], *, warn: Warn | None = None) -> Scene:
+    """Read a scene file, and the files of arrays that it names.
+
+    Parameters
+    ----------
+    path : str or path
+        The file, JSON in UTF-8. Paths in it are relative to its folder, or, if it is a pipe such as
+        ``/dev/stdin``, to the current one.
+    warn : callable, optional
+        Called with one line of text for each key or array that the format does not know;
+        `warnings.warn` by default.
+
+    Returns
+    -------
+    Scene
+        The validated scene.
+
+    Raises
+    ------
+    SceneError
+        If the file cannot be read or is not a valid scene. The message names the file, the
+        place, what is wrong and what would be right.
+    """
+    name = os.fsdecode(path)
+    try:
+        raw = read_input(path)
+    except (OSError, ValueError, MemoryError) as error:
+        raise SceneError(f"{name}: {why_unreadable(error, 'scene file')}") from None
+    folder = "" if is_given(path) else os.path.dirname(name)
+    return _loads(raw, name, folder, warn or _warn)
+
+
+def loads(text: str | bytes, name: str = "<string>", *, warn: Warn | None = None) -> Scene:
+    """Read a scene from JSON text.
+
+    Parameters
+    ----------
+    text : str or bytes
+        The JSON, in UTF-8 if bytes. Paths in it are relative to the current folder.
+    name : str
+        What messages call the text.
+    warn : callable, optional
+        As for `load`.
+
+    Returns
+    -------
+    Scene
+        The validated scene.
+
+    Raises
+    ------
+    SceneError
+        As for `load`.
+    """
+    given: object = text
+    if not isinstance(given, (str, bytes)):
+        got = f"got {type(given).__name__} (vtray.load reads a file, vtray.load_dict a dictionary)"
+        raise SceneError(f"{name}: expected the text of a scene, as str or bytes, {got}")
+    if isinstance(text, bytes):
+        return _loads(text, name, "", warn or _warn)
+    try:
+        raw = text.encode()
+    except UnicodeEncodeError as error:
+        line = text.count("\n", 0, error.start) + 1
+        problem = f"half of a surrogate pair stands alone in line {line}; expected whole characters"
+        raise SceneError(f"{name}: {problem}") from None
+    return _loads(raw, name, "", warn or _warn)
+
+
+def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
+    if not raw.isascii():
+        _check_utf8(raw, name)
+        raw = raw.removeprefix(_BYTE_ORDER_MARK)
+    try:
+        found = _DECODER.decode(raw)
+    except (msgspec.MsgspecError, RecursionError) as error:
+        _explain(raw, name, warn)
+        # The slow look should have raised; if it saw nothing, msgspec's own words have to do.
+        raise SceneError(f"{name}: {error}") from None
+    kinds = Counter(map(type, found.objects))
+    if not _has_only_known_keys(raw, found, kinds):
+        _explain(raw, name, warn)
+    objects: list[Any] = found.objects
+    if SpheresInFile in kinds:
+        objects = _read_spheres(found, name, folder, warn)
+    parts: dict[str, object] = {} if found.render is UNSET else {"render": found.render}
+    scene: Scene = make_unchecked(
+        Scene, camera=found.camera, lights=found.lights, objects=objects, **parts
+    )
+    return scene
+
+
+def _check_utf8(raw: bytes, name: str) -> None:
+    try:
+        raw.decode()
+    except UnicodeDecodeError as error:
+        line = raw.count(b"\n", 0, error.start) + 1
+        problem = f"line {line}, byte {error.start} of the file: not UTF-8; expected UTF-8 text"
+        raise SceneError(f"{name}: {problem}") from None
+
+
+@cache
+def _keys(*classes: type[msgspec.Struct]) -> int:
+    """Count the keys of objects of a file, their tags included."""
+    fields = sum(len(cls.__struct_fields__) for cls in classes)
+    return fields + sum(cls.__struct_config__.tag is not None for cls in classes)
+
+
+# The required keys that a file has once.
+_KEYS_ONCE = 3 + 5 + _keys(Vector, Direction)
+_KEYS_OF: dict[type[msgspec.Struct], int] = {
+    Light: _keys(Light, Vector),
+    Sphere: _keys(Sphere, Vector, Color),
+    Plane: _keys(Plane, Vector, Direction, Color),
+    SpheresInFile: 0,  # counted one by one, as most of its keys are optional
+}
+
+
+def _has_only_known_keys(raw: bytes, found: SceneInFile, kinds: Counter[Any]) -> bool:
+    """Tell whether a file has as many colons as what was read of it, so no unknown keys."""
+    keys = _KEYS_ONCE + _count_optional(found) + _KEYS_OF[Light] * len(found.lights)
+    keys += sum(_KEYS_OF[kind] * count for kind, count in kinds.items())
+    if SpheresInFile in kinds:
+        spheres = [item for item in found.objects if isinstance(item, SpheresInFile)]
+        keys += sum(map(_count_colons, spheres))
+        # A colon of a path that is written as an escape is not in the file.
+        if any(":" in item.data for item in spheres) and b"\\u003" in raw:
+            return False
+    # A colon inside any other string is that of an unknown key or its value.
+    return raw.count(b":") == keys
+
+
+def _count_optional(found: SceneInFile) -> int:
+    """Count the optional keys of a file, but for those that are given with their default.
+
+    With such a key there are more colons, which costs a slow look, but misses nothing.
+    """
+    camera = found.camera
+    keys = (camera.projection != "perspective") + (camera.up is not None) * (1 + _keys(Direction))
+    if found.render is not UNSET:
+        keys += 1 + len(msgspec.to_builtins(found.render))
+        keys += _keys(Color) * isinstance(found.render.background, Color)
+    return keys
+
+
+def _count_colons(item: SpheresInFile) -> int:
+    """Count the colons of spheres in a file: one for each key, and those of the path."""
+    given = [key for key in item.__struct_fields__ if getattr(item, key) is not UNSET]
+    tag = 1
+    return tag + len(given) + ("color" in given) * _keys(Color) + item.data.count(":")
+
+
+class _Split(msgspec.Struct):
+    """A scene whose lists are left as they stand in the file."""
+
+    lights: msgspec.Raw = msgspec.Raw(b"[]")
+    objects: msgspec.Raw = msgspec.Raw(b"[]")
+
+
+def _explain(raw: bytes, name: str, warn: Warn) -> None:
+    """Look for what is wrong, slowly: raise SceneError, or warn about unknown keys."""
+    from vtray.scene.checks.json_tree import JsonTree
+    from vtray.scene.checks.scene_check import FileChecker
+
+    if not raw.strip():
+        problem = (
+            "the file is empty; expected a JSON object with the keys camera, lights and objects"
+        )
+        raise SceneError(f"{name}: {problem}")
+    try:
+        clean, ignored = _clean_parts(raw)
+        tree = JsonTree(raw, clean, SceneInFile.__struct_fields__)
+        checker = FileChecker(tree.line, ignored)
+        checker.check(tree.read(), SceneInFile)
+    except SceneError as problem:
+        raise SceneError(f"{name}: {problem}") from None
+    except RecursionError:
+        raise SceneError(f"{name}: nested too deeply; a scene needs 4 levels") from None
+    for line in checker.unknown.lines():
+        warn(f"{name}: {line}")
+
+
+def _read_spheres(found: SceneInFile, name: str, folder: str, warn: Warn) -> list[Object]:
+    """Return the objects of a file with the arrays it names; warn about unknown arrays."""
+    from vtray.scene.files.spheres_file import with_arrays
+
+    try:
+        objects, unknown = with_arrays(found.objects, folder)
+    except SceneError as problem:
+        raise SceneError(f"{name}: {problem}") from None
+    for line in unknown:
+        warn(f"{name}: {line}")
+    return objects
+
+
+def _warn(message: str) -> None:
+    """Warn in the name of the code that called `load` or `loads`."""
+    import warnings
+
+    warnings.warn(message, stacklevel=5)
+
+
+def _clean_parts(raw: bytes) -> tuple[dict[int, int] | None, int]:
+    """Find the lights and objects that need not be read, so that a million of them cost little.
+
+    They are right; or so are they but for unknown keys, after enough others of which there will be
+    warnings; or they come after one that is wrong, and so after the error.
+
+    Returns
+    -------
+    clean : dict of int to int or None
+        Their first and end offsets; None if the syntax is broken.
+    ignored : int
+        How many unknown keys are in them.
+    """
+    from vtray.scene.checks.scene_words import SHOWN_UNKNOWN
+
+    try:
+        split = msgspec.json.decode(raw, type=_Split)
+    except msgspec.ValidationError:
+        return {}, 0
+    except (msgspec.DecodeError, RecursionError):
+        return None, 0
+    clean: dict[int, int] = {}
+    ignored = 0
+    for key, decoder in (("lights", _LIGHT), ("objects", _OBJECT)):
+        whole = getattr(split, key)
+        end = max(raw.find(whole), 0)
+        is_wrong = False
+        shown = 0
+        for part in _split_list(whole):
+            start = raw.find(part, end)
+            end = start + len(part)
+            if not is_wrong:
+                try:
+                    value = decoder.decode(part)
+                except (msgspec.MsgspecError, RecursionError):
+                    is_wrong = True
+                    continue
+                keys = _KEYS_OF[type(value)]
+                if part.count(b":") != keys:
+                    is_shown = not keys or shown < SHOWN_UNKNOWN
+                    unknown = 0 if is_shown else _count_unknown(part, value)
+                    if not unknown:
+                        shown += 1
+                        continue
+                    ignored += unknown
+            clean[start] = end
+    return clean, ignored
+
+
+def _count_unknown(part: bytes, value: msgspec.Struct) -> int:
+    """Count the unknown keys of a light or an object that is right but for them, as it was read.
+
+    Gives 0 where a closer look is needed, as a key may be given twice.
+    """
+    try:
+        found = msgspec.json.decode(part)
+        colons = part.count(b":")
+        # Most have no objects within objects, and no colon in a text.
+        keys = len(found) + sum(len(value) for value in found.values() if type(value) is dict)
+        # A colon that is written as an escape is not in the file.
+        if keys != colons and (_colons_in(found) != colons or b"\\u003" in part):
+            return 0
+    except (msgspec.MsgspecError, RecursionError):
+        return 0
+    inner = ((found[key], getattr(value, key)) for key in value.__struct_fields__)
+    pairs = [(found, value), *((one, two) for one, two in inner if isinstance(two, msgspec.Struct))]
+    return sum(len(one) - _keys(type(two)) for one, two in pairs)
+
+
+def _colons_in(found: object) -> int:
+    """Count the colons of a value of JSON: one for each key, and those in texts."""
+    if isinstance(found, dict):
+        return len(found) + sum(map(_colons_in, found)) + sum(map(_colons_in, found.values()))
+    if isinstance(found, list):
+        return sum(map(_colons_in, found))
+    return found.count(":") if isinstance(found, str) else 0
+
+
+def _split_list(raw: msgspec.Raw) -> Iterator[bytes]:
+    """Give the items of an array as they stand in the file; none if it is not an array."""
+    try:
+        return map(bytes, msgspec.json.decode(raw, type=list[msgspec.Raw]))
+    except msgspec.ValidationError:
+        return iter(())

@@ -1,0 +1,76 @@
+"""The JSON Schema of the scene file, made from the types of `vtray.scene.scene`.
+
+``python -m vtray.scene.files.schema`` prints it; ``docs/scene.schema.json`` is that output.
+"""
+
+import inspect
+import json
+import re
+import sys
+from typing import Any
+
+import msgspec
+
+from vtray.scene.scene import (
+    Camera,
+    Color,
+    Direction,
+    Light,
+    Plane,
+    SceneInFile,
+    Sphere,
+    SpheresInFile,
+    Vector,
+)
+from vtray.scene.settings import RenderSettings
+
+_FIELD = re.compile(r"^(\w+(?:, \w+)*) : .*\n((?:    .+\n?)+)", re.MULTILINE)
+
+
+def scene_schema() -> dict[str, Any]:
+    """Make the JSON Schema of the scene file.
+
+    Returns
+    -------
+    dict
+        A schema of draft 2020-12. It checks all that a schema can; that a key is given only
+        once, for instance, it cannot.
+    """
+    objects = (Sphere, Plane, SpheresInFile)
+    classes = (SceneInFile, Camera, Light, *objects, RenderSettings, Vector, Direction, Color)
+    (_, parts) = msgspec.json.schema_components(classes, ref_template="#/$defs/{name}")
+    for cls in classes:
+        _describe(parts[cls.__name__], inspect.getdoc(cls) or "")
+    # What Direction.__post_init__ checks.
+    parts["Direction"]["not"] = {
+        "properties": {name: {"const": 0} for name in Direction.__struct_fields__}
+    }
+    # A file of centres alone has nothing else.
+    parts["SpheresInFile"] |= {
+        "if": {"properties": {"data": {"pattern": r"\.npy$"}}},
+        "then": {"required": ["radius", "color", "lambert"]},
+    }
+    scene = parts.pop("SceneInFile")
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        **scene,
+        "title": "vtray scene",
+        "$defs": parts,
+    }
+
+
+def _describe(part: dict[str, Any], doc: str) -> None:
+    """Describe a type and its keys in the words of its docstring."""
+    part["description"] = doc.partition("\n\n")[0].replace("\n", " ")
+    for names, text in _FIELD.findall(doc):
+        for name in names.split(", "):
+            key = part["properties"][name]
+            words = key.get("description")
+            text_line = " ".join(text.split())
+            key["description"] = f"{text_line} Expected: {words}." if words else text_line
+
+
+if __name__ == "__main__":
+    # Always UTF-8, whatever the terminal speaks.
+    text = json.dumps(scene_schema(), indent=2, ensure_ascii=False) + "\n"
+    sys.stdout.buffer.write(text.encode())

@@ -1,0 +1,254 @@
+"""The ready-made lights of `vtray.lights`."""
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated
+
+from msgspec import Meta
+
+from vtray.base.exact_math import cosine, sine
+from vtray.scene.objects import Light
+from vtray.scene.placing.directions import Vec, along, cross, unit
+from vtray.scene.studio import HasCamera, Side, direction, studio_of
+from vtray.scene.vectors import Direction
+
+if TYPE_CHECKING:
+    from vtray.scene.vectors import Triple, Vector
+
+Count = Annotated[int, Meta(ge=1, le=4096, description="an integer from 1 to 4096")]
+
+SKY = 1000.0
+"""How far the lights of the sky are, so that they come from the same direction everywhere."""
+
+GOLDEN_ANGLE = 180 * (3 - math.sqrt(5))
+"""In degrees: points that turn by it from one to the next never line up."""
+
+
+def rembrandt(
+    scene: HasCamera, intensity: float = 1.0, *, side: Side = "left", ratio: float = 4.0
+) -> list[Light]:
+    """Return Rembrandt light: a key high on one side, and a weak fill on the other.
+
+    The key is 45 degrees to the side and 45 above; on a face it leaves a triangle of light on the
+    cheek in shadow. The fill is 30 degrees to the other side and 10 above, two stops weaker (4:1).
+
+    Parameters
+    ----------
+    scene
+        A scene with a camera and at least one sphere.
+    intensity
+        Intensity of the key.
+    side
+        Where the key stands in the picture, "left" or "right".
+    ratio
+        Key to fill, ≥ 1; a larger one gives darker shadows.
+
+    Returns
+    -------
+    list of Light
+        The key and the fill.
+
+    Raises
+    ------
+    SceneError
+        If the scene has no camera or no sphere, or an argument is not right.
+    """
+    studio = studio_of("rembrandt", scene)
+    return studio.key_and_fill(intensity, side, ratio, key=(45, 45), fill=(-30, 10))
+
+
+def loop(
+    scene: HasCamera, intensity: float = 1.0, *, side: Side = "left", ratio: float = 3.0
+) -> list[Light]:
+    """Return loop light, the portrait photographer's usual one: softer shadows than Rembrandt's.
+
+    The key is 35 degrees to the side and 30 above; on a face the nose throws a small loop of
+    shadow. The fill is 30 degrees to the other side and 10 above, at 3:1.
+
+    Parameters, result and errors are those of `rembrandt`.
+    """
+    studio = studio_of("loop", scene)
+    return studio.key_and_fill(intensity, side, ratio, key=(35, 30), fill=(-30, 10))
+
+
+def split(
+    scene: HasCamera, intensity: float = 1.0, *, side: Side = "left", ratio: float = 8.0
+) -> list[Light]:
+    """Return split light: one half bright, the other dark.
+
+    The key is 90 degrees to the side and 10 above; the fill comes from the camera, three stops
+    weaker (8:1).
+
+    Parameters, result and errors are those of `rembrandt`.
+    """
+    studio = studio_of("split", scene)
+    return studio.key_and_fill(intensity, side, ratio, key=(90, 10), fill=(0, 5))
+
+
+def butterfly(scene: HasCamera, intensity: float = 1.0, *, ratio: float = 3.0) -> list[Light]:
+    """Return butterfly light, also called Paramount light: a key straight above the camera.
+
+    The key is 50 degrees above; on a face the nose throws a shadow like a butterfly below it. The
+    fill comes from the camera, at 3:1. (In a studio it is a reflector below, which a floor in the
+    scene would hide.)
+
+    Parameters
+    ----------
+    scene
+        A scene with a camera and at least one sphere.
+    intensity
+        Intensity of the key.
+    ratio
+        Key to fill, ≥ 1.
+
+    Returns
+    -------
+    list of Light
+        The key and the fill.
+
+    Raises
+    ------
+    SceneError
+        If the scene has no camera or no sphere, or an argument is not right.
+    """
+    studio = studio_of("butterfly", scene)
+    return studio.key_and_fill(intensity, "right", ratio, key=(0, 50), fill=(0, 5))
+
+
+def ring(scene: HasCamera, intensity: float = 1.0, *, count: int = 24) -> list[Light]:
+    """Return a ring light: lamps in a circle around the camera's lens.
+
+    The circle is 12 degrees from the camera's axis. Everything is lit from the front, without
+    strong shadows but for a soft rim around what is in front of something else.
+
+    Parameters
+    ----------
+    scene
+        A scene with a camera and at least one sphere.
+    intensity
+        Intensity of all lights together.
+    count
+        How many lights there are, from 1 to 4096; more give softer shadows, and take longer.
+
+    Returns
+    -------
+    list of Light
+        Lights of the same intensity.
+
+    Raises
+    ------
+    SceneError
+        If the scene has no camera or no sphere, or an argument is not right.
+    """
+    studio = studio_of("ring", scene)
+    number = studio.checked("count", count, Count)
+    aside, ahead = sine(12), cosine(12)
+    turns = (360 * (k + 0.5) / number for k in range(number))
+    directions = ((aside * sine(turn), aside * cosine(turn), ahead) for turn in turns)
+    return studio.share(intensity, ((place, 1.0) for place in directions), number)
+
+
+def cloudy(
+    scene: HasCamera,
+    intensity: float = 1.0,
+    *,
+    count: int = 64,
+    up: "Direction | Vector | Triple | None" = None,
+) -> list[Light]:
+    """Return the light of an overcast sky: from all sides above, with the softest shadows.
+
+    The lights are spread evenly over half a sphere. The sky is three times as bright straight above
+    as at the horizon, as that of the CIE's standard overcast sky.
+
+    Parameters
+    ----------
+    scene
+        A scene with a camera and at least one sphere.
+    intensity
+        Light on a surface that faces straight up with nothing above it, as that of a single light
+        there.
+    count
+        How many lights there are, from 1 to 4096; more give softer shadows, and take longer.
+    up
+        What is up in the world. By default the normal of the scene's first plane, on the side of
+        the spheres, unless the camera's `up` is the normal of another one; without planes, the
+        camera's `up`, or where it has none, up in the picture.
+
+    Returns
+    -------
+    list of Light
+        Lights of different intensities.
+
+    Raises
+    ------
+    SceneError
+        If the scene has no camera or no sphere, or an argument is not right.
+
+    References
+    ----------
+    P. Moon, D. E. Spencer: *Illumination from a non-uniform sky*, 1942.
+    """
+    studio = studio_of("cloudy", scene).upright(scene, up)
+    number = studio.checked("count", count, Count)
+    sky = []
+    for k in range(number):
+        height = (k + 0.5) / number  # equal steps of height are equal areas of a sphere
+        across = math.sqrt(1 - height * height)
+        turn = k * GOLDEN_ANGLE
+        place = (across * sine(turn), height, across * cosine(turn))
+        sky.append((place, (1 + 2 * height) / 3))
+    upward = math.fsum(light * place[1] for place, light in sky)
+    return studio.at(SKY).share(intensity, sky, upward)
+
+
+def lightbox(
+    scene: HasCamera,
+    intensity: float = 1.0,
+    *,
+    count: int = 48,
+    up: "Direction | Vector | Triple | None" = None,
+) -> list[Light]:
+    """Return the light of a tent for product photographs: large white panels on three sides.
+
+    One panel is on each side, 60 degrees from the camera and 20 above the horizon, and one
+    overhead, 75 degrees above it, all equally bright and as wide as they are far. They leave weak,
+    soft shadows below.
+
+    Parameters
+    ----------
+    scene
+        A scene with a camera and at least one sphere.
+    intensity
+        Intensity of each panel, all its lights together.
+    count
+        How many lights there are at least, from 1 to 4096, in three square grids.
+    up
+        What is up in the world, as for `cloudy`.
+
+    Returns
+    -------
+    list of Light
+        Lights of the same intensity.
+
+    Raises
+    ------
+    SceneError
+        If the scene has no camera or no sphere, or an argument is not right.
+    """
+    studio = studio_of("lightbox", scene).upright(scene, up)
+    number = studio.checked("count", count, Count)
+    rows = math.isqrt(math.ceil(number / 3) - 1) + 1
+    panels = [direction(-60, 20), direction(60, 20), direction(0, 75)]
+    grid = [point for panel in panels for point in _panel(panel, rows)]
+    return studio.share(intensity, ((point, 1.0) for point in grid), rows * rows)
+
+
+def _panel(middle: Vec, rows: int) -> Iterator[Vec]:
+    """Give the places of lights in a square panel that faces the subject, as wide as it is far."""
+    level = cross((0.0, 1.0, 0.0), middle)
+    level = unit(Direction(*level))
+    steep = cross(middle, level)
+    offsets = [(k + 0.5) / rows - 0.5 for k in range(rows)]
+    for a in offsets:
+        for b in offsets:
+            yield along(along(middle, a, level), b, steep)

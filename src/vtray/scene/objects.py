@@ -1,0 +1,138 @@
+"""What a scene is made of: lights, spheres and planes, as the scene file defines them."""
+
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import msgspec
+from msgspec import UNSET, UnsetType
+
+from vtray.scene.checks.checked import Frozen
+from vtray.scene.checks.limits import DataPath, Fraction, NonNegative
+from vtray.scene.spheres import Spheres
+from vtray.scene.vectors import Color, Direction, Vector
+
+if TYPE_CHECKING:
+    from vtray.scene.vectors import Triple
+
+_SURFACE = MappingProxyType({"color": Color(255, 255, 255), "lambert": 1.0})
+
+
+class Light(Frozen, frozen=True, gc=False):
+    """A point light; its light does not fall off with distance.
+
+    In code, the intensity is 1 unless it is given.
+
+    Attributes
+    ----------
+    location : Vector
+        Position in world space.
+    intensity : float
+        Strength, relative to the other lights, ≥ 0.
+    """
+
+    location: Vector
+    intensity: NonNegative
+
+    _in_code = MappingProxyType({"intensity": 1.0})
+
+    if TYPE_CHECKING:
+
+        def __init__(self, location: "Vector | Triple", intensity: float = 1.0) -> None: ...
+
+
+class Sphere(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
+    """A sphere with a matt surface, which can also be seen from inside.
+
+    In code, the colour is white and `lambert` 1 unless they are given.
+
+    Attributes
+    ----------
+    center : Vector
+        Centre in world space.
+    radius : float
+        Radius in scene units, ≥ 0; a sphere of radius 0 is never hit.
+    color : Color
+        Colour of the surface.
+    lambert : float
+        Share of the light that the surface scatters, from 0 to 1.
+    """
+
+    center: Vector
+    radius: NonNegative
+    color: Color
+    lambert: Fraction
+
+    _in_code = _SURFACE
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            center: "Vector | Triple",
+            radius: float,
+            color: "Color | Triple" = ...,
+            lambert: float = 1.0,
+        ) -> None: ...
+
+
+class Plane(Frozen, frozen=True, gc=False, tag_field="type", tag="plane"):
+    """A plane without edges and with two matt sides.
+
+    In code, the colour is white and `lambert` 1 unless they are given.
+
+    Attributes
+    ----------
+    center : Vector
+        Any point of the plane, in world space.
+    normal : Direction
+        Direction square to the plane, in world space.
+    color : Color
+        Colour of the surface.
+    lambert : float
+        Share of the light that the surface scatters, from 0 to 1.
+    """
+
+    center: Vector
+    normal: Direction
+    color: Color
+    lambert: Fraction
+
+    _in_code = _SURFACE
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            center: "Vector | Triple",
+            normal: "Direction | Vector | Triple",
+            color: "Color | Triple" = ...,
+            lambert: float = 1.0,
+        ) -> None: ...
+
+
+class SpheresInFile(
+    msgspec.Struct, frozen=True, tag_field="type", tag="spheres", omit_defaults=True
+):
+    """Many spheres, whose numbers stand in a file of NumPy arrays.
+
+    Attributes
+    ----------
+    data : str
+        Path of the arrays, relative to the scene file: a .npz file with the arrays center
+        and, where they are not keys of this object, radius, color and lambert; or a .npy
+        file with the centres alone.
+    radius : float, optional
+        Radius of all spheres, in scene units; for a .npz file, it may stand there.
+    color : Color, optional
+        Colour of all spheres; for a .npz file, it may stand there.
+    lambert : float, optional
+        Share of the light that the surfaces scatter; for a .npz file, it may stand there.
+    """
+
+    data: DataPath
+    radius: NonNegative | UnsetType = UNSET
+    color: Color | UnsetType = UNSET
+    lambert: Fraction | UnsetType = UNSET
+
+
+Object = Sphere | Plane | Spheres

@@ -1,0 +1,445 @@
+"""The scene: plain typed objects that are also the definition of the scene file.
+
+The file format, its checks, the words of its error messages and the JSON Schema all come
+from the annotations in this module.
+"""
+
+import itertools
+import os
+from collections.abc import Container, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import msgspec
+from msgspec import UNSET, UnsetType
+
+from vtray.base.errors import OutputError, SceneError
+from vtray.scene.camera import Camera
+from vtray.scene.checks.checked import Checked
+from vtray.scene.checks.unknown_names import explain_unknown, unknown_attribute
+from vtray.scene.colors.names import to_rgb
+from vtray.scene.objects import Light, Object, Plane, Sphere, SpheresInFile
+from vtray.scene.settings import RenderSettings
+from vtray.scene.spheres import Spheres
+from vtray.scene.vectors import Color, Direction, Vector
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from vtray.scene.colors.color_scale import ColorMap
+    from vtray.scene.colors.names import AnyColor
+    from vtray.scene.vectors import Triple
+
+__all__ = [
+    "Camera",
+    "Color",
+    "Direction",
+    "Light",
+    "Object",
+    "Plane",
+    "Scene",
+    "SceneInFile",
+    "Sphere",
+    "Spheres",
+    "SpheresInFile",
+    "Vector",
+]
+
+
+class SceneInFile(msgspec.Struct, omit_defaults=True):
+    """All that a picture is made from.
+
+    Attributes
+    ----------
+    camera : Camera
+        Where the picture is taken from.
+    lights : list of Light
+        The lights; may be empty.
+    objects : list of Sphere, Plane or SpheresInFile
+        The objects; may be empty.
+    render : RenderSettings, optional
+        How the picture is taken.
+    """
+
+    camera: Camera
+    lights: list[Light]
+    objects: list[Sphere | Plane | SpheresInFile]
+    render: RenderSettings | UnsetType = UNSET
+
+
+class Scene(msgspec.Struct, metaclass=Checked, dict=True):
+    """All that a picture is made from.
+
+    Its attributes may be replaced, its lists changed, and so may arrays that `Spheres` share;
+    `check` looks at them again.
+
+    Attributes
+    ----------
+    camera : Camera
+        Where the picture is taken from; None until it is set.
+    lights : list of Light
+        The lights; may be empty.
+    objects : list of Sphere, Plane or Spheres
+        The objects; may be empty.
+    render : RenderSettings
+        How the picture is taken, unless `vtray.render` is told otherwise.
+
+    Examples
+    --------
+    >>> scene = Scene()
+    >>> spheres = scene.add_spheres([(0, 0, 5), (1, 0, 5)], radius=0.5, color=["red", "#00f"])
+    >>> scene.camera = Camera.fit(scene)
+    """
+
+    if TYPE_CHECKING:  # what code may give, beside what the attributes hold
+        camera: Camera  # where None is left, `check` raises
+        lights: list[Light]
+        objects: list[Object]
+        render: RenderSettings
+
+        def __init__(
+            self,
+            camera: Camera | None = None,
+            lights: Sequence[Light] = (),
+            objects: Sequence[Object] = (),
+            render: RenderSettings = ...,
+        ) -> None: ...
+    else:
+        camera: Camera | None = None
+        lights: list[Light] = msgspec.field(default_factory=list)
+        objects: list[Object] = msgspec.field(default_factory=list)
+        render: RenderSettings = msgspec.field(default_factory=RenderSettings)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        """Set an attribute of these; a misspelt one would be ignored by everyone."""
+        if name not in self.__struct_fields__:
+            raise AttributeError(_no_attribute(name))
+        super().__setattr__(name, value)
+
+    @explain_unknown
+    def add_sphere(
+        self,
+        center: "Vector | Triple",
+        radius: float,
+        color: "AnyColor" = "white",
+        lambert: float = 1.0,
+    ) -> Sphere:
+        """Add a sphere to the objects.
+
+        Parameters
+        ----------
+        center
+            Centre in world space.
+        radius
+            Radius in scene units, ≥ 0.
+        color
+            A colour, in any of the ways of `vtray.colors.to_rgb`.
+        lambert
+            Share of the light that the surface scatters, from 0 to 1.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right.
+        """
+        place = _argument("add_sphere", "center", center, Vector)
+        sphere = Sphere(place, radius, Color(*to_rgb(color, "add_sphere: color")), lambert)
+        self.objects.append(sphere)
+        return sphere
+
+    @explain_unknown
+    def add_spheres(
+        self,
+        positions: "ArrayLike",
+        radius: "ArrayLike",
+        color: "AnyColor | ArrayLike | Sequence[AnyColor]" = "white",
+        lambert: "ArrayLike" = 1.0,
+        *,
+        cmap: "ColorMap | None" = None,
+        clim: tuple[float, float] | None = None,
+        nan_color: "AnyColor" = "gray",
+    ) -> Spheres:
+        """Add many spheres to the objects.
+
+        Arrays may be of any package that NumPy understands: its own, lists, data frames of Pandas
+        or Polars, and what speaks DLPack. Of positions, radii and Lambert coefficients, arrays of
+        float32 and float64 are not copied.
+
+        Parameters
+        ----------
+        positions
+            Centres in world space, (n, 3).
+        radius
+            Radii in scene units, (n,), or one for all, ≥ 0.
+        color
+            One colour for all, in any of the ways of `vtray.colors.to_rgb`; or one for each, as a
+            list of such or as numbers of shape (n, 3), integers from 0 to 255 or floats from 0 to
+            1; or, with `cmap`, n values.
+        lambert
+            Share of the light that the surfaces scatter, from 0 to 1, (n,), or one for all.
+        cmap
+            Turns values into colours: the name of a colour map of Matplotlib, such as "viridis" or,
+            reversed, "viridis_r", or a colour map of Matplotlib or of the package ``cmap``.
+        clim
+            The values of the map's first and last colour; by default the least and the largest of
+            all finite values.
+        nan_color
+            The colour of values that are NaN.
+
+        Returns
+        -------
+        Spheres
+            What was added; its `color_scale` tells how values became colours.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right. The message names the place, for instance
+            ``add_spheres: radius[17]``.
+        """
+        from vtray.scene.colors.color_arrays import color_array
+        from vtray.scene.spheres import from_arrays
+
+        place, called = "add_spheres: ", {"center": "positions"}
+        plain = {"center": positions, "radius": radius, "lambert": lambert}
+        spheres = from_arrays({**plain, "color": (0, 0, 0)}, place, called)
+        colors, scale = color_array(
+            color, len(spheres), place, cmap=cmap, clim=clim, nan_color=nan_color
+        )
+        checked = {**msgspec.structs.asdict(spheres), "color": colors}
+        spheres = from_arrays(checked, place, called).with_scale(scale)
+        self.objects.append(spheres)
+        return spheres
+
+    @explain_unknown
+    def add_plane(
+        self,
+        point: "Vector | Triple",
+        normal: "Direction | Vector | Triple",
+        color: "AnyColor" = "white",
+        lambert: float = 1.0,
+    ) -> Plane:
+        """Add a plane to the objects.
+
+        Parameters
+        ----------
+        point
+            Any point of the plane, in world space.
+        normal
+            Direction square to the plane, in world space, of any length but zero.
+        color
+            A colour, in any of the ways of `vtray.colors.to_rgb`.
+        lambert
+            Share of the light that the surface scatters, from 0 to 1.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right.
+        """
+        place = _argument("add_plane", "point", point, Vector)
+        square = _argument("add_plane", "normal", normal, Direction)
+        plane = Plane(place, square, Color(*to_rgb(color, "add_plane: color")), lambert)
+        self.objects.append(plane)
+        return plane
+
+    @explain_unknown
+    def add_light(self, location: "Vector | Triple", intensity: float = 1.0) -> Light:
+        """Add a point light.
+
+        Parameters
+        ----------
+        location
+            Position in world space.
+        intensity
+            Strength, relative to the other lights, ≥ 0.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right.
+        """
+        light = Light(_argument("add_light", "location", location, Vector), intensity)
+        self.lights.append(light)
+        return light
+
+    def check(self) -> None:
+        """Check the scene after changes made in code.
+
+        Raises
+        ------
+        SceneError
+            If the camera is missing, or if it, a light, an object or the settings are not of their
+            type.
+        """
+        Scene(self.camera, self.lights, self.objects, self.render)
+        if _is_none(self.camera):
+            remedy = "set one, for instance vtray.Camera.fit(scene)"
+            raise SceneError(f"Scene.camera: there is none; {remedy}")
+        if Spheres in map(type, self.objects):
+            for index, item in enumerate(self.objects):
+                if isinstance(item, Spheres):
+                    item.check(f"Scene.objects[{index}]")
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the scene as a dictionary that `vtray.load_dict` makes an equal scene of.
+
+        Returns
+        -------
+        dict
+            What a scene file says, in Python's own types; `Spheres` are
+            ``{"type": "spheres", "center": array, ...}`` with their read-only arrays, not copied.
+
+        Raises
+        ------
+        SceneError
+            If the scene is not valid.
+        """
+        self.check()
+        data: dict[str, Any] = {
+            "camera": msgspec.to_builtins(self.camera),
+            "lights": [msgspec.to_builtins(light) for light in self.lights],
+            "objects": [_object_to_dict(item) for item in self.objects],
+        }
+        settings = msgspec.to_builtins(self.render)
+        return {**data, "render": settings} if settings else data
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the scene as indented JSON that `vtray.load` reads back as an equal scene.
+
+        The arrays of `Spheres` go to files beside it: for scene.json to scene.npz, those of
+        further `Spheres` to scene-2.npz and so on. A file of such a name is replaced if it belongs
+        to the scene file that is replaced, or if these spheres were read from it.
+
+        Parameters
+        ----------
+        path : str or path
+            The file to write. Each file is replaced as a whole, or left as it was; arrays are
+            written first, and the JSON last.
+
+        Raises
+        ------
+        SceneError
+            If the scene is not valid any more.
+        OutputError
+            If a file cannot be written, or one for arrays is there that is not the scene's own.
+        """
+        from vtray.base.atomic_file import write_whole
+
+        self.check()
+        target = Path(path)
+        objects: list[Sphere | Plane | SpheresInFile] = []
+        arrays: dict[str, dict[str, object]] = {}
+        for item in self.objects:
+            if isinstance(item, Spheres):
+                name = _unused_name(target, arrays)
+                _check_own(target, name, item)
+                entry, arrays[name] = _split_spheres(item, name)
+                objects.append(entry)
+            else:
+                objects.append(item)
+        found = SceneInFile(self.camera, self.lights, objects)
+        if self.render != RenderSettings():
+            found.render = self.render
+        data = msgspec.json.format(_encode(found, target), indent=2) + b"\n"
+
+        def write(file: BinaryIO) -> None:
+            file.write(data)
+
+        for name, columns in arrays.items():
+            from vtray.scene.files.array_file import write_arrays
+
+            write_arrays(target.with_name(name), columns)
+        write_whole(target, write)
+
+
+def _no_attribute(name: str) -> str:
+    """Say that a scene has no such attribute, and where it belongs."""
+    if name not in RenderSettings.__struct_fields__:
+        return unknown_attribute("Scene", name, Scene.__struct_fields__)
+    ways = f"vtray.render(scene, {name}=...) or scene.render = scene.render.replace({name}=...)"
+    return f"Scene has no attribute {name!r}, which is a setting of the render: {ways}"
+
+
+def _is_none(value: object) -> bool:
+    return value is None
+
+
+def _argument(call: str, name: str, value: object, kind: Any) -> Any:  # noqa: ANN401
+    """Return an argument of a call as an object of a kind, or raise SceneError naming it."""
+    from vtray.scene.checks.scene_check import from_code
+
+    return value if isinstance(value, kind) else from_code(value, kind, f"{call}: {name}")
+
+
+def _object_to_dict(item: Object) -> dict[str, Any]:
+    """Return an object as what a scene file says of it, or with its arrays."""
+    if not isinstance(item, Spheres):
+        plain: dict[str, Any] = msgspec.to_builtins(item)
+        return plain
+    columns = msgspec.structs.asdict(item)
+    if item.color.ndim == 1:
+        columns["color"] = dict(zip("rgb", item.color.tolist(), strict=True))
+    return {"type": "spheres", **columns}
+
+
+def _unused_name(scene: Path, used: Container[str]) -> str:
+    """Give the name for the next arrays of a scene."""
+    numbers = itertools.chain([""], (f"-{number}" for number in itertools.count(2)))
+    names = (f"{scene.stem}{number}.npz" for number in numbers)
+    return next(name for name in names if name not in used and name != scene.name)
+
+
+def _check_own(scene: Path, name: str, spheres: Spheres) -> None:
+    """Raise OutputError if a file in the place of a scene's arrays is not its own."""
+    file = scene.with_name(name)
+    if not file.exists():
+        return
+    own = spheres.source is not None and spheres.source.exists() and file.samefile(spheres.source)
+    if not own and name not in _arrays_of(scene):
+        remedy = "save the scene under another name, or delete that file first"
+        raise OutputError(f"{file}: is there already and does not belong to {scene.name}; {remedy}")
+
+
+def _arrays_of(scene: Path) -> list[str]:
+    """Return what files of arrays a scene file names, none if it is no scene file."""
+    from vtray.base.input_file import read_input
+
+    try:
+        found = msgspec.json.decode(read_input(scene), type=_Objects)
+    except (OSError, msgspec.DecodeError, RecursionError):
+        return []
+    return [item.data for item in found.objects]
+
+
+class _Data(msgspec.Struct):
+    """An object of a scene file, as far as it names a file."""
+
+    data: str = ""
+
+
+class _Objects(msgspec.Struct):
+    """A scene file, as far as it names files."""
+
+    objects: list[_Data]
+
+
+def _split_spheres(spheres: Spheres, name: str) -> tuple[SpheresInFile, dict[str, object]]:
+    """Split spheres into what stands in a scene file, and the arrays of a file of this name."""
+    arrays = msgspec.structs.asdict(spheres)
+    shared: dict[str, Any] = {}
+    if spheres.color.ndim == 1:
+        shared["color"] = Color(*arrays.pop("color").tolist())
+    for key in ("radius", "lambert"):
+        if isinstance(arrays[key], float):
+            shared[key] = arrays.pop(key)
+    return SpheresInFile(name, **shared), arrays
+
+
+def _encode(scene: SceneInFile, target: Path) -> bytes:
+    """Write a scene as JSON."""
+    try:
+        return msgspec.json.encode(scene)
+    except UnicodeEncodeError:
+        message = f"{target}: cannot be written: the name is not UTF-8, as JSON needs it"
+        raise OutputError(message) from None

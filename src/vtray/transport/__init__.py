@@ -1,0 +1,1 @@
+"""What light does: from a tile of pixels to what is seen there."""

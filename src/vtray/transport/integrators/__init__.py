@@ -1,0 +1,1 @@
+"""How the light along a ray is found."""

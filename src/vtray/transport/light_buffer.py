@@ -1,0 +1,139 @@
+"""What is kept of every ray so that lights and colours can be changed without tracing again.
+
+For each ray, that is what it hit, and for each light the cosine with which it arrives there, 0
+where it does not. From these the light of the picture is added up anew, by the same operations in
+the same order as in tracing, so that not a bit differs.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.compiler.compiled import device, kernel
+from vtray.geometry.packets.packet import (
+    BLOCKED,
+    COSINE,
+    KEPT,
+    NO_PRIMITIVE,
+    PRIMITIVE,
+    SOURCE,
+    WEIGHT,
+    Packet,
+)
+from vtray.geometry.vector import add, scale
+from vtray.geometry.world import SceneArrays
+from vtray.transport.interaction import material
+
+
+class KeptLight(NamedTuple):
+    """What is kept of the rays of a pass; nothing is kept if there are no places.
+
+    Attributes
+    ----------
+    first
+        The place of the first ray of each pixel, -1 for a pixel without rays, (height, width).
+    primitive
+        What each ray hits, -1 for nothing, (places,).
+    weight
+        What each ray counts for its pixel, 1 or -1, (places,).
+    cosines
+        The cosine for each light, (lights, places).
+    """
+
+    first: NDArray[np.int64]
+    primitive: NDArray[np.int32]
+    weight: NDArray[np.int8]
+    cosines: NDArray[np.float64]
+
+
+def nothing_kept() -> KeptLight:
+    """Return that of a pass of which nothing is kept."""
+    return new_kept_light(np.zeros((0, 0), np.int64), 0, 0)
+
+
+def new_kept_light(first: NDArray[np.int64], places: int, lights: int) -> KeptLight:
+    """Return what will be kept of a pass with so many rays."""
+    return KeptLight(
+        first,
+        np.empty(places, np.int32),
+        np.empty(places, np.int8),
+        np.zeros((lights, places)),
+    )
+
+
+@device
+def is_kept(kept: KeptLight) -> bool:
+    """Tell whether anything is kept."""
+    pixels: int = kept.first.shape[0]
+    return pixels > 0
+
+
+@device
+def keep_ray(packet: Packet, lane: int, place: int, kept: KeptLight) -> None:
+    """Keep what a ray hits and what it counts for."""
+    packet[KEPT + lane] = place
+    kept.primitive[place] = int(packet[PRIMITIVE + lane])
+    kept.weight[place] = int(packet[WEIGHT + lane])
+
+
+@device
+def keep_cosines(packet: Packet, hits: int, light: int, kept: KeptLight) -> None:
+    """Keep the cosine of a light at the hits that it reaches."""
+    for hit in range(hits):
+        place = int(packet[KEPT + int(packet[SOURCE + hit])])
+        reached = packet[BLOCKED + hit] == 0.0
+        kept.cosines[light, place] = packet[COSINE + hit] if reached else 0.0
+
+
+@kernel
+def add_up_rows(
+    scene: SceneArrays,
+    kept: KeptLight,
+    samples: int,
+    top: int,
+    bottom: int,
+    linear: NDArray[np.float64],
+) -> None:
+    """Add up the light of the pixels of some rows.
+
+    Parameters
+    ----------
+    scene
+        The scene as it was traced, but for its materials and the intensities of its lights.
+    kept
+        What was kept of the rays.
+    samples
+        How many rays each pixel has, if it has any.
+    top, bottom
+        The rows from the first to before the last.
+    linear
+        Out: linear light, (height, width, 3).
+    """
+    for row in range(top, bottom):
+        for column in range(linear.shape[1]):
+            first = kept.first[row, column]
+            if first < 0:
+                continue
+            light = (0.0, 0.0, 0.0)
+            total = 0.0
+            for place in range(first, first + samples):
+                weight = float(kept.weight[place])
+                light = add(light, scale(weight, _light_of_ray(scene, kept, place)))
+                total += weight
+            linear[row, column, 0] = light[0] / total
+            linear[row, column, 1] = light[1] / total
+            linear[row, column, 2] = light[2] / total
+
+
+@device
+def _light_of_ray(scene: SceneArrays, kept: KeptLight, place: int) -> tuple[float, float, float]:
+    """Return the light along a ray."""
+    value = (0.0, 0.0, 0.0)
+    primitive = int(kept.primitive[place])
+    if primitive != NO_PRIMITIVE:
+        color, lambert = material(scene, primitive)
+        for light in range(kept.cosines.shape[0]):
+            strength = kept.cosines[light, place] * lambert * scene.lights.intensity[light]
+            value = add(value, scale(strength, color))
+    return value

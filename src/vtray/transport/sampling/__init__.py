@@ -1,0 +1,1 @@
+"""Which rays are cast for which pixels, and what each counts."""

@@ -1,0 +1,199 @@
+"""What the kernels must know of the samples of a pixel."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.compiler.compiled import device
+from vtray.geometry.camera_rays import CameraFrame
+from vtray.geometry.packets.packet import BLOCK, COLUMN, LANES, ROW, WEIGHT, Block, Packet
+from vtray.geometry.packets.ray_bounds import Footprint
+from vtray.geometry.packets.workspace import Pixels
+from vtray.scene.settings import RenderSettings
+from vtray.transport.sampling.filters import FILTERS, filter_places, place_in_filter
+from vtray.transport.sampling.sobol import IMAGE_PLACE, pixel_keys, scrambled, sobol_points
+
+WIDEST = 2.0**400
+"""A growth of footprints by which each holds the whole scene."""
+
+
+class Sampling(NamedTuple):
+    """Which rays are cast for which pixels.
+
+    Attributes
+    ----------
+    rays
+        Rays of a pixel; 1 is the ray through its middle.
+    seed
+        Chooses among equally good places.
+    points
+        Their places before they are scrambled, (2, count).
+    places
+        The table of the filter.
+    positive
+        Up to which distance the filter is not negative.
+    footprint
+        Outlines of spheres as near to a ray as that are noted; without width where nobody asks.
+    marks
+        The pixels that are traced, (height, width), or (0, 0) for all.
+    """
+
+    rays: int
+    seed: int
+    points: NDArray[np.int64]
+    places: NDArray[np.float64]
+    positive: float
+    footprint: Footprint
+    marks: NDArray[np.bool_]
+
+
+_NO_FOOTPRINT = Footprint(0.0, 0.0)
+
+
+def middle_rays(footprint: Footprint = _NO_FOOTPRINT) -> Sampling:
+    """Return one ray for each pixel, through its middle."""
+    none = np.zeros((0, 0), np.bool_)
+    return Sampling(1, 0, sobol_points(1), np.zeros(2), math.inf, footprint, none)
+
+
+def filter_samples(settings: RenderSettings, marks: NDArray[np.bool_]) -> Sampling:
+    """Return the samples of the pixels that are marked."""
+    return Sampling(
+        int(settings.samples),
+        int(settings.seed),
+        sobol_points(int(settings.samples)),
+        filter_places(settings.filter),
+        FILTERS[settings.filter].positive,
+        _NO_FOOTPRINT,
+        marks,
+    )
+
+
+def filter_footprint(settings: RenderSettings, camera: CameraFrame) -> Footprint:
+    """Return how wide the part of the scene is that a pixel is made of."""
+    reach = FILTERS[settings.filter].radius * math.sqrt(2.0)
+    width, height, distance = camera.pixel
+    growth = min(reach * max(width, height) / distance, WIDEST)
+    return Footprint(reach * max(camera.shift), growth)
+
+
+@device
+def list_pixels(block: Block, marks: NDArray[np.bool_], curve: Pixels, pixels: Pixels) -> int:
+    """List the pixels of a block that are traced along its curve; return how many there are."""
+    count = 0
+    if marks.shape[0] == 0 and block.width == BLOCK and block.height == BLOCK:
+        for k in range(BLOCK * BLOCK):
+            pixels[k] = curve[k]
+        return BLOCK * BLOCK
+    for k in range(BLOCK * BLOCK):
+        pixel = curve[k]
+        column, row = pixel % BLOCK, pixel // BLOCK
+        inside = column < block.width and row < block.height
+        if inside and (marks.shape[0] == 0 or marks[block.top + row, block.left + column]):
+            pixels[count] = pixel
+            count += 1
+    return count
+
+
+@device
+def place_samples(
+    packet: Packet,
+    block: Block,
+    begin: int,
+    end: int,
+    sampling: Sampling,
+    first: int,
+    last: int,
+    pixels: Pixels,
+) -> int:
+    """Set where the rays of a packet go through the image, and what they weigh.
+
+    Parameters
+    ----------
+    packet
+        Its rows ``COLUMN``, ``ROW`` and ``WEIGHT`` are set, for all lanes.
+    block, begin, end
+        The pixels are those from `begin` to before `end` in the block's list.
+    sampling, first, last
+        Of each the samples from `first` to before `last`, one after the other.
+    pixels
+        The list.
+
+    Returns
+    -------
+    int
+        How many lanes are used; the others repeat the last.
+    """
+    lanes = (end - begin) * (last - first)
+    if sampling.rays == 1:
+        for lane in range(lanes):
+            pixel = pixels[begin + lane]
+            packet[COLUMN + lane] = block.left + (pixel & (BLOCK - 1))
+            packet[ROW + lane] = block.top + pixel // BLOCK
+            packet[WEIGHT + lane] = 1.0
+    else:
+        for k in range(begin, end):
+            pixel = pixels[k]
+            column, row = block.left + pixel % BLOCK, block.top + pixel // BLOCK
+            lane = (k - begin) * (last - first)
+            _place_in_pixel(packet, lane, column, row, sampling, first, last)
+            _keep_positive(packet, lane, last - first)
+    for lane in range(lanes, LANES):
+        packet[COLUMN + lane] = packet[COLUMN + lanes - 1]
+        packet[ROW + lane] = packet[ROW + lanes - 1]
+    return lanes
+
+
+@device
+def _place_in_pixel(
+    packet: Packet, lane: int, column: int, row: int, sampling: Sampling, first: int, last: int
+) -> None:
+    """Set the places and weights of samples of one pixel."""
+    key_x, key_y = pixel_keys(column, row, IMAGE_PLACE, sampling.seed)
+    # A loop for each step: only so are they vectorised.
+    _scramble(packet, COLUMN + lane, sampling.points, 0, first, last, key_x)
+    _scramble(packet, ROW + lane, sampling.points, 1, first, last, key_y)
+    _put_in_filter(packet, lane, last - first, sampling)
+    for k in range(lane, lane + last - first):
+        packet[COLUMN + k] += column
+        packet[ROW + k] += row
+
+
+@device
+def _scramble(
+    packet: Packet,
+    to: int,
+    points: NDArray[np.int64],
+    axis: int,
+    first: int,
+    last: int,
+    key: int,
+) -> None:
+    """Set a coordinate of samples from `first` to before `last`, from 0 to below 1."""
+    for k in range(last - first):
+        packet[to + k] = scrambled(points[axis, first + k], key)
+
+
+@device
+def _put_in_filter(packet: Packet, lane: int, samples: int, sampling: Sampling) -> None:
+    """Turn coordinates from 0 to 1 into distances from the pixel; set what each sample weighs."""
+    for k in range(lane, lane + samples):
+        x = place_in_filter(sampling.places, packet[COLUMN + k])
+        y = place_in_filter(sampling.places, packet[ROW + k])
+        packet[COLUMN + k] = x
+        packet[ROW + k] = y
+        counts = (abs(x) <= sampling.positive) == (abs(y) <= sampling.positive)
+        packet[WEIGHT + k] = 1.0 if counts else -1.0
+
+
+@device
+def _keep_positive(packet: Packet, lane: int, samples: int) -> None:
+    """Let samples of a pixel in a packet count the same if half their weight would cancel."""
+    total = 0.0
+    for k in range(samples):
+        total += packet[WEIGHT + lane + k]
+    if total < 0.5 * samples:
+        for k in range(samples):
+            packet[WEIGHT + lane + k] = 1.0

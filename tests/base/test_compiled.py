@@ -1,0 +1,119 @@
+"""Compiled kernels are kept, found again, and replaced when they do not fit."""
+
+import hashlib
+import importlib
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+from examples import one_sphere
+
+from conftest import compiled_only
+from vtray.base.compiler import compiled, kernel_folder
+
+pytestmark = compiled_only
+
+# Of all kernels that call others of several modules, this one compiles the fastest.
+SCRIPT = """
+import vtray
+from vtray.base.compiler.compiled import loading_seconds
+tree = vtray.trace_pixel(vtray.loads({document!r}), 32, 24)
+assert tree.light[0] > 0
+print(loading_seconds())
+"""
+
+
+def start(package: Path | None, **environment: str) -> "subprocess.Popen[str]":
+    """Start a process that traces a lit pixel and prints the seconds of compiling."""
+    import json
+
+    script = SCRIPT.format(document=json.dumps(one_sphere()))
+    extra = {"PYTHONPATH": str(package)} if package else {}
+    return subprocess.Popen(
+        [sys.executable, "-c", script],
+        env={**os.environ, **extra, **environment},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def finish(process: "subprocess.Popen[str]") -> float:
+    """Return the seconds of compiling of a process that must succeed in silence."""
+    out, err = process.communicate(timeout=300)
+    assert (process.returncode, err) == (0, "")
+    return float(out)
+
+
+def test_compiled_once_and_found_again_by_two_at_once(tmp_path: Path) -> None:
+    cache = {"VTRAY_CACHE_DIR": str(tmp_path)}
+    both = [start(None, **cache), start(None, **cache)]
+    first = max(finish(process) for process in both)
+    files = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.kernel")}
+    again = finish(start(None, **cache))
+    assert again < first / 5
+    assert files == {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.kernel")}
+
+    # A damaged file is compiled again, not trusted and not a crash.
+    for path in files:
+        path.write_bytes(b"damaged")
+    assert finish(start(None, **cache)) > again * 5
+    assert finish(start(None, **cache)) < first / 5
+
+    # So is one that others may have written.
+    path.chmod(0o666)
+    out, err = start(None, **cache).communicate(timeout=300)
+    assert float(out) > again * 5
+    assert err.count("Warning") == 1
+    assert f"{path} may be written to by others, so this kernel is compiled anew" in err
+    assert finish(start(None, **cache)) < first / 5
+
+
+def test_change_in_any_source_is_noticed(tmp_path: Path) -> None:
+    package = tmp_path / "site"
+    shutil.copytree(Path(kernel_folder.__file__).parents[2], package / "vtray")
+    cache = {"VTRAY_CACHE_DIR": str(tmp_path / "cache")}
+    finish(start(package, **cache))
+    shading = package / "vtray" / "transport" / "shading.py"
+    times = shading.stat()
+    # The kernel calls this from another module; length and time stay as they were.
+    text = shading.read_text()
+    assert "(height > reach)" in text
+    shading.write_text(text.replace("(height > reach)", "(height > 1e99)"))
+    os.utime(shading, ns=(times.st_atime_ns, times.st_mtime_ns))
+    changed = start(package, **cache)
+    _, err = changed.communicate(timeout=300)
+    assert "AssertionError" in err  # the pixel is black now
+
+
+def test_picture_is_the_same_on_a_processor_without_wide_vectors(tmp_path: Path) -> None:
+    scene = Path(__file__).parents[2] / "scenes" / "inside.json"
+    command = [Path(sys.executable).with_name("vtray"), scene]
+    plain = {"NUMBA_CPU_NAME": "generic", "VTRAY_CACHE_DIR": str(tmp_path / "cache")}
+    subprocess.run([*command, tmp_path / "this.png"], check=True)
+    subprocess.run([*command, tmp_path / "plain.png"], env={**os.environ, **plain}, check=True)
+    assert (tmp_path / "this.png").read_bytes() == (tmp_path / "plain.png").read_bytes()
+
+
+@pytest.mark.parametrize("library", ["math", "polars"])  # Polars handles the signal, too
+def test_interrupt_does_not_wait_for_the_compiler(
+    library: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    importlib.import_module(library)
+    ended = threading.Event()
+
+    def long_work_in_c(*_: object) -> None:
+        hashlib.pbkdf2_hmac("sha256", b"", b"", 4_000_000)
+        ended.set()
+
+    monkeypatch.setattr("vtray.base.compiler.compiled.compile_object", long_work_in_c)
+    threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        compiled.kernel(lambda value: value)(1.0)
+    assert not ended.is_set()
+    assert ended.wait(20)

@@ -1,0 +1,152 @@
+"""Two pictures side by side."""
+
+import json
+import math
+import re
+from base64 import b64decode
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+from examples import one_sphere
+from hypothesis import given
+from hypothesis import strategies as st
+from PIL import Image as PillowImage
+
+import vtray
+from vtray.base import memory
+from vtray.figures.comparison import DiffError
+
+Pixels = np.ndarray
+
+
+def noise(seed: int, height: int = 9, width: int = 13, channels: int = 3) -> Pixels:
+    return np.random.default_rng(seed).integers(0, 256, (height, width, channels), np.uint8)
+
+
+@given(st.integers(0, 1000), st.integers(1, 9), st.integers(1, 9), st.sampled_from([2, 9, 255]))
+def test_figures_are_those_of_plain_numpy(seed: int, height: int, width: int, steps: int) -> None:
+    a = noise(seed, height, width)
+    change = np.random.default_rng(seed + 1).integers(-steps, steps + 1, a.shape)
+    b = np.clip(a + change * (noise(seed + 2, height, width, 1) < 60), 0, 255).astype(np.uint8)
+    found = vtray.compare(a, b)
+    error = np.abs(a.astype(float) - b.astype(float))
+    assert found.largest == error.max()
+    assert found.mean == pytest.approx(error.mean())
+    assert found.rmse == pytest.approx(math.sqrt((error**2).mean()))
+    assert found.differing == (error.max(axis=2) > 0).sum()
+    assert found.share == found.differing / (height * width)
+    if found.box is None:
+        assert (a == b).all()
+        assert found.psnr == math.inf
+    else:
+        assert found.psnr == pytest.approx(10 * math.log10(255**2 / (error**2).mean()))
+        left, top, right, bottom = found.box
+        outside = error.copy()
+        outside[top:bottom, left:right] = 0
+        assert outside.max() == 0
+        inside = error[top:bottom, left:right].max(axis=2)
+        assert all(edge.max() > 0 for edge in (*inside[[0, -1]], *inside.T[[0, -1]]))
+
+
+def test_difference_picture() -> None:
+    a = np.full((2, 3, 3), 100, np.uint8)
+    b = a.copy()
+    b[0, 0], b[1, 2] = (101, 100, 90), (100, 0, 100)
+    found = vtray.compare(a, b)
+    assert found.difference[0, 0].tolist() == [65, 0, 83]
+    assert found.difference[1, 2].tolist() == [0, 255, 0]
+    assert found.difference.sum() == 65 + 83 + 255
+    assert not vtray.compare(a, a).difference.any()
+
+
+def test_text() -> None:
+    a = np.zeros((4, 5, 3), np.uint8)
+    b = a.copy()
+    b[1:3, 2] = (0, 3, 0)
+    assert str(vtray.compare(a, a)) == "all 20 pixels are equal (5 x 4)"
+    lines = str(vtray.compare(a, b)).splitlines()
+    assert lines[:3] == [
+        "differing    2 of 20 pixels (10 %)",
+        "where        columns 2 to 2, rows 1 to 2 of 5 x 4",
+        "largest      3 of 255",
+    ]
+    assert [line.split()[0] for line in lines[3:]] == ["mean", "RMSE", "PSNR"]
+
+
+def test_images_arrays_and_files(tmp_path: Path) -> None:
+    image = vtray.render(vtray.loads(json.dumps(one_sphere())), threads=1)
+    path = tmp_path / "a.png"
+    image.save(path)
+    for other in (image, image.pixels, path, str(path)):
+        assert vtray.compare(image, other).box is None
+    changed = image.pixels.copy()
+    changed[5, 6] ^= 1
+    found = vtray.compare(path, changed)
+    assert (found.names, found.box) == ((str(path), "b"), (6, 5, 7, 6))
+
+
+def test_transparent_pixels_lie_on_black_as_in_files(tmp_path: Path) -> None:
+    pixels = noise(1, 40, 40, 4)
+    PillowImage.fromarray(pixels).save(tmp_path / "a.png")
+    assert vtray.compare(pixels, tmp_path / "a.png").box is None
+    assert vtray.compare(pixels, pixels[..., :3]).box is not None
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "message"),
+    [
+        (noise(1), noise(1, 9, 12), "b: expected an image of 13 x 9 pixels, as a is, got 12 x 9"),
+        (noise(1) / 255, noise(1), r"a: expected an Image, a path, .* got float64 \(9, 13, 3\)"),
+        (noise(1), noise(1)[..., 0], r"b: expected .* got uint8 \(9, 13\)"),
+        (noise(1), None, "b: expected .* got NoneType"),
+        (noise(1), "none.png", "none.png: cannot be read: no such file"),
+    ],
+)
+def test_what_cannot_be_compared(a: object, b: object, message: str) -> None:
+    with pytest.raises(DiffError, match=message):
+        vtray.compare(a, b)
+
+
+def test_flip_is_that_of_the_command() -> None:
+    pytest.importorskip("flip_evaluator", reason="needs the extra vtray[diff]")
+    from vtray.commands import diff
+
+    a, b = noise(1), noise(2)
+    assert vtray.compare(a, b).flip == diff.compare(a, b).flip
+
+
+def test_notebook_shows_both_and_the_difference() -> None:
+    found = vtray.compare(noise(1), noise(2))
+    html = found._repr_html_()
+    sources = re.findall(r'src="data:image/png;base64,([^"]+)"', html)
+    shown = [np.asarray(PillowImage.open(BytesIO(b64decode(source)))) for source in sources]
+    for picture, expected in zip(shown, (found.a, found.b, found.difference), strict=True):
+        np.testing.assert_array_equal(picture, expected)
+    assert str(found) in html
+    object.__setattr__(found, "names", ("<a>", "b"))
+    assert "<a>" not in found._repr_html_()
+
+
+def test_figure_shows_all_three_as_they_are() -> None:
+    pytest.importorskip("matplotlib", reason="needs the extra vtray[figure]")
+    found = vtray.compare(noise(1, 70, 301), noise(2, 70, 301))
+    figure = found.figure()
+    figure.canvas.draw()
+    canvas = np.asarray(figure.canvas.buffer_rgba())[..., :3]
+    for axes, expected in zip(figure.axes, (found.a, found.b, found.difference), strict=True):
+        box = axes.get_window_extent()
+        left, top = round(box.x0), round(len(canvas) - box.y1)
+        np.testing.assert_array_equal(canvas[top : top + 70, left : left + 301], expected)
+    assert [text.get_text() for text in figure.texts][:2] == ["a", "b"]
+
+
+def test_picture_too_large_for_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "a.png"
+    PillowImage.new("RGB", (100, 100)).save(path)
+    assert vtray.compare(path, path).pixels == 10_000
+    monkeypatch.setattr(memory, "_limits", lambda: [memory._Limit(2, 10**5, "")])
+    problem = "a picture of 100 x 100 pixels needs .* of memory, 0 MB is available"
+    with pytest.raises(vtray.VtrayError, match=f"{path}: {problem}"):
+        vtray.compare(path, path)

@@ -1,0 +1,198 @@
+"""The hierarchy itself: every sphere in one leaf, every box around what is below it."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+from clouds import CLOUDS, cloud
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays_of
+
+from conftest import JIT, compiled_only
+from vtray.geometry.bvh import build as bvh_build
+from vtray.geometry.bvh import key_sort
+from vtray.geometry.bvh import nodes as bvh_nodes
+from vtray.geometry.bvh.build import Built, build
+from vtray.geometry.bvh.tree import (
+    COUNT_BITS,
+    COUNT_MASK,
+    EMPTY,
+    LEAF,
+    MAX_DEPTH,
+    SIDES,
+    STACK,
+    WIDTH,
+)
+from vtray.geometry.packets.shaft import MARGIN
+
+COUNT = 3000 if JIT else 60
+
+
+class Walk(NamedTuple):
+    """What was found on a way through a whole tree."""
+
+    nodes: int
+    depth: int
+    waiting: int
+    slots: list[tuple[int, int]]
+
+
+def walk(built: Built) -> Walk:
+    """Visit all nodes as a search that meets everything does; check that boxes contain boxes."""
+    child = built.bvh.child.reshape(-1, WIDTH)
+    sides = built.bvh.sides.reshape(-1, 6, WIDTH)
+    stack, nodes, depth, waiting = [(0, 1)], 0, 0, 1
+    slots: list[tuple[int, int]] = []
+    while stack:
+        waiting = max(waiting, len(stack))
+        node, level = stack.pop()
+        nodes, depth = nodes + 1, max(depth, level)
+        assert nodes <= len(child)
+        for k, below in enumerate(child[node].tolist()):
+            box = sides[node, :, k]
+            if below >= 0:
+                assert (box[:3] == sides[below, :3].min(axis=1)).all()
+                assert (box[3:] == sides[below, 3:].max(axis=1)).all()
+                stack.append((below, level + 1))
+            elif below != EMPTY:
+                first, count = ~below >> COUNT_BITS, ~below & COUNT_MASK
+                assert 1 <= count <= LEAF
+                slots.append((first, count))
+                check_leaf(built, box, slice(first, first + count))
+            else:
+                assert (box[:3] > box[3:]).all()
+    return Walk(nodes, depth, waiting, slots)
+
+
+def check_leaf(built: Built, box: np.ndarray, slots: slice) -> None:
+    """See that the box of a leaf contains its spheres and the margin, and is not far too large."""
+    data = built.leaves.data.reshape(-1, 4)[slots].astype(np.longdouble)
+    scale, origin = built.frame
+    place = data[:, :3] * scale - np.array(origin, np.longdouble)
+    radius = (data[:, 3] * scale)[:, None]
+    margin = MARGIN * (np.abs(place).sum(axis=1)[:, None] + radius)
+    low, high = (place - radius).min(axis=0), (place + radius).max(axis=0)
+    assert (box[:3] <= (place - radius - 0.99 * margin).min(axis=0)).all()
+    assert (box[3:] >= (place + radius + 0.99 * margin).max(axis=0)).all()
+    slack = 2 * margin.max() + 2.0**-21 * np.abs([low, high]).max(axis=0) + 2.0**-147
+    assert (box[:3] >= low - slack).all()
+    assert (box[3:] <= high + slack).all()
+
+
+def check(center: np.ndarray, radius: np.ndarray, threads: int = 1) -> Built:
+    """Build a tree, and check all that must be true of any tree."""
+    built = build(center, radius, threads)
+    n = len(center)
+    found = walk(built)
+    assert found.nodes * WIDTH == len(built.bvh.child)
+    assert found.nodes * SIDES == len(built.bvh.sides)
+    assert found.nodes <= n // 4 + 1 + n // bvh_build.SMALL
+    assert found.depth == built.depth <= STACK // WIDTH
+    assert found.waiting <= found.depth * (WIDTH - 1) + 1 <= STACK
+    # The leaves hold all slots once, and the slots all spheres once.
+    ends = np.cumsum([count for _, count in sorted(found.slots)])
+    assert [first for first, _ in sorted(found.slots)] == [0, *ends[:-1].tolist()]
+    assert ends[-1] == n
+    number = built.leaves.number
+    assert (np.sort(number) == np.arange(n)).all()
+    data = built.leaves.data.reshape(-1, 4)
+    np.testing.assert_array_equal(data[:, :3], center[number])
+    np.testing.assert_array_equal(data[:, 3], np.broadcast_to(radius, n)[number])
+    # The frame keeps everything near 1.
+    scale, origin = built.frame
+    assert np.frexp(scale)[0] == 0.5
+    assert (np.abs(center.astype(float) * scale - np.array(origin)) <= 4).all()
+    return built
+
+
+def columns(name: str, count: int, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
+    """Return centres and radii of a cloud."""
+    spheres = cloud(name, count, seed)
+    return np.ascontiguousarray(spheres.center), np.atleast_1d(np.array(spheres.radius, float))
+
+
+def assert_equal_trees(one: Built, two: Built) -> None:
+    """Compare two trees."""
+    assert one[2:] == two[2:]
+    np.testing.assert_array_equal(one.bvh.child, two.bvh.child)
+    np.testing.assert_array_equal(one.bvh.sides, two.bvh.sides)
+    assert (one.leaves.number == two.leaves.number).all()
+    assert (one.leaves.data == two.leaves.data).all()
+
+
+@pytest.mark.parametrize("name", CLOUDS)
+@pytest.mark.parametrize("count", [1, 2, 3, 8, 9, 64, COUNT])
+def test_tree(name: str, count: int) -> None:
+    check(*columns(name, count))
+
+
+@compiled_only
+@pytest.mark.parametrize("name", CLOUDS)
+def test_large_tree(name: str) -> None:
+    check(*columns(name, 20_000, 3))
+
+
+@pytest.mark.parametrize("name", CLOUDS)
+def test_is_the_same_for_any_number_of_threads(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    # Small tasks, so that a small cloud takes all paths of a large one.
+    monkeypatch.setattr(bvh_build, "SMALL", 16)
+    monkeypatch.setattr(bvh_build, "CHUNK", 100 if JIT else 7)
+    monkeypatch.setattr(key_sort, "SMALL", 32)
+    points = columns(name, COUNT, 1)
+    expected = check(*points)
+    for threads in (2, 3, 7):
+        assert_equal_trees(build(*points, threads), expected)
+
+
+@compiled_only
+@pytest.mark.parametrize("name", ["uniform", "float32", "one_point", "cluster_and_outlier"])
+def test_is_the_same_for_any_number_of_threads_above_all_limits(name: str) -> None:
+    points = columns(name, 100_000, 1)
+    assert len(points[0]) > max(key_sort.SMALL, bvh_build.CHUNK)
+    expected = build(*points, 1)
+    assert_equal_trees(build(*points, 2), expected)
+    assert_equal_trees(build(*points, 7), expected)
+
+
+def test_bits_of_one_sphere() -> None:
+    built = check(np.array([[1.0, 2.0, 3.0]]), np.array([0.5]))
+    assert built.depth == 1
+    assert built.largest == 3.0
+    assert built.frame == (0.25, (0.25, 0.5, 0.75))
+    assert built.bvh.child[0] == ~(0 << COUNT_BITS | 1)
+    assert (built.bvh.child[1:WIDTH] == EMPTY).all()
+    assert_near = np.testing.assert_allclose
+    assert_near(built.bvh.sides[::WIDTH], [-0.125] * 3 + [0.125] * 3, rtol=2.0**-22)
+
+
+def test_spheres_at_one_point_or_without_size() -> None:
+    for place in ((0.0, 0.0, 0.0), (-5e-324, 0.0, 5e-324), (1.7e308, -1.7e308, 0.0)):
+        check(np.array([place] * COUNT), np.zeros(1))
+        check(np.array([place] * 20), np.full(20, 1.7e308))
+
+
+def test_depth_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    if not JIT:
+        monkeypatch.setattr(bvh_nodes, "MAX_DEPTH", 2)
+    # A thousand scales, which halve from one to the next: most splits take off few points. What
+    # is symmetric has its middle at 0, where no scale is lost to rounding.
+    random = np.random.default_rng(2)
+    scales = 2.0 ** -np.arange(0, 1060, 1 if JIT else 50)
+    half = (scales[:, None, None] * random.uniform(0.5, 1, (len(scales), 6, 3))).reshape(-1, 3)
+    built = check(np.concatenate([half, -half]), np.zeros(1))
+    assert (MAX_DEPTH if JIT else 2) < built.depth <= STACK // WIDTH
+
+
+COORDINATES = st.sampled_from([0.0, 1.0, -1.0, 5e-324, 1e-300, 1e-9, 1e9, 1e300, -1e300]) | (
+    st.floats(-2, 2) | st.floats(allow_nan=False, allow_infinity=False)
+)
+
+
+@given(st.data(), st.integers(1, 60 if JIT else 20))
+def test_tree_of_any_numbers(data: st.DataObject, count: int) -> None:
+    draw = data.draw
+    center = draw(arrays_of.arrays(np.float64, (count, 3), elements=COORDINATES))
+    sizes: Any = COORDINATES.map(abs)
+    radius = draw(arrays_of.arrays(np.float64, draw(st.sampled_from([1, count])), elements=sizes))
+    check(center, radius)

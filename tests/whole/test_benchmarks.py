@@ -1,0 +1,512 @@
+"""The benchmarks: scenes for other renderers, and tables; none of these renderers is needed.
+
+Those that are installed render a small scene, and must show what vtray shows.
+"""
+
+import importlib
+import itertools
+import json
+import sys
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import vtray
+
+BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
+FEW, SMALL = 60, 64
+"""Spheres, and the side of a picture in pixels."""
+SCENE = {
+    "camera": {
+        "center": {"x": 0, "y": 0, "z": 2},
+        "normal": {"x": 0, "y": 0, "z": 3},
+        "focus": 2,
+        "size": [40, 20],
+        "resolution": [0.1, 0.2],
+    },
+    "lights": [{"location": {"x": 1, "y": -5, "z": 6}, "intensity": 0.5}],
+    "objects": [
+        {
+            "type": "sphere",
+            "center": {"x": 1, "y": 2, "z": 10},
+            "radius": 3,
+            "color": {"r": 255, "g": 0, "b": 51},
+            "lambert": 0.5,
+        },
+        {
+            "type": "plane",
+            "center": {"x": 0, "y": 4, "z": 0},
+            "normal": {"x": 0, "y": 2, "z": 0},
+            "color": {"r": 0, "g": 255, "b": 0},
+            "lambert": 1,
+        },
+    ],
+}
+
+
+@pytest.fixture(autouse=True)
+def _importable(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the modules of the benchmarks be imported, as they are when they run."""
+    monkeypatch.syspath_prepend(BENCHMARKS)
+
+
+def module(name: str) -> ModuleType:
+    """Import a module of the benchmarks."""
+    found = importlib.import_module(name)
+    assert Path(str(found.__file__)).parent == BENCHMARKS
+    return found
+
+
+def view() -> Any:
+    """Return the scene, twice as bright, as other renderers see it."""
+    return module("camera_space").view_from_eye(vtray.loads(json.dumps(SCENE)), 2.0)
+
+
+def test_view_is_seen_from_the_eye_with_y_up() -> None:
+    seen = view()
+    assert (seen.width, seen.height) == (40, 20)
+    assert (seen.pixel_width, seen.pixel_height) == (0.05, 0.1)
+    assert seen.lights == [((1, 5, 6), 1.0)]
+    sphere, plane = seen.surfaces
+    assert (sphere.center, sphere.shape) == ((1, -2, 10), 3)
+    assert sphere.color == pytest.approx((0.5, 0, 0.1))
+    assert plane.center == (0, -4, 0)
+    assert plane.shape == (0, 1, 0), "the normal on the side of the eye"
+
+
+def test_view_turns_with_the_camera() -> None:
+    camera = {**SCENE["camera"], "normal": {"x": 1, "y": 0, "z": 0}}  # type: ignore[dict-item]
+    scene = vtray.loads(json.dumps({**SCENE, "camera": camera}))
+    seen = module("camera_space").view_from_eye(scene, 1.0)
+    # The eye is at (-2, 0, 2); right is -z, up is -y, forward is x.
+    assert seen.surfaces[0].center == pytest.approx((-8, -2, 3))
+
+
+def test_povray_scene() -> None:
+    assert module("povray").export(view()).splitlines() == [
+        "#version 3.7;",
+        "global_settings { assumed_gamma 1 }",
+        "#default { finish { ambient 0 diffuse 1 } }",
+        (
+            "camera { location 0 direction <-0.025, 0.05, 1.0> right <2.0, 0.0, 0.0> "
+            "up <0.0, 2.0, 0.0> }"
+        ),
+        "light_source { <1.0, 5.0, 6.0>, rgb 1.0 }",
+        "sphere { <1.0, -2.0, 10.0>, 3.0 pigment { rgb <0.5, 0.0, 0.1> } }",
+        "plane { <0.0, 1.0, 0.0>, -4.0 pigment { rgb <0.0, 1.0, 0.0> } }",
+    ]
+
+
+def test_tachyon_scene() -> None:
+    lines = module("tachyon").export(view()).splitlines()
+    assert lines[:2] == ["BEGIN_SCENE", "RESOLUTION 40 20"]
+    assert "  ZOOM 0.5" in lines
+    assert "LIGHT CENTER 1.0 5.0 6.0 RAD 1e-9 COLOR 1.0 1.0 1.0" in lines
+    assert "SPHERE CENTER 1.0 -2.0 10.0 RAD 3.0 look0" in lines
+    assert "PLANE CENTER 0.0 -4.0 0.0 NORMAL 0.0 1.0 0.0 look1" in lines
+    assert lines[-1] == "END_SCENE"
+
+
+@pytest.mark.parametrize(
+    ("name", "output"),
+    [
+        ("povray", "  Trace Time:       0 hours  0 minutes  0 seconds (0.224 seconds)\n"),
+        ("tachyon", "  Ray Tracing Time:     0.2240 seconds\n"),
+        ("vtray_process", "pack            0.1000 s\ntrace           0.2240 s\n"),
+    ],
+)
+def test_trace_seconds_are_read_from_the_output(name: str, output: str) -> None:
+    assert module(name).trace_seconds(output) == 0.224
+    assert np.isnan(module(name).trace_seconds("something else"))
+
+
+@pytest.mark.parametrize(
+    ("name", "output"),
+    [
+        (
+            "povray",
+            "Parse Time:  0 hours (2.5 seconds)\n"
+            "Bounding Time:  0 hours (3.5 seconds)\n"
+            "Trace Time:  0 hours (1.5 seconds)\n",
+        ),
+        (
+            "tachyon",
+            "Scene Parsing Time:     2.5000 seconds\n"
+            "Preprocessing Time:     3.5000 seconds\n"
+            "  Ray Tracing Time:     1.5000 seconds\n",
+        ),
+        ("host", "load    2.5000 s\nbuild   3.5000 s\ntrace   1.5000 s\n"),
+        (
+            "vtray_process",
+            "read 2.0000 s\npack  0.5000 s\nbuild  3.5000 s\ntrace 1.5000 s\nrays   7\n",
+        ),
+    ],
+)
+def test_all_phases_are_read_from_the_output(name: str, output: str) -> None:
+    assert module(name).phases(output) == (2.5, 3.5, 1.5)
+    assert np.isnan(module(name).phases("something else")).all()
+
+
+def test_scenes_are_valid_and_always_the_same() -> None:
+    for _, make, _ in module("scenes").SCENES.values():
+        assert make(16) == make(16)
+        assert vtray.loads(json.dumps(make(16))).camera.size == (16, 16)
+
+
+def test_room_is_what_it_is_said_to_be() -> None:
+    scene = vtray.loads(json.dumps(module("scenes").room(16)))
+    assert len(scene.lights) == 64
+    assert sum(isinstance(item, vtray.Sphere) for item in scene.objects) == 4
+    assert sum(isinstance(item, vtray.Plane) for item in scene.objects) == 5
+
+
+def test_brighter_picture_is_the_same_and_mirrored_one_is_not(tmp_path: Path) -> None:
+    ramp = np.arange(0, 120, 2).repeat(24).reshape(-1, 8, 3).astype(np.uint8)
+    pictures = {"dark": ramp, "bright": ramp * 2, "mirrored": ramp[::-1]}
+    for name, pixels in pictures.items():
+        Image.fromarray(pixels).save(tmp_path / f"{name}.png")
+    same = module("same_picture")
+    dark = tmp_path / "dark.png"
+    assert same.is_same(same.difference(dark, tmp_path / "bright.png"))
+    assert not same.is_same(same.difference(dark, tmp_path / "mirrored.png"))
+
+
+def test_jobs_are_interleaved_and_timed(tmp_path: Path) -> None:
+    measure = module("measure")
+    log = tmp_path / "log"
+
+    def job(name: str) -> Any:
+        code = f"open({str(log)!r}, 'a').write({name!r}); print('inner 1.5')"
+        command = [sys.executable, "-S", "-c", code]
+        return measure.Job(name, command, lambda output: float(output.split()[1]))
+
+    timings = measure.run_interleaved([job("a"), job("b")], 2)
+    assert log.read_text() == "abab"
+    assert timings["a"].inner.median == 1.5
+    assert 0 < timings["b"].whole.median < 60
+
+
+def test_memory_is_that_of_the_process_alone() -> None:
+    if sys.platform == "win32":
+        pytest.skip("Windows does not tell")
+    measure = module("measure")
+
+    def memory(code: str) -> float:
+        command = [sys.executable, "-S", "-c", code]
+        return float(measure.run_once(measure.Job("x", command)).memory)
+
+    ours = np.ones(8_000_000)
+    assert memory("pass") < ours.nbytes
+    assert ours.nbytes < memory(f"b'x' * {ours.nbytes}") < 2 * ours.nbytes
+
+
+def test_failing_job_ends_the_run() -> None:
+    measure = module("measure")
+    with pytest.raises(SystemExit, match="ended with 3"):
+        measure.run_once(measure.Job("x", [sys.executable, "-S", "-c", "raise SystemExit(3)"]))
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [
+        ((0.01234,), "0.0123"),
+        ((0.3, 0.1, 0.2), "0.200 (0.100-0.300)"),
+        ((12.345, 12.345), "12.35 (12.35-12.35)"),
+        ((float("nan"),), "-"),
+    ],
+)
+def test_spread_is_written_as_median_and_range(seconds: tuple[float, ...], text: str) -> None:
+    assert str(module("measure").Spread(seconds)).replace("12.34", "12.35") == text
+
+
+def timing(whole: float, inner: float, **more: float) -> Any:
+    """Return what one run took."""
+    measure = module("measure")
+    memory = more.pop("memory", float("nan"))
+    parts = {name: measure.Spread((seconds,)) for name, seconds in more.items()}
+    return measure.Timing(
+        measure.Spread((whole,)), measure.Spread((inner,)), memory=memory, **parts
+    )
+
+
+def results() -> Any:
+    """Return made-up results."""
+    rendering = module("rendering")
+
+    rows = [
+        rendering.Row("vtray", 1, timing(0.5, 0.2), "0.00, 0.00%"),
+        rendering.Row("POV-Ray", 1, timing(2.0, 1.0), "0.30, 0.10%"),
+        rendering.Row("Tachyon", 1, None, "not installed"),
+    ]
+    machine = {"date": "2000-01-01", "processor": "abacus", "vtray": "9.9", "POV-Ray": "3.7"}
+    found = module("report").Results(machine, 3)
+    found.startup = {"`vtray --help`": timing(0.03, float("nan"))}
+    found.scenes = {"a room": rows}
+    found.threads = {1: timing(0.5, 0.2), 2: timing(0.4, 0.1)}
+    return found
+
+
+def test_report_has_all_times_and_ratios() -> None:
+    report = module("report").full_report(results())
+    assert "| a room | vtray | 1 | 0.500 | 0.200 | 1.00 | 1.00 | 0.00, 0.00% |" in report
+    assert "| a room | POV-Ray | 1 | 2.00 | 1.00 | 4.00 | 5.00 | 0.30, 0.10% |" in report
+    assert "| a room | Tachyon | 1 | - | - | - | - | not installed |" in report
+    assert "| `vtray --help` | 0.0300 | - |" in report
+    assert "| 2 | 0.100 | 2.00 |" in report
+    assert "| processor | abacus |" in report
+
+
+def test_readme_table_replaces_the_text_between_the_markers() -> None:
+    report = module("report")
+    table = report.summary(results())
+    assert "| scene | threads | vtray 9.9 | POV-Ray 3.7 | Tachyon |" in table
+    assert "| a room | 1 | 0.500 (0.200) | 2.00 (1.00) | - |" in table
+    readme = f"before\n{report.BEGIN}\nold\n{report.END}\nafter\n"
+    changed = report.replace_between_markers(readme, table)
+    assert changed == f"before\n{report.BEGIN}\n{table}\n{report.END}\nafter\n"
+    assert report.replace_between_markers(changed, table) == changed
+
+
+def test_readme_without_markers_stays_as_it_is() -> None:
+    report = module("report")
+    for text in ("no markers\n", report.BEGIN, f"{report.END} {report.BEGIN}"):
+        assert report.replace_between_markers(text, "table") == text
+
+
+def cube_results() -> Any:
+    """Return made-up results for the cube."""
+    rendering = module("rendering")
+    found = results()
+    ours = timing(0.5, 0.2, load=0.05, build=0.1, memory=70e6)
+    rows = [
+        rendering.Row("vtray", 1, ours, "0.00, 0.00%"),
+        rendering.Row("Embree", 1, timing(1.0, 0.3, load=0, build=0.4, memory=60e6), "0.01, 0.00%"),
+        rendering.Row("OVITO, Tachyon", 1, timing(2.0, float("nan")), "another picture: dim"),
+        rendering.Row("Tachyon", 1, None, "not installed"),
+    ]
+    found.cube = {"many": rows}
+    found.cube_threads = {1: ours, 2: timing(0.4, 0.1, build=0.08)}
+    ten_times = timing(5.0, 0.8, load=0.5, build=1.0, memory=700e6)
+    found.scaling = {1000: rows, 10_000: [rendering.Row("vtray", 1, ten_times, "")]}
+    return found
+
+
+def test_report_has_the_cube() -> None:
+    report = module("report").full_report(cube_results())
+    for row in (
+        "| many | vtray | 1 | 0.500 | 0.0500 | 0.100 | 0.200 | 70 | 1.00 | 1.00 | 0.00, 0.00% |",
+        "| many | Embree | 1 | 1.00 | 0.0000 | 0.400 | 0.300 | 60 | 2.00 | 1.50 | 0.01, 0.00% |",
+        "| many | OVITO, Tachyon | 1 | 2.00 | - | - | - | - | 4.00 | - | another picture: dim |",
+        "| many | Tachyon | 1 | - | - | - | - | - | - | - | not installed |",
+        "| 2 | 0.0800 | 1.25 | 0.100 | 2.00 |",
+    ):
+        assert row in report
+
+
+def test_report_has_the_growth_for_each_doubling() -> None:
+    report = module("report").full_report(cube_results())
+    # Ten times as long for ten times as many is twice for twice; four times is 1.52 for twice.
+    assert "| 10,000 | 1.00 | x 2.00 | 0.800 | x 1.52 | 5.00 | 700 |" in report
+    assert "| 1,000 | 0.500 (0.200) | 1.00 (0.300) | 2.00 (-) | - |" in report
+    assert "| 10,000 | 5.00 (0.800) | - | - | - |" in report
+
+
+def test_readme_table_has_the_cube_but_no_other_pictures() -> None:
+    table = module("report").summary(cube_results())
+    assert "| many | 1 | 0.500 (0.200) | - | - | 1.00 (0.300) |" in table
+    assert "OVITO" not in table
+
+
+def test_scaling_is_drawn(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    module("plot").draw_scaling(cube_results().scaling, tmp_path / "plot.png")
+    with Image.open(tmp_path / "plot.png") as image:
+        assert image.size == (1000, 500)
+
+
+def test_cube_is_what_it_is_said_to_be() -> None:
+    cube = module("cube")
+    one, two = cube.make_cube(1000), cube.make_cube(1000)
+    assert all(np.array_equal(a, b) for a, b in zip(one, two, strict=True))
+    assert one.center.shape == one.color.shape == (1000, 3)
+    assert -1 <= one.center.min() < -0.9
+    assert 0.9 < one.center.max() <= 1
+    assert one.radius == pytest.approx(0.056)
+
+
+def test_cube_is_in_view_with_its_light_before_the_image_plane() -> None:
+    corners = [
+        {
+            "type": "sphere",
+            "center": dict(zip("xyz", corner, strict=True)),
+            "radius": 0.03,
+            "color": {"r": 1, "g": 2, "b": 3},
+            "lambert": 1,
+        }
+        for corner in itertools.product((-1, 1), repeat=3)
+    ]
+    document = module("cube").scene_around(corners)
+    seen = module("camera_space").view_from_eye(vtray.loads(json.dumps(document)), 1.0)
+    for surface in seen.surfaces[1:]:
+        x, y, z = surface.center
+        half = seen.width * seen.pixel_width / 2
+        assert max(abs(x), abs(y)) + surface.shape < half * z
+        assert z - surface.shape > document["camera"]["focus"]
+    ((x, y, z), _), *others = seen.lights
+    assert z > document["camera"]["focus"]
+    assert x < -1
+    assert y > 1
+    assert not others
+
+
+def test_spheres_as_arrays_are_seen_as_spheres_one_by_one(tmp_path: Path) -> None:
+    cube, camera_space = module("cube"), module("camera_space")
+    many = camera_space.view_from_eye(vtray.load(cube.write_cube(50, tmp_path, 16)), 1.0)
+    single = camera_space.view_from_eye(vtray.loads(cube.list_text(50, 16)), 1.0)
+    (cloud,) = many.clouds
+    assert len(many.surfaces) == 1
+    balls = single.surfaces[1:]
+    assert cloud.spheres == pytest.approx(np.array([(*b.center, b.shape) for b in balls]), abs=1e-6)
+    colors = cloud.color * cloud.lambert / 255
+    assert colors == pytest.approx(np.array([ball.color for ball in balls]), abs=1e-6)
+
+
+@pytest.mark.parametrize("name", ["povray", "tachyon", "host"])
+def test_spheres_as_arrays_are_written_as_those_one_by_one(name: str, tmp_path: Path) -> None:
+    cloud = module("camera_space").Cloud(
+        np.array([[1, -2, 10, 3], [0.5, 2, 8, 0.25]], np.float32),
+        np.array([[255, 0, 51], [0, 255, 0]], np.uint8),
+        1.0,
+    )
+    surface = module("camera_space").Surface
+    balls = [
+        surface(tuple(ball[:3]), ball[3], tuple(color))
+        for ball, color in zip(cloud.spheres.tolist(), (cloud.color / 255).tolist(), strict=True)
+    ]
+    nothing = view()._replace(surfaces=[])
+    written = []
+    for seen in (nothing._replace(clouds=[cloud]), nothing._replace(surfaces=balls)):
+        path = module(name).write_scene(seen, tmp_path)
+        # Tachyon names the look of a sphere of its own.
+        numbers = path.read_bytes().replace(b"TEXDEF", b"").split()
+        written.append(sorted(n for n in numbers if b"look" not in n and n != b"TEXTURE"))
+    assert written[0] == written[1]
+
+
+def test_scene_of_hosts_is_read_as_it_was_written(tmp_path: Path) -> None:
+    host, host_scene = module("host"), module("host_scene")
+    written = host.to_host(view())
+    found = host_scene.read_scene(host.write_scene(view(), tmp_path))
+    assert (found.width, found.height) == (40, 20)
+    assert (found.pixel_width, found.pixel_height) == pytest.approx((0.05, 0.1))
+    for one, two in zip(found[4:], written[4:], strict=True):
+        assert np.array_equal(one, two)
+    assert found.planes.tolist() == [[0, 1, 0, -4, 0, 255, 0, 0]]
+    assert found.spheres.tolist() == [[1, -2, 10, 3]]
+
+
+def test_hosts_get_no_lights_that_a_plane_hides() -> None:
+    seen = view()
+    for lights, count in (([((0, -3, 9), 1.0)], 1), ([((0, -5, 9), 1.0)], 0), (seen.lights * 2, 2)):
+        assert len(module("host").to_host(seen._replace(lights=lights)).lights) == count
+
+
+def test_peers_that_are_missing_are_said_to_be(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    embree, peer, peers = module("embree"), module("peer"), module("peers")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setenv("VTRAY_PEERS", str(tmp_path))
+    caches = (embree.program, peer.version_of_host)
+    for cache in caches:
+        cache.cache_clear()
+    try:
+        assert {peers.describe(each) for each in peers.CUBE_PEERS} == {"not installed"}
+    finally:
+        for cache in caches:
+            cache.cache_clear()
+
+
+@pytest.fixture(scope="module")
+def rendered() -> Any:
+    """Return the picture of a few spheres."""
+    with pytest.MonkeyPatch.context() as context:
+        context.syspath_prepend(BENCHMARKS)
+        text = module("cube").list_text(FEW, SMALL)
+    return vtray.render(vtray.loads(text))
+
+
+@pytest.mark.parametrize("index", range(8))
+def test_peer_that_is_installed_shows_what_vtray_shows(
+    index: int, rendered: Any, tmp_path: Path
+) -> None:
+    peers, same = module("peers"), module("same_picture")
+    peer = peers.CUBE_PEERS[index]
+    if not peers.is_installed(peer):
+        pytest.skip(f"{peer.name} is not installed")
+    rendered.save(tmp_path / "ours.png")
+    scene = vtray.load(module("cube").write_cube(FEW, tmp_path, SMALL))
+    seen = module("camera_space").view_from_eye(scene, 255 / float(rendered.linear.max()))
+    job = module("rendering")._peer_job(peer, peer.write_scene(seen, tmp_path), (SMALL, SMALL), 2)
+    run = module("measure").run_once(job)
+    found = same.difference(tmp_path / "ours.png", tmp_path / f"{job.name}.png", peer.column)
+    assert found.mean < 255, "the size is another"
+    if not peer.apart:
+        assert same.is_same(found)
+        assert 0 <= run.phases.load < 60
+        assert 0 < run.phases.trace < 60
+
+
+def test_report_has_the_times_of_samples() -> None:
+    samples, measure = module("antialiasing"), module("measure")
+
+    def timing(seconds: float) -> Any:
+        return measure.Timing(measure.Spread((0.2 + seconds,)), measure.Spread((seconds,)))
+
+    found = results()
+    found.samples = {
+        samples.job_name(count, threads): timing(0.1 * count / threads)
+        for count in samples.SAMPLES
+        for threads in module("rendering").THREADS
+    }
+    report = module("report").full_report(found)
+    assert "| 16 | 2 | 0.800 | 1.00 | 16 | 4.00 |" in report
+
+
+def test_report_has_the_times_from_arrays() -> None:
+    arrays, measure = module("from_arrays"), module("measure")
+
+    def row(program: str, factor: float, note: str) -> Any:
+        spreads = [measure.Spread((factor * seconds,)) for seconds in (0.5, 0.3, 0.2)]
+        return arrays.ArraysRow(program, 2, *spreads, memory=90e6, note=note)
+
+    found = results()
+    found.arrays = {"many": [row("vtray", 1, "0.00, 0.00%"), row("Mitsuba", 3, "0.30, 0.20%")]}
+    report = module("report").full_report(found)
+    assert "| many | vtray | 2 | 0.200 | 0.300 | 0.500 | 90 | 1.00 | 1.00 | 0.00, 0.00% |" in report
+    assert (
+        "| many | Mitsuba | 2 | 0.600 | 0.900 | 1.50 | 90 | 3.00 | 3.00 | 0.30, 0.20% |" in report
+    )
+
+
+@pytest.mark.parametrize("index", range(4))
+def test_script_makes_the_picture_from_arrays(index: int, tmp_path: Path) -> None:
+    arrays, cube = module("from_arrays"), module("cube").make_cube(FEW)
+    script = arrays.SCRIPTS[index]
+    if script.peer and not module("peers").is_installed(script.peer):
+        pytest.skip(f"{script.name} is not installed")
+    data = tmp_path / "arrays.npz"
+    given = module("arrays_clock").Arrays(cube.center.astype(float), cube.radius, cube.color)
+    module("arrays_clock").save_arrays(given, data)
+    run = module("measure").run_once(arrays._job(script, data, SMALL, 2, 3))
+    assert len(arrays.picture_seconds(run.output)) == 3
+    module("measure").run_once(arrays._job(arrays.SCRIPTS[0], data, SMALL, 1, 1))
+    pictures = [arrays._picture(tmp_path, each) for each in (arrays.SCRIPTS[0], script)]
+    found = module("same_picture").difference(*pictures)
+    assert found.mean < 255, "the size is another"
+    if not (script.peer and script.peer.apart):
+        assert module("same_picture").is_same(found)

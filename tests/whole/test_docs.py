@@ -1,0 +1,148 @@
+"""The site: its pages run, and all of it can be built."""
+
+import os
+import re
+import subprocess
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+import pages
+import pytest
+from PIL import Image
+
+import vtray
+from conftest import compiled_only
+
+PUBLIC = {name for name in vtray.__all__ if not name.startswith("_")}
+SITE_PAGES = sorted(pages.DOCS.glob("*.md"))
+REFERENCE = (pages.DOCS / "reference.md").read_text(encoding="utf-8")
+
+
+@compiled_only
+@pytest.mark.parametrize("page", pages.PAGES, ids=lambda page: page.stem)
+def test_code_of_the_page_runs(page: Path, tmp_path: Path) -> None:
+    (tmp_path / "scenes").symlink_to(pages.ROOT / "scenes")
+    code = f"import pages, pathlib; pages.run_page(pathlib.Path({str(page)!r}))"
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", code],
+        cwd=tmp_path,
+        env={
+            **os.environ,
+            "PYTHONPATH": os.pathsep.join([str(Path(pages.__file__).parent), *sys.path]),
+        },
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    for name in pages.shown_pictures(page):
+        assert_same_picture(tmp_path / name, pages.PICTURES / name)
+
+
+def assert_same_picture(made: Path, shown: Path) -> None:
+    """See that two files show the same, but for other fonts, or sines of another processor."""
+    with Image.open(made) as one, Image.open(shown) as two:
+        assert one.size == two.size, f"{shown.name} is another; run `make gallery`"
+        off = np.abs(np.asarray(one.convert("RGBA"), int) - np.asarray(two.convert("RGBA"), int))
+    assert off.mean() < 0.5, f"{shown.name} is another; run `make gallery`"
+
+
+def test_pages_are_found() -> None:
+    names = {page.stem for page in pages.PAGES}
+    assert {"index", "cameras", "outputs", "trace-a-pixel"} <= names
+    assert sum(len(pages.blocks(page.read_text(encoding="utf-8"))) for page in pages.PAGES) > 20
+
+
+def test_pictures_are_all_shown() -> None:
+    shown = {name for page in pages.PAGES for name in pages.shown_pictures(page)}
+    assert shown == {path.name for path in pages.PICTURES.glob("*")}
+
+
+def test_reference_has_all_public_names() -> None:
+    listed = re.findall(r"^::: vtray\.(\w+)$", REFERENCE, re.MULTILINE)
+    assert len(set(listed)) == len(listed)
+    assert set(listed) == PUBLIC
+
+
+def test_blocks_of_a_page() -> None:
+    page = """
+Words.
+
+```python title="not-written.py"
+print(1)
+```
+
+```text
+1
+```
+
+```json title="scene.json"
+{}
+```
+
+Words.
+
+```text
+not printed
+```
+"""
+    python, scene, other = pages.blocks(page)
+    assert (python.kind, python.text, python.line, python.printed) == (
+        "python",
+        "print(1)\n",
+        5,
+        "1\n",
+    )
+    assert (scene.kind, scene.title, scene.printed) == ("json", "scene.json", None)
+    assert other.kind == "text"
+
+
+@pytest.mark.parametrize(
+    ("block", "message"),
+    [
+        ("```python\nprint(1)\n```\n\n```text\n2\n```\n", "printed\n1"),
+        ("```python\nprint(1)\n```\n", "printed\n1"),
+        ("```sh\nfalse\ntrue\n```\n", "ended with 1"),
+        ("```sh\necho Error\n```\n\n```text\nError\n```\n", "ended with 0"),
+    ],
+)
+def test_wrong_page_is_found_out(
+    block: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    page = tmp_path / "page.md"
+    page.write_text(block)
+    with pytest.raises(AssertionError, match=message):
+        pages.run_page(page)
+
+
+def test_site_is_built_without_a_warning(tmp_path: Path) -> None:
+    if not (find_spec("mkdocs") and find_spec("mkdocstrings")):
+        pytest.skip("MkDocs is not installed")
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(tmp_path)]
+    done = subprocess.run(command, cwd=pages.ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "WARNING -" not in done.stderr
+    made = {path.stem for path in tmp_path.glob("*.html")} - {"404"}
+    assert made == {page.stem for page in SITE_PAGES}
+    reference = (tmp_path / "reference.html").read_text(encoding="utf-8")
+    for name in PUBLIC:
+        assert f'id="vtray.{name}"' in reference
+    # Nothing is loaded from other sites.
+    loaded = re.findall(r'<(?:link|script|img)[^>]+(?:href|src)="(https?://[^"]+)"', reference)
+    assert not [address for address in loaded if "canonical" not in address]
+
+
+def test_rules_are_those_of_the_readme() -> None:
+    def rules(path: Path, end: str) -> str:
+        text = path.read_text(encoding="utf-8")
+        text = text[text.index("## The rules of the picture") :]
+        text = text[: text.index(end)]
+        text = re.sub(r"\s*\(\[`[^)]*\)[^)]*\)", "", text)  # where the code is
+        return " ".join(text.split())
+
+    readme = rules(pages.ROOT / "README.md", "[Samples")
+    assert readme == rules(pages.DOCS / "scene-file.md", "[Samples")
+    assert "8. With m the largest" in readme

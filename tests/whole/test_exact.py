@@ -1,0 +1,167 @@
+"""Nothing that differs between machines takes part in a picture: not in kernels, not before them.
+
+`make arm` compares the pictures of two processors; here is what makes them the same.
+"""
+
+import ast
+import importlib
+import math
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numba
+import numpy as np
+import pytest
+from clouds import cloud
+from llvmlite import binding
+from machine_code import inexact_in
+
+import vtray
+from conftest import compiled_only
+from vtray.base.compiler.compiled import Device, Kernel
+from vtray.base.compiler.object_code import compile_object, read_object_code
+
+SOURCES = Path(vtray.__file__).parent
+
+pytestmark = pytest.mark.usefixtures("compiler")
+
+
+def kernels() -> Iterator[Kernel]:
+    """Give all kernels of the package."""
+    for source in SOURCES.rglob("[!_]*.py"):
+        path = source.relative_to(SOURCES).with_suffix("")
+        module = importlib.import_module(".".join(["vtray", *path.parts]))
+        found = [item for item in vars(module).values() if isinstance(item, Kernel)]
+        yield from (item for item in found if item.__module__ == module.__name__)
+
+
+@compiled_only
+def test_machine_code_of_all_kernels() -> None:
+    scene = vtray.Scene()
+    scene.objects = [cloud("uniform", 200, 1)]
+    scene.camera = vtray.Camera.fit(scene, size=(8, 6))
+    scene.lights = [vtray.Light((2, 3, 4), 1), vtray.Light((-5, 3, 4), 2)]
+    vtray.render(scene, samples=2, keep_lights=True).relight([1, 2])
+    vtray.trace_pixel(scene, 4, 3)
+    for item in kernels():
+        files = [file for types in item._native if (file := item._file(types))]
+        codes = [compiled.code for file in files if (compiled := read_object_code(file))]
+        assert codes, f"{item.__name__}: render above what it is for"
+        for code in codes:
+            assert inexact_in(code) == set(), item.__name__
+
+
+MULTIPLY_ADD = "declare double @llvm.fma.f64(double, double, double)\n" + (
+    "define double @f(double %a, double %b) "
+    "{ %c = call double @llvm.fma.f64(double %a, double %b, double %a) ret double %c }"
+)
+TARGETS = {
+    "x86_64": ("x86_64-unknown-linux-gnu", "+fma", "vfmadd213sd"),
+    "x86_64 without": ("x86_64-unknown-linux-gnu", "", "fma"),
+    "aarch64": ("aarch64-unknown-linux-gnu", "", "fmadd"),
+}
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_fused_multiply_add_is_found(target: str) -> None:
+    triple, features, name = TARGETS[target]
+    binding.initialize_all_targets()
+    binding.initialize_all_asmprinters()
+    machine = binding.Target.from_triple(triple).create_target_machine(features=features)
+    module = binding.parse_assembly(MULTIPLY_ADD)
+    assert inexact_in(machine.emit_object(module)) == {name}
+    module = binding.parse_assembly("define double @f(double %a) { ret double %a }")
+    assert inexact_in(machine.emit_object(module)) == set()
+
+
+def with_functions(x: Any) -> Any:
+    return math.sin(x) + math.exp(x) * np.log(x) ** x
+
+
+def test_calls_of_the_library_are_found() -> None:
+    found = inexact_in(compile_object(with_functions, (0.5,), Kernel._options).code)
+    assert found >= {"sin", "exp", "log", "pow"}
+
+
+FLAGS = re.compile(r"\b(fast|reassoc|contract|arcp|afn|nnan|ninf|nsz) |llvm\.fma|llvm\.fmuladd")
+
+
+def total_of_products(numbers: Any) -> Any:
+    total = 0.0
+    for k in range(numbers.size):
+        total += numbers[k] * numbers[0] / 3.0
+    return total
+
+
+@pytest.mark.parametrize("options", [Kernel._options, Device._options, {"fastmath": True}])
+def test_sums_and_products_keep_their_order(options: dict[str, Any]) -> None:
+    """What the machine code cannot show: flags that let the compiler change the order."""
+    compiler: Any = numba.njit((numba.float64[:],), **options)(total_of_products)
+    (text,) = compiler.inspect_llvm().values()
+    assert "fadd" in text
+    assert (FLAGS.search(text) is not None) == ("fastmath" in options)
+
+
+FIGURES = set(
+    """
+    color_bar comparison diff figure flat flip oklab pen ray_drawing ray_text ray_tree scale_bar
+    section sheet
+    """.split()  # noqa: SIM905
+)
+"""Modules of figures, drawings and comparisons, which may differ in last digits."""
+
+# The library of C; NumPy's own of these; and what NumPy, BLAS or a loop in C adds up in an order of
+# its own.
+INEXACT = set(
+    """
+    sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log log2 log10
+    log1p pow cbrt hypot dist erf erfc gamma lgamma fma sumprod
+
+    arcsin arccos arctan arctan2 arcsinh arccosh arctanh power float_power logaddexp logaddexp2 sinc
+    deg2rad rad2deg i0
+
+    dot vdot vecdot inner matmul matvec vecmat einsum tensordot linalg norm fft convolve correlate
+    interp mean average std var median quantile percentile nansum nanmean trapezoid polyval polyfit
+    """.split()  # noqa: SIM905
+)
+INTEGERS = {"bvh_build", "fingerprint"}
+"""Modules whose sums over arrays are of integers, which have no order."""
+
+
+POWERS = re.compile(r"2(\.0)? \*\* .*|\d+ \*\* \d+")
+
+
+def inexact_lines(name: str, source: str) -> Iterator[str]:
+    """Give what a module uses that may differ between machines."""
+    for node in ast.walk(ast.parse(source)):
+        is_name = isinstance(node, ast.Attribute) and node.attr in INEXACT
+        is_sum = isinstance(node, ast.Attribute) and node.attr == "sum" and name not in INTEGERS
+        is_imported = isinstance(node, ast.ImportFrom) and node.module in {"math", "numpy"}
+        is_product = isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult)
+        is_power = isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow)
+        # Powers of 2, and those of integers that are written out, are not rounded.
+        is_power = is_power and not POWERS.fullmatch(ast.unparse(node))
+        if is_name or is_sum or is_imported or is_product or is_power:
+            yield f"{name}: {ast.unparse(node)}"
+
+
+def test_no_source_uses_what_differs() -> None:
+    modules = {file.stem: file.read_text() for file in SOURCES.rglob("[!_]*.py")}
+    assert modules.keys() >= FIGURES
+    found = [
+        line
+        for name, source in modules.items()
+        if name not in FIGURES
+        for line in inexact_lines(name, source)
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["y = math.tan(x)", "y = np.linalg.norm(x)", "y = x @ x", "y = x**0.5", "y = x.sum(axis=1)"],
+)
+def test_what_differs_is_found_in_a_source(line: str) -> None:
+    assert list(inexact_lines("lights", f"def f(x):\n    {line}\n    return y\n"))

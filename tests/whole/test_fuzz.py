@@ -1,0 +1,57 @@
+"""Each finder finds nothing in a few attempts, and finds what is broken on purpose."""
+
+import json
+from pathlib import Path
+from random import Random
+
+import oracle
+import pytest
+
+from conftest import compiled_only
+from fuzz import damage, truth
+from fuzz.finders import FINDERS, try_once
+
+pytestmark = compiled_only
+
+ATTEMPTS = {
+    "scenes": 40,
+    "arguments": 60,
+    "arrays": 40,
+    "pictures": 60,
+    "kernels": 60,
+    "faults": 6,
+    "truth": 50,
+}
+
+
+@pytest.mark.parametrize("name", FINDERS)
+def test_nothing_is_found(name: str, tmp_path: Path) -> None:
+    failed = [k for k in range(ATTEMPTS.get(name, 10)) if not try_once(name, 1, k, tmp_path)]
+    why = [(tmp_path / f"{name}-1-{k}" / "why.txt").read_text() for k in failed]
+    assert not failed, "\n\n".join(why)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_is_found_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("fuzz.kernels.read_object_code", lambda _: None)
+    assert not try_once("kernels", 5, 3, tmp_path)
+    (folder,) = tmp_path.iterdir()
+    assert folder.name == "kernels-5-3"
+    assert sorted(item.name for item in folder.iterdir()) == ["a.kernel", "why.txt"]
+    assert "AssertionError" in (folder / "why.txt").read_text()
+
+
+def test_a_wrong_picture_is_found_and_saved_as_a_small_scene(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(oracle, "ROUNDING", 1e-3)  # of another bound, hits and shadows are others
+    number = next(k for k in range(20) if not try_once("truth", 4, k, tmp_path))
+    folder = tmp_path / f"truth-4-{number}"
+    scene, small = (json.loads((folder / f"{n}.json").read_text()) for n in ("scene", "smaller"))
+    assert truth.fault_of(small) is not None
+    assert len(small["objects"]) <= len(scene["objects"])
+
+
+def test_the_same_seed_makes_the_same_attempt(tmp_path: Path) -> None:
+    one, two = (damage.damaged_bytes(bytes(100), Random(7)) for _ in range(2))
+    assert one == two != bytes(100)

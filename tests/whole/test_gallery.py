@@ -1,0 +1,107 @@
+"""The gallery: each script runs, and its picture is there."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from conftest import compiled_only
+
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "examples"
+IMAGES = ROOT / "docs" / "images" / "gallery"
+HELPERS = ("gallery", "make_gallery")
+SCRIPTS = sorted(path for path in EXAMPLES.glob("*.py") if path.stem not in HELPERS)
+CHEAP = ("dislocation", "knot", "layers", "reference_scenes")
+MOST_BYTES = 300_000
+
+
+def picture_of(script: Path) -> Path:
+    """Return the picture that a script makes."""
+    (picture,) = IMAGES.glob(f"{script.stem}.*")
+    return picture
+
+
+def run_script(script: Path, *arguments: object) -> None:
+    """Run a script as its users do; a warning is an error."""
+    done = subprocess.run(
+        [sys.executable, "-W", "error", str(script), *map(str, arguments)],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+@compiled_only
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
+def test_script_runs(script: Path, tmp_path: Path) -> None:
+    shown = picture_of(script)
+    made = tmp_path / f"small{shown.suffix}"
+    run_script(script, made, "--small")
+    with Image.open(shown) as large, Image.open(made) as small:
+        assert small.width == pytest.approx(large.width / 8, abs=2)
+        assert small.height == pytest.approx(large.height / 8, abs=2)
+        assert small.convert("L").getextrema()[1] > 128, "it is dark"
+
+
+@compiled_only
+@pytest.mark.parametrize("name", CHEAP)
+def test_picture_is_what_the_script_makes(name: str, tmp_path: Path) -> None:
+    shown = picture_of(EXAMPLES / f"{name}.py")
+    made = tmp_path / shown.name
+    run_script(EXAMPLES / f"{name}.py", made)
+    with Image.open(shown) as one, Image.open(made) as two:
+        assert one.size == two.size
+        off = np.abs(np.asarray(one.convert("RGB"), int) - np.asarray(two.convert("RGB"), int))
+    # Decoders of JPEG differ a little, and NumPy's sines on other processors.
+    assert off.mean() < 0.5, "run `make gallery`"
+
+
+def test_gallery_shows_each_picture_with_its_script() -> None:
+    page = (ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
+    shown = re.findall(r"\(images/gallery/([\w.]+)\)", page)
+    included = re.findall(r'--8<-- "examples/([\w.]+)"', page)
+    assert sorted(shown) == sorted(path.name for path in IMAGES.glob("*"))
+    assert [Path(name).stem for name in shown] == [
+        Path(name).stem for name in included if name != "gallery.py"
+    ]
+    assert {f"{script.stem}.py" for script in SCRIPTS} == set(included) - {"gallery.py"}
+
+
+@pytest.mark.parametrize("folder", ["gallery", "pages"])
+def test_pictures_are_small_files(folder: str) -> None:
+    for path in (ROOT / "docs" / "images" / folder).glob("*"):
+        assert path.stat().st_size < MOST_BYTES, path.name
+
+
+def test_notebook_is_kept_without_outputs() -> None:
+    nbformat = pytest.importorskip("nbformat")
+    notebook = nbformat.read(EXAMPLES / "tour.ipynb", as_version=4)
+    nbformat.validate(notebook)
+    cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert len(cells) > 8
+    assert not any(cell.outputs or cell.execution_count for cell in cells)
+
+
+@compiled_only
+def test_notebook_runs_from_start_to_end() -> None:
+    nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
+    notebook = nbformat.read(EXAMPLES / "tour.ipynb", as_version=4)
+    nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
+    shown = [
+        output.data
+        for cell in notebook.cells
+        if cell.cell_type == "code"
+        for output in cell.outputs
+        if "data" in output
+    ]
+    assert sum("image/png" in data for data in shown) >= 7
+    printed = [o for c in notebook.cells for o in c.get("outputs", []) if o.output_type == "stream"]
+    assert all(output.name == "stdout" for output in printed), "there are warnings"
