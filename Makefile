@@ -62,7 +62,7 @@ benchmarks/.venv/ready: benchmarks/peers.txt
 	benchmarks/.venv/bin/pip install --quiet -r benchmarks/peers.txt
 	touch $@
 
-bench: .venv/ready ## measure, and write benchmarks/results.md and what README.md shows of it
+bench: .venv/ready ## measure, and write the tables of docs/benchmarks.md and README.md
 	$(BIN)/pip install --quiet --editable '.[bench]'
 	$(BIN)/python benchmarks/run.py
 

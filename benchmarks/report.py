@@ -1,7 +1,6 @@
-"""The results as Markdown, and the table in the README."""
+"""The results as Markdown: what the page of the benchmarks shows of them, and what the README."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
 
 import antialiasing
 import arrays_report
@@ -19,6 +18,8 @@ from cube_report import (
 from from_arrays import ArraysRow
 from measure import Timing, in_seconds
 from peers import CUBE_PEERS, PEERS
+from results import Results
+from scenes import SCENES
 from tables import ratio, table
 
 from rendering import THREADS, Row
@@ -27,57 +28,16 @@ BEGIN = "<!-- benchmark:begin -->"
 END = "<!-- benchmark:end -->"
 
 
-@dataclass
-class Results:
-    """All that a run has measured.
-
-    Attributes
-    ----------
-    machine
-        Name and value of all that bears on the numbers.
-    repeats
-        How often each process ran.
-    startup
-        What costs the same for every scene.
-    scenes
-        For each scene, by what it is, the times of all renderers.
-    threads
-        For numbers of threads, vtray's times for the first scene.
-    cube
-        As `scenes`, for a cube of many spheres.
-    cube_threads
-        As `threads`, for this cube.
-    scaling
-        For numbers of spheres in the cube, the times of all renderers with one thread.
-    samples
-        For numbers of samples and of threads, vtray's times for this cube.
-    arrays
-        As `cube`, from arrays in memory to a PNG.
-    """
-
-    machine: dict[str, str]
-    repeats: int
-    startup: dict[str, Timing] = field(default_factory=dict)
-    scenes: dict[str, list[Row]] = field(default_factory=dict)
-    threads: dict[int, Timing] = field(default_factory=dict)
-    cube: dict[str, list[Row]] = field(default_factory=dict)
-    cube_threads: dict[int, Timing] = field(default_factory=dict)
-    scaling: dict[int, list[Row]] = field(default_factory=dict)
-    samples: dict[str, Timing] = field(default_factory=dict)
-    arrays: dict[str, list[ArraysRow]] = field(default_factory=dict)
-
-
 def full_report(results: Results) -> str:
-    """Write everything."""
-    parts = [
-        "# Benchmarks",
-        (
-            "Written by `python benchmarks/run.py`; run it again instead of changing this file. "
-            f"Seconds are the median of {results.repeats} runs, with the least and the most in "
-            "brackets."
-        ),
-        table(("", ""), results.machine.items()),
-    ]
+    """Write everything, as the page of the benchmarks shows it."""
+    parts = []
+    if results.scenes or results.cube:
+        parts += ["## All programs", summary(results)]
+    spread = (
+        f"From here on, seconds are the median of {results.repeats} runs, with the least and the "
+        "most in brackets."
+    )
+    parts += ["## The machine", table(("", ""), results.machine.items()), spread]
     if results.startup:
         parts += ["## Start-up", _startup_table(results.startup)]
     if results.scenes:
@@ -96,29 +56,69 @@ def full_report(results: Results) -> str:
     if results.scaling:
         parts += ["## More and more spheres", _SCALING_NOTE, growth_table(results.scaling)]
         parts += [_PROGRAMS_NOTE, programs_table(results.scaling)]
-    return "\n\n".join(parts) + "\n"
+    return "\n\n".join(parts)
 
 
 def summary(results: Results) -> str:
-    """Write the table for the README: seconds of each whole process, and of tracing alone."""
-    programs = [vtray_process.NAME, *(peer.name for peer in PEERS)]
+    """Write one table of all scenes: seconds of each whole process, and of tracing alone."""
     rows = [
-        (scene, str(threads), *(_brief(timings.get((program, threads))) for program in programs))
+        (scene, str(threads), *_row_of_programs(found, threads))
         for scene, found in (results.scenes | results.cube).items()
-        for timings in ({(row.program, row.threads): row.timing for row in found},)
         for threads in sorted({row.threads for row in found})
     ]
-    headings = [f"{name} {results.machine.get(name, '')}".strip() for name in programs]
     note = (
-        "Seconds of the whole process, and in brackets of tracing rays alone: the median of "
-        f"{results.repeats} runs on {results.machine['processor']} ({results.machine['date']}). "
-        "A time is given only where the picture is vtray's. "
-        "Spreads, options and start-up: [benchmarks/results.md](benchmarks/results.md)."
+        "Seconds of the whole process, and in brackets of tracing rays alone: medians of "
+        f"{results.repeats} runs. A time is given only where the picture is vtray's."
     )
-    shown = [table(("scene", "threads", *headings), rows), note]
-    if results.scaling:
-        shown.append("![Seconds against the number of spheres](docs/images/scaling.png)")
-    return "\n\n".join(shown)
+    return f"{table(('scene', 'threads', *_programs(results)), rows)}\n\n{note}"
+
+
+def readme_table(results: Results) -> str:
+    """Write what the README shows: scenes with something to see, on as many threads as ran."""
+    empty = SCENES["empty"][0]
+    shown = {
+        scene: found
+        for scene, found in (results.scenes | results.cube).items()
+        if not scene.startswith(empty)
+    }
+    threads = max(row.threads for found in shown.values() for row in found)
+    rows = [(scene, *_row_of_programs(found, threads)) for scene, found in shown.items()]
+    note = (
+        "Seconds from the scene file to the PNG, and in brackets of tracing rays alone, with "
+        f"{threads} threads: the median of {results.repeats} runs on "
+        f"{results.machine['processor']} ({results.machine['date']}). "
+        "A time is given only where the picture is vtray's."
+    )
+    parts = [table(("scene", *_programs(results)), rows), note]
+    parts += [_from_arrays(scene, found, threads) for scene, found in results.arrays.items()]
+    return "\n\n".join(parts)
+
+
+def _programs(results: Results) -> list[str]:
+    """Return the programs that render all scenes, with their versions."""
+    names = [vtray_process.NAME, *(peer.name for peer in PEERS)]
+    return [f"{name} {results.machine.get(name, '')}".strip() for name in names]
+
+
+def _row_of_programs(found: Sequence[Row], threads: int) -> list[str]:
+    """Write the times of all programs with so many threads."""
+    timings = {row.program: row.timing for row in found if row.threads == threads}
+    names = [vtray_process.NAME, *(peer.name for peer in PEERS)]
+    return [_brief(timings.get(name)) for name in names]
+
+
+def _from_arrays(scene: str, rows: Sequence[ArraysRow], threads: int) -> str:
+    """Write what the first picture from arrays took, in a sentence."""
+    seconds = "; ".join(
+        f"{row.program} {in_seconds(row.first.median)}{_apart(row)}"
+        for row in rows
+        if row.threads == threads
+    )
+    return f"Seconds from NumPy arrays to a PNG, driven from Python ({scene}): {seconds}."
+
+
+def _apart(row: ArraysRow) -> str:
+    return " (another picture)" if row.note.startswith("another") else ""
 
 
 def replace_between_markers(text: str, table: str) -> str:

@@ -1,9 +1,11 @@
 """Measure vtray, beside other renderers where they are installed.
 
-    python benchmarks/run.py [--quick] [--only NAME]
+    python benchmarks/run.py [--quick] [--only NAME]    measures
+    python benchmarks/run.py --write                    writes the tables again
 
-Writes benchmarks/results.md, the table in README.md and docs/images/scaling.png; a partial run only
-prints, and draws the picture if it measured what is in it.
+Keeps what it measured in benchmarks/results.json, writes the tables of docs/benchmarks.md and of
+README.md from it, and draws docs/images/scaling.png; a partial run only prints, and draws the
+picture if it measured what is in it.
 """
 
 import argparse
@@ -20,15 +22,18 @@ from from_arrays import time_arrays
 from machine import cores, machine
 from peers import CUBE_PEERS
 from plot import draw_scaling
-from report import Results, full_report, replace_between_markers, summary
+from report import full_report, readme_table, replace_between_markers
+from results import Results, load_results, save_results
 from scenes import SCENES
 
 from rendering import THREADS, time_cube, time_scene, time_threads
 
 HERE = Path(__file__).resolve().parent
-RESULTS = HERE / "results.md"
-README = HERE.parent / "README.md"
-PLOT = HERE.parent / "docs" / "images" / "scaling.png"
+ROOT = HERE.parent
+RESULTS = HERE / "results.json"
+PLOT = ROOT / "docs" / "images" / "scaling.png"
+WRITTEN = {ROOT / "docs" / "benchmarks.md": full_report, ROOT / "README.md": readme_table}
+"""The pages with tables, and what writes them."""
 PARTS = ("startup", *SCENES, "threads", "cube", "samples", "arrays", "scaling")
 REPEATS, QUICK_REPEATS = 5, 2
 QUICK_SIDE = 256
@@ -40,24 +45,32 @@ SCALING_REPEATS = 3
 def main() -> None:
     """Measure what was asked for; print it, and keep it if it is all."""
     options = _parse()
+    if options.write:
+        write_tables(load_results(RESULTS))
+        return
     with tempfile.TemporaryDirectory(prefix="vtray-benchmark-") as folder:
         # Kernels compiled here neither help nor disturb the user's own.
         cache = Path(folder) / "cache"
         os.environ["VTRAY_CACHE_DIR"] = str(cache)
         results = measure(Path(folder), options.only or list(PARTS), quick=options.quick)
         versions = len(list(cache.glob("*")))
-    report = full_report(results)
-    print(report)
+    print(full_report(results))
     if versions > 1:
         sys.exit("Error: vtray's sources changed during the run; nothing is written, run it again")
     if results.scaling and not options.quick:
         _draw(results)
     if options.quick or options.only:
         return
-    RESULTS.write_text(report, encoding="utf-8")
-    if README.exists():
-        text = README.read_text(encoding="utf-8")
-        README.write_text(replace_between_markers(text, summary(results)), encoding="utf-8")
+    save_results(results, RESULTS)
+    write_tables(results)
+
+
+def write_tables(results: Results) -> None:
+    """Write the tables of all pages."""
+    for page, report in WRITTEN.items():
+        if page.exists():
+            text = page.read_text(encoding="utf-8")
+            page.write_text(replace_between_markers(text, report(results)), encoding="utf-8")
 
 
 def measure(folder: Path, parts: list[str], *, quick: bool) -> Results:
@@ -119,6 +132,9 @@ def _parse() -> argparse.Namespace:
     )
     parser.add_argument(
         "--only", metavar="NAME", choices=PARTS, action="append", help=f"one of {', '.join(PARTS)}"
+    )
+    parser.add_argument(
+        "--write", action="store_true", help="measure nothing: write the tables of the last run"
     )
     return parser.parse_args()
 

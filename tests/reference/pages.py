@@ -8,8 +8,8 @@ The blocks of a page run in their order, in one process and in a folder of their
 - ``python`` runs in names that all blocks of the page share;
 - ``sh`` runs in a shell that ends at the first error;
 - ``json title="x.json"`` is written to that file;
-- ``text`` right after one of these is what it prints; after `sh` it may be an error, and the status
-  is 1 then.
+- ``text`` right after one of these, or after a comment that follows it, is what it prints; after
+  `sh` it may be an error, and the status is 1 then.
 
 Pictures of the page are those of `docs/images/pages` with the name of a file that a block wrote.
 """
@@ -28,10 +28,11 @@ from typing import Any, NamedTuple
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 PICTURES = DOCS / "images" / "pages"
-NOT_RUN = ("architecture", "changelog", "gallery", "reference")
+NOT_RUN = ("architecture", "benchmarks", "changelog", "gallery", "measured", "reference", "rules")
 PAGES = sorted(page for page in DOCS.glob("*.md") if page.stem not in NOT_RUN)
 
 _BLOCK = re.compile(r"^```(\w+)([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _TITLE = re.compile(r'title="([^"]+)"')
 
 
@@ -65,7 +66,8 @@ def blocks(page: str) -> list[Block]:
     end = -1
     for match in _BLOCK.finditer(page):
         kind, more, text = match.groups()
-        if kind == "text" and found and not page[end : match.start()].strip():
+        between = _COMMENT.sub("", page[end : match.start()])
+        if kind == "text" and found and not between.strip():
             found[-1] = found[-1]._replace(printed=text)
             continue
         end = match.end()

@@ -14,7 +14,7 @@ from examples import light, one_sphere, plane, scene, sphere
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import may_be_dark, scenes
-from test_documents import README, ROOT, blocks
+from test_documents import ROOT, blocks
 
 import vtray
 from vtray.commands.explain import explain_pixel
@@ -138,7 +138,7 @@ def test_text_is_that_of_the_command(block: tuple[str, str]) -> None:
     assert alone.splitlines()[-1].endswith("the sum over all lights")
     markdown = vtray.trace_pixel(image, column, row)._repr_markdown_()
     assert markdown == f"```text\n{text}```"
-    assert text in README
+    assert text in (ROOT / "docs" / "command.md").read_text()
 
 
 @pytest.mark.parametrize("place", [(-1, 0), (0, -1), (64, 0), (0, 48)])

@@ -260,7 +260,7 @@ def test_report_has_all_times_and_ratios() -> None:
     assert "| processor | abacus |" in report
 
 
-def test_readme_table_replaces_the_text_between_the_markers() -> None:
+def test_table_replaces_the_text_between_the_markers() -> None:
     report = module("report")
     table = report.summary(results())
     assert "| scene | threads | vtray 9.9 | POV-Ray 3.7 | Tachyon |" in table
@@ -315,10 +315,47 @@ def test_report_has_the_growth_for_each_doubling() -> None:
     assert "| 10,000 | 5.00 (0.800) | - | - | - |" in report
 
 
-def test_readme_table_has_the_cube_but_no_other_pictures() -> None:
+def test_table_of_all_scenes_has_the_cube_but_no_other_pictures() -> None:
     table = module("report").summary(cube_results())
     assert "| many | 1 | 0.500 (0.200) | - | - | 1.00 (0.300) |" in table
     assert "OVITO" not in table
+
+
+def test_readme_table_has_the_most_threads_and_no_empty_scene() -> None:
+    rendering, found = module("rendering"), cube_results()
+    found.cube["many"].append(rendering.Row("vtray", 2, timing(0.4, 0.1), ""))
+    found.scenes["a room"].append(rendering.Row("vtray", 2, timing(0.3, 0.1), ""))
+    found.scenes[f"{module('scenes').SCENES['empty'][0]}, 8 x 8"] = found.scenes["a room"]
+    table = module("report").readme_table(found)
+    assert "| scene | vtray 9.9 | POV-Ray 3.7 | Tachyon |" in table
+    assert "| many | 0.400 (0.100) | - | - | - | - |" in table
+    assert "| a room | 0.300 (0.100) |" in table
+    assert table.count("\n|") == 3
+    assert "with 2 threads: the median of 3 runs on abacus (2000-01-01)" in table
+    assert "OVITO" not in table
+
+
+def test_results_are_read_as_they_were_kept(tmp_path: Path) -> None:
+    kept, report = module("results"), module("report")
+    arrays, spread = module("from_arrays"), module("measure").Spread((0.1, 0.3, 0.2))
+    found = cube_results()
+    found.arrays = {"many": [arrays.ArraysRow("vtray", 1, *[spread] * 3, memory=9e7, note="")]}
+    kept.save_results(found, tmp_path / "results.json")
+    again = kept.load_results(tmp_path / "results.json")
+    assert report.full_report(again) == report.full_report(found)
+    assert report.readme_table(again) == report.readme_table(found)
+    assert again.scaling.keys() == {1000, 10_000}
+
+
+def test_pages_show_the_results_that_are_kept() -> None:
+    run, report = module("run"), module("report")
+    found = module("results").load_results(run.RESULTS)
+    assert {page.name for page in run.WRITTEN} == {"README.md", "benchmarks.md"}
+    for page, write in run.WRITTEN.items():
+        text = page.read_text(encoding="utf-8")
+        assert text.index(report.BEGIN) < text.index(report.END)
+        written = report.replace_between_markers(text, write(found))
+        assert text == written, f"{page.name}: run python benchmarks/run.py --write"
 
 
 def test_scaling_is_drawn(tmp_path: Path) -> None:
@@ -491,6 +528,10 @@ def test_report_has_the_times_from_arrays() -> None:
     assert (
         "| many | Mitsuba | 2 | 0.600 | 0.900 | 1.50 | 90 | 3.00 | 3.00 | 0.30, 0.20% |" in report
     )
+    found.arrays["many"].append(row("OVITO", 4, "another picture: dim"))
+    found.scenes = {"a room": [module("rendering").Row("vtray", 2, timing(0.3, 0.1), "")]}
+    sentence = "(many): vtray 0.300; Mitsuba 0.900; OVITO 1.20 (another picture)."
+    assert sentence in module("report").readme_table(found)
 
 
 @pytest.mark.parametrize("index", range(4))

@@ -99,6 +99,14 @@ not printed
     assert other.kind == "text"
 
 
+def test_comment_may_stand_before_what_is_printed() -> None:
+    page = "```sh\ntrue\n```\n\n<!-- output: {} -->\n```text\n1\n```\n"
+    assert [block.printed for block in pages.blocks(page.format("true"))] == ["1\n"]
+    assert [block.printed for block in pages.blocks(page.format("true --> Words.<!--"))] == [
+        None
+    ] * 2
+
+
 @pytest.mark.parametrize(
     ("block", "message"),
     [
@@ -135,14 +143,18 @@ def test_site_is_built_without_a_warning(tmp_path: Path) -> None:
     assert not [address for address in loaded if "canonical" not in address]
 
 
-def test_rules_are_those_of_the_readme() -> None:
-    def rules(path: Path, end: str) -> str:
-        text = path.read_text(encoding="utf-8")
-        text = text[text.index("## The rules of the picture") :]
-        text = text[: text.index(end)]
-        text = re.sub(r"\s*\(\[`[^)]*\)[^)]*\)", "", text)  # where the code is
-        return " ".join(text.split())
+def test_pages_that_are_not_run_have_no_code() -> None:
+    for name in set(pages.NOT_RUN) - {"gallery"}:
+        kinds = {
+            block.kind for block in pages.blocks((pages.DOCS / f"{name}.md").read_text("utf-8"))
+        }
+        assert kinds <= {"text"}, name
 
-    readme = rules(pages.ROOT / "README.md", "[Samples")
-    assert readme == rules(pages.DOCS / "scene-file.md", "[Samples")
-    assert "8. With m the largest" in readme
+
+def test_rules_stand_in_one_place() -> None:
+    rules = (pages.DOCS / "rules.md").read_text(encoding="utf-8")
+    assert re.findall(r"^(\d)\. \*\*", rules, re.MULTILINE) == list("12345678")
+    others = [pages.ROOT / "README.md", *set(SITE_PAGES) - {pages.DOCS / "rules.md"}]
+    for path in others:
+        text = path.read_text(encoding="utf-8")
+        assert "far side of the image plane" not in " ".join(text.split()), path.name

@@ -126,7 +126,7 @@ INEXACT = set(
     interp mean average std var median quantile percentile nansum nanmean trapezoid polyval polyfit
     """.split()  # noqa: SIM905
 )
-INTEGERS = {"bvh_build", "fingerprint"}
+INTEGERS = {"build", "fingerprint"}
 """Modules whose sums over arrays are of integers, which have no order."""
 
 

@@ -1,0 +1,65 @@
+"""What a run of the benchmarks has measured, and keeping it on disk."""
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import msgspec
+from from_arrays import ArraysRow
+from measure import Timing
+
+from rendering import Row
+
+
+@dataclass
+class Results:
+    """All that a run has measured.
+
+    Attributes
+    ----------
+    machine
+        Name and value of all that bears on the numbers.
+    repeats
+        How often each process ran.
+    startup
+        What costs the same for every scene.
+    scenes
+        For each scene, by what it is, the times of all renderers.
+    threads
+        For numbers of threads, vtray's times for the first scene.
+    cube
+        As `scenes`, for a cube of many spheres.
+    cube_threads
+        As `threads`, for this cube.
+    scaling
+        For numbers of spheres in the cube, the times of all renderers with one thread.
+    samples
+        For numbers of samples and of threads, vtray's times for this cube.
+    arrays
+        As `cube`, from arrays in memory to a PNG.
+    """
+
+    machine: dict[str, str]
+    repeats: int
+    startup: dict[str, Timing] = field(default_factory=dict)
+    scenes: dict[str, list[Row]] = field(default_factory=dict)
+    threads: dict[int, Timing] = field(default_factory=dict)
+    cube: dict[str, list[Row]] = field(default_factory=dict)
+    cube_threads: dict[int, Timing] = field(default_factory=dict)
+    scaling: dict[int, list[Row]] = field(default_factory=dict)
+    samples: dict[str, Timing] = field(default_factory=dict)
+    arrays: dict[str, list[ArraysRow]] = field(default_factory=dict)
+
+
+def save_results(results: Results, path: Path) -> None:
+    """Write results to a file."""
+    # The module json writes NaN, which stands for what a program does not tell.
+    parts = msgspec.to_builtins(results, str_keys=True).items()
+    lines = ",\n".join(f"{json.dumps(name)}: {json.dumps(part)}" for name, part in parts)
+    path.write_text(f"{{\n{lines}\n}}\n", encoding="utf-8")
+
+
+def load_results(path: Path) -> Results:
+    """Read results from a file."""
+    data = json.loads(path.read_text(encoding="utf-8"))
+    return msgspec.convert(data, Results, str_keys=True)
