@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from vtray.geometry.camera_rays import CameraFrame, camera_ray
 from vtray.scene.placing.directions import camera_axes, unit, view_axes
 from vtray.scene.scene import Direction
+from vtray.transport.camera_rays import CameraFrame, camera_ray
 
 NORMALS = [
     (0, 0, 1),
@@ -88,7 +88,7 @@ def test_rays_of_an_orthographic_view_start_at_the_pixels() -> None:
         right=(0.6, 0.8, 0.0),
         down=(-0.8, 0.6, 0.0),
         forward=(0.0, 0.0, 1.0),
-        focus=10.0,
+        image_distance=10.0,
         pixel=(0.0, 0.0, 1.0),
         width=5,
         height=4,
@@ -96,9 +96,10 @@ def test_rays_of_an_orthographic_view_start_at_the_pixels() -> None:
         extent=3.5,
     )
     for column, row, x, y in [(0, 0, -1.25, -0.5), (4, 3, 0.75, 0.25), (2.5, 1.75, 0, -0.0625)]:
-        offset, direction = camera_ray(camera, column, row)
-        assert direction == (0.0, 0.0, 1.0)
-        assert offset == pytest.approx((0.6 * x - 0.8 * y, 0.8 * x + 0.6 * y, 0), abs=1e-16)
+        ray = camera_ray(camera, column, row)
+        assert ray.direction == (0.0, 0.0, 1.0)
+        offset = np.subtract(ray.origin, camera.eye)
+        assert offset == pytest.approx((0.6 * x - 0.8 * y, 0.8 * x + 0.6 * y, 0), abs=1e-15)
 
 
 def test_rays_go_through_the_pixels() -> None:
@@ -107,7 +108,7 @@ def test_rays_go_through_the_pixels() -> None:
         right=(1.0, 0.0, 0.0),
         down=(0.0, 1.0, 0.0),
         forward=(0.0, 0.0, 1.0),
-        focus=10.0,
+        image_distance=10.0,
         pixel=(0.5 * 8, 0.25 * 8, 10.0 * 8),
         width=5,
         height=4,
@@ -118,6 +119,6 @@ def test_rays_go_through_the_pixels() -> None:
     for column, row, x, y in [(0, 0, -1.25, -0.5), (4, 3, 0.75, 0.25), (2, 2, -0.25, 0)]:
         length = math.sqrt(x * x + y * y + 100)
         expected = (x / length, y / length, 10 / length)
-        offset, direction = camera_ray(camera, column, row)
-        assert offset == (0.0, 0.0, 0.0)
-        assert direction == pytest.approx(expected, abs=1e-16)
+        ray = camera_ray(camera, column, row)
+        assert (ray.origin, ray.depth) == (camera.eye, -10.0)
+        assert ray.direction == pytest.approx(expected, abs=1e-16)

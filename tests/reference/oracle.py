@@ -180,14 +180,14 @@ class _Render:
         return Seen(linear, depth, normals, np.array([*self.order, -1])[hit], shadows)
 
     def rays(self, columns: Array, rows: Array) -> tuple[Array, Array]:
-        """Return where rays start, minus the eye, and their unit directions, both (..., 3)."""
+        """Return where rays start, and their unit directions, both (..., 3)."""
         u = (columns - self.dtype(self.width) / 2)[..., None]
         v = (rows - self.dtype(self.height) / 2)[..., None]
-        start = u * self.shift[0] * self.right + v * self.shift[1] * self.down
+        beside = u * self.shift[0] * self.right + v * self.shift[1] * self.down
         aside = u * self.pixel[0] * self.right + v * self.pixel[1] * self.down
         ray = aside + self.eye_distance * self.forward
         ray = np.broadcast_to(self.forward, aside.shape) if self.parallel else ray
-        return start, ray / np.sqrt(dot(ray, ray))[..., None]
+        return self.eye + beside, ray / np.sqrt(dot(ray, ray))[..., None]
 
     def nearest(self, starts: Array, rays: Array) -> tuple[Array, Array]:
         """Return the distance and the number of the nearest object for each ray."""
@@ -203,13 +203,13 @@ class _Render:
 
     def meet_sphere(self, item: Scene, starts: Array, rays: Array, forward: Array) -> Array:
         radius = self.dtype(item["radius"])
-        arm = self.eye - self.place(item["center"]) + starts
+        arm = starts - self.place(item["center"])
         middle = -dot(arm, rays)
         foot = arm + middle[..., None] * rays
         squared = radius * radius - dot(foot, foot)
         half = np.sqrt(squared)
         distance = np.full(middle.shape, np.inf, self.dtype)
-        magnitude = self.magnitude(item) + self.extent + self.focus
+        magnitude = self.magnitude(item) + (self.extent + self.focus)
         for t in (middle + half, middle - half):  # the near one last: it wins
             bound = ROUNDING * (np.abs(t) + magnitude)
             seen = (squared > 0) & (t * forward - self.focus > bound)
@@ -219,16 +219,16 @@ class _Render:
     def meet_plane(self, item: Scene, starts: Array, rays: Array, forward: Array) -> Array:
         normal, point = self.normal(item), self.place(item["center"])
         descent = dot(rays, normal)
-        t = (dot(point - self.eye, normal) - dot(starts, normal)) / descent
+        t = dot(point - starts, normal) / descent
         depth = t * forward - self.focus
-        bound = ROUNDING * (np.abs(point).sum() + self.extent + self.focus + np.abs(t))
+        bound = ROUNDING * (np.abs(point).sum() + (self.extent + self.focus) + np.abs(t))
         return np.where((descent != 0) & (depth * np.abs(descent) > bound), t, self.dtype(np.inf))
 
     def shade(
         self, item: Scene, starts: Array, rays: Array, distance: Array
     ) -> tuple[Array, Array, Array]:
         """Return light, normals and shadows of points on one object, (n, 3), (n, 3), (n, m)."""
-        points = self.eye + distance[:, None] * rays + starts
+        points = starts + distance[:, None] * rays
         if item["type"] == "sphere":
             normal = points - self.place(item["center"])
             length = np.sqrt(dot(normal, normal))[:, None]
@@ -236,7 +236,7 @@ class _Render:
         else:
             normal = np.broadcast_to(self.normal(item), points.shape)
         normal = np.where((dot(normal, rays) > 0)[:, None], -normal, normal)
-        error = self.magnitude(item) + self.extent + self.focus + distance
+        error = self.magnitude(item) + (self.extent + self.focus) + distance
         total = np.zeros(points.shape, self.dtype)
         shadows = np.zeros((len(points), len(self.lights)), bool)
         for k, light in enumerate(self.lights):

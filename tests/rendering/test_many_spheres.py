@@ -11,15 +11,17 @@ import pytest
 from clouds import CLOUDS, cloud
 from hierarchies import ALWAYS, NEVER, render
 from hypothesis import given
+from plain import NOTHING, trace_pixel
 from strategies import crowd, may_be_dark, scenes
 
 import vtray
 from conftest import JIT, compiled_only
 from vtray.commands.explain import explain_pixel
+from vtray.geometry.queries import new_stack
 from vtray.rendering import hierarchy as acceleration
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
-from vtray.transport.integrators.reference import NOTHING, trace_pixel
+from vtray.transport.integrators import reference
 
 
 @pytest.fixture
@@ -138,7 +140,9 @@ def test_a_tiny_sphere_in_the_way_of_each_ray_is_hit(focus: float, few: int) -> 
     camera = vtray.Camera(center, normal, focus, (48, 32), (0.1, 0.07))
     packed = pack(vtray.Scene(camera, [], []), accelerate(vtray.Scene(camera, [], [])))
     nothing = np.zeros(0), np.zeros(0, np.int64)
-    ways = [trace_pixel(packed.arrays, k % 48, k // 48, *nothing).direction for k in range(48 * 32)]
+    ways = [
+        trace_pixel(packed.arrays, k % 48, k // 48, *nothing).ray.direction for k in range(48 * 32)
+    ]
     eye = np.array(packed.arrays.camera.eye) * packed.unit + center
     spheres = vtray.Spheres(eye + 10 * np.array(ways), 1e-12, (255, 255, 255), 1)
     image = render(vtray.Scene(camera, [vtray.Light(eye, 1)], [spheres]), few)
@@ -227,6 +231,9 @@ def test_equals_the_plain_path(name: str, few: Callable[[int], None]) -> None:
         traced = trace_pixel(arrays, column, row, cosines, blockers)
         assert tuple(image.linear[row, column]) == traced.value
         assert (traced.primitive == NOTHING) == np.isinf(traced.distance)
+        stack, kept = new_stack(), (cosines.copy(), blockers.copy())
+        assert reference.trace_pixel(arrays, column, row, stack, cosines, blockers) == traced
+        np.testing.assert_array_equal((cosines, blockers), kept)
 
 
 def test_a_pixel_is_explained_by_the_sphere_of_an_array(few: Callable[[int], None]) -> None:

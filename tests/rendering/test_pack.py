@@ -5,7 +5,8 @@ import math
 import pytest
 
 import vtray
-from vtray.geometry.shapes.sphere_arrays import sphere_center, sphere_radius
+from vtray.geometry.shapes.plane import load_plane
+from vtray.geometry.shapes.sphere import load_sphere
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import Packed
 from vtray.rendering.pack import pack as pack_arrays
@@ -40,35 +41,38 @@ def test_places_are_relative_to_the_image_plane_in_units_of_a_power_of_two() -> 
         )
     )
     assert packed.unit == 16 / 2**200
-    camera, spheres, _, _, planes, lights, materials = packed.arrays
+    camera, world, lights, materials = packed.arrays
+    plane = load_plane(world.planes, 0, world.place)
+    sphere = load_sphere(world.spheres, 0, world.place)
 
     def lengths(*values: float) -> list[float]:
         return [value * packed.unit for value in values]
 
-    assert lengths(*camera.eye, camera.focus) == [0, 0, -10, 10]
+    assert lengths(*camera.eye, camera.image_distance) == [0, 0, -10, 10]
     # In a unit of their own, in which the largest length is just below 2**500.
     assert [math.ldexp(length, 4 - 500) for length in camera.pixel] == [0.5, 0.5, 10]
     assert camera.width == 4
-    assert lengths(*sphere_center(spheres, 0), sphere_radius(spheres, 0)) == [0, 0, 6, 2]
-    assert [float(column[0]) for column in planes[:3]] == [0, -1, 0]
-    assert lengths(planes.offset[0], planes.height[0]) == [-3, -3]
+    assert lengths(*sphere.center, sphere.radius) == [0, 0, 6, 2]
+    assert plane.normal == (0, -1, 0)
+    assert lengths(*plane.point, plane.offset) == [0, 3, 0, -3]
     assert lengths(lights.x[0], lights.y[0], lights.z[0]) == [4, 0, -3]
-    assert lengths(lights.depth[0], lights.magnitude[0]) == [-3, 7]
+    assert lengths(lights.depth[0], lights.error_scale[0]) == [-3, 13]
     assert lights.intensity[0] == 7
-    assert materials.sphere_color.tolist() == [[255, 255, 255]]
+    assert materials.color.tolist() == [[255, 255, 255]]
     assert materials.plane_color.tolist() == [[1, 2, 3]]
-    assert (materials.sphere_lambert.tolist(), materials.plane_lambert.tolist()) == ([1], [0.5])
+    assert (materials.lambert.tolist(), materials.plane_lambert.tolist()) == ([1], [0.5])
 
 
 @pytest.mark.parametrize("size", [1e-320, 1e-300, 1.0, 1e300, 1.7e308])
 def test_unit_keeps_squares_of_squares_within_range(size: float) -> None:
     sphere = vtray.Sphere((0, 0, size), size / 2, WHITE, 1)
     packed = pack(scene([sphere], center=(0, 0, 0), focus=size, resolution=(size / 8, size / 8)))
-    radius = sphere_radius(packed.arrays.spheres, 0)
+    world = packed.arrays.world
+    radius = load_sphere(world.spheres, 0, world.place).radius
     assert 0 < radius**4 < 1e290
     assert all(0 < length**2 < 1e302 for length in packed.arrays.camera.pixel)
 
 
 def test_empty_scene() -> None:
     packed = pack(scene([]))
-    assert packed.arrays.spheres.number.shape == packed.arrays.lights.x.shape == (0,)
+    assert packed.arrays.world.spheres.number.shape == packed.arrays.lights.x.shape == (0,)

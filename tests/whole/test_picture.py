@@ -9,13 +9,13 @@ import oracle
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from plain import NOTHING, trace_pixel
 from strategies import crowd, may_be_dark, scenes
 
 import vtray
 from conftest import CONFORMANCE, JIT, compiled_only
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
-from vtray.transport.integrators.reference import NOTHING, trace_pixel
 
 
 def load(scene: dict) -> vtray.Scene:

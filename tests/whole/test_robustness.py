@@ -7,13 +7,13 @@ import numpy as np
 import oracle
 import pytest
 from examples import light, plane, scene, sphere, xyz
+from plain import NOTHING, trace_pixel
 
 import vtray
 from conftest import compiled_only
 from vtray.geometry.rounding import ROUNDING
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
-from vtray.transport.integrators.reference import NOTHING, trace_pixel
 
 pytestmark = compiled_only
 
@@ -226,7 +226,7 @@ def test_rounding_stays_within_its_bound(name: str) -> None:
                 [np.longdouble(p) * packed.unit for p in found.point],
                 document["camera"]["center"],
             )
-            worst = max(worst, float(off / packed.unit) / found.magnitude)
+            worst = max(worst, float(off / packed.unit) / found.error_scale)
     assert worst < ROUNDING / 4
 
 

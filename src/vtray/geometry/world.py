@@ -1,10 +1,10 @@
-"""The scene as arrays: what the kernels read.
+"""What rays can meet, as arrays: groups of shapes, their columns, and their hierarchies.
 
 Lengths are divided by a power of two, which changes no digit, so that the largest is about 2**200.
 Then no square of a square overflows, not even at points a billion times farther away, and those of
 parts 1e130 times smaller do not vanish. The origin moves to the centre of the image plane, so that
-a scene far from the world's origin loses no digits. The spheres, which can be many, stay in world
-space in memory; each is brought into this space where it is used.
+a scene far from the world's origin loses no digits. The shapes, which can be many, stay in world
+space in memory; each is brought into the kernels' space where it is used.
 """
 
 from typing import NamedTuple
@@ -14,50 +14,36 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import Bvh
-from vtray.geometry.camera_rays import CameraFrame
-from vtray.geometry.shapes.sphere_arrays import SphereArrays
+from vtray.geometry.shapes.columns import Columns, Place
 from vtray.geometry.vector import Vec
 
-Floats = NDArray[np.float64]
+PLANE, SPHERE = 0, 1
+"""The kinds of shape."""
+
+NO_TREE = -1
+"""In place of the root of a group's hierarchy: it has none, as planes and few shapes do not."""
 
 
-class Planes(NamedTuple):
-    """Unit normals, signed distances from the origin and from the eye, magnitudes, all (n,)."""
+class Groups(NamedTuple):
+    """Groups of shapes of one kind, all (n,); those of planes come first.
 
-    x: Floats
-    y: Floats
-    z: Floats
-    offset: Floats
-    height: Floats
-    magnitude: Floats
-
-
-class Lights(NamedTuple):
-    """Places, distances in front of the image plane, intensities, magnitudes, all (n,).
-
-    The magnitude in world space is what the rounding of a light's place is relative to where it was
-    worked out, by hand or by a program, before it came here.
+    Attributes
+    ----------
+    kind
+        Their kind.
+    begin, end
+        Their slots, from the first to before the last.
+    root
+        The root of their hierarchy, or ``NO_TREE``.
+    number
+        What their numbers in the columns are counted from.
     """
 
-    x: Floats
-    y: Floats
-    z: Floats
-    depth: Floats
-    intensity: Floats
-    magnitude: Floats
-    world_magnitude: Floats
-
-
-class Materials(NamedTuple):
-    """Colours, (n, 3), and Lambert coefficients, (n,).
-
-    They go by the numbers of the primitives; for spheres, one row may stand for all.
-    """
-
-    sphere_color: NDArray[np.uint8]
-    sphere_lambert: Floats
-    plane_color: NDArray[np.uint8]
-    plane_lambert: Floats
+    kind: NDArray[np.int64]
+    begin: NDArray[np.int64]
+    end: NDArray[np.int64]
+    root: NDArray[np.int64]
+    number: NDArray[np.int64]
 
 
 class ToBoxes(NamedTuple):
@@ -67,24 +53,75 @@ class ToBoxes(NamedTuple):
     offset: Vec
 
 
-class SceneArrays(NamedTuple):
-    """A scene as kernels see it.
+class World(NamedTuple):
+    """What rays can meet.
 
-    Primitives are numbered: the spheres first, then the planes. At exactly the same distance the
-    lower number is hit.
+    Primitives are numbered: all bounded shapes first, then the planes. At exactly the same distance
+    the lower number is hit.
+
+    Attributes
+    ----------
+    groups
+        The groups.
+    planes, spheres
+        The columns of each kind.
+    bvh
+        The nodes of all hierarchies.
+    place
+        Where shapes stand.
+    to_boxes
+        What leads to the space of the hierarchies' boxes.
     """
 
-    camera: CameraFrame
-    spheres: SphereArrays
+    groups: Groups
+    planes: Columns
+    spheres: Columns
     bvh: Bvh
+    place: Place
     to_boxes: ToBoxes
-    planes: Planes
-    lights: Lights
-    materials: Materials
+
+
+class Group(NamedTuple):
+    """One of the groups; see `Groups`."""
+
+    row: int
+    kind: int
+    begin: int
+    end: int
+    root: int
+    number: int
 
 
 @device
-def has_bvh(scene: SceneArrays) -> bool:
-    """Tell whether the spheres of a scene have a hierarchy."""
-    nodes: int = scene.bvh.child.shape[0]
+def load_group(world: World, row: int) -> Group:
+    """Return one of the groups."""
+    groups = world.groups
+    return Group(
+        row,
+        groups.kind[row],
+        groups.begin[row],
+        groups.end[row],
+        groups.root[row],
+        groups.number[row],
+    )
+
+
+@device
+def group_count(world: World) -> int:
+    """Return how many groups there are."""
+    count: int = world.groups.kind.shape[0]
+    return count
+
+
+@device
+def has_trees(world: World) -> bool:
+    """Tell whether any shapes have a hierarchy."""
+    nodes: int = world.bvh.child.shape[0]
     return nodes > 0
+
+
+@device
+def plane_count(world: World) -> int:
+    """Return how many planes there are."""
+    count: int = world.planes.number.shape[0]
+    return count

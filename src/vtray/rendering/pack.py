@@ -10,14 +10,17 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import input_array
 from vtray.geometry.bvh.tree import no_bvh
-from vtray.geometry.camera_rays import CameraFrame
-from vtray.geometry.shapes.sphere_arrays import SphereArrays
+from vtray.geometry.shapes.columns import Columns, Place
 from vtray.geometry.vector import Vec
-from vtray.geometry.world import Lights, Materials, Planes, SceneArrays, ToBoxes
+from vtray.geometry.world import NO_TREE, PLANE, SPHERE, Groups, ToBoxes, World
 from vtray.rendering.hierarchy import Acceleration
 from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.scene import Camera, Plane, Scene, Vector
+from vtray.transport.camera_rays import CameraFrame
+from vtray.transport.lights.light import Lights
+from vtray.transport.materials.material import Materials
+from vtray.transport.scene_arrays import SceneArrays
 
 Floats = NDArray[np.float64]
 
@@ -58,17 +61,32 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
     camera = _pack_camera(scene.camera, unit)
     origin = _points([scene.camera.center], unit)[0]
     x, y, z = map(float, origin)
-    to_boxes = _pack_to_boxes(kept, (x, y, z), unit)
+    place = Place((0.0, 0.0, 0.0), 1.0 / unit, (x, y, z))
     arrays = SceneArrays(
         camera,
-        SphereArrays(*kept.leaves, 1.0 / unit, (x, y, z)),
-        kept.bvh if to_boxes.ratio < LARGEST_RATIO else no_bvh(),
-        to_boxes,
-        _pack_planes(planes, origin, unit, camera),
+        _pack_world(planes, kept, place, unit),
         _pack_lights(scene, origin, unit, camera),
         _pack_materials(kept, planes),
     )
     return Packed(arrays, unit, scene.camera.focus - start_distance(scene.camera))
+
+
+def _pack_world(planes: list[Plane], kept: Acceleration, place: Place, unit: float) -> World:
+    """Return what rays can meet."""
+    count = len(kept.leaves.number)
+    to_boxes = _pack_to_boxes(kept, place.origin, unit)
+    bvh = kept.bvh if to_boxes.ratio < LARGEST_RATIO else no_bvh()
+    root = 0 if len(bvh.child) else NO_TREE
+    rows = [(PLANE, 0, len(planes), NO_TREE, count), (SPHERE, 0, count, root, 0)]
+    columns = np.array([row for row in rows if row[2]], np.int64).reshape(-1, len(rows[0])).T
+    return World(
+        Groups(*np.ascontiguousarray(columns)),
+        _pack_planes(planes),
+        Columns(*kept.leaves),
+        bvh,
+        place,
+        to_boxes,
+    )
 
 
 def start_distance(camera: Camera) -> float:
@@ -117,7 +135,7 @@ def _pack_camera(camera: Camera, unit: float) -> CameraFrame:
     else:
         right, down = view_axes(forward, unit_vector(camera.up))
     start = start_distance(camera)
-    focus = start / unit
+    image_distance = start / unit
     width, height = camera.resolution
     if camera.projection == "orthographic":
         share, pixel = 1.0, (0.0, 0.0, 1.0)
@@ -128,11 +146,15 @@ def _pack_camera(camera: Camera, unit: float) -> CameraFrame:
     shift = share * width / unit, share * height / unit
     extent = camera.size[0] * shift[0] + camera.size[1] * shift[1]
     return CameraFrame(
-        eye=(-focus * forward[0], -focus * forward[1], -focus * forward[2]),
+        eye=(
+            -image_distance * forward[0],
+            -image_distance * forward[1],
+            -image_distance * forward[2],
+        ),
         right=right,
         down=down,
         forward=forward,
-        focus=focus,
+        image_distance=image_distance,
         pixel=pixel,
         shift=shift,
         extent=extent,
@@ -165,38 +187,30 @@ def _pack_materials(kept: Acceleration, planes: list[Plane]) -> Materials:
         input_array(kept.source.lambert, np.float64),
         input_array(np.array(colors, np.uint8).reshape(-1, 3), np.uint8),
         input_array([plane.lambert for plane in planes], np.float64),
+        len(kept.leaves.number),
     )
 
 
-def _pack_planes(planes: list[Plane], origin: Floats, unit: float, camera: CameraFrame) -> Planes:
-    """Return the arrays of all planes."""
-    points = _points([plane.center for plane in planes], unit) - origin
-    normals = np.array([unit_vector(plane.normal) for plane in planes], np.float64).reshape(-1, 3)
-    x, y, z = _columns(normals)
-    from_eye = points - np.array(camera.eye)
-    return Planes(
-        x,
-        y,
-        z,
-        offset=_dot(points.T, (x, y, z)),
-        height=_dot(from_eye.T, (x, y, z)),
-        magnitude=_magnitude(*_columns(points)),
-    )
+def _pack_planes(planes: list[Plane]) -> Columns:
+    """Return the columns of all planes."""
+    data = np.empty((len(planes), 6))
+    for row, plane in zip(data, planes, strict=True):
+        row[:3] = plane.center.x, plane.center.y, plane.center.z
+        row[3:] = unit_vector(plane.normal)
+    return Columns(data.reshape(-1), np.arange(len(planes), dtype=np.int32))
 
 
 def _pack_lights(scene: Scene, origin: Floats, unit: float, camera: CameraFrame) -> Lights:
     """Return the arrays of all lights."""
     points = _points([light.location for light in scene.lights], unit) - origin
     x, y, z = _columns(points)
-    magnitude = _magnitude(x, y, z)
     return Lights(
         x,
         y,
         z,
         depth=_dot((x, y, z), camera.forward),
         intensity=np.array([light.intensity for light in scene.lights], float),
-        magnitude=magnitude,
-        world_magnitude=magnitude + _magnitude(*origin),
+        error_scale=_magnitude(x, y, z) + _magnitude(*origin),
     )
 
 

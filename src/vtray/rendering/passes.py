@@ -12,7 +12,6 @@ from vtray.base.pool import Progress, run_tasks
 from vtray.base.tiles import TILE, Tile, split_into_tiles
 from vtray.geometry.packets.packet import new_packet
 from vtray.geometry.packets.workspace import new_workspace
-from vtray.geometry.world import SceneArrays
 from vtray.scene.settings import RenderSettings
 from vtray.transport.film import Film, new_film
 from vtray.transport.integrators.direct import trace_tile
@@ -25,6 +24,7 @@ from vtray.transport.sampling.pixel_samples import (
     filter_samples,
     middle_rays,
 )
+from vtray.transport.scene_arrays import SceneArrays
 
 
 class Traced(NamedTuple):
@@ -144,7 +144,7 @@ class Tracer:
         canvas, flag = pinned(film), pinned(stop)
 
         def new_worker() -> Callable[[Tile], None]:
-            packet, work = pinned(new_packet()), pinned(new_workspace(self._scene))
+            packet, work = pinned(new_packet()), pinned(new_workspace(self._scene.world))
 
             def trace(tile: Tile) -> None:
                 results.append(trace_tile(world, places, *tile, canvas, packet, work, flag))
@@ -169,7 +169,7 @@ class Tracer:
 def compile_kernels(scene: SceneArrays, settings: RenderSettings) -> None:
     """Compile what is needed to trace a scene, or load it from disk."""
     stop = np.zeros(1, np.bool_)
-    packet, work = new_packet(), new_workspace(scene)
+    packet, work = new_packet(), new_workspace(scene.world)
     trace_tile(scene, middle_rays(), 0, 0, 0, 0, new_film(0, 0), packet, work, stop)
     if settings.samples > 1:
         mark_rows(new_film(0, 0), 0, 0, 0, np.zeros((0, 0), np.bool_))

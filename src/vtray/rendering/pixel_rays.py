@@ -9,13 +9,14 @@ from vtray.base.compiler.compiled import uncompiled
 from vtray.base.errors import RenderError
 from vtray.base.exact_math import hypotenuse
 from vtray.figures.ray_tree import Exposed, Hit, RayTree, ShadowRay, Surface, View
+from vtray.geometry.queries import NOTHING, new_stack
 from vtray.geometry.vector import Vec, add, scale
 from vtray.rendering.hierarchy import Acceleration, accelerate, locate
 from vtray.rendering.pack import Packed, pack
+from vtray.scene.placing.directions import unit
 from vtray.scene.scene import Plane, Scene
 from vtray.scene.spheres import Spheres
-from vtray.transport.integrators.reference import NOTHING
-from vtray.transport.integrators.reference import trace_pixel as trace_plainly
+from vtray.transport.integrators.reference import trace_pixel as trace_one
 
 if TYPE_CHECKING:
     from vtray.image.image import Image
@@ -74,25 +75,25 @@ def trace_rays(
     packed = pack(scene, kept)
     cosines = np.zeros(len(scene.lights))
     blockers = np.full(len(scene.lights), NOTHING)
-    traced = trace_plainly(packed.arrays, column, row, cosines, blockers)
-    start = _world(scene, packed, uncompiled(add)(packed.arrays.camera.eye, traced.offset))
-    eye = uncompiled(add)(start, uncompiled(scale)(-packed.before, traced.direction))
+    traced = trace_one(packed.arrays, column, row, new_stack(), cosines, blockers)
+    start, direction = _world(scene, packed, traced.ray.origin), traced.ray.direction
+    eye = uncompiled(add)(start, uncompiled(scale)(-packed.before, direction))
     hit, lights = None, []
     if traced.primitive != NOTHING:
         hit = Hit(
-            _surface(scene, kept, packed, traced.primitive),
+            _surface(scene, kept, traced.primitive),
             traced.distance * packed.unit + packed.before,
             _world(scene, packed, traced.interaction.point),
             traced.interaction.normal,
         )
         for k in range(len(scene.lights)):
             number = int(blockers[k])
-            blocker = None if number == NOTHING else _surface(scene, kept, packed, number)
+            blocker = None if number == NOTHING else _surface(scene, kept, number)
             lights.append(_shadow_ray(scene, hit, k, float(cosines[k]), blocker))
     return RayTree(
         (column, row),
         eye,
-        traced.direction,
+        direction,
         hit,
         tuple(lights),
         traced.value,
@@ -119,19 +120,17 @@ def _shadow_ray(
     return ShadowRay(number, place, light.intensity, way, distance, cosine, blocker, adds)
 
 
-def _surface(scene: Scene, kept: Acceleration, packed: Packed, primitive: int) -> Surface:
+def _surface(scene: Scene, kept: Acceleration, primitive: int) -> Surface:
     """Return the sphere or the plane that has this number in the arrays."""
     count = len(kept.leaves.number)
     if primitive >= count:
         planes = [place for place, item in enumerate(scene.objects) if isinstance(item, Plane)]
         number = primitive - count
-        columns = packed.arrays.planes
-        normal = tuple(float(column[number]) for column in (columns.x, columns.y, columns.z))
-        return _single(scene, planes[number], (normal[0], normal[1], normal[2]))
+        return _single(scene, planes[number])
     place, index = locate(scene, kept, primitive)
     item = scene.objects[place]
     if not isinstance(item, Spheres):
-        return _single(scene, place, None)
+        return _single(scene, place)
     x, y, z = map(float, item.center[index])
     red, green, blue = map(float, item.color if item.color.ndim == 1 else item.color[index])
     radius = float(np.broadcast_to(item.radius, len(item))[index])
@@ -139,13 +138,13 @@ def _surface(scene: Scene, kept: Acceleration, packed: Packed, primitive: int) -
     return Surface(place, index, (x, y, z), radius, None, (red, green, blue), lambert)
 
 
-def _single(scene: Scene, place: int, normal: Vec | None) -> Surface:
-    """Return the surface of an object that is one sphere or, with a normal, one plane."""
+def _single(scene: Scene, place: int) -> Surface:
+    """Return the surface of an object that is one sphere, or one plane."""
     item = scene.objects[place]
     assert not isinstance(item, Spheres)  # noqa: S101
     center = (item.center.x, item.center.y, item.center.z)
     color = (float(item.color.r), float(item.color.g), float(item.color.b))
-    radius = None if isinstance(item, Plane) else item.radius
+    radius, normal = (None, unit(item.normal)) if isinstance(item, Plane) else (item.radius, None)
     return Surface(place, None, center, radius, normal, color, item.lambert)
 
 

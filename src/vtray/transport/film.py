@@ -121,6 +121,7 @@ def clear_sums(sums: Sums, pixels: int) -> None:
 @device
 def add_samples(packet: Packet, lanes: int, hits: int, samples: int, sums: Sums) -> None:
     """Add the samples of a packet to their pixels, always in the order of their numbers."""
+    numbers = packet.view(np.int64)
     _bring_back(packet, lanes, hits)
     for k in range(lanes // samples):
         light = load(sums.light, 0, k)
@@ -129,7 +130,7 @@ def add_samples(packet: Packet, lanes: int, hits: int, samples: int, sums: Sums)
         for lane in range(k * samples, (k + 1) * samples):
             weight = packet[WEIGHT + lane]
             light = add(light, scale(weight, load(packet, LIGHT, lane)))
-            covered += weight if packet[PRIMITIVE + lane] != NO_PRIMITIVE else 0.0
+            covered += weight if numbers[PRIMITIVE + lane] != NO_PRIMITIVE else 0.0
             total += weight
         store(sums.light, 0, k, light)
         sums.covered[k] = covered
@@ -139,10 +140,11 @@ def add_samples(packet: Packet, lanes: int, hits: int, samples: int, sums: Sums)
 @device
 def _bring_back(packet: Packet, lanes: int, hits: int) -> None:
     """Bring the light of the hits back to the lanes of their rays."""
+    numbers = packet.view(np.int64)
     for lane in range(lanes):
         store(packet, LIGHT, lane, (0.0, 0.0, 0.0))
     for hit in range(hits):
-        store(packet, LIGHT, int(packet[SOURCE + hit]), load(packet, VALUE, hit))
+        store(packet, LIGHT, numbers[SOURCE + hit], load(packet, VALUE, hit))
 
 
 @device
@@ -190,6 +192,7 @@ def _write_rays(
     packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, film: Film
 ) -> None:
     """Write what is wanted of the rays themselves."""
+    numbers = packet.view(np.int64)
     if is_wanted(film.distance):
         for lane in range(end - begin):
             row, column = _place(block, pixels[begin + lane])
@@ -197,7 +200,7 @@ def _write_rays(
     if is_wanted(film.primitive):
         for lane in range(end - begin):
             row, column = _place(block, pixels[begin + lane])
-            film.primitive[row, column] = int(packet[PRIMITIVE + lane])
+            film.primitive[row, column] = numbers[PRIMITIVE + lane]
     if is_wanted(film.rims):
         for lane in range(end - begin):
             row, column = _place(block, pixels[begin + lane])
@@ -234,9 +237,10 @@ def _write_light(
     linear: NDArray[np.float64],
 ) -> float:
     """Write the light of the hits; return the largest channel."""
+    numbers = packet.view(np.int64)
     peak = 0.0
     for hit in range(hits):
-        row, column = _place(block, pixels[begin + int(packet[SOURCE + hit])])
+        row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
         red, green, blue = load(packet, VALUE, hit)
         linear[row, column, 0] = red
         linear[row, column, 1] = green
@@ -255,8 +259,9 @@ def _write_normals(
     normals: NDArray[np.float64],
 ) -> None:
     """Write the normals of the hits."""
+    numbers = packet.view(np.int64)
     for hit in range(hits):
-        row, column = _place(block, pixels[begin + int(packet[SOURCE + hit])])
+        row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
         for axis in range(3):
             normals[row, column, axis] = packet[NORMAL + axis * LANES + hit]
 
@@ -272,9 +277,10 @@ def _write_shadows(
     shadows: NDArray[np.float64],
 ) -> None:
     """Write the numbers of the lights that something keeps from the hits."""
+    numbers = packet.view(np.int64)
     for lane in range(end - begin):
         row, column = _place(block, pixels[begin + lane])
         shadows[row, column] = 0.0
     for hit in range(hits):
-        row, column = _place(block, pixels[begin + int(packet[SOURCE + hit])])
+        row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
         shadows[row, column] = packet[SHADOWS + hit]

@@ -22,8 +22,8 @@ from vtray.geometry.packets.packet import (
     Packet,
 )
 from vtray.geometry.vector import add, scale
-from vtray.geometry.world import SceneArrays
-from vtray.transport.interaction import material
+from vtray.transport.materials.material import load_material, scattered
+from vtray.transport.scene_arrays import SceneArrays
 
 
 class KeptLight(NamedTuple):
@@ -72,16 +72,18 @@ def is_kept(kept: KeptLight) -> bool:
 @device
 def keep_ray(packet: Packet, lane: int, place: int, kept: KeptLight) -> None:
     """Keep what a ray hits and what it counts for."""
-    packet[KEPT + lane] = place
-    kept.primitive[place] = int(packet[PRIMITIVE + lane])
+    numbers = packet.view(np.int64)
+    numbers[KEPT + lane] = place
+    kept.primitive[place] = numbers[PRIMITIVE + lane]
     kept.weight[place] = int(packet[WEIGHT + lane])
 
 
 @device
 def keep_cosines(packet: Packet, hits: int, light: int, kept: KeptLight) -> None:
     """Keep the cosine of a light at the hits that it reaches."""
+    numbers = packet.view(np.int64)
     for hit in range(hits):
-        place = int(packet[KEPT + int(packet[SOURCE + hit])])
+        place = numbers[KEPT + numbers[SOURCE + hit]]
         reached = packet[BLOCKED + hit] == 0.0
         kept.cosines[light, place] = packet[COSINE + hit] if reached else 0.0
 
@@ -132,8 +134,8 @@ def _light_of_ray(scene: SceneArrays, kept: KeptLight, place: int) -> tuple[floa
     value = (0.0, 0.0, 0.0)
     primitive = int(kept.primitive[place])
     if primitive != NO_PRIMITIVE:
-        color, lambert = material(scene, primitive)
+        material = load_material(scene.materials, primitive)
         for light in range(kept.cosines.shape[0]):
-            strength = kept.cosines[light, place] * lambert * scene.lights.intensity[light]
-            value = add(value, scale(strength, color))
+            cosine, intensity = kept.cosines[light, place], scene.lights.intensity[light]
+            value = add(value, scattered(material, cosine, intensity))
     return value

@@ -1,11 +1,13 @@
-"""Groups of hits on the same sphere or plane: near each other, they go to the lights together."""
+"""Clusters of hits on the same shape: near each other, they go to the lights together."""
+
+import numpy as np
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import NO_PRIMITIVE, PRIMITIVE, Packet
 from vtray.geometry.packets.workspace import TABLE, Workspace
 
-GROUP = 32
-"""Hits of a group at the most: the rays of more part ways."""
+CLUSTER = 32
+"""Hits of a cluster at the most: the rays of more part ways."""
 
 SPREAD = 40503
 """Spreads numbers over the hash table: Knuth's multiplicative hashing, golden ratio * 2**16."""
@@ -14,29 +16,30 @@ SPREAD = 40503
 @device
 def list_hits(packet: Packet, lanes: int, work: Workspace) -> int:
     """List the lanes with a hit; return how many there are."""
+    numbers = packet.view(np.int64)
     hits = 0
     for lane in range(lanes):
-        if packet[PRIMITIVE + lane] != NO_PRIMITIVE:
+        if numbers[PRIMITIVE + lane] != NO_PRIMITIVE:
             work.order[hits] = lane
             hits += 1
     return hits
 
 
 @device
-def group_hits(packet: Packet, lanes: int, most: int, work: Workspace) -> int:
-    """List the lanes with a hit, in groups that hit the same, not too many; return how many."""
+def cluster_hits(packet: Packet, lanes: int, most: int, work: Workspace) -> int:
+    """List the lanes with a hit, in clusters that hit the same, not too many; return how many."""
     owners = _find_members(packet, lanes, work)
     hits = 0
-    groups = 0
+    clusters = 0
     for k in range(owners):
         count = work.size[k]
         work.size[k] = hits  # from now on, where the next member goes
         for begin in range(hits, hits + count, most):
-            groups += 1
-            work.group[groups] = begin
+            clusters += 1
+            work.cluster[clusters] = begin
         hits += count
-    work.group[0] = groups
-    work.group[groups + 1] = hits
+    work.cluster[0] = clusters
+    work.cluster[clusters + 1] = hits
     for lane in range(lanes):
         owner = work.member[lane]
         if owner >= 0:
@@ -49,12 +52,13 @@ def group_hits(packet: Packet, lanes: int, most: int, work: Workspace) -> int:
 def _find_members(packet: Packet, lanes: int, work: Workspace) -> int:
     """Find what is hit, by which lanes, and by how many; return how many things are."""
     table, owner, member, size = work.table, work.owner, work.member, work.size
+    numbers = packet.view(np.int64)
     for place in range(TABLE):
         table[place] = -1
     owners = 0
     for lane in range(lanes):
         member[lane] = -1
-        primitive = int(packet[PRIMITIVE + lane])
+        primitive = numbers[PRIMITIVE + lane]
         if primitive == NO_PRIMITIVE:
             continue
         place = (primitive * SPREAD >> 4) % TABLE

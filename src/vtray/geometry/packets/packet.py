@@ -1,9 +1,10 @@
 """A packet: the rays of one block of pixels, side by side in one scratch array.
 
-Each quantity has a row of ``LANES`` numbers, one per ray, so that a loop over the lanes reads and
-writes runs of memory that the compiler can turn into vector instructions. All rows live in one flat
-array at distances known at compile time: with an array for each, the compiler could not tell that
-they do not overlap, and would not vectorise.
+Each field has a number for each of ``LANES`` lanes, or three for a vector, so that a loop over the
+lanes reads and writes runs of memory that the compiler can turn into vector instructions. All lie
+in one flat array at distances known at compile time: with an array for each, the compiler could not
+tell that they do not overlap, and would not vectorise. Integers lie in the same memory, seen as
+such by `integers`.
 """
 
 from typing import NamedTuple
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.ray import Ray
 from vtray.geometry.vector import Vec
 
 BLOCK = 16
@@ -20,40 +22,92 @@ BLOCK = 16
 LANES = BLOCK * BLOCK
 """Rays in a packet: one per pixel of its block."""
 
-GROUP = 8
+OCTET = 8
 """Lanes that one vector instruction handles: rays near each other."""
 
-PART = 8 * GROUP
+PART = 8 * OCTET
 """Lanes that go through the hierarchy as one beam."""
 
-# Rows of one number a lane; a vector takes three rows.
-DIRECTION = 0 * LANES
-FORWARD = 3 * LANES  # the ray's direction along the camera's normal
-DISTANCE = 4 * LANES
-PRIMITIVE = 5 * LANES  # the number of what is hit, which decides between equal distances
-SOURCE = 6 * LANES  # of a hit: the lane of its ray
-POINT = 7 * LANES
-DEPTH = 10 * LANES  # the point's distance in front of the image plane
-NORMAL = 11 * LANES
-MAGNITUDE = 14 * LANES  # what the point's rounding error is relative to
-LAMBERT = 15 * LANES
-COLOR = 16 * LANES
-VALUE = 19 * LANES
-BLOCKED = 22 * LANES
-COSINE = 23 * LANES
-SLOT = 24 * LANES  # where the arrays have what is hit
-OFFSET = 25 * LANES  # where the ray starts, minus the eye
-COLUMN = 28 * LANES  # the place in the image that the ray goes through, in pixels
-ROW = 29 * LANES
-WEIGHT = 30 * LANES  # what the ray counts for its pixel
-LIGHT = 31 * LANES  # the light along the ray; in the rows before, hits have moved to the front
-SHADOWS = 34 * LANES  # a number for the lights that something blocks
-RIM = 35 * LANES  # the distance of the nearest outline that passes near the ray
-KEPT = 36 * LANES  # the place of what is kept of the ray
-ROWS = 37
 
-NO_PRIMITIVE = -1.0
-"""In row ``PRIMITIVE``: the ray hits nothing. (A double as all rows: lanes stay equally wide.)"""
+class _Fields:
+    """Gives each field its place in the array."""
+
+    def __init__(self) -> None:
+        self.size = 0
+
+    def scalar(self) -> int:
+        """Return where a field of one number a lane begins."""
+        self.size += LANES
+        return self.size - LANES
+
+    def vector(self) -> int:
+        """Return where a field of a vector a lane begins."""
+        self.size += 3 * LANES
+        return self.size - 3 * LANES
+
+
+_fields = _Fields()
+
+# The rays, by their lanes.
+DIRECTION = _fields.vector()
+FORWARD = _fields.scalar()
+"""As in `Ray`."""
+ORIGIN = _fields.vector()
+"""Where the ray starts, if not all start together."""
+COLUMN = _fields.scalar()
+ROW = _fields.scalar()
+"""The place in the image that the ray goes through, in pixels."""
+WEIGHT = _fields.scalar()
+"""What the ray counts for its pixel."""
+KEPT = _fields.scalar()
+"""Integer: the place of what is kept of the ray."""
+
+# What they meet, by the same lanes.
+DISTANCE = _fields.scalar()
+PRIMITIVE = _fields.scalar()
+"""Integer: the number of what is hit, which decides between equal distances."""
+MET = _fields.scalar()
+"""Integer: where to find what is hit; see `join_met`."""
+RIM = _fields.scalar()
+"""The distance of the nearest outline that passes near the ray."""
+LIGHT = _fields.vector()
+"""The light along the ray."""
+
+# The hits, from the first lane on.
+SOURCE = _fields.scalar()
+"""Integer: the lane of the hit's ray."""
+TOWARDS = _fields.vector()
+START = _fields.vector()
+"""The direction of its ray, and the start, if not all start together."""
+LENGTH = _fields.scalar()
+"""The length of its ray."""
+POINT = _fields.vector()
+DEPTH = _fields.scalar()
+"""The point's distance in front of the image plane."""
+NORMAL = _fields.vector()
+"""The normal; before it is worked out, that of a flat surface, or what a curved one is round."""
+CURVED = _fields.scalar()
+"""1 where it is round, and 0 where it is flat."""
+ERROR_SCALE = _fields.scalar()
+"""What the point's rounding error is relative to."""
+LAMBERT = _fields.scalar()
+COLOR = _fields.vector()
+VALUE = _fields.vector()
+"""The light from the hit."""
+
+# Its shadow rays to one light.
+BLOCKED = _fields.scalar()
+COSINE = _fields.scalar()
+SHADOWS = _fields.scalar()
+"""A number for the lights that something blocks, of all so far."""
+
+SIZE = _fields.size
+
+NO_PRIMITIVE = -1
+"""In field ``PRIMITIVE``: the ray hits nothing."""
+
+SLOT_BITS = 32
+"""The low bits of an integer in field ``MET``, which say the slot."""
 
 Packet = NDArray[np.float64]
 
@@ -67,20 +121,78 @@ class Block(NamedTuple):
     height: int
 
 
+class Sheaf(NamedTuple):
+    """What the rays of a packet have in common.
+
+    Attributes
+    ----------
+    origin
+        Where they start; if they start apart, the middle.
+    extent
+        How far from there they start at the most; where it is not 0, each starts at a place of its
+        own, in field ``ORIGIN``.
+    depth, error_scale
+        As in `Ray`.
+    """
+
+    origin: Vec
+    extent: float
+    depth: float
+    error_scale: float
+
+
 def new_packet() -> Packet:
     """Return a packet for one thread."""
-    return np.zeros(ROWS * LANES)
+    return np.zeros(SIZE)
 
 
 @device
-def load(packet: Packet, row: int, lane: int) -> Vec:
+def start_apart(sheaf: Sheaf) -> bool:
+    """Tell whether rays start side by side, as in an orthographic view, not all at one place."""
+    return sheaf.extent > 0.0
+
+
+@device
+def integers(packet: Packet) -> NDArray[np.int64]:
+    """Return the memory of a packet as integers."""
+    return packet.view(np.int64)
+
+
+@device
+def join_met(row: int, slot: int) -> int:
+    """Return one integer for the row of a group and the slot of a shape."""
+    return row << SLOT_BITS | slot
+
+
+@device
+def split_met(met: int) -> tuple[int, int]:
+    """Return the row of a group and the slot of a shape."""
+    return met >> SLOT_BITS, met & ((1 << SLOT_BITS) - 1)
+
+
+@device
+def load(packet: Packet, field: int, lane: int) -> Vec:
     """Return a lane's vector."""
-    return packet[row + lane], packet[row + LANES + lane], packet[row + 2 * LANES + lane]
+    return packet[field + lane], packet[field + LANES + lane], packet[field + 2 * LANES + lane]
 
 
 @device
-def store(packet: Packet, row: int, lane: int, vector: Vec) -> None:
+def store(packet: Packet, field: int, lane: int, vector: Vec) -> None:
     """Set a lane's vector."""
-    packet[row + lane] = vector[0]
-    packet[row + LANES + lane] = vector[1]
-    packet[row + 2 * LANES + lane] = vector[2]
+    packet[field + lane] = vector[0]
+    packet[field + LANES + lane] = vector[1]
+    packet[field + 2 * LANES + lane] = vector[2]
+
+
+@device
+def load_ray(packet: Packet, sheaf: Sheaf, lane: int) -> Ray:
+    """Return a lane's ray, which starts exactly where it says."""
+    origin = load(packet, ORIGIN, lane) if start_apart(sheaf) else sheaf.origin
+    return Ray(
+        origin,
+        load(packet, DIRECTION, lane),
+        sheaf.depth,
+        packet[FORWARD + lane],
+        sheaf.error_scale,
+        0.0,
+    )

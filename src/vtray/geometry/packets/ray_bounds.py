@@ -1,33 +1,42 @@
-"""Cones around groups of rays, which tell for eight groups at once which a sphere may meet.
+"""Cones around octets of rays, which tell for eight octets at once which a shape may meet.
 
-The line of the ray from ``o`` along the unit vector ``d`` passes a centre ``c`` at the distance
+The line of the ray from ``o`` along the unit vector ``d`` passes a point ``c`` at the distance
 ``|(c - o) x d|``. For another start ``p`` and any vector ``a`` that is at least
-``|(c - p) x a| - |o - p| - |c - o| * |d - a|``: so one start and one axis speak for a group of
-rays, from any camera.
+``|(c - p) x a| - |o - p| - |c - o| * |d - a|``: so one start and one axis speak for an octet of
+rays, from anywhere.
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.packet import DIRECTION, DISTANCE, GROUP, LANES, OFFSET, Packet
+from vtray.geometry.packets.packet import (
+    DIRECTION,
+    DISTANCE,
+    LANES,
+    OCTET,
+    ORIGIN,
+    Packet,
+    Sheaf,
+    start_apart,
+)
+from vtray.geometry.ray import Footprint, width_at
 from vtray.geometry.vector import Vec, add, cross, dot, lower, scale, sub, upper
 
-GROUPS = LANES // GROUP
+OCTETS = LANES // OCTET
 
-# Rows of one number a group; a vector takes three rows.
-AXIS = 0 * GROUPS
-START = 3 * GROUPS  # relative to the eye
-SPREAD = 6 * GROUPS  # how far directions are from the axis at the most
-WIDTH = 7 * GROUPS  # how far starts are from that of the cone at the most
-LOW = 8 * GROUPS  # the least and the greatest components of the directions
-HIGH = 11 * GROUPS
-NEAR = 14 * GROUPS  # the least and the greatest components of the starts
-FAR = 17 * GROUPS
-FARTHEST = 20 * GROUPS  # the largest distance of the hits so far
+# Rows of one number an octet; a vector takes three rows.
+AXIS = 0 * OCTETS
+START = 3 * OCTETS
+SPREAD = 6 * OCTETS  # how far directions are from the axis at the most
+WIDTH = 7 * OCTETS  # how far starts are from that of the cone at the most
+LOW = 8 * OCTETS  # the least and the greatest components of the directions
+HIGH = 11 * OCTETS
+FIRST = 14 * OCTETS  # the least and the greatest coordinates of the starts
+LAST = 17 * OCTETS
+FARTHEST = 20 * OCTETS  # the largest distance of the hits so far
 ROWS = 21
 
 Cones = NDArray[np.float64]
@@ -35,154 +44,137 @@ Cones = NDArray[np.float64]
 
 def new_cones() -> Cones:
     """Return the cones of a packet."""
-    return np.zeros(ROWS * GROUPS)
-
-
-class Footprint(NamedTuple):
-    """How wide the part of the scene is around a ray that its pixel is made of.
-
-    Attributes
-    ----------
-    width
-        At the start of the ray.
-    growth
-        By how much it grows with each unit of length along the ray.
-    """
-
-    width: float
-    growth: float
+    return np.zeros(ROWS * OCTETS)
 
 
 @device
-def has_width(footprint: Footprint) -> bool:
-    """Tell whether a footprint is more than the ray itself."""
-    return (footprint.width > 0.0) | (footprint.growth > 0.0)
-
-
-@device
-def width_at(footprint: Footprint, distance: float) -> float:
-    """Return how far from a ray its pixel's part of the scene reaches at a distance."""
-    return footprint.width + footprint.growth * distance
-
-
-@device
-def find_cones(packet: Packet, lanes: int, shifted: bool, cones: Cones) -> None:
-    """Find the cones of the groups of so many lanes; if not `shifted`, all start at the eye."""
+def find_cones(packet: Packet, lanes: int, sheaf: Sheaf, cones: Cones) -> None:
+    """Find the cones of the octets of so many lanes."""
     for axis in range(3):
-        _bound_groups(packet, DIRECTION + axis * LANES, lanes, cones, LOW + axis * GROUPS)
-        if shifted:
-            _bound_groups(packet, OFFSET + axis * LANES, lanes, cones, NEAR + axis * GROUPS)
-    for group in range(lanes // GROUP):
-        low, high = _load(cones, LOW, group), _load(cones, HIGH, group)
-        near, far = _load(cones, NEAR, group), _load(cones, FAR, group)
-        _store(cones, AXIS, group, scale(0.5, add(low, high)))
-        _store(cones, START, group, scale(0.5, add(near, far)))
-        directions, starts = sub(high, low), sub(far, near)
-        cones[SPREAD + group] = 0.5 * math.sqrt(dot(directions, directions))
-        cones[WIDTH + group] = 0.5 * math.sqrt(dot(starts, starts))
+        _bound_octets(packet, DIRECTION + axis * LANES, lanes, cones, LOW + axis * OCTETS)
+        if start_apart(sheaf):
+            _bound_octets(packet, ORIGIN + axis * LANES, lanes, cones, FIRST + axis * OCTETS)
+    for octet in range(lanes // OCTET):
+        if not start_apart(sheaf):
+            _store(cones, FIRST, octet, sheaf.origin)
+            _store(cones, LAST, octet, sheaf.origin)
+        low, high = _load(cones, LOW, octet), _load(cones, HIGH, octet)
+        first, last = _load(cones, FIRST, octet), _load(cones, LAST, octet)
+        _store(cones, AXIS, octet, scale(0.5, add(low, high)))
+        _store(cones, START, octet, scale(0.5, add(first, last)))
+        directions, starts = sub(high, low), sub(last, first)
+        cones[SPREAD + octet] = 0.5 * math.sqrt(dot(directions, directions))
+        cones[WIDTH + octet] = 0.5 * math.sqrt(dot(starts, starts))
 
 
 @device
-def _bound_groups(packet: Packet, row: int, lanes: int, cones: Cones, to: int) -> None:
-    """Set the least number of each group, and three rows later the greatest."""
-    for group in range(lanes // GROUP):
-        first = row + group * GROUP
+def _bound_octets(packet: Packet, field: int, lanes: int, cones: Cones, to: int) -> None:
+    """Set the least number of each octet, and three rows later the greatest."""
+    for octet in range(lanes // OCTET):
+        first = field + octet * OCTET
         # Infinite at first, so that what is not a number, and hits nothing, is no bound.
         low, high = math.inf, -math.inf
-        for lane in range(first, first + GROUP):
+        for lane in range(first, first + OCTET):
             low, high = min(low, packet[lane]), max(high, packet[lane])
-        cones[to + group] = low
-        cones[to + 3 * GROUPS + group] = high
+        cones[to + octet] = low
+        cones[to + 3 * OCTETS + octet] = high
 
 
 @device
 def part_directions(cones: Cones, first: int, count: int) -> tuple[Vec, Vec]:
-    """Return the least and the greatest components of the directions of some groups."""
+    """Return the least and the greatest components of the directions of some octets."""
     return _bound_part(cones, LOW, HIGH, first, count)
 
 
 @device
 def part_starts(cones: Cones, first: int, count: int) -> tuple[Vec, Vec]:
-    """Return the least and the greatest components of the starts of some groups, minus the eye."""
-    return _bound_part(cones, NEAR, FAR, first, count)
+    """Return the least and the greatest coordinates of the starts of some octets."""
+    return _bound_part(cones, FIRST, LAST, first, count)
 
 
 @device
 def _bound_part(cones: Cones, least: int, greatest: int, begin: int, count: int) -> tuple[Vec, Vec]:
     low, high = _load(cones, least, begin), _load(cones, greatest, begin)
-    for group in range(begin + 1, begin + count):
+    for octet in range(begin + 1, begin + count):
         low, high = (
-            lower(low, _load(cones, least, group)),
-            upper(high, _load(cones, greatest, group)),
+            lower(low, _load(cones, least, octet)),
+            upper(high, _load(cones, greatest, octet)),
         )
     return low, high
 
 
 @device
 def farthest_of(cones: Cones, first: int, count: int) -> float:
-    """Return the largest distance of the hits so far of some groups."""
-    begin = first & (GROUPS - 1)
+    """Return the largest distance of the hits so far of some octets."""
+    begin = first & (OCTETS - 1)
     far = 0.0
-    for group in range(begin, begin + count):
-        far = max(far, cones[FARTHEST + group])
+    for octet in range(begin, begin + count):
+        far = max(far, cones[FARTHEST + octet])
     return far
 
 
 @device
 def find_farthest(packet: Packet, first: int, count: int, cones: Cones) -> None:
-    """Find the largest distance of the hits so far in each of some groups."""
-    for group in range(first, first + count):
-        # Doubles ≥ 0 are in the order of their bits, and a maximum of integers can be vectorised.
-        bits = packet.view(np.int64)
+    """Find the largest distance of the hits so far in each of some octets."""
+    # Doubles ≥ 0 are in the order of their bits, and a maximum of integers can be vectorised.
+    bits = packet.view(np.int64)
+    for octet in range(first, first + count):
         far = 0
-        begin = group * GROUP & (LANES - 1)
-        for lane in range(begin, begin + GROUP):
+        begin = octet * OCTET & (LANES - 1)
+        for lane in range(begin, begin + OCTET):
             far = max(far, bits[DISTANCE + lane])
-        cones[FARTHEST + group] = np.int64(far).view(np.float64)
+        cones[FARTHEST + octet] = np.int64(far).view(np.float64)
 
 
 @device
-def groups_met(
-    cones: Cones, first: int, count: int, from_eye: Vec, radius: float, footprint: Footprint
+def octets_met(
+    cones: Cones,
+    first: int,
+    count: int,
+    sheaf: Sheaf,
+    center: Vec,
+    radius: float,
+    footprint: Footprint,
 ) -> int:
-    """Return a bit for each of some groups whose rays or footprints a sphere may meet.
+    """Return a bit for each of some octets whose rays or footprints a ball may meet.
 
     Parameters
     ----------
     cones
         The cones of a packet.
     first, count
-        The first of the groups, and how many there are.
-    from_eye
-        The sphere's centre minus the eye.
-    radius
-        The sphere's radius, widened by a margin for rounding.
+        The first of the octets, and how many there are.
+    sheaf
+        What all rays have in common.
+    center, radius
+        The ball around a shape, its radius widened by a margin for rounding.
     footprint
         That of all rays.
     """
-    reach = math.sqrt(dot(from_eye, from_eye))
+    from_origin = sub(center, sheaf.origin)
+    reach = math.sqrt(dot(from_origin, from_origin)) + sheaf.extent
     radius += width_at(footprint, reach)
     # The mask tells the compiler that no index is negative.
-    begin = first & (GROUPS - 1)
+    begin = first & (OCTETS - 1)
     met = 0
     for k in range(count):
-        group = begin + k
-        start, axis = sub(from_eye, _load(cones, START, group)), _load(cones, AXIS, group)
+        octet = begin + k
+        start, axis = sub(center, _load(cones, START, octet)), _load(cones, AXIS, octet)
         moment = cross(start, axis)
-        limit = radius + cones[WIDTH + group] + reach * cones[SPREAD + group]
+        limit = radius + cones[WIDTH + octet] + reach * cones[SPREAD + octet]
         beside = dot(moment, moment) > limit * limit
-        behind = dot(start, axis) - limit > cones[FARTHEST + group]
+        behind = dot(start, axis) - limit > cones[FARTHEST + octet]
         met |= 0 if beside | behind else 1 << k
     return met
 
 
 @device
-def _load(cones: Cones, row: int, group: int) -> Vec:
-    return cones[row + group], cones[row + GROUPS + group], cones[row + 2 * GROUPS + group]
+def _load(cones: Cones, row: int, octet: int) -> Vec:
+    return cones[row + octet], cones[row + OCTETS + octet], cones[row + 2 * OCTETS + octet]
 
 
 @device
-def _store(cones: Cones, row: int, group: int, vector: Vec) -> None:
-    cones[row + group] = vector[0]
-    cones[row + GROUPS + group] = vector[1]
-    cones[row + 2 * GROUPS + group] = vector[2]
+def _store(cones: Cones, row: int, octet: int, vector: Vec) -> None:
+    cones[row + octet] = vector[0]
+    cones[row + OCTETS + octet] = vector[1]
+    cones[row + 2 * OCTETS + octet] = vector[2]

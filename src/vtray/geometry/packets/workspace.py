@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vtray.geometry.bvh.tree import STACK
 from vtray.geometry.packets.packet import BLOCK, LANES
 from vtray.geometry.packets.ray_bounds import Cones, new_cones
-from vtray.geometry.world import SceneArrays
+from vtray.geometry.world import NO_TREE, PLANE, World
 
 TABLE = 2 * LANES
 """Places of the hash table in which lanes are grouped."""
@@ -32,17 +32,17 @@ class Workspace(NamedTuple):
     Attributes
     ----------
     near
-        Which spheres may be met, one per sphere; nothing if there is a hierarchy.
+        Which shapes without a hierarchy may be met, one per slot.
     above, below
         Whether any point lies on that side of a plane, clear of rounding, one per plane.
     cones
-        The cones around the groups of rays.
+        The cones around the octets of rays.
     stack, stack_enter
         Nodes that wait on a way through the hierarchy, and where the beam enters them.
     order
-        The lanes with a hit in the order of their groups.
-    group
-        How many groups there are, and then the first hit of each, and the end of the last.
+        The lanes with a hit in the order of their clusters.
+    cluster
+        How many clusters there are, and then the first hit of each, and the end of the last.
     curve
         The pixels of a block along a curve.
     pixels
@@ -60,7 +60,7 @@ class Workspace(NamedTuple):
     stack: NDArray[np.int64]
     stack_enter: NDArray[np.float64]
     order: NDArray[np.int64]
-    group: NDArray[np.int64]
+    cluster: NDArray[np.int64]
     curve: Pixels
     pixels: Pixels
     sums: Sums
@@ -73,8 +73,8 @@ class Workspace(NamedTuple):
 def curve_of_block() -> Pixels:
     """Return the pixels of a block, as row * BLOCK + column, in the order of Morton's curve.
 
-    Those of a group of lanes, and those of a part of a packet, are near each other: 4 by 2 and 8 by
-    8 pixels, if all pixels are traced.
+    Those of an octet of lanes, and those of a part of a packet, are near each other: 4 by 2 and
+    8 by 8 pixels, if all pixels are traced.
     """
     code = np.arange(BLOCK * BLOCK)
     column = code & 1 | code >> 1 & 2 | code >> 2 & 4 | code >> 3 & 8
@@ -82,10 +82,11 @@ def curve_of_block() -> Pixels:
     return row * BLOCK + column
 
 
-def new_workspace(scene: SceneArrays) -> Workspace:
-    """Return the scratch memory of one thread for a scene."""
-    planes = scene.planes.x.shape[0]
-    few = len(scene.spheres.number) if len(scene.bvh.child) == 0 else 0
+def new_workspace(world: World) -> Workspace:
+    """Return the scratch memory of one thread for what rays can meet."""
+    groups = world.groups
+    few = int(groups.end[(groups.kind != PLANE) & (groups.root == NO_TREE)].max(initial=0))
+    planes = len(world.planes.number)
 
     def integers(size: int) -> NDArray[np.int64]:
         return np.zeros(size, np.int64)
@@ -98,7 +99,7 @@ def new_workspace(scene: SceneArrays) -> Workspace:
         stack=integers(STACK),
         stack_enter=np.zeros(STACK),
         order=integers(LANES),
-        group=integers(LANES + 2),
+        cluster=integers(LANES + 2),
         curve=curve_of_block(),
         pixels=integers(LANES),
         sums=Sums(np.zeros(3 * LANES), np.zeros(LANES), np.zeros(LANES)),

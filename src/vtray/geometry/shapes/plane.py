@@ -1,8 +1,44 @@
-"""The plane: where a ray meets it, and whether it blocks a shadow ray."""
+"""The plane: where a ray meets it, and what it hides."""
 
 import math
+from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.ray import Ray, Segment
+from vtray.geometry.rounding import ROUNDING
+from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
+from vtray.geometry.vector import Vec, dot, magnitude, sub
+
+SIZE = 6
+"""Numbers of a plane in its columns: a point, and the unit normal."""
+
+
+class PlaneShape(NamedTuple):
+    """A plane in the kernels' space.
+
+    Attributes
+    ----------
+    point, normal
+        A point of it, and its unit normal.
+    offset
+        Its signed distance from the origin, along the normal.
+    error_scale
+        What its rounding errors are relative to.
+    """
+
+    point: Vec
+    normal: Vec
+    offset: float
+    error_scale: float
+
+
+@device
+def load_plane(columns: Columns, slot: int, place: Place) -> PlaneShape:
+    """Return one of the planes."""
+    first, data = SIZE * slot, columns.data
+    point = to_kernels(world_point(columns, first, place), place)
+    normal = data[first + 3], data[first + 4], data[first + 5]
+    return PlaneShape(point, normal, dot(point, normal), magnitude(point))
 
 
 @device
@@ -20,8 +56,56 @@ def intersect_plane(height: float, descent: float) -> float:
 
 
 @device
+def plane_distance(plane: PlaneShape, ray: Ray) -> float:
+    """Return the distance at which a ray meets a plane, from the image plane on, or infinity.
+
+    A small `descent` magnifies the error of the distance, so the bound is divided by it; that also
+    ends the plane where, towards its horizon, rounding would decide what is hit. A ray that starts
+    on the plane, as near as rounding can tell, does not meet it.
+    """
+    height = dot(sub(plane.point, ray.origin), plane.normal)
+    descent = dot(ray.direction, plane.normal)
+    distance = intersect_plane(height, descent)
+    depth = distance * ray.forward + ray.depth
+    error_scale = plane.error_scale + ray.error_scale + abs(distance)
+    seen = depth * abs(descent) > ROUNDING * error_scale
+    if ray.error_bound > 0.0:
+        seen = seen & (abs(height) > ray.error_bound) & (distance > 0.0)
+    return distance if seen else math.inf
+
+
+@device
+def plane_side(plane: PlaneShape, point: Vec) -> float:
+    """Return the signed distance of a point from a plane."""
+    side: float = dot(point, plane.normal) - plane.offset
+    return side
+
+
+@device
+def end_side(plane: PlaneShape, end: Vec, end_scale: float) -> float:
+    """Return the signed distance of a light from a plane, 0 if rounding could explain it."""
+    side = plane_side(plane, end)
+    return side if abs(side) > ROUNDING * (plane.error_scale + end_scale) else 0.0
+
+
+@device
+def plane_hides(plane: PlaneShape, segment: Segment) -> bool:
+    """Tell whether a plane stands between two points, in front of the image plane."""
+    return hides_side((plane, end_side(plane, segment.end, segment.end_scale)), segment)
+
+
+@device
+def hides_side(plane_and_end: tuple[PlaneShape, float], segment: Segment) -> bool:
+    """Tell the same with the `end_side` of where the segment ends, for many that end there."""
+    plane, end = plane_and_end
+    start = plane_side(plane, segment.start)
+    error_bound = ROUNDING * (segment.start_scale + plane.error_scale)
+    return plane_blocks(start, end, segment.start_depth, segment.end_depth, error_bound)
+
+
+@device
 def plane_blocks(
-    start: float, end: float, start_depth: float, end_depth: float, reach: float
+    start: float, end: float, start_depth: float, end_depth: float, error_bound: float
 ) -> bool:
     """Tell whether a plane lies between a point and a light, in front of the image plane.
 
@@ -33,10 +117,10 @@ def plane_blocks(
         The light's, 0 if it lies in the plane: then nothing lies between.
     start_depth, end_depth
         Signed distances of point and light from the image plane.
-    reach
+    error_bound
         How far rounding may have moved the point: one nearer to the plane than that is on it.
     """
-    opposite = ((start > reach) & (end < 0.0)) | ((start < -reach) & (end > 0.0))
+    opposite = ((start > error_bound) & (end < 0.0)) | ((start < -error_bound) & (end > 0.0))
     # The crossing's depth is (|start| end_depth + |end| start_depth) / (|start| + |end|).
     crossing = abs(start) * end_depth + abs(end) * start_depth
-    return opposite & (crossing > reach * (abs(start) + abs(end)))
+    return opposite & (crossing > error_bound * (abs(start) + abs(end)))

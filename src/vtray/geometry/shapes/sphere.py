@@ -1,13 +1,44 @@
-"""The sphere: where a ray meets it, and whether it blocks a shadow ray."""
+"""The sphere: where a ray meets it, what it hides, its normal and its outline."""
 
 import math
+from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.vector import Vec, add, cross, dot, scale
+from vtray.geometry.ray import Footprint, Ray, Segment, width_at
+from vtray.geometry.rounding import ROUNDING
+from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
+from vtray.geometry.vector import Vec, add, cross, dot, magnitude, scale, sub
+
+SIZE = 4
+"""Numbers of a sphere in its columns: the centre, and the radius."""
+
+
+class SphereShape(NamedTuple):
+    """A sphere in the kernels' space.
+
+    Attributes
+    ----------
+    center, radius
+        Those of the sphere, which is its own bounding ball.
+    error_scale
+        What its rounding errors are relative to.
+    """
+
+    center: Vec
+    radius: float
+    error_scale: float
 
 
 @device
-def intersect_sphere(eye_from_center: Vec, direction: Vec, radius: float) -> tuple[float, float]:
+def load_sphere(columns: Columns, slot: int, place: Place) -> SphereShape:
+    """Return one of the spheres."""
+    center = to_kernels(world_point(columns, SIZE * slot, place), place)
+    radius = columns.data[SIZE * slot + 3] * place.scale
+    return SphereShape(center, radius, magnitude(center) + radius)
+
+
+@device
+def intersect_sphere(from_center: Vec, direction: Vec, radius: float) -> tuple[float, float]:
     """Return the distances at which a ray enters and leaves a sphere.
 
     The discriminant is taken from the closest approach, not from ``b*b - c``, so that it stays
@@ -15,7 +46,7 @@ def intersect_sphere(eye_from_center: Vec, direction: Vec, radius: float) -> tup
 
     Parameters
     ----------
-    eye_from_center
+    from_center
         The ray's origin minus the sphere's centre.
     direction
         The ray's unit direction.
@@ -32,8 +63,8 @@ def intersect_sphere(eye_from_center: Vec, direction: Vec, radius: float) -> tup
     Haines, Gunther, Akenine-Moeller, "Precision Improvements for Ray/Sphere Intersection",
     Ray Tracing Gems (2019), chapter 7.
     """
-    middle = -dot(eye_from_center, direction)
-    approach = add(eye_from_center, scale(middle, direction))
+    middle = -dot(from_center, direction)
+    approach = add(from_center, scale(middle, direction))
     discriminant = radius * radius - dot(approach, approach)
     half_chord = math.sqrt(max(discriminant, 0.0))
     near = middle - half_chord if discriminant > 0.0 else math.inf
@@ -42,13 +73,55 @@ def intersect_sphere(eye_from_center: Vec, direction: Vec, radius: float) -> tup
 
 
 @device
+def sphere_distance(sphere: SphereShape, ray: Ray) -> float:
+    """Return the distance to the first point of a sphere that a ray meets, or infinity.
+
+    The ray counts from the image plane on. Where it starts on the sphere, as near as rounding can
+    tell, it meets the sphere only where it crosses it elsewhere.
+    """
+    from_center = sub(ray.origin, sphere.center)
+    near, far = intersect_sphere(from_center, ray.direction, sphere.radius)
+    error_scale = sphere.error_scale + ray.error_scale
+    if ray.error_bound > 0.0:
+        start = dot(from_center, from_center) - sphere.radius * sphere.radius
+        slack = ray.error_bound * (2.0 * sphere.radius + ray.error_bound)
+        ahead = -dot(from_center, ray.direction) > 0.0
+        near = near if (start > slack) & ahead else -math.inf
+        far = far if (start < -slack) | ahead else math.inf
+    if near * ray.forward + ray.depth > ROUNDING * (abs(near) + error_scale):
+        return near
+    if far * ray.forward + ray.depth > ROUNDING * (abs(far) + error_scale):
+        return far
+    return math.inf
+
+
+@device
+def sphere_hides(sphere: SphereShape, segment: Segment) -> bool:
+    """Tell whether a sphere stands between two points, in front of the image plane."""
+    error_bound = ROUNDING * (segment.start_scale + sphere.error_scale)
+    end_bound = ROUNDING * (sphere.error_scale + segment.end_scale)
+    from_center = sub(segment.start, sphere.center)
+    to_end = sub(segment.end, segment.start)
+    end_from_center = sub(segment.end, sphere.center)
+    if segment.end_depth < 0.0:
+        # The way counts up to where it passes through the image plane.
+        share = segment.start_depth / (segment.start_depth - segment.end_depth)
+        to_end = scale(share, to_end)
+        end_from_center = add(from_center, to_end)
+        end_bound = error_bound + share * end_bound
+    return sphere_blocks(
+        from_center, to_end, end_from_center, sphere.radius, error_bound, end_bound
+    )
+
+
+@device
 def sphere_blocks(
     from_center: Vec,
     to_end: Vec,
     end_from_center: Vec,
     radius: float,
-    reach: float,
-    end_reach: float,
+    error_bound: float,
+    end_bound: float,
 ) -> bool:
     """Tell whether a sphere's surface lies between a point and the end of its shadow ray.
 
@@ -65,14 +138,12 @@ def sphere_blocks(
         The shadow ray's end minus the sphere's centre.
     radius
         The sphere's radius.
-    reach
-        How far rounding may have moved the start.
-    end_reach
-        How far rounding may have moved the end.
+    error_bound, end_bound
+        How far rounding may have moved the start, and the end.
     """
     radius2 = radius * radius
-    slack = reach * (2.0 * radius + reach)  # (radius + reach)^2 - radius^2
-    end_slack = end_reach * (2.0 * radius + end_reach)
+    slack = error_bound * (2.0 * radius + error_bound)  # (radius + error_bound)^2 - radius^2
+    end_slack = end_bound * (2.0 * radius + end_bound)
     start = dot(from_center, from_center) - radius2
     end = dot(end_from_center, end_from_center) - radius2
     toward = -dot(from_center, to_end)
@@ -85,3 +156,17 @@ def sphere_blocks(
     )
     leaves = (end > end_slack) & ((start < -slack) | (toward > 0.0))
     return enters if start > slack else leaves
+
+
+@device
+def sphere_outline(sphere: SphereShape, ray: Ray, footprint: Footprint) -> float:
+    """Return the distance at which a ray passes a sphere's outline, or infinity if none is near."""
+    from_center = sub(ray.origin, sphere.center)
+    middle = -dot(from_center, ray.direction)
+    approach = add(from_center, scale(middle, ray.direction))
+    gap2 = dot(approach, approach)
+    width = width_at(footprint, middle)
+    outer, inner = sphere.radius + width, max(sphere.radius - width, 0.0)
+    near = (gap2 < outer * outer) & (gap2 >= inner * inner) & (middle > -ray.depth)
+    entry = middle - math.sqrt(max(sphere.radius * sphere.radius - gap2, 0.0))
+    return entry if near else math.inf

@@ -1,35 +1,29 @@
-"""The integrator: from a tile of pixels to their linear light."""
+"""The direct integrator: from a tile of pixels to the light that comes straight from the lights."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
-from vtray.geometry.camera_rays import CameraFrame, camera_ray, is_shifted
-from vtray.geometry.packets.bvh_nearest import nearest_in_bvh
-from vtray.geometry.packets.bvh_occlusion import block_in_bvh
-from vtray.geometry.packets.few_spheres import block_by_few, nearest_of_few
-from vtray.geometry.packets.nearest import clear_hits, nearest_plane
-from vtray.geometry.packets.occlusion import Bounds, block_by_planes, bound_points, find_sides
+from vtray.geometry.packets.occlusion import bound_points, find_sides
 from vtray.geometry.packets.packet import (
     BLOCK,
     COLUMN,
     DIRECTION,
     FORWARD,
-    GROUP,
     LANES,
-    OFFSET,
+    ORIGIN,
     PART,
     ROW,
     Block,
     Packet,
     load,
+    start_apart,
     store,
 )
-from vtray.geometry.packets.ray_bounds import find_cones, find_farthest
+from vtray.geometry.packets.search import find_blocked, find_nearest
 from vtray.geometry.packets.workspace import Workspace
-from vtray.geometry.shapes.sphere_arrays import sphere_count
 from vtray.geometry.vector import dot
-from vtray.geometry.world import SceneArrays, has_bvh
+from vtray.transport.camera_rays import CameraFrame, camera_ray, sheaf_of
 from vtray.transport.film import (
     Film,
     add_samples,
@@ -41,8 +35,15 @@ from vtray.transport.film import (
 )
 from vtray.transport.interaction import gather_interactions
 from vtray.transport.light_buffer import is_kept, keep_cosines
+from vtray.transport.lights.light import light_count, light_target
+from vtray.transport.lights.lighting import (
+    add_light,
+    clear_shadows,
+    find_cosines,
+    note_shadows,
+)
 from vtray.transport.sampling.pixel_samples import Sampling, list_pixels, place_samples
-from vtray.transport.shading import add_light, clear_shadows, find_cosines, note_shadows
+from vtray.transport.scene_arrays import SceneArrays
 
 
 @kernel
@@ -136,12 +137,13 @@ def _trace_pixels(
 def _find_surfaces(
     packet: Packet, lanes: int, scene: SceneArrays, sampling: Sampling, work: Workspace
 ) -> int:
-    """Cast the rays of a packet, and bring what they hit to its front; return how many hits."""
+    """Cast the rays of a packet, and bring what they hit together; return how many hits."""
     whole = (lanes + PART - 1) // PART * PART
+    sheaf = sheaf_of(scene.camera)
     _cast_rays(packet, whole, scene.camera)
-    find_cones(packet, whole, is_shifted(scene.camera), work.cones)
-    _find_hits(packet, whole, sampling, scene, work)
-    return gather_interactions(packet, lanes, sampling.rays, scene, work)
+    part = PART if sampling.rays == 1 else LANES
+    find_nearest(packet, whole, part, sheaf, sampling.footprint, scene.world, work)
+    return gather_interactions(packet, lanes, sampling.rays, sheaf, scene, work)
 
 
 @device
@@ -156,16 +158,17 @@ def _light_hits(
     """Add all lights to the hits of a packet; return how many shadow rays were cast."""
     rays = 0
     bounds = bound_points(packet, hits)
-    find_sides(packet, hits, scene.planes, work)
+    find_sides(packet, hits, scene.world, work)
     if is_wanted(film.shadows):
         clear_shadows(packet, hits)
-    for light in range(scene.lights.x.shape[0]):
+    for light in range(light_count(scene.lights)):
         if stop[0]:
             break
-        facing = find_cosines(packet, hits, scene.lights, light)
+        target = light_target(scene.lights, light)
+        facing = find_cosines(packet, hits, target)
         if facing > 0:
-            _find_blocked(packet, hits, bounds, scene, light, work)
-            add_light(packet, hits, scene.lights, light)
+            find_blocked(packet, hits, bounds, scene.world, target, work)
+            add_light(packet, hits, scene.lights.intensity[light])
             if is_wanted(film.shadows):
                 note_shadows(packet, hits, light)
             if is_kept(film.kept):
@@ -177,39 +180,12 @@ def _light_hits(
 @device
 def _cast_rays(packet: Packet, lanes: int, camera: CameraFrame) -> None:
     """Set each lane's ray."""
+    apart = start_apart(sheaf_of(camera))
     for lane in range(lanes):
-        offset, direction = camera_ray(camera, packet[COLUMN + lane], packet[ROW + lane])
-        if is_shifted(camera):
-            store(packet, OFFSET, lane, offset)
-        store(packet, DIRECTION, lane, direction)
+        ray = camera_ray(camera, packet[COLUMN + lane], packet[ROW + lane])
+        if apart:
+            store(packet, ORIGIN, lane, ray.origin)
+        store(packet, DIRECTION, lane, ray.direction)
+    # A loop of its own: the compiler vectorises both then.
     for lane in range(lanes):
         packet[FORWARD + lane] = dot(load(packet, DIRECTION, lane), camera.forward)
-
-
-@device
-def _find_hits(
-    packet: Packet, lanes: int, sampling: Sampling, scene: SceneArrays, work: Workspace
-) -> None:
-    """Find each lane's nearest hit; planes first, so that less of the hierarchy is searched."""
-    clear_hits(packet, lanes)
-    for plane in range(scene.planes.x.shape[0]):
-        number = sphere_count(scene.spheres) + plane
-        nearest_plane(packet, lanes, scene.camera, scene.planes, plane, number)
-    find_farthest(packet, 0, lanes // GROUP, work.cones)
-    if has_bvh(scene):
-        part = PART if sampling.rays == 1 else LANES
-        nearest_in_bvh(packet, lanes, part, scene, sampling.footprint, work)
-    else:
-        nearest_of_few(packet, lanes, scene, sampling.footprint, work)
-
-
-@device
-def _find_blocked(
-    packet: Packet, hits: int, bounds: Bounds, scene: SceneArrays, light: int, work: Workspace
-) -> None:
-    """Mark in row ``BLOCKED`` the points that a light does not reach."""
-    block_by_planes(packet, hits, scene.planes, scene.lights, light, work)
-    if has_bvh(scene):
-        block_in_bvh(packet, scene, light, work)
-    else:
-        block_by_few(packet, hits, bounds, scene, light, work.near)

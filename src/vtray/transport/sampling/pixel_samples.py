@@ -7,11 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.camera_rays import CameraFrame
 from vtray.geometry.packets.packet import BLOCK, COLUMN, LANES, ROW, WEIGHT, Block, Packet
-from vtray.geometry.packets.ray_bounds import Footprint
 from vtray.geometry.packets.workspace import Pixels
+from vtray.geometry.ray import Footprint
 from vtray.scene.settings import RenderSettings
+from vtray.transport.camera_rays import CameraFrame
 from vtray.transport.sampling.filters import FILTERS, filter_places, place_in_filter
 from vtray.transport.sampling.sobol import IMAGE_PLACE, pixel_keys, scrambled, sobol_points
 

@@ -1,9 +1,11 @@
-"""The camera: its axes, and the ray through a pixel."""
+"""The camera as kernels see it, and the ray through a place in the image."""
 
 import math
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.packet import Sheaf, start_apart
+from vtray.geometry.ray import Ray
 from vtray.geometry.vector import Vec, add, dot, scale
 
 
@@ -13,11 +15,11 @@ class CameraFrame(NamedTuple):
     Attributes
     ----------
     eye
-        Where the rays start: ``-focus * forward``; where they start side by side, that of the
-        middle.
+        Where the rays start: ``-image_distance * forward``; where they start side by side, that
+        of the middle.
     right, down, forward
         The unit axes x', y', z' of the camera.
-    focus
+    image_distance
         The distance from there to the image plane.
     pixel
         From one pixel to the next across and down, and the distance from the eye, in a unit of
@@ -34,7 +36,7 @@ class CameraFrame(NamedTuple):
     right: Vec
     down: Vec
     forward: Vec
-    focus: float
+    image_distance: float
     pixel: Vec
     shift: tuple[float, float]
     extent: float
@@ -43,14 +45,19 @@ class CameraFrame(NamedTuple):
 
 
 @device
-def is_shifted(camera: CameraFrame) -> bool:
-    """Tell whether rays start side by side, as in an orthographic view, not all at one place."""
-    return camera.extent > 0.0
+def sheaf_of(camera: CameraFrame) -> Sheaf:
+    """Return what all rays of a camera have in common."""
+    return Sheaf(
+        camera.eye,
+        camera.extent,
+        -camera.image_distance,
+        camera.extent + camera.image_distance,
+    )
 
 
 @device
-def camera_ray(camera: CameraFrame, column: float, row: float) -> tuple[Vec, Vec]:
-    """Return where the ray through a place in the image starts, minus the eye, and its direction.
+def camera_ray(camera: CameraFrame, column: float, row: float) -> Ray:
+    """Return the ray through a place in the image.
 
     Parameters
     ----------
@@ -58,27 +65,26 @@ def camera_ray(camera: CameraFrame, column: float, row: float) -> tuple[Vec, Vec
         The camera.
     column, row
         The place in pixels, from the left and from the top; that of a pixel itself are integers.
-
-    Returns
-    -------
-    offset, direction
-        The offset is 0 in perspective; the direction has length 1.
     """
     across = column - camera.width / 2
     below = row - camera.height / 2
     in_plane = add(
         scale(across * camera.pixel[0], camera.right), scale(below * camera.pixel[1], camera.down)
     )
-    ray = _enlarged(add(in_plane, scale(camera.pixel[2], camera.forward)))
-    length = math.sqrt(dot(ray, ray))
+    way = _enlarged(add(in_plane, scale(camera.pixel[2], camera.forward)))
+    length = math.sqrt(dot(way, way))
+    direction = way[0] / length, way[1] / length, way[2] / length
     offset = add(
         scale(across * camera.shift[0], camera.right), scale(below * camera.shift[1], camera.down)
     )
-    return offset, (ray[0] / length, ray[1] / length, ray[2] / length)
+    sheaf = sheaf_of(camera)
+    origin = add(camera.eye, offset) if start_apart(sheaf) else camera.eye
+    forward = dot(direction, camera.forward)
+    return Ray(origin, direction, sheaf.depth, forward, sheaf.error_scale, 0.0)
 
 
 @device
-def _enlarged(ray: Vec) -> Vec:
+def _enlarged(way: Vec) -> Vec:
     """Return a vector times a power of two, so that its squares do not vanish."""
-    largest = max(abs(ray[0]), abs(ray[1]), abs(ray[2]))
-    return scale(2.0**900 if largest < 2.0**-400 else 1.0, ray)
+    largest = max(abs(way[0]), abs(way[1]), abs(way[2]))
+    return scale(2.0**900 if largest < 2.0**-400 else 1.0, way)

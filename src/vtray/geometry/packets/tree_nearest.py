@@ -1,47 +1,47 @@
-"""Through the hierarchy with camera rays: those of a part of a packet, as one beam."""
+"""Through a hierarchy with the rays of a part of a packet, as one beam."""
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import WIDTH, Bvh, leaf_range
 from vtray.geometry.packets.beam import Beam, beam_margin, children_met, enter_child, make_beam
-from vtray.geometry.packets.nearest import test_sphere
-from vtray.geometry.packets.packet import GROUP, Packet
-from vtray.geometry.packets.ray_bounds import Footprint, farthest_of, part_directions, part_starts
+from vtray.geometry.packets.nearest import nearest_slots
+from vtray.geometry.packets.packet import Packet, Sheaf
+from vtray.geometry.packets.ray_bounds import farthest_of, part_directions, part_starts
 from vtray.geometry.packets.shaft import MARGIN
 from vtray.geometry.packets.workspace import Workspace
+from vtray.geometry.ray import Footprint
 from vtray.geometry.vector import add, scale, sub
-from vtray.geometry.world import SceneArrays
+from vtray.geometry.world import Group, World
 
 
 @device
-def nearest_in_bvh(
-    packet: Packet,
-    lanes: int,
-    part: int,
-    scene: SceneArrays,
-    footprint: Footprint,
-    work: Workspace,
-) -> None:
-    """Let the spheres take the lanes in which they are nearer than the hits so far."""
-    for first in range(0, lanes, part):
-        _search_part(packet, first, min(part, lanes - first), scene, footprint, work)
-
-
-@device
-def _search_part(
+def nearest_in_tree(
     packet: Packet,
     first: int,
-    lanes: int,
-    scene: SceneArrays,
+    count: int,
+    sheaf: Sheaf,
     footprint: Footprint,
+    world: World,
+    group: Group,
     work: Workspace,
 ) -> None:
-    """Search the hierarchy for a part of a packet, nearest boxes first."""
-    bvh, ratio = scene.bvh, scene.to_boxes.ratio
-    group, groups = first // GROUP, lanes // GROUP
-    beam = _part_beam(group, groups, scene, footprint, work)
-    start = scene.camera.focus * ratio * (1.0 - MARGIN)
-    far = farthest_of(work.cones, group, groups) * ratio
-    waiting = _push_met(bvh, 0, beam, start, far, work, 0)
+    """Let the shapes of a hierarchy take lanes in which they are nearer, nearest boxes first.
+
+    Parameters
+    ----------
+    packet, sheaf, footprint
+        The rays.
+    first, count
+        The first of the octets that form the beam, and how many there are.
+    world, group
+        The shapes.
+    work
+        Scratch memory.
+    """
+    bvh, ratio = world.bvh, world.to_boxes.ratio
+    beam = _part_beam(first, count, sheaf, footprint, world, work)
+    start = -sheaf.depth * ratio * (1.0 - MARGIN)
+    far = farthest_of(work.cones, first, count) * ratio
+    waiting = _push_met(bvh, group.root, beam, start, far, work, 0)
     while waiting > 0:
         waiting -= 1
         if work.stack_enter[waiting] > far:
@@ -51,33 +51,28 @@ def _search_part(
             waiting = _push_met(bvh, child, beam, start, far, work, waiting)
         else:
             begin, end = leaf_range(child)
-            for slot in range(begin, end):
-                test_sphere(
-                    packet,
-                    group,
-                    groups,
-                    scene.camera,
-                    scene.spheres,
-                    slot,
-                    work.cones,
-                    footprint,
-                )
-            far = farthest_of(work.cones, group, groups) * ratio
+            nearest_slots(packet, first, count, sheaf, footprint, world, group, begin, end, work)
+            far = farthest_of(work.cones, first, count) * ratio
 
 
 @device
 def _part_beam(
-    first: int, count: int, scene: SceneArrays, footprint: Footprint, work: Workspace
+    first: int,
+    count: int,
+    sheaf: Sheaf,
+    footprint: Footprint,
+    world: World,
+    work: Workspace,
 ) -> Beam:
     """Return the beam of a part's rays and their footprints."""
     low, high = part_directions(work.cones, first, count)
     near, far = part_starts(work.cones, first, count)
-    camera, ratio, offset = scene.camera, scene.to_boxes.ratio, scene.to_boxes.offset
-    apex = add(scale(ratio, camera.eye), offset)
-    margin = beam_margin(apex, offset) + MARGIN * (camera.extent + camera.focus) * ratio
+    ratio, offset = world.to_boxes.ratio, world.to_boxes.offset
+    apex = add(scale(ratio, sheaf.origin), offset)
+    margin = beam_margin(apex, offset) + MARGIN * sheaf.error_scale * ratio
     margin += footprint.width * ratio
     wider = footprint.growth, footprint.growth, footprint.growth
-    start, end = add(apex, scale(ratio, near)), add(apex, scale(ratio, far))
+    start, end = add(scale(ratio, near), offset), add(scale(ratio, far), offset)
     return make_beam(start, end, sub(low, wider), add(high, wider), margin)
 
 

@@ -1,0 +1,84 @@
+"""What the rays of a packet meet, and what hides a light from its points, group by group."""
+
+from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.nearest import clear_hits, nearest_planes, nearest_slots
+from vtray.geometry.packets.occlusion import (
+    Bounds,
+    Target,
+    block_by_few,
+    block_by_planes,
+)
+from vtray.geometry.packets.packet import OCTET, Packet, Sheaf
+from vtray.geometry.packets.ray_bounds import find_cones, find_farthest
+from vtray.geometry.packets.tree_nearest import nearest_in_tree
+from vtray.geometry.packets.tree_occlusion import block_in_tree
+from vtray.geometry.packets.workspace import Workspace
+from vtray.geometry.ray import Footprint
+from vtray.geometry.world import NO_TREE, PLANE, World, group_count, load_group
+
+
+@device
+def find_nearest(
+    packet: Packet,
+    lanes: int,
+    part: int,
+    sheaf: Sheaf,
+    footprint: Footprint,
+    world: World,
+    work: Workspace,
+) -> None:
+    """Find each lane's nearest hit; planes first, so that less of the hierarchies is searched.
+
+    Parameters
+    ----------
+    packet, lanes
+        The rays of so many lanes, whole parts of a packet.
+    part
+        Lanes that go through a hierarchy as one beam.
+    sheaf, footprint
+        What the rays have in common.
+    world
+        What they can meet.
+    work
+        Scratch memory.
+    """
+    find_cones(packet, lanes, sheaf, work.cones)
+    clear_hits(packet, lanes)
+    for row in range(group_count(world)):
+        group = load_group(world, row)
+        if group.kind == PLANE:
+            nearest_planes(packet, lanes, sheaf, world, group)
+            continue
+        find_farthest(packet, 0, lanes // OCTET, work.cones)
+        for first in range(0, lanes, part):
+            count = min(part, lanes - first) // OCTET
+            if group.root == NO_TREE:
+                nearest_slots(
+                    packet,
+                    first // OCTET,
+                    count,
+                    sheaf,
+                    footprint,
+                    world,
+                    group,
+                    group.begin,
+                    group.end,
+                    work,
+                )
+            else:
+                nearest_in_tree(packet, first // OCTET, count, sheaf, footprint, world, group, work)
+
+
+@device
+def find_blocked(
+    packet: Packet, hits: int, bounds: Bounds, world: World, target: Target, work: Workspace
+) -> None:
+    """Mark in field ``BLOCKED`` the points that a light does not reach."""
+    for row in range(group_count(world)):
+        group = load_group(world, row)
+        if group.kind == PLANE:
+            block_by_planes(packet, hits, world, group, target, work)
+        elif group.root == NO_TREE:
+            block_by_few(packet, hits, bounds, world, group, target, work.near)
+        else:
+            block_in_tree(packet, world, group, target, work)

@@ -1,0 +1,198 @@
+"""What one ray meets first, and what stands between two points: one ray at a time, from anywhere.
+
+What is found is what a loop over all shapes would find; the hierarchies only leave out.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.compiler.compiled import device
+from vtray.geometry.bvh.tree import STACK, WIDTH, leaf_range
+from vtray.geometry.packets.beam import Beam, beam_margin, children_met, enter_child, make_beam
+from vtray.geometry.packets.shaft import MARGIN
+from vtray.geometry.ray import Ray, Segment
+from vtray.geometry.shapes.plane import load_plane, plane_distance, plane_hides
+from vtray.geometry.shapes.sphere import load_sphere, sphere_distance, sphere_hides
+from vtray.geometry.vector import add, scale, sub
+from vtray.geometry.world import NO_TREE, PLANE, Group, World, group_count, load_group
+
+NOTHING = -1
+"""In place of a primitive: nothing is hit, nothing stands between."""
+
+
+class Hit(NamedTuple):
+    """What a ray meets first.
+
+    Attributes
+    ----------
+    distance
+        Along the ray, infinite for nothing.
+    primitive
+        Its number, or ``NOTHING``.
+    kind, slot
+        The kind of shape, and its slot in the columns of its kind.
+    """
+
+    distance: float
+    primitive: int
+    kind: int
+    slot: int
+
+
+class Stack(NamedTuple):
+    """The nodes that wait on a way through a hierarchy, and where the ray enters them."""
+
+    node: NDArray[np.int64]
+    enter: NDArray[np.float64]
+
+
+def new_stack() -> Stack:
+    """Return the scratch memory of one thread."""
+    return Stack(np.zeros(STACK, np.int64), np.zeros(STACK))
+
+
+@device
+def nearest_hit(world: World, ray: Ray, stack: Stack) -> Hit:
+    """Return what a ray meets first."""
+    hit = Hit(math.inf, NOTHING, PLANE, 0)
+    for row in range(group_count(world)):
+        group = load_group(world, row)
+        if group.root == NO_TREE:
+            hit = _nearest_slots(world, group, group.begin, group.end, ray, hit)
+        else:
+            hit = _nearest_in_tree(world, group, ray, hit, stack)
+    return hit
+
+
+@device
+def _nearest_slots(world: World, group: Group, begin: int, end: int, ray: Ray, hit: Hit) -> Hit:
+    """Return the nearer of a hit and those of the shapes of a range of slots."""
+    for slot in range(begin, end):
+        if group.kind == PLANE:
+            distance = plane_distance(load_plane(world.planes, slot, world.place), ray)
+            number = group.number + world.planes.number[slot]
+        else:
+            distance = sphere_distance(load_sphere(world.spheres, slot, world.place), ray)
+            number = group.number + world.spheres.number[slot]
+        if distance < hit.distance or (distance == hit.distance and number < hit.primitive):
+            hit = Hit(distance, number, group.kind, slot)
+    return hit
+
+
+@device
+def _nearest_in_tree(world: World, group: Group, ray: Ray, hit: Hit, stack: Stack) -> Hit:
+    """Return the nearer of a hit and those of the shapes of a hierarchy."""
+    ratio = world.to_boxes.ratio
+    beam = _ray_beam(world, ray)
+    start = max(-ray.depth, 0.0) * ratio * (1.0 - MARGIN)
+    stack.node[0] = group.root
+    stack.enter[0] = 0.0
+    waiting = 1
+    while waiting > 0:
+        waiting -= 1
+        far = hit.distance * ratio * (1.0 + MARGIN)
+        if stack.enter[waiting] > far:
+            continue
+        child = stack.node[waiting]
+        if child >= 0:
+            waiting = _push_met(world, child, beam, start, far, stack, waiting)
+        else:
+            begin, end = leaf_range(child)
+            hit = _nearest_slots(world, group, begin, end, ray, hit)
+    return hit
+
+
+@device
+def _push_met(
+    world: World, node: int, beam: Beam, start: float, far: float, stack: Stack, base: int
+) -> int:
+    """Push the children that a ray may meet, the nearest last; return the stack's new height."""
+    met = children_met(world.bvh, node, beam, start, far)
+    child = node * WIDTH
+    top = base
+    while met > 0:
+        if met & 1:
+            enter = enter_child(world.bvh, child, beam)
+            place = top
+            while place > base and stack.enter[place - 1] < enter:
+                stack.enter[place] = stack.enter[place - 1]
+                stack.node[place] = stack.node[place - 1]
+                place -= 1
+            stack.enter[place] = enter
+            stack.node[place] = world.bvh.child[child]
+            top += 1
+        met >>= 1
+        child += 1
+    return top
+
+
+@device
+def _ray_beam(world: World, ray: Ray) -> Beam:
+    """Return a ray as a beam in the boxes' space."""
+    ratio, offset = world.to_boxes.ratio, world.to_boxes.offset
+    start = add(scale(ratio, ray.origin), offset)
+    margin = beam_margin(start, offset) + MARGIN * ray.error_scale * ratio
+    return make_beam(start, start, ray.direction, ray.direction, margin)
+
+
+@device
+def first_between(world: World, segment: Segment, stack: Stack) -> int:
+    """Return the lowest number of what stands between two points, or ``NOTHING``."""
+    first = NOTHING
+    for row in range(group_count(world)):
+        group = load_group(world, row)
+        if group.root == NO_TREE:
+            first = _first_of_slots(world, group, group.begin, group.end, segment, first)
+        else:
+            first = _first_in_tree(world, group, segment, first, stack)
+    return first
+
+
+@device
+def _first_of_slots(
+    world: World, group: Group, begin: int, end: int, segment: Segment, first: int
+) -> int:
+    """Return the lower of a number and those of the shapes in a range that stand between."""
+    for slot in range(begin, end):
+        if group.kind == PLANE:
+            hidden = plane_hides(load_plane(world.planes, slot, world.place), segment)
+            number = group.number + world.planes.number[slot]
+        else:
+            hidden = sphere_hides(load_sphere(world.spheres, slot, world.place), segment)
+            number = group.number + world.spheres.number[slot]
+        if hidden and (first == NOTHING or number < first):
+            first = number
+    return first
+
+
+@device
+def _first_in_tree(world: World, group: Group, segment: Segment, first: int, stack: Stack) -> int:
+    """Return the lower of a number and those of the shapes of a hierarchy that stand between."""
+    bvh, ratio, offset = world.bvh, world.to_boxes.ratio, world.to_boxes.offset
+    # From the light: its place is the more exact of the two.
+    end = add(scale(ratio, segment.end), offset)
+    way = scale(ratio, sub(segment.start, segment.end))
+    margin = beam_margin(end, offset) + MARGIN * segment.start_scale * ratio
+    beam = make_beam(end, end, way, way, margin)
+    stack.node[0] = group.root
+    waiting = 1
+    while waiting > 0:
+        waiting -= 1
+        node = stack.node[waiting]
+        met = children_met(bvh, node, beam, 0.0, 1.0 + MARGIN)
+        place = node * WIDTH
+        while met > 0:
+            if met & 1:
+                child = bvh.child[place]
+                if child >= 0:
+                    stack.node[waiting] = child
+                    waiting += 1
+                else:
+                    begin, after = leaf_range(child)
+                    first = _first_of_slots(world, group, begin, after, segment, first)
+            met >>= 1
+            place += 1
+    return first

@@ -1,0 +1,93 @@
+"""Rays, the ways between two points, and how wide a ray's pixel is.
+
+All places are in the kernels' space, whose origin is the centre of the image plane. Nothing behind
+the image plane exists: what a ray meets at a depth of 0 or less is not there.
+"""
+
+from typing import NamedTuple
+
+from vtray.base.compiler.compiled import device
+from vtray.geometry.vector import Vec, add, scale
+
+
+class Ray(NamedTuple):
+    """A half-line.
+
+    Attributes
+    ----------
+    origin
+        Where it starts.
+    direction
+        Its unit direction.
+    depth
+        How far before the image plane it starts; below 0 if behind.
+    forward
+        By how much the depth grows with each unit of length along the ray.
+    error_scale
+        What the rounding error of a point of the ray is relative to, beside the distance and what
+        is met there.
+    error_bound
+        How far rounding may have moved the start from the surface on which it lies; 0 for a ray
+        that starts anywhere, as those of a camera do.
+    """
+
+    origin: Vec
+    direction: Vec
+    depth: float
+    forward: float
+    error_scale: float
+    error_bound: float
+
+
+class Segment(NamedTuple):
+    """The way from a point on a surface to where light comes from.
+
+    Attributes
+    ----------
+    start, end
+        The point, and the light.
+    start_depth, end_depth
+        Their distances in front of the image plane.
+    start_scale, end_scale
+        What their rounding errors are relative to, beside what stands in the way.
+    """
+
+    start: Vec
+    end: Vec
+    start_depth: float
+    end_depth: float
+    start_scale: float
+    end_scale: float
+
+
+class Footprint(NamedTuple):
+    """How wide the part of the scene is around a ray that its pixel is made of.
+
+    Attributes
+    ----------
+    width
+        At the start of the ray.
+    growth
+        By how much it grows with each unit of length along the ray.
+    """
+
+    width: float
+    growth: float
+
+
+@device
+def ray_point(ray: Ray, distance: float) -> Vec:
+    """Return the point of a ray at a distance from its start."""
+    return add(ray.origin, scale(distance, ray.direction))
+
+
+@device
+def has_width(footprint: Footprint) -> bool:
+    """Tell whether a footprint is more than the ray itself."""
+    return (footprint.width > 0.0) | (footprint.growth > 0.0)
+
+
+@device
+def width_at(footprint: Footprint, distance: float) -> float:
+    """Return how far from a ray its pixel's part of the scene reaches at a distance."""
+    return footprint.width + footprint.growth * distance

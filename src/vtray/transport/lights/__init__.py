@@ -1,0 +1,1 @@
+"""Lights: a module for each kind, and a dispatcher."""

@@ -1,0 +1,1 @@
+"""Materials: a module for each kind, and a dispatcher."""

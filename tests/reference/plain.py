@@ -1,0 +1,25 @@
+"""One pixel, traced plainly: every object tested, nothing left out by a hierarchy."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.geometry.queries import NOTHING, new_stack
+from vtray.geometry.world import NO_TREE
+from vtray.transport.integrators import reference
+from vtray.transport.scene_arrays import SceneArrays
+
+__all__ = ["NOTHING", "trace_pixel"]
+
+
+def trace_pixel(
+    scene: SceneArrays,
+    column: int,
+    row: int,
+    cosines: NDArray[np.float64],
+    blockers: NDArray[np.int64],
+) -> reference.TracedPixel:
+    """Trace one pixel of a scene as if nothing had a hierarchy."""
+    world = scene.world
+    groups = world.groups._replace(root=np.full_like(world.groups.root, NO_TREE))
+    plain = scene._replace(world=world._replace(groups=groups))
+    return reference.trace_pixel(plain, column, row, new_stack(), cosines, blockers)
