@@ -79,12 +79,12 @@ def test_change_in_any_source_is_noticed(tmp_path: Path) -> None:
     shutil.copytree(Path(kernel_folder.__file__).parents[2], package / "vtray")
     cache = {"VTRAY_CACHE_DIR": str(tmp_path / "cache")}
     finish(start(package, **cache))
-    shading = package / "vtray" / "transport" / "shading.py"
+    shading = package / "vtray" / "transport" / "materials" / "lambert.py"
     times = shading.stat()
     # The kernel calls this from another module; length and time stay as they were.
     text = shading.read_text()
-    assert "(height > reach)" in text
-    shading.write_text(text.replace("(height > reach)", "(height > 1e99)"))
+    assert "(height > error_bound)" in text
+    shading.write_text(text.replace("(height > error_bound)", "(height > 1.000000e99)"))
     os.utime(shading, ns=(times.st_atime_ns, times.st_mtime_ns))
     changed = start(package, **cache)
     _, err = changed.communicate(timeout=300)

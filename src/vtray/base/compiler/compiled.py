@@ -11,7 +11,7 @@ Every compile-time decision is made here:
   loops kept them from being vectorised (a room with 64 lights: 0.55 s with it, 0.09 s without).
 
 Kernels are compiled once per machine: `object_code` keeps them on disk and loads them. Numba is
-imported only to compile, and where a kernel cannot be called without it.
+imported only to compile, and where a kernel cannot be called without it, of which `canary` warns.
 """
 
 import os
@@ -25,6 +25,12 @@ from typing import Any, ClassVar, TypeVar, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vtray.base.compiler.canary import (
+    compare_with_python,
+    new_arguments,
+    sing,
+    warn_of_slow_starts,
+)
 from vtray.base.compiler.native_call import (
     NativeCall,
     Pinned,
@@ -52,6 +58,7 @@ _POLL_SECONDS = 0.05
 
 _COMPILING = threading.RLock()
 _loading = [0.0]
+_trusted: list[bool] = []
 _waiting: list[Callable[[bool], object]] = []
 
 
@@ -160,7 +167,7 @@ class Kernel(Device):
 
     def __init__(self, function: Callable[..., object]) -> None:
         super().__init__(function)
-        # For each tuple of types; None where only Numba can call the code.
+        # For each tuple of types; None where it is Numba that calls the code.
         self._native: dict[Types, NativeCall | None] = {}
 
     def __call__(self, *arguments: object) -> object:  # noqa: D102
@@ -180,22 +187,47 @@ class Kernel(Device):
         return native(words)
 
     def _load(self, types: Types, arguments: tuple[object, ...]) -> NativeCall | None:
-        """Return what calls the machine code, from disk or newly compiled, None if that fails."""
+        """Return what calls the machine code, None if Numba does."""
+        failure = None
         try:
-            file = self._file(types)
-            compiled = read_object_code(file) if file else None
-            if compiled is None:
-                if _waiting:
-                    _waiting.pop()(file is not None)
-                compiled = _in_thread(compile_object, self._function, arguments, _OPTIONS)
-                if file:
-                    write_object_code(file, compiled)
-            return caller(link(compiled), compiled.layout)
+            if self._is_trusted():
+                return self._native_call(types, arguments)
         # Who makes errors of warnings wants to see them; short of memory, Numba would take more.
         except (Warning, RenderError, MemoryError):
             raise
-        except Exception:  # noqa: BLE001 - whatever it is, Numba either can do it or explains it
-            return None
+        except Exception as error:  # noqa: BLE001 - whatever it is, Numba can do it or explains it
+            failure = error
+        if _in_thread(self._compile_for_python, arguments) and failure:
+            warn_of_slow_starts(failure)
+        return None
+
+    def _is_trusted(self) -> bool:
+        """Tell whether calls without Numba are right, as the canary shows before the first."""
+        if not _trusted:
+            _trusted.append(_Canary(sing).is_right())
+        return _trusted[0]
+
+    def _native_call(self, types: Types, arguments: tuple[object, ...]) -> NativeCall:
+        """Return what calls the machine code without Numba, from disk or newly compiled."""
+        file = self._file(types)
+        compiled = read_object_code(file) if file else None
+        if compiled is None:
+            if _waiting:
+                _waiting.pop()(file is not None)
+            compiled = _in_thread(compile_object, self._function, arguments, _OPTIONS)
+            if file:
+                write_object_code(file, compiled)
+        return caller(link(compiled), compiled.layout)
+
+    def _compile_for_python(self, arguments: tuple[object, ...]) -> bool:
+        """Compile the function as Numba calls it; tell whether it is compiled at all."""
+        import numba
+
+        # Where Numba's file of settings turns it off, this is the function itself.
+        compiler = getattr(self._dispatcher, "compile", None)
+        if compiler:
+            compiler(tuple(map(numba.typeof, arguments)))
+        return compiler is not None
 
     def _file(self, types: Types) -> Path | None:
         """Return the file of the machine code, None if the function is none of vtray's own."""
@@ -204,6 +236,24 @@ class Kernel(Device):
         return (
             object_file(f"{module}.{name}", "".join(types)) if module.startswith("vtray.") else None
         )
+
+
+class _Canary(Kernel):
+    """A kernel that must do what plain Python does before any other is called without Numba."""
+
+    def is_right(self) -> bool:
+        """Tell whether it does; it is called without Numba, once."""
+        arguments = new_arguments()
+        types, _ = unpack(arguments)
+        return self._load(types, arguments) is not None
+
+    def _is_trusted(self) -> bool:
+        return True
+
+    def _native_call(self, types: Types, arguments: tuple[object, ...]) -> NativeCall:
+        native = super()._native_call(types, arguments)
+        compare_with_python(native, arguments)
+        return native
 
 
 def _in_thread(function: Callable[..., Value], *arguments: object) -> Value:
