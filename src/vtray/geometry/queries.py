@@ -14,10 +14,20 @@ from vtray.geometry.bvh.tree import STACK, WIDTH, leaf_range
 from vtray.geometry.packets.beam import Beam, beam_margin, children_met, enter_child, make_beam
 from vtray.geometry.packets.shaft import MARGIN
 from vtray.geometry.ray import Ray, Segment
+from vtray.geometry.shapes.cylinder import cylinder_distance, cylinder_hides, load_cylinder
 from vtray.geometry.shapes.plane import load_plane, plane_distance, plane_hides
 from vtray.geometry.shapes.sphere import load_sphere, sphere_distance, sphere_hides
 from vtray.geometry.vector import add, scale, sub
-from vtray.geometry.world import NO_TREE, PLANE, Group, World, group_count, load_group
+from vtray.geometry.world import (
+    NO_TREE,
+    PLANE,
+    SPHERE,
+    Group,
+    ToBoxes,
+    World,
+    group_count,
+    load_group,
+)
 
 NOTHING = -1
 """In place of a primitive: nothing is hit, nothing stands between."""
@@ -32,13 +42,13 @@ class Hit(NamedTuple):
         Along the ray, infinite for nothing.
     primitive
         Its number, or ``NOTHING``.
-    kind, slot
-        The kind of shape, and its slot in the columns of its kind.
+    group, slot
+        The row of its group, and its slot in the columns of its kind.
     """
 
     distance: float
     primitive: int
-    kind: int
+    group: int
     slot: int
 
 
@@ -57,7 +67,7 @@ def new_stack() -> Stack:
 @device
 def nearest_hit(world: World, ray: Ray, stack: Stack) -> Hit:
     """Return what a ray meets first."""
-    hit = Hit(math.inf, NOTHING, PLANE, 0)
+    hit = Hit(math.inf, NOTHING, 0, 0)
     for row in range(group_count(world)):
         group = load_group(world, row)
         if group.root == NO_TREE:
@@ -71,22 +81,30 @@ def nearest_hit(world: World, ray: Ray, stack: Stack) -> Hit:
 def _nearest_slots(world: World, group: Group, begin: int, end: int, ray: Ray, hit: Hit) -> Hit:
     """Return the nearer of a hit and those of the shapes of a range of slots."""
     for slot in range(begin, end):
-        if group.kind == PLANE:
-            distance = plane_distance(load_plane(world.planes, slot, world.place), ray)
-            number = group.number + world.planes.number[slot]
-        else:
-            distance = sphere_distance(load_sphere(world.spheres, slot, world.place), ray)
-            number = group.number + world.spheres.number[slot]
+        distance, number = _meet_slot(world, group, slot, ray)
         if distance < hit.distance or (distance == hit.distance and number < hit.primitive):
-            hit = Hit(distance, number, group.kind, slot)
+            hit = Hit(distance, number, group.row, slot)
     return hit
+
+
+@device
+def _meet_slot(world: World, group: Group, slot: int, ray: Ray) -> tuple[float, int]:
+    """Return the distance at which a ray meets a shape of a group, and the shape's number."""
+    if group.kind == PLANE:
+        plane = load_plane(world.planes, slot, group.place)
+        return plane_distance(plane, ray), group.number + world.planes.number[slot]
+    if group.kind == SPHERE:
+        sphere = load_sphere(world.spheres, slot, group.place)
+        return sphere_distance(sphere, ray), group.number + world.spheres.number[slot]
+    cylinder = load_cylinder(world.cylinders, slot, group.place)
+    return cylinder_distance(cylinder, ray), group.number + world.cylinders.number[slot]
 
 
 @device
 def _nearest_in_tree(world: World, group: Group, ray: Ray, hit: Hit, stack: Stack) -> Hit:
     """Return the nearer of a hit and those of the shapes of a hierarchy."""
-    ratio = world.to_boxes.ratio
-    beam = _ray_beam(world, ray)
+    ratio = group.to_boxes.ratio
+    beam = _ray_beam(group.to_boxes, ray)
     start = max(-ray.depth, 0.0) * ratio * (1.0 - MARGIN)
     stack.node[0] = group.root
     stack.enter[0] = 0.0
@@ -130,9 +148,9 @@ def _push_met(
 
 
 @device
-def _ray_beam(world: World, ray: Ray) -> Beam:
+def _ray_beam(to_boxes: ToBoxes, ray: Ray) -> Beam:
     """Return a ray as a beam in the boxes' space."""
-    ratio, offset = world.to_boxes.ratio, world.to_boxes.offset
+    ratio, offset = to_boxes.ratio, to_boxes.offset
     start = add(scale(ratio, ray.origin), offset)
     margin = beam_margin(start, offset) + MARGIN * ray.error_scale * ratio
     return make_beam(start, start, ray.direction, ray.direction, margin)
@@ -157,21 +175,29 @@ def _first_of_slots(
 ) -> int:
     """Return the lower of a number and those of the shapes in a range that stand between."""
     for slot in range(begin, end):
-        if group.kind == PLANE:
-            hidden = plane_hides(load_plane(world.planes, slot, world.place), segment)
-            number = group.number + world.planes.number[slot]
-        else:
-            hidden = sphere_hides(load_sphere(world.spheres, slot, world.place), segment)
-            number = group.number + world.spheres.number[slot]
-        if hidden and (first == NOTHING or number < first):
+        hides, number = _hides_slot(world, group, slot, segment)
+        if hides and (first == NOTHING or number < first):
             first = number
     return first
 
 
 @device
+def _hides_slot(world: World, group: Group, slot: int, segment: Segment) -> tuple[bool, int]:
+    """Tell whether a shape of a group stands between two points; return the shape's number."""
+    if group.kind == PLANE:
+        plane = load_plane(world.planes, slot, group.place)
+        return plane_hides(plane, segment), group.number + world.planes.number[slot]
+    if group.kind == SPHERE:
+        sphere = load_sphere(world.spheres, slot, group.place)
+        return sphere_hides(sphere, segment), group.number + world.spheres.number[slot]
+    cylinder = load_cylinder(world.cylinders, slot, group.place)
+    return cylinder_hides(cylinder, segment), group.number + world.cylinders.number[slot]
+
+
+@device
 def _first_in_tree(world: World, group: Group, segment: Segment, first: int, stack: Stack) -> int:
     """Return the lower of a number and those of the shapes of a hierarchy that stand between."""
-    bvh, ratio, offset = world.bvh, world.to_boxes.ratio, world.to_boxes.offset
+    bvh, (ratio, offset) = world.bvh, group.to_boxes
     # From the light: its place is the more exact of the two.
     end = add(scale(ratio, segment.end), offset)
     way = scale(ratio, sub(segment.start, segment.end))

@@ -4,10 +4,11 @@ import math
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.shapes.cylinder import cylinder_pole, is_second_half, load_cylinder
 from vtray.geometry.shapes.plane import load_plane
 from vtray.geometry.shapes.sphere import load_sphere
 from vtray.geometry.vector import Vec, dot, scale, sub
-from vtray.geometry.world import PLANE, World
+from vtray.geometry.world import PLANE, SPHERE, Group, World
 
 
 class Surface(NamedTuple):
@@ -22,21 +23,28 @@ class Surface(NamedTuple):
         Which of the two it is.
     error_scale
         What the rounding errors of the shape are relative to.
+    is_second
+        Whether it is in the second half of a shape that has two, which may differ in colour.
     """
 
     pole: Vec
     is_round: bool
     error_scale: float
+    is_second: bool
 
 
 @device
-def surface_of(world: World, kind: int, slot: int) -> Surface:
-    """Return the surface of a shape of a kind."""
-    if kind == PLANE:
-        plane = load_plane(world.planes, slot, world.place)
-        return Surface(plane.normal, False, plane.error_scale)
-    sphere = load_sphere(world.spheres, slot, world.place)
-    return Surface(sphere.center, True, sphere.error_scale)
+def surface_of(world: World, group: Group, slot: int, point: Vec) -> Surface:
+    """Return the surface of a shape of a group at a point."""
+    if group.kind == PLANE:
+        plane = load_plane(world.planes, slot, group.place)
+        return Surface(plane.normal, False, plane.error_scale, False)
+    if group.kind == SPHERE:
+        sphere = load_sphere(world.spheres, slot, group.place)
+        return Surface(sphere.center, True, sphere.error_scale, False)
+    cylinder = load_cylinder(world.cylinders, slot, group.place)
+    pole, is_round = cylinder_pole(cylinder, point)
+    return Surface(pole, is_round, cylinder.error_scale, is_second_half(cylinder, point))
 
 
 @device

@@ -17,7 +17,7 @@ from vtray.geometry.bvh.tree import Bvh
 from vtray.geometry.shapes.columns import Columns, Place
 from vtray.geometry.vector import Vec
 
-PLANE, SPHERE = 0, 1
+PLANE, SPHERE, CYLINDER = 0, 1, 2
 """The kinds of shape."""
 
 NO_TREE = -1
@@ -25,7 +25,7 @@ NO_TREE = -1
 
 
 class Groups(NamedTuple):
-    """Groups of shapes of one kind, all (n,); those of planes come first.
+    """Groups of shapes of one kind, all (n,) but for the last; those of planes come first.
 
     Attributes
     ----------
@@ -37,6 +37,9 @@ class Groups(NamedTuple):
         The root of their hierarchy, or ``NO_TREE``.
     number
         What their numbers in the columns are counted from.
+    frame
+        Where they stand: by how much they are moved, in world space, along x, y and z; then what
+        leads from the kernels' space to that of their boxes, as in `ToBoxes`, (n, 7).
     """
 
     kind: NDArray[np.int64]
@@ -44,6 +47,7 @@ class Groups(NamedTuple):
     end: NDArray[np.int64]
     root: NDArray[np.int64]
     number: NDArray[np.int64]
+    frame: NDArray[np.float64]
 
 
 class ToBoxes(NamedTuple):
@@ -56,33 +60,32 @@ class ToBoxes(NamedTuple):
 class World(NamedTuple):
     """What rays can meet.
 
-    Primitives are numbered: all bounded shapes first, then the planes. At exactly the same distance
-    the lower number is hit.
+    Primitives are numbered: spheres, then cylinders, then planes, and each of these in the order of
+    the scene. At exactly the same distance the lower number is hit.
 
     Attributes
     ----------
     groups
         The groups.
-    planes, spheres
+    planes, spheres, cylinders
         The columns of each kind.
     bvh
         The nodes of all hierarchies.
-    place
-        Where shapes stand.
-    to_boxes
-        What leads to the space of the hierarchies' boxes.
+    scale, origin
+        What leads from world space to the kernels', as in `Place`.
     """
 
     groups: Groups
     planes: Columns
     spheres: Columns
+    cylinders: Columns
     bvh: Bvh
-    place: Place
-    to_boxes: ToBoxes
+    scale: float
+    origin: Vec
 
 
 class Group(NamedTuple):
-    """One of the groups; see `Groups`."""
+    """One of the groups: its row, and what that says; see `Groups`."""
 
     row: int
     kind: int
@@ -90,12 +93,16 @@ class Group(NamedTuple):
     end: int
     root: int
     number: int
+    place: Place
+    to_boxes: ToBoxes
 
 
 @device
 def load_group(world: World, row: int) -> Group:
     """Return one of the groups."""
-    groups = world.groups
+    groups, frame = world.groups, world.groups.frame
+    shift = frame[row, 0], frame[row, 1], frame[row, 2]
+    offset = frame[row, 4], frame[row, 5], frame[row, 6]
     return Group(
         row,
         groups.kind[row],
@@ -103,6 +110,8 @@ def load_group(world: World, row: int) -> Group:
         groups.end[row],
         groups.root[row],
         groups.number[row],
+        Place(shift, world.scale, world.origin),
+        ToBoxes(frame[row, 3], offset),
     )
 
 
@@ -118,10 +127,3 @@ def has_trees(world: World) -> bool:
     """Tell whether any shapes have a hierarchy."""
     nodes: int = world.bvh.child.shape[0]
     return nodes > 0
-
-
-@device
-def plane_count(world: World) -> int:
-    """Return how many planes there are."""
-    count: int = world.planes.number.shape[0]
-    return count

@@ -3,14 +3,14 @@
 import math
 import sys
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import input_array
 from vtray.geometry.bvh.tree import no_bvh
-from vtray.geometry.shapes.columns import Columns, Place
+from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.vector import Vec
 from vtray.geometry.world import NO_TREE, PLANE, SPHERE, Groups, ToBoxes, World
 from vtray.rendering.hierarchy import Acceleration
@@ -61,31 +61,38 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
     camera = _pack_camera(scene.camera, unit)
     origin = _points([scene.camera.center], unit)[0]
     x, y, z = map(float, origin)
-    place = Place((0.0, 0.0, 0.0), 1.0 / unit, (x, y, z))
     arrays = SceneArrays(
         camera,
-        _pack_world(planes, kept, place, unit),
+        _pack_world(planes, kept, unit, (x, y, z)),
         _pack_lights(scene, origin, unit, camera),
         _pack_materials(kept, planes),
     )
     return Packed(arrays, unit, scene.camera.focus - start_distance(scene.camera))
 
 
-def _pack_world(planes: list[Plane], kept: Acceleration, place: Place, unit: float) -> World:
+def _pack_world(planes: list[Plane], kept: Acceleration, unit: float, origin: Vec) -> World:
     """Return what rays can meet."""
     count = len(kept.leaves.number)
-    to_boxes = _pack_to_boxes(kept, place.origin, unit)
+    to_boxes = _pack_to_boxes(kept, origin, unit)
     bvh = kept.bvh if to_boxes.ratio < LARGEST_RATIO else no_bvh()
     root = 0 if len(bvh.child) else NO_TREE
-    rows = [(PLANE, 0, len(planes), NO_TREE, count), (SPHERE, 0, count, root, 0)]
-    columns = np.array([row for row in rows if row[2]], np.int64).reshape(-1, len(rows[0])).T
+    frame = 0.0, 0.0, 0.0, to_boxes.ratio, *to_boxes.offset
+    rows = [
+        ((PLANE, 0, len(planes), NO_TREE, count), frame),
+        ((SPHERE, 0, count, root, 0), frame),
+    ]
+    rows = [row for row in rows if row[0][2]]
+    columns = np.array([row for row, _ in rows], np.int64).reshape(-1, 5).T
+    kind, begin, end, root, number = np.ascontiguousarray(columns)
+    frames = np.array([frame for _, frame in rows]).reshape(-1, 7)
     return World(
-        Groups(*np.ascontiguousarray(columns)),
+        Groups(kind, begin, end, root, number, frames),
         _pack_planes(planes),
         Columns(*kept.leaves),
+        Columns(np.empty(0), np.empty(0, np.int32)),
         bvh,
-        place,
-        to_boxes,
+        1.0 / unit,
+        origin,
     )
 
 
@@ -180,15 +187,37 @@ def _pack_to_boxes(kept: Acceleration, origin: Vec, unit: float) -> ToBoxes:
 
 
 def _pack_materials(kept: Acceleration, planes: list[Plane]) -> Materials:
-    """Return the materials of all primitives."""
-    colors = [(plane.color.r, plane.color.g, plane.color.b) for plane in planes]
+    """Return the materials of all primitives, a range for each kind of shape."""
+    plane_color = [(plane.color.r, plane.color.g, plane.color.b) for plane in planes]
+    plane_lambert = [plane.lambert for plane in planes]
+    colors = [kept.source.color, np.array(plane_color, np.uint8).reshape(-1, 3)]
+    lamberts = [kept.source.lambert, np.array(plane_lambert, np.float64)]
+    counts = np.array([len(kept.leaves.number), len(planes)])
+    color_row, color_step = _rows(colors)
+    lambert_row, lambert_step = _rows(lamberts)
     return Materials(
-        input_array(kept.source.color, np.uint8),
-        input_array(kept.source.lambert, np.float64),
-        input_array(np.array(colors, np.uint8).reshape(-1, 3), np.uint8),
-        input_array([plane.lambert for plane in planes], np.float64),
-        len(kept.leaves.number),
+        np.cumsum(counts) - counts,
+        color_row,
+        color_step,
+        color_row,
+        color_step,
+        lambert_row,
+        lambert_step,
+        _joined(colors, np.uint8),
+        _joined(lamberts, np.float64),
     )
+
+
+def _rows(parts: list[NDArray[Any]]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the first row of each part when they are joined, and the step from row to row."""
+    sizes = np.array([len(part) for part in parts])
+    return np.cumsum(sizes) - sizes, (sizes > 1).astype(np.int64)
+
+
+def _joined(parts: list[NDArray[Any]], dtype: type[np.generic]) -> NDArray[Any]:
+    """Return parts as one array, which is no copy where there is only one."""
+    filled = [part for part in parts if len(part)] or parts[:1]
+    return input_array(filled[0] if len(filled) == 1 else np.concatenate(filled), dtype)
 
 
 def _pack_planes(planes: list[Plane]) -> Columns:

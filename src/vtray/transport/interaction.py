@@ -10,15 +10,14 @@ from vtray.geometry.packets.packet import (
     COLOR,
     CURVED,
     DEPTH,
-    DIRECTION,
     DISTANCE,
     ERROR_SCALE,
+    HALF,
     LAMBERT,
     LENGTH,
     MET,
     NORMAL,
     OCTET,
-    ORIGIN,
     POINT,
     PRIMITIVE,
     SOURCE,
@@ -28,6 +27,7 @@ from vtray.geometry.packets.packet import (
     Packet,
     Sheaf,
     load,
+    load_ray,
     split_met,
     start_apart,
     store,
@@ -36,7 +36,7 @@ from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Ray, ray_point
 from vtray.geometry.surface import normal_at, surface_of
 from vtray.geometry.vector import Vec, add, dot, scale
-from vtray.geometry.world import World, has_trees
+from vtray.geometry.world import World, has_trees, load_group
 from vtray.transport.materials.material import load_material
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -52,21 +52,24 @@ class Interaction(NamedTuple):
         The surface's unit normal, on the side that the ray came from.
     error_scale
         What the point's rounding error is relative to.
+    is_second
+        Whether it is in the second half of a shape that has two.
     """
 
     point: Vec
     normal: Vec
     error_scale: float
+    is_second: bool
 
 
 @device
-def interact(world: World, ray: Ray, distance: float, kind: int, slot: int) -> Interaction:
-    """Return the point where a ray hits a shape of a kind."""
+def interact(world: World, ray: Ray, distance: float, row: int, slot: int) -> Interaction:
+    """Return the point where a ray hits a shape of the group in a row."""
     point = ray_point(ray, distance)
-    surface = surface_of(world, kind, slot)
+    surface = surface_of(world, load_group(world, row), slot, point)
     normal = normal_at(surface.pole, surface.is_round, point, ray.direction)
     error_scale = surface.error_scale + ray.error_scale + distance
-    return Interaction(point, normal, error_scale)
+    return Interaction(point, normal, error_scale, surface.is_second)
 
 
 @device
@@ -103,15 +106,17 @@ def _fetch(packet: Packet, hit: int, lane: int, sheaf: Sheaf, scene: SceneArrays
     """Bring together what a hit is made of."""
     numbers, world = packet.view(np.int64), scene.world
     row, slot = split_met(numbers[MET + lane])
-    surface = surface_of(world, world.groups.kind[row], slot)
+    ray, distance = load_ray(packet, sheaf, lane), packet[DISTANCE + lane]
+    surface = surface_of(world, load_group(world, row), slot, ray_point(ray, distance))
     store(packet, NORMAL, hit, surface.pole)
     packet[CURVED + hit] = 1.0 if surface.is_round else 0.0
     packet[ERROR_SCALE + hit] = surface.error_scale
-    store(packet, TOWARDS, hit, load(packet, DIRECTION, lane))
+    store(packet, TOWARDS, hit, ray.direction)
     if start_apart(sheaf):
-        store(packet, START, hit, load(packet, ORIGIN, lane))
-    packet[LENGTH + hit] = packet[DISTANCE + lane]
-    material = load_material(scene.materials, numbers[PRIMITIVE + lane])
+        store(packet, START, hit, ray.origin)
+    packet[LENGTH + hit] = distance
+    numbers[HALF + lane] = 1 if surface.is_second else 0
+    material = load_material(scene.materials, numbers[PRIMITIVE + lane], surface.is_second)
     store(packet, COLOR, hit, material.color)
     packet[LAMBERT + hit] = material.lambert
     numbers[SOURCE + hit] = lane

@@ -14,6 +14,7 @@ from vtray.base.compiler.compiled import device, kernel
 from vtray.geometry.packets.packet import (
     BLOCKED,
     COSINE,
+    HALF,
     KEPT,
     NO_PRIMITIVE,
     PRIMITIVE,
@@ -35,6 +36,8 @@ class KeptLight(NamedTuple):
         The place of the first ray of each pixel, -1 for a pixel without rays, (height, width).
     primitive
         What each ray hits, -1 for nothing, (places,).
+    half
+        1 where that is the second half of a shape that has two, else 0, (places,).
     weight
         What each ray counts for its pixel, 1 or -1, (places,).
     cosines
@@ -42,7 +45,8 @@ class KeptLight(NamedTuple):
     """
 
     first: NDArray[np.int64]
-    primitive: NDArray[np.int32]
+    primitive: NDArray[np.int64]
+    half: NDArray[np.int8]
     weight: NDArray[np.int8]
     cosines: NDArray[np.float64]
 
@@ -56,7 +60,8 @@ def new_kept_light(first: NDArray[np.int64], places: int, lights: int) -> KeptLi
     """Return what will be kept of a pass with so many rays."""
     return KeptLight(
         first,
-        np.empty(places, np.int32),
+        np.empty(places, np.int64),
+        np.empty(places, np.int8),
         np.empty(places, np.int8),
         np.zeros((lights, places)),
     )
@@ -75,6 +80,7 @@ def keep_ray(packet: Packet, lane: int, place: int, kept: KeptLight) -> None:
     numbers = packet.view(np.int64)
     numbers[KEPT + lane] = place
     kept.primitive[place] = numbers[PRIMITIVE + lane]
+    kept.half[place] = numbers[HALF + lane]
     kept.weight[place] = int(packet[WEIGHT + lane])
 
 
@@ -134,7 +140,7 @@ def _light_of_ray(scene: SceneArrays, kept: KeptLight, place: int) -> tuple[floa
     value = (0.0, 0.0, 0.0)
     primitive = int(kept.primitive[place])
     if primitive != NO_PRIMITIVE:
-        material = load_material(scene.materials, primitive)
+        material = load_material(scene.materials, primitive, kept.half[place] == 1)
         for light in range(kept.cosines.shape[0]):
             cosine, intensity = kept.cosines[light, place], scene.lights.intensity[light]
             value = add(value, scattered(material, cosine, intensity))

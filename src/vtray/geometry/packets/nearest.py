@@ -24,9 +24,10 @@ from vtray.geometry.packets.ray_bounds import find_farthest, octets_met
 from vtray.geometry.packets.shaft import MARGIN
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Footprint, Ray, has_width
+from vtray.geometry.shapes.cylinder import cylinder_distance, cylinder_outline, load_cylinder
 from vtray.geometry.shapes.plane import load_plane, plane_distance
 from vtray.geometry.shapes.sphere import load_sphere, sphere_distance, sphere_outline
-from vtray.geometry.world import Group, World
+from vtray.geometry.world import SPHERE, Group, World
 
 
 @device
@@ -43,7 +44,7 @@ def clear_hits(packet: Packet, lanes: int) -> None:
 def nearest_planes(packet: Packet, lanes: int, sheaf: Sheaf, world: World, group: Group) -> None:
     """Let planes take the lanes in which they are nearer than the hits so far."""
     for slot in range(group.begin, group.end):
-        plane = load_plane(world.planes, slot, world.place)
+        plane = load_plane(world.planes, slot, group.place)
         number = group.number + world.planes.number[slot]
         _nearest_lanes(packet, 0, lanes, sheaf, group, slot, number, plane, plane_distance)
 
@@ -76,23 +77,42 @@ def nearest_slots(
     work
         Scratch memory.
     """
-    for slot in range(begin, end):
-        sphere = load_sphere(world.spheres, slot, world.place)
-        number = group.number + world.spheres.number[slot]
-        _nearest_shape(
-            packet,
-            first,
-            count,
-            sheaf,
-            footprint,
-            group,
-            slot,
-            number,
-            sphere,
-            sphere_distance,
-            sphere_outline,
-            work,
-        )
+    if group.kind == SPHERE:
+        for slot in range(begin, end):
+            sphere = load_sphere(world.spheres, slot, group.place)
+            number = group.number + world.spheres.number[slot]
+            _nearest_shape(
+                packet,
+                first,
+                count,
+                sheaf,
+                footprint,
+                group,
+                slot,
+                number,
+                sphere,
+                sphere_distance,
+                sphere_outline,
+                work,
+            )
+    else:
+        for slot in range(begin, end):
+            cylinder = load_cylinder(world.cylinders, slot, group.place)
+            number = group.number + world.cylinders.number[slot]
+            _nearest_shape(
+                packet,
+                first,
+                count,
+                sheaf,
+                footprint,
+                group,
+                slot,
+                number,
+                cylinder,
+                cylinder_distance,
+                cylinder_outline,
+                work,
+            )
 
 
 @device

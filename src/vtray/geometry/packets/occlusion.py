@@ -21,10 +21,11 @@ from vtray.geometry.packets.shaft import MARGIN, outside_shaft
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Segment
 from vtray.geometry.rounding import ROUNDING
-from vtray.geometry.shapes.plane import end_side, hides_side, load_plane, plane_side
+from vtray.geometry.shapes.cylinder import cylinder_hides, load_cylinder
+from vtray.geometry.shapes.plane import PlaneShape, end_side, hides_side, load_plane, plane_side
 from vtray.geometry.shapes.sphere import load_sphere, sphere_hides
 from vtray.geometry.vector import Vec, add, lower, magnitude, scale, sub, upper
-from vtray.geometry.world import Group, World
+from vtray.geometry.world import PLANE, SPHERE, Group, World, group_count, load_group
 
 Flags = NDArray[np.bool_]
 
@@ -71,17 +72,26 @@ def bound_points(packet: Packet, hits: int) -> Bounds:
 @device
 def find_sides(packet: Packet, hits: int, world: World, work: Workspace) -> None:
     """Find on which sides of each plane a packet's points lie."""
-    for slot in range(world.planes.number.shape[0]):
-        plane = load_plane(world.planes, slot, world.place)
-        above = 0
-        below = 0
-        for lane in range(hits):
-            side = plane_side(plane, load(packet, POINT, lane))
-            error_bound = ROUNDING * (packet[ERROR_SCALE + lane] + plane.error_scale)
-            above += 1 if side > error_bound else 0
-            below += 1 if side < -error_bound else 0
-        work.above[slot] = above > 0
-        work.below[slot] = below > 0
+    for row in range(group_count(world)):
+        group = load_group(world, row)
+        if group.kind == PLANE:
+            for slot in range(group.begin, group.end):
+                plane = load_plane(world.planes, slot, group.place)
+                _find_side(packet, hits, plane, slot, work)
+
+
+@device
+def _find_side(packet: Packet, hits: int, plane: PlaneShape, slot: int, work: Workspace) -> None:
+    """Find on which sides of a plane a packet's points lie."""
+    above = 0
+    below = 0
+    for lane in range(hits):
+        side = plane_side(plane, load(packet, POINT, lane))
+        error_bound = ROUNDING * (packet[ERROR_SCALE + lane] + plane.error_scale)
+        above += 1 if side > error_bound else 0
+        below += 1 if side < -error_bound else 0
+    work.above[slot] = above > 0
+    work.below[slot] = below > 0
 
 
 @device
@@ -90,7 +100,7 @@ def block_by_planes(
 ) -> None:
     """Mark the points that planes hide from a light."""
     for slot in range(group.begin, group.end):
-        plane = load_plane(world.planes, slot, world.place)
+        plane = load_plane(world.planes, slot, group.place)
         end = end_side(plane, target.place, target.error_scale)
         if (end < 0.0 and work.above[slot]) or (end > 0.0 and work.below[slot]):
             _block_lanes(packet, 0, hits, target, (plane, end), hides_side)
@@ -119,17 +129,32 @@ def block_by_slot(
     packet: Packet, begin: int, end: int, world: World, group: Group, slot: int, target: Target
 ) -> None:
     """Mark the points of a range that a shape of a group hides from a light."""
-    sphere = load_sphere(world.spheres, slot, world.place)
-    _block_octets(packet, begin, end, target, sphere, sphere_hides)
+    if group.kind == SPHERE:
+        sphere = load_sphere(world.spheres, slot, group.place)
+        _block_octets(packet, begin, end, target, sphere, sphere_hides)
+    else:
+        cylinder = load_cylinder(world.cylinders, slot, group.place)
+        _block_octets(packet, begin, end, target, cylinder, cylinder_hides)
 
 
 @device
 def in_shaft(world: World, group: Group, slot: int, target: Target, bounds: Bounds) -> bool:
     """Tell whether a shape of a group may stand between any point of a box and a light."""
-    sphere = load_sphere(world.spheres, slot, world.place)
-    margin = sphere.error_scale + bounds.error_scale + magnitude(target.place)
-    radius = sphere.radius + MARGIN * margin
-    return not outside_shaft(sphere.center, radius, target.place, bounds.center, bounds.half)
+    if group.kind == SPHERE:
+        sphere = load_sphere(world.spheres, slot, group.place)
+        return _ball_in_shaft(sphere.center, sphere.radius, sphere.error_scale, target, bounds)
+    cylinder = load_cylinder(world.cylinders, slot, group.place)
+    return _ball_in_shaft(cylinder.center, cylinder.radius, cylinder.error_scale, target, bounds)
+
+
+@device
+def _ball_in_shaft(
+    center: Vec, radius: float, error_scale: float, target: Target, bounds: Bounds
+) -> bool:
+    """Tell whether a ball may stand between any point of a box and a light."""
+    margin = error_scale + bounds.error_scale + magnitude(target.place)
+    wider = radius + MARGIN * margin
+    return not outside_shaft(center, wider, target.place, bounds.center, bounds.half)
 
 
 @device

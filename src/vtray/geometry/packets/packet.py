@@ -68,6 +68,8 @@ PRIMITIVE = _fields.scalar()
 """Integer: the number of what is hit, which decides between equal distances."""
 MET = _fields.scalar()
 """Integer: where to find what is hit; see `join_met`."""
+HALF = _fields.scalar()
+"""Integer: 1 where the second half of what is hit is, else 0."""
 RIM = _fields.scalar()
 """The distance of the nearest outline that passes near the ray."""
 LIGHT = _fields.vector()

@@ -10,7 +10,7 @@ from vtray.geometry.packets.shaft import MARGIN
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Footprint
 from vtray.geometry.vector import add, scale, sub
-from vtray.geometry.world import Group, World
+from vtray.geometry.world import Group, ToBoxes, World
 
 
 @device
@@ -37,8 +37,8 @@ def nearest_in_tree(
     work
         Scratch memory.
     """
-    bvh, ratio = world.bvh, world.to_boxes.ratio
-    beam = _part_beam(first, count, sheaf, footprint, world, work)
+    bvh, ratio = world.bvh, group.to_boxes.ratio
+    beam = _part_beam(first, count, sheaf, footprint, group.to_boxes, work)
     start = -sheaf.depth * ratio * (1.0 - MARGIN)
     far = farthest_of(work.cones, first, count) * ratio
     waiting = _push_met(bvh, group.root, beam, start, far, work, 0)
@@ -61,13 +61,13 @@ def _part_beam(
     count: int,
     sheaf: Sheaf,
     footprint: Footprint,
-    world: World,
+    to_boxes: ToBoxes,
     work: Workspace,
 ) -> Beam:
     """Return the beam of a part's rays and their footprints."""
     low, high = part_directions(work.cones, first, count)
     near, far = part_starts(work.cones, first, count)
-    ratio, offset = world.to_boxes.ratio, world.to_boxes.offset
+    ratio, offset = to_boxes.ratio, to_boxes.offset
     apex = add(scale(ratio, sheaf.origin), offset)
     margin = beam_margin(apex, offset) + MARGIN * sheaf.error_scale * ratio
     margin += footprint.width * ratio

@@ -11,7 +11,7 @@ from vtray.geometry.packets.packet import BLOCKED, ERROR_SCALE, POINT, Packet, l
 from vtray.geometry.packets.shaft import MARGIN
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.vector import Vec, add, lower, scale, sub, upper
-from vtray.geometry.world import Group, World
+from vtray.geometry.world import Group, ToBoxes, World
 
 SOONER = 16
 """So few points are tested sooner than a shape is found to be outside their shaft."""
@@ -59,7 +59,7 @@ def _search_cluster(
     bvh, stack = world.bvh, work.stack
     box = _cluster_box(packet, begin, end, target)
     bounds = _bounds_of(box, target)
-    beam = _cluster_beam(box, world, target)
+    beam = _cluster_beam(box, group.to_boxes, target)
     waiting = 1
     stack[0] = group.root
     while waiting > 0:
@@ -107,9 +107,9 @@ def _bounds_of(box: Box, target: Target) -> Bounds:
 
 
 @device
-def _cluster_beam(box: Box, world: World, target: Target) -> Beam:
+def _cluster_beam(box: Box, to_boxes: ToBoxes, target: Target) -> Beam:
     """Return the beam from a light to a box of points."""
-    ratio, offset = world.to_boxes.ratio, world.to_boxes.offset
+    ratio, offset = to_boxes.ratio, to_boxes.offset
     apex = add(scale(ratio, target.place), offset)
     margin = beam_margin(apex, offset) + MARGIN * box.error_scale * ratio
     return make_beam(apex, apex, scale(ratio, box.low), scale(ratio, box.high), margin)

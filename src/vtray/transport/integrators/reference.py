@@ -73,10 +73,10 @@ def trace_pixel(
     hit = nearest_hit(scene.world, ray, stack)
     value = (0.0, 0.0, 0.0)
     if hit.primitive == NOTHING:
-        nowhere = Interaction(ray.origin, ray.direction, 0.0)
+        nowhere = Interaction(ray.origin, ray.direction, 0.0, False)
         return TracedPixel(ray, hit.distance, hit.primitive, nowhere, value)
-    found = interact(scene.world, ray, hit.distance, hit.kind, hit.slot)
-    material = load_material(scene.materials, hit.primitive)
+    found = interact(scene.world, ray, hit.distance, hit.group, hit.slot)
+    material = load_material(scene.materials, hit.primitive, found.is_second)
     depth = dot(found.point, scene.camera.forward)
     for light in range(light_count(scene.lights)):
         target = light_target(scene.lights, light)

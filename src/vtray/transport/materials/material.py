@@ -9,28 +9,40 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.vector import Vec
 from vtray.transport.materials.lambert import lambert_light
 
-Floats = NDArray[np.float64]
-Bytes = NDArray[np.uint8]
+Integers = NDArray[np.int64]
 
 
 class Materials(NamedTuple):
-    """Colours, (n, 3), and Lambert coefficients, (n,), by the numbers of the primitives.
+    """What primitives are made of, by ranges of their numbers.
+
+    The colour of the k-th primitive of a range stands in row ``color_row + k * color_step``: the
+    step is 0 where one row stands for all. Likewise for the others.
 
     Attributes
     ----------
-    color, lambert
-        Those of bounded shapes; one row may stand for all.
-    plane_color, plane_lambert
-        Those of planes.
-    planes
-        The number of the first plane.
+    first
+        The number of the first primitive of each range, from 0 on, (ranges,).
+    color_row, color_step
+        The rows of their colours, (ranges,).
+    end_row, end_step
+        Those of the colours of second halves; equal to the colours where there are no halves.
+    lambert_row, lambert_step
+        Those of their Lambert coefficients.
+    color
+        Colours, (rows, 3).
+    lambert
+        Lambert coefficients, (rows,).
     """
 
-    color: Bytes
-    lambert: Floats
-    plane_color: Bytes
-    plane_lambert: Floats
-    planes: int
+    first: Integers
+    color_row: Integers
+    color_step: Integers
+    end_row: Integers
+    end_step: Integers
+    lambert_row: Integers
+    lambert_step: Integers
+    color: NDArray[np.uint8]
+    lambert: NDArray[np.float64]
 
 
 class Material(NamedTuple):
@@ -41,15 +53,20 @@ class Material(NamedTuple):
 
 
 @device
-def load_material(materials: Materials, primitive: int) -> Material:
-    """Return the material of a primitive."""
-    plane = primitive - materials.planes
-    if plane >= 0:
-        return Material(_triple(materials.plane_color, plane), materials.plane_lambert[plane])
-    color, lambert = materials.color, materials.lambert
-    # One row may stand for all.
-    row = min(primitive, color.shape[0] - 1)
-    return Material(_triple(color, row), lambert[min(primitive, lambert.shape[0] - 1)])
+def load_material(materials: Materials, primitive: int, is_second: bool) -> Material:
+    """Return the material of a primitive, or of its second half."""
+    k = materials.first.shape[0] - 1
+    while primitive < materials.first[k]:
+        k -= 1
+    place = primitive - materials.first[k]
+    row = materials.color_row[k] + place * materials.color_step[k]
+    if is_second:
+        row = materials.end_row[k] + place * materials.end_step[k]
+    color = materials.color
+    return Material(
+        (float(color[row, 0]), float(color[row, 1]), float(color[row, 2])),
+        materials.lambert[materials.lambert_row[k] + place * materials.lambert_step[k]],
+    )
 
 
 @device
@@ -66,9 +83,3 @@ def scattered(material: Material, cosine: float, intensity: float) -> Vec:
         The light's intensity.
     """
     return lambert_light(material.color, material.lambert, cosine, intensity)
-
-
-@device
-def _triple(rows: Bytes, k: int) -> Vec:
-    """Return a row of an (n, 3) array as numbers."""
-    return float(rows[k, 0]), float(rows[k, 1]), float(rows[k, 2])

@@ -1,0 +1,259 @@
+"""The cylinder with flat caps: where a ray meets it, what it hides, its normal and its outline.
+
+A cylinder is what an endless one and the slab between two planes have in common. A line is within
+each from one distance to another, and so within both from the larger of the first to the smaller of
+the second.
+"""
+
+import math
+from typing import NamedTuple
+
+from vtray.base.compiler.compiled import device
+from vtray.geometry.ray import Footprint, Ray, Segment, width_at
+from vtray.geometry.rounding import ROUNDING
+from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
+from vtray.geometry.vector import Vec, add, dot, magnitude, scale, sub
+
+SIZE = 7
+"""Numbers of a cylinder in its columns: the two ends of its axis, and the radius."""
+
+
+class CylinderShape(NamedTuple):
+    """A cylinder in the kernels' space.
+
+    Attributes
+    ----------
+    start
+        Where its axis starts.
+    axis
+        The unit direction to the end, 0 for a cylinder without length.
+    length
+        How far the end is.
+    side_radius
+        How far its side is from the axis.
+    center, radius
+        Its bounding ball.
+    error_scale
+        What its rounding errors are relative to.
+    """
+
+    start: Vec
+    axis: Vec
+    length: float
+    side_radius: float
+    center: Vec
+    radius: float
+    error_scale: float
+
+
+class Line(NamedTuple):
+    """A line beside a cylinder: its way along the axis, and that around it.
+
+    Attributes
+    ----------
+    height, rise
+        How far along the axis it starts, and how that grows.
+    beside, aside
+        How far from the axis it starts, and how that grows, as vectors square to the axis.
+    """
+
+    height: float
+    rise: float
+    beside: Vec
+    aside: Vec
+
+
+class Span(NamedTuple):
+    """From where to where a line is within something, in its own unit; empty if not near < far."""
+
+    near: float
+    far: float
+
+
+@device
+def load_cylinder(columns: Columns, slot: int, place: Place) -> CylinderShape:
+    """Return one of the cylinders."""
+    first = SIZE * slot
+    world_start = world_point(columns, first, place)
+    world_end = world_point(columns, first + 3, place)
+    # Scaled first: the difference could overflow.
+    way = sub(scale(place.scale, world_end), scale(place.scale, world_start))
+    length2 = dot(way, way)
+    length = math.sqrt(length2)
+    divisor = length if length2 > 0.0 else 1.0
+    axis = way[0] / divisor, way[1] / divisor, way[2] / divisor
+    start = to_kernels(world_start, place)
+    side_radius = columns.data[first + 6] * place.scale
+    return CylinderShape(
+        start,
+        axis,
+        length if length2 > 0.0 else 0.0,
+        side_radius,
+        add(start, scale(0.5, way)),
+        math.sqrt(side_radius * side_radius + 0.25 * length2),
+        magnitude(start) + length + side_radius,
+    )
+
+
+@device
+def line_beside(cylinder: CylinderShape, origin: Vec, way: Vec) -> Line:
+    """Return a line through a point in a direction as the cylinder sees it."""
+    from_start = sub(origin, cylinder.start)
+    height, rise = dot(from_start, cylinder.axis), dot(way, cylinder.axis)
+    return Line(
+        height,
+        rise,
+        sub(from_start, scale(height, cylinder.axis)),
+        sub(way, scale(rise, cylinder.axis)),
+    )
+
+
+@device
+def side_span(line: Line, side_radius: float) -> Span:
+    """Return where a line is within the endless cylinder.
+
+    As for a sphere, the discriminant is taken from the closest approach.
+    """
+    square = dot(line.aside, line.aside)
+    is_slanted = square > 0.0
+    middle = -dot(line.beside, line.aside) / square if is_slanted else 0.0
+    approach = add(line.beside, scale(middle, line.aside))
+    discriminant = side_radius * side_radius - dot(approach, approach)
+    meets = discriminant > 0.0
+    half = math.sqrt(max(discriminant, 0.0) / square) if is_slanted else math.inf
+    return Span(middle - half if meets else math.inf, middle + half if meets else -math.inf)
+
+
+@device
+def cap_span(line: Line, low: float, high: float) -> Span:
+    """Return where a line is between two heights."""
+    rises = line.rise != 0.0
+    divisor = line.rise if rises else 1.0
+    first, last = (low - line.height) / divisor, (high - line.height) / divisor
+    between = (line.height > low) & (line.height < high)
+    near = min(first, last) if rises else -math.inf
+    far = max(first, last) if rises else math.inf
+    return Span(near if rises | between else math.inf, far if rises | between else -math.inf)
+
+
+@device
+def both_spans(one: Span, other: Span) -> Span:
+    """Return where a line is within two things."""
+    return Span(max(one.near, other.near), min(one.far, other.far))
+
+
+@device
+def signed_distance(cylinder: CylinderShape, line: Line) -> float:
+    """Return how far outside a cylinder a line starts, below 0 inside; a bound beyond its edges."""
+    aside = math.sqrt(dot(line.beside, line.beside)) - cylinder.side_radius
+    return max(aside, -line.height, line.height - cylinder.length)
+
+
+@device
+def cylinder_distance(cylinder: CylinderShape, ray: Ray) -> float:
+    """Return the distance to the first point of a cylinder that a ray meets, or infinity.
+
+    The ray counts from the image plane on. Where it starts on the cylinder, as near as rounding can
+    tell, it meets the cylinder only where it crosses it elsewhere.
+    """
+    line = line_beside(cylinder, ray.origin, ray.direction)
+    side = side_span(line, cylinder.side_radius)
+    caps = cap_span(line, 0.0, cylinder.length)
+    span = both_spans(side, caps)
+    # A surface that the ray meets at a small angle magnifies the error of the distance.
+    slope, steepness = abs(line.rise), math.sqrt(dot(line.aside, line.aside))
+    near_slope = slope if caps.near >= side.near else steepness
+    far_slope = slope if caps.far <= side.far else steepness
+    near, far = span.near, span.far
+    meets = near < far
+    error_scale = cylinder.error_scale + ray.error_scale
+    if ray.error_bound > 0.0:
+        outside = signed_distance(cylinder, line)
+        ahead = near + far > 0.0
+        near = near if (outside > ray.error_bound) & ahead else -math.inf
+        far = far if (outside < -ray.error_bound) | ahead else math.inf
+    near_depth = (near * ray.forward + ray.depth) * near_slope
+    far_depth = (far * ray.forward + ray.depth) * far_slope
+    sees_near = meets & (near_depth > ROUNDING * (abs(near) + error_scale))
+    sees_far = meets & (far_depth > ROUNDING * (abs(far) + error_scale))
+    return near if sees_near else far if sees_far else math.inf
+
+
+@device
+def cylinder_hides(cylinder: CylinderShape, segment: Segment) -> bool:
+    """Tell whether a cylinder stands between two points, in front of the image plane."""
+    error_bound = ROUNDING * (segment.start_scale + cylinder.error_scale)
+    end_bound = ROUNDING * (cylinder.error_scale + segment.end_scale)
+    to_end = sub(segment.end, segment.start)
+    end = segment.end
+    if segment.end_depth < 0.0:
+        # The way counts up to where it passes through the image plane.
+        share = segment.start_depth / (segment.start_depth - segment.end_depth)
+        to_end = scale(share, to_end)
+        end = add(segment.start, to_end)
+        end_bound = error_bound + share * end_bound
+    line = line_beside(cylinder, segment.start, to_end)
+    span = both_spans(side_span(line, cylinder.side_radius), cap_span(line, 0.0, cylinder.length))
+    start_outside = signed_distance(cylinder, line)
+    end_outside = signed_distance(cylinder, line_beside(cylinder, end, to_end))
+    middle = 0.5 * (span.near + span.far)
+    meets = (span.near < span.far) & (middle > 0.0)
+    enters = meets & ((end_outside < -end_bound) | (middle < 1.0))
+    leaves = (end_outside > end_bound) & ((start_outside < -error_bound) | meets)
+    return enters if start_outside > error_bound else leaves
+
+
+@device
+def cylinder_pole(cylinder: CylinderShape, point: Vec) -> tuple[Vec, bool]:
+    """Return the point of the axis that a point of the side is round, or the normal of its cap.
+
+    Returns
+    -------
+    pole, is_round
+        As in `Surface`: the side is round, and the caps are not.
+    """
+    line = line_beside(cylinder, point, cylinder.axis)
+    from_side = abs(math.sqrt(dot(line.beside, line.beside)) - cylinder.side_radius)
+    from_cap = min(abs(line.height), abs(cylinder.length - line.height))
+    foot = add(cylinder.start, scale(line.height, cylinder.axis))
+    is_round = from_side <= from_cap
+    axis = cylinder.axis
+    return (
+        foot[0] if is_round else axis[0],
+        foot[1] if is_round else axis[1],
+        foot[2] if is_round else axis[2],
+    ), is_round
+
+
+@device
+def is_second_half(cylinder: CylinderShape, point: Vec) -> bool:
+    """Tell whether a point is nearer to the end of the axis than to its start."""
+    height = dot(sub(point, cylinder.start), cylinder.axis)
+    return height + height > cylinder.length
+
+
+@device
+def cylinder_outline(cylinder: CylinderShape, ray: Ray, footprint: Footprint) -> float:
+    """Return the distance at which a ray passes an outline or an edge, or infinity if none is near.
+
+    That is the case where it would meet the cylinder if that were a little larger, but not if it
+    were a little smaller, and where it passes the edge of the cap that it looks at.
+    """
+    line = line_beside(cylinder, ray.origin, ray.direction)
+    reach = dot(sub(cylinder.center, ray.origin), ray.direction)
+    width = width_at(footprint, max(reach, 0.0))
+    larger = both_spans(
+        side_span(line, cylinder.side_radius + width),
+        cap_span(line, -width, cylinder.length + width),
+    )
+    smaller = both_spans(
+        side_span(line, max(cylinder.side_radius - width, 0.0)),
+        cap_span(line, width, cylinder.length - width),
+    )
+    caps = cap_span(line, 0.0, cylinder.length)
+    crossing = caps.near if line.rise != 0.0 else 0.0
+    place = add(line.beside, scale(crossing, line.aside))
+    from_edge = abs(math.sqrt(dot(place, place)) - cylinder.side_radius)
+    at_edge = from_edge * abs(line.rise) <= width
+    is_near = (larger.near < larger.far) & (at_edge | (smaller.near >= smaller.far))
+    return larger.near if is_near & (larger.far > -ray.depth) else math.inf
