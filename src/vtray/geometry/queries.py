@@ -14,6 +14,7 @@ from vtray.geometry.bvh.tree import STACK, WIDTH, leaf_range
 from vtray.geometry.packets.beam import Beam, beam_margin, children_met, enter_child, make_beam
 from vtray.geometry.packets.shaft import MARGIN
 from vtray.geometry.ray import Ray, Segment
+from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.shapes.cylinder import cylinder_distance, cylinder_hides, load_cylinder
 from vtray.geometry.shapes.plane import load_plane, plane_distance, plane_hides
 from vtray.geometry.shapes.sphere import load_sphere, sphere_distance, sphere_hides
@@ -96,8 +97,18 @@ def _meet_slot(world: World, group: Group, slot: int, ray: Ray) -> tuple[float, 
     if group.kind == SPHERE:
         sphere = load_sphere(world.spheres, slot, group.place)
         return sphere_distance(sphere, ray), group.number + world.spheres.number[slot]
-    cylinder = load_cylinder(world.cylinders, slot, group.place)
-    return cylinder_distance(cylinder, ray), group.number + world.cylinders.number[slot]
+    return _meet_cylinder(world.cylinders, group, slot, ray)
+
+
+@device
+def _meet_cylinder(
+    cylinders: Columns | None, group: Group, slot: int, ray: Ray
+) -> tuple[float, int]:
+    """Return the distance at which a ray meets a cylinder, and the cylinder's number."""
+    if cylinders is None:
+        return math.inf, NOTHING
+    cylinder = load_cylinder(cylinders, slot, group.place)
+    return cylinder_distance(cylinder, ray), group.number + cylinders.number[slot]
 
 
 @device
@@ -190,8 +201,18 @@ def _hides_slot(world: World, group: Group, slot: int, segment: Segment) -> tupl
     if group.kind == SPHERE:
         sphere = load_sphere(world.spheres, slot, group.place)
         return sphere_hides(sphere, segment), group.number + world.spheres.number[slot]
-    cylinder = load_cylinder(world.cylinders, slot, group.place)
-    return cylinder_hides(cylinder, segment), group.number + world.cylinders.number[slot]
+    return _hides_cylinder(world.cylinders, group, slot, segment)
+
+
+@device
+def _hides_cylinder(
+    cylinders: Columns | None, group: Group, slot: int, segment: Segment
+) -> tuple[bool, int]:
+    """Tell whether a cylinder stands between two points; return the cylinder's number."""
+    if cylinders is None:
+        return False, NOTHING
+    cylinder = load_cylinder(cylinders, slot, group.place)
+    return cylinder_hides(cylinder, segment), group.number + cylinders.number[slot]
 
 
 @device

@@ -4,6 +4,7 @@ import math
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.shapes.cylinder import cylinder_pole, is_second_half, load_cylinder
 from vtray.geometry.shapes.plane import load_plane
 from vtray.geometry.shapes.sphere import load_sphere
@@ -42,7 +43,15 @@ def surface_of(world: World, group: Group, slot: int, point: Vec) -> Surface:
     if group.kind == SPHERE:
         sphere = load_sphere(world.spheres, slot, group.place)
         return Surface(sphere.center, True, sphere.error_scale, False)
-    cylinder = load_cylinder(world.cylinders, slot, group.place)
+    return _cylinder_surface(world.cylinders, group, slot, point)
+
+
+@device
+def _cylinder_surface(cylinders: Columns | None, group: Group, slot: int, point: Vec) -> Surface:
+    """Return the surface of a cylinder at a point."""
+    if cylinders is None:
+        return Surface(point, False, 0.0, False)
+    cylinder = load_cylinder(cylinders, slot, group.place)
     pole, is_round = cylinder_pole(cylinder, point)
     return Surface(pole, is_round, cylinder.error_scale, is_second_half(cylinder, point))
 

@@ -68,7 +68,8 @@ class World(NamedTuple):
     groups
         The groups.
     planes, spheres, cylinders
-        The columns of each kind.
+        The columns of each kind; None for cylinders where there are none, so that no code is
+        compiled for them.
     bvh
         The nodes of all hierarchies.
     scale, origin
@@ -78,7 +79,7 @@ class World(NamedTuple):
     groups: Groups
     planes: Columns
     spheres: Columns
-    cylinders: Columns
+    cylinders: Columns | None
     bvh: Bvh
     scale: float
     origin: Vec

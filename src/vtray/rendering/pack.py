@@ -89,7 +89,7 @@ def _pack_world(planes: list[Plane], kept: Acceleration, unit: float, origin: Ve
         Groups(kind, begin, end, root, number, frames),
         _pack_planes(planes),
         Columns(*kept.leaves),
-        Columns(np.empty(0), np.empty(0, np.int32)),
+        None,
         bvh,
         1.0 / unit,
         origin,

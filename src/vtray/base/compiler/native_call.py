@@ -163,6 +163,9 @@ def _unpack(value: object, types: list[str], words: list[Any]) -> None:
     elif kind is float:
         types.append("f8,")
         words.append(_float(value))
+    elif value is None:
+        types.append("none,")
+        words.append(_NULL)
     elif kind is bool:
         types.append("b1,")
         words.append(_bool(value))

@@ -24,6 +24,7 @@ from vtray.geometry.packets.ray_bounds import find_farthest, octets_met
 from vtray.geometry.packets.shaft import MARGIN
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Footprint, Ray, has_width
+from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.shapes.cylinder import cylinder_distance, cylinder_outline, load_cylinder
 from vtray.geometry.shapes.plane import load_plane, plane_distance
 from vtray.geometry.shapes.sphere import load_sphere, sphere_distance, sphere_outline
@@ -77,42 +78,63 @@ def nearest_slots(
     work
         Scratch memory.
     """
-    if group.kind == SPHERE:
-        for slot in range(begin, end):
-            sphere = load_sphere(world.spheres, slot, group.place)
-            number = group.number + world.spheres.number[slot]
-            _nearest_shape(
-                packet,
-                first,
-                count,
-                sheaf,
-                footprint,
-                group,
-                slot,
-                number,
-                sphere,
-                sphere_distance,
-                sphere_outline,
-                work,
-            )
-    else:
-        for slot in range(begin, end):
-            cylinder = load_cylinder(world.cylinders, slot, group.place)
-            number = group.number + world.cylinders.number[slot]
-            _nearest_shape(
-                packet,
-                first,
-                count,
-                sheaf,
-                footprint,
-                group,
-                slot,
-                number,
-                cylinder,
-                cylinder_distance,
-                cylinder_outline,
-                work,
-            )
+    if group.kind != SPHERE:
+        _nearest_cylinders(
+            packet, first, count, sheaf, footprint, group, begin, end, world.cylinders, work
+        )
+        return
+    for slot in range(begin, end):
+        sphere = load_sphere(world.spheres, slot, group.place)
+        number = group.number + world.spheres.number[slot]
+        _nearest_shape(
+            packet,
+            first,
+            count,
+            sheaf,
+            footprint,
+            group,
+            slot,
+            number,
+            sphere,
+            sphere_distance,
+            sphere_outline,
+            work,
+        )
+
+
+@device
+def _nearest_cylinders(
+    packet: Packet,
+    first: int,
+    count: int,
+    sheaf: Sheaf,
+    footprint: Footprint,
+    group: Group,
+    begin: int,
+    end: int,
+    cylinders: Columns | None,
+    work: Workspace,
+) -> None:
+    """Let cylinders of a group take lanes of some octets in which they are nearer."""
+    if cylinders is None:
+        return
+    for slot in range(begin, end):
+        cylinder = load_cylinder(cylinders, slot, group.place)
+        number = group.number + cylinders.number[slot]
+        _nearest_shape(
+            packet,
+            first,
+            count,
+            sheaf,
+            footprint,
+            group,
+            slot,
+            number,
+            cylinder,
+            cylinder_distance,
+            cylinder_outline,
+            work,
+        )
 
 
 @device

@@ -21,6 +21,7 @@ from vtray.geometry.packets.shaft import MARGIN, outside_shaft
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Segment
 from vtray.geometry.rounding import ROUNDING
+from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.shapes.cylinder import cylinder_hides, load_cylinder
 from vtray.geometry.shapes.plane import PlaneShape, end_side, hides_side, load_plane, plane_side
 from vtray.geometry.shapes.sphere import load_sphere, sphere_hides
@@ -133,17 +134,43 @@ def block_by_slot(
         sphere = load_sphere(world.spheres, slot, group.place)
         _block_octets(packet, begin, end, target, sphere, sphere_hides)
     else:
-        cylinder = load_cylinder(world.cylinders, slot, group.place)
-        _block_octets(packet, begin, end, target, cylinder, cylinder_hides)
+        _block_by_cylinder(packet, begin, end, world.cylinders, group, slot, target)
+
+
+@device
+def _block_by_cylinder(
+    packet: Packet,
+    begin: int,
+    end: int,
+    cylinders: Columns | None,
+    group: Group,
+    slot: int,
+    target: Target,
+) -> None:
+    """Mark the points of a range that a cylinder hides from a light."""
+    if cylinders is None:
+        return
+    cylinder = load_cylinder(cylinders, slot, group.place)
+    _block_octets(packet, begin, end, target, cylinder, cylinder_hides)
 
 
 @device
 def in_shaft(world: World, group: Group, slot: int, target: Target, bounds: Bounds) -> bool:
     """Tell whether a shape of a group may stand between any point of a box and a light."""
-    if group.kind == SPHERE:
-        sphere = load_sphere(world.spheres, slot, group.place)
-        return _ball_in_shaft(sphere.center, sphere.radius, sphere.error_scale, target, bounds)
-    cylinder = load_cylinder(world.cylinders, slot, group.place)
+    if group.kind != SPHERE:
+        return _cylinder_in_shaft(world.cylinders, group, slot, target, bounds)
+    sphere = load_sphere(world.spheres, slot, group.place)
+    return _ball_in_shaft(sphere.center, sphere.radius, sphere.error_scale, target, bounds)
+
+
+@device
+def _cylinder_in_shaft(
+    cylinders: Columns | None, group: Group, slot: int, target: Target, bounds: Bounds
+) -> bool:
+    """Tell whether a cylinder may stand between any point of a box and a light."""
+    if cylinders is None:
+        return False
+    cylinder = load_cylinder(cylinders, slot, group.place)
     return _ball_in_shaft(cylinder.center, cylinder.radius, cylinder.error_scale, target, bounds)
 
 
