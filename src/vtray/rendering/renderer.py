@@ -119,14 +119,7 @@ def render(
     problem = _darkness(scene, keep_lights=keep_lights)
     if problem:
         (warn or _warn)(problem)
-    settings = scene.render.replace(
-        samples=samples,
-        filter=filter,
-        seed=seed,
-        size=size,
-        exposure=exposure,
-        background=background,
-    )
+    settings = scene.render.overridden(locals())
     shown = _snapshot(scene, _camera(scene, settings))
     width, height = shown.camera.size
     behind = 0 if settings.background == "black" else BYTES_PER_PIXEL_AND_MORE
