@@ -236,10 +236,10 @@ def test_picture_of_an_older_version_is_made_again(
     small.write_text(json.dumps({**document, "render": {"seed": 7, "exposure": 2}}))
     assert cli.run(["--replay", str(picture), str(small), str(again)]) == 0
     assert capfd.readouterr() == ("", "")
-    one, two = np.load(picture), np.load(again)
-    assert (one["pixels"] == two["pixels"]).all()
-    assert one["pixels"].any()
-    assert str(two["provenance"]) == tell(vtray.read_provenance(again))
+    with np.load(picture) as one, np.load(again) as two:
+        assert (one["pixels"] == two["pixels"]).all()
+        assert one["pixels"].any()
+        assert str(two["provenance"]) == tell(vtray.read_provenance(again))
 
 
 def test_picture_of_a_newer_version_is_refused(

@@ -8,7 +8,7 @@ from typing import Any
 
 from vtray.commands.command import Parser
 from vtray.commands.setting_options import add_settings, wrong
-from vtray.image.formats.picture import AOVS
+from vtray.image.aovs import AOVS
 from vtray.scene.settings import RenderSettings
 
 HINT = "usage: vtray [-t THREADS] SCENE OUTPUT (more: vtray --help)"

@@ -9,6 +9,7 @@ from msgspec import Meta
 from vtray.base.errors import OutputError, ProvenanceError, why_unreadable
 from vtray.base.input_file import open_input
 from vtray.base.version import __version__
+from vtray.image.aovs import AovName
 from vtray.image.formats.image_format import FORMATS, find_format, needs_package
 from vtray.image.formats.picture import How, Picture
 from vtray.scene.checks.limits import END, NonNegative
@@ -42,7 +43,7 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
     scene: Annotated[str, Meta(pattern=f"^[0-9a-f]{{16,64}}{END}")]
     lock: NonNegative | None = None
     bits: Literal[8, 16, 32] = 8
-    aov: tuple[Literal["depth", "normals", "ids"], ...] = ()
+    aov: tuple[AovName, ...] = ()
 
     @property
     def settings(self) -> RenderSettings:
