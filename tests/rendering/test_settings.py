@@ -14,7 +14,7 @@ import vtray
 from vtray.commands.setting_options import add_settings
 from vtray.scene import settings
 from vtray.scene.checks.limits import NonNegative, Positive
-from vtray.scene.settings import Option, RenderSettings, Settings, kinds_of
+from vtray.scene.settings import Option, RenderSettings, Settings, kinds_of, overridden
 
 NAMES = RenderSettings.__struct_fields__
 
@@ -45,7 +45,7 @@ def test_what_type_checkers_see_is_what_there_is() -> None:
 def test_settings_that_are_given() -> None:
     own = RenderSettings(samples=4, seed=1)
     given = {"samples": None, "seed": 7, "scene": "no setting"}
-    assert own.overridden(given) == RenderSettings(samples=4, seed=7)
+    assert overridden(own, given) == RenderSettings(samples=4, seed=7)
 
 
 class More(RenderSettings, frozen=True):
@@ -80,7 +80,7 @@ def test_new_settings_are_options(parser: argparse.ArgumentParser) -> None:
     found = vars(parser.parse_args(given))
     new = {"lens": 0.5, "light_paths": "all", "bounces": 0, "clip": (1.0, 25.0)}
     assert found == {**dict.fromkeys(NAMES), **new}
-    assert More().overridden(found) == More(**new)
+    assert overridden(More(), found) == More(**new)
     assert parser.parse_args(["--near"]).clip == (1.0, 2.0)
     assert "--lens WIDTH" in parser.format_help()
     assert "the same as --clip 1x2" in parser.format_help()

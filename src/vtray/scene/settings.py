@@ -186,18 +186,21 @@ class RenderSettings(
         given = {name: value for name, value in changes.items() if value is not None}
         return type(self)(**{**msgspec.structs.asdict(self), **given})
 
-    def overridden(self, given: Mapping[str, Any]) -> Self:
-        """Return these settings with those that are given in place of some.
 
-        Parameters
-        ----------
-        given
-            Values by their names, for instance the arguments of a function. None means as here,
-            and what is no setting is passed over.
+def overridden(settings: RenderSettings, given: Mapping[str, Any]) -> RenderSettings:
+    """Return settings with those that are given in place of some.
 
-        Raises
-        ------
-        SceneError
-            If a value is not right.
-        """
-        return self.replace(**{name: given.get(name) for name in self.__struct_fields__})
+    Parameters
+    ----------
+    settings
+        The settings.
+    given
+        Values by their names, for instance the arguments of a function. None means as it is, and
+        what is no setting is passed over.
+
+    Raises
+    ------
+    SceneError
+        If a value is not right.
+    """
+    return settings.replace(**{name: given.get(name) for name in settings.__struct_fields__})
