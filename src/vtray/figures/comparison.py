@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-    from vtray.figures.picture import HasPixels, Pixels
+    from vtray.figures.subject import HasPixels, Pixels
 
     Picture: TypeAlias = HasPixels | Pixels | str | PathLike[str]
 

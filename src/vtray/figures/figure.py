@@ -10,7 +10,6 @@ from vtray.base.extras import need
 from vtray.figures.color_bar import bar_labels, color_scales
 from vtray.figures.lettering import write
 from vtray.figures.panel import LEAST_SHARE, Panel, Rooms
-from vtray.figures.picture import Picture, Pixels
 from vtray.figures.scale_bar import (
     ScaleBar,
     depth_along_view,
@@ -29,6 +28,7 @@ from vtray.figures.sheet import (
     picture_zoom,
     usual_dpi,
 )
+from vtray.figures.subject import Pixels, Subject
 from vtray.scene.scene import Plane
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ FONT_SIZES = ("font.size", "axes.titlesize", "axes.labelsize", "xtick.labelsize"
 
 
 def make_figure(
-    image: Picture,
+    image: Subject,
     *,
     colorbar: bool | str | Sequence[str],
     scalebar: object,
@@ -199,7 +199,7 @@ def compare_figure(
     return figure
 
 
-def _scale_bar(image: Picture, scalebar: object, at: "ArrayLike | None") -> ScaleBar | None:
+def _scale_bar(image: Subject, scalebar: object, at: "ArrayLike | None") -> ScaleBar | None:
     """Return the scale bar of an image, None if it should have none."""
     if not isinstance(scalebar, (bool, str)):
         message = f'scalebar: expected True, False or a unit such as "nm", got {scalebar!r}'
@@ -221,7 +221,7 @@ def _scale_bar(image: Picture, scalebar: object, at: "ArrayLike | None") -> Scal
     return ScaleBar(length, length / unit, text)
 
 
-def _pattern(image: Picture, scalebar: bool | str) -> str:
+def _pattern(image: Subject, scalebar: bool | str) -> str:
     """Return what is written beside a scale bar, with the names of numbers in braces."""
     if isinstance(scalebar, str) and "{length}" in scalebar:
         return scalebar
@@ -234,7 +234,7 @@ def _pattern(image: Picture, scalebar: bool | str) -> str:
     return pattern
 
 
-def _median_depth(image: Picture) -> float | None:
+def _median_depth(image: Subject) -> float | None:
     """Return the median distance of what is seen, along the view; None if nothing is.
 
     Planes, which have no end, only count where there is nothing else.
@@ -249,7 +249,7 @@ def _median_depth(image: Picture) -> float | None:
     return float(np.median(depth_along_view(image.scene.camera, image.depth)[seen]))
 
 
-def _depth_of(image: Picture, at: "ArrayLike | None") -> float | None:
+def _depth_of(image: Subject, at: "ArrayLike | None") -> float | None:
     """Return how far from the eye along z' a point lies."""
     if at is None:
         return None

@@ -3,6 +3,7 @@
 from collections.abc import Collection
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
+from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ class Picture(Protocol):
 
     linear: "Floats"
     white: float
+    scene: Scene
     settings: RenderSettings
     locked: bool
 

@@ -20,8 +20,8 @@ class HasPixels(Protocol):
         """Light after exposure, (height, width, 3), or with alpha (height, width, 4)."""
 
 
-class Picture(HasPixels, Protocol):
-    """A picture, as `vtray.Image` is one; that has the words on each attribute."""
+class Subject(HasPixels, Protocol):
+    """What a figure shows: a picture, as `vtray.Image` is one."""
 
     @property
     def linear(self) -> Floats:
