@@ -31,6 +31,12 @@ def test_arrays_are_as_the_table_says(name: str) -> None:
     assert getattr(vtray.Image, name).__doc__
 
 
+@pytest.mark.parametrize("ending", [".npz", ".exr"])
+def test_all_are_told(ending: str, tmp_path: Path) -> None:
+    hand_made().save(tmp_path / f"a{ending}", aov=AOVS)
+    assert vtray.read_provenance(tmp_path / f"a{ending}").aov == tuple(AOVS)
+
+
 class WithMore(HandMade):
     """A picture of which more is known."""
 
