@@ -3,6 +3,7 @@
 import argparse
 import ast
 import inspect
+import re
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -40,6 +41,12 @@ def test_what_type_checkers_see_is_what_there_is() -> None:
     defaults = map(ast.literal_eval, stub.defaults)
     assert dict(zip(names, defaults, strict=True)) == msgspec.structs.asdict(RenderSettings())
     assert tuple(names) == NAMES
+
+
+def test_settings_are_described() -> None:
+    for name in NAMES:
+        assert f"\n    {name} : " in RenderSettings.__doc__
+        assert re.search(rf"\n    (\w+, )*{name}\b", vtray.Provenance.__doc__)
 
 
 def test_settings_that_are_given() -> None:

@@ -9,7 +9,7 @@ from typing import Any, Literal
 import msgspec
 
 from vtray.base.errors import SceneError
-from vtray.scene.checks.limits import alternatives
+from vtray.scene.checks.limits import alternatives, limits_alone
 from vtray.scene.colors.names import to_rgb
 from vtray.scene.settings import Settings, kinds_of
 from vtray.scene.vectors import Color
@@ -31,7 +31,7 @@ def add_settings(group: argparse._ArgumentGroup, settings: type[Settings]) -> No
     for name, (kind, option) in kinds_of(settings).items():
         place = group.add_mutually_exclusive_group() if option.flags else group
         flag = f"--{name.replace('_', '-')}"
-        read = _reader(kind, option.words or _description(kind))
+        read = _reader(kind, option.words)
         reading: dict[str, Any] = {"type": read}
         (*others, last) = alternatives(kind)
         if not others and typing.get_origin(last) is Literal:
@@ -52,13 +52,7 @@ def wrong(expected: str, text: str) -> argparse.ArgumentTypeError:
     return argparse.ArgumentTypeError(f"expected {expected}, got {text}")
 
 
-def _description(kind: Any) -> str:  # noqa: ANN401
-    """Return what the limits of a kind say is expected."""
-    limits = [item for item in kind.__metadata__ if isinstance(item, msgspec.Meta)]
-    return limits[-1].description or "" if limits else ""
-
-
-def _reader(kind: Any, expected: str) -> Callable[[str], Any]:  # noqa: ANN401
+def _reader(kind: Any, words: str) -> Callable[[str], Any]:  # noqa: ANN401
     """Return what reads the value of an option as one of a kind."""
 
     def read(text: str) -> Any:  # noqa: ANN401
@@ -69,9 +63,16 @@ def _reader(kind: Any, expected: str) -> Callable[[str], Any]:  # noqa: ANN401
             pass
         except SceneError as error:
             hint = "".join(str(error).partition("; ")[1:])
-        raise wrong(expected, f"{text}{hint}")
+        raise wrong(words or _expected(kind), f"{text}{hint}")
 
     return read
+
+
+def _expected(kind: Any) -> str:  # noqa: ANN401
+    """Return what the checks of a scene say is expected, without the quotes of a file."""
+    from vtray.scene.checks.scene_words import expected
+
+    return expected(limits_alone(kind)).replace('"', "")
 
 
 def _read(text: str, kind: Any) -> Any:  # noqa: ANN401

@@ -52,7 +52,7 @@ class Option(NamedTuple):
     help
         What it is, in a line.
     words
-        What is expected, where the description of its kind does not say it for texts.
+        What is expected, where a command line writes it in other words than a scene file.
     flags
         Options without a value that stand for one.
     """
@@ -66,8 +66,8 @@ class Option(NamedTuple):
 class Settings(msgspec.Struct, frozen=True, gc=False):
     """The settings of a render.
 
-    Each has a default, with which it changes nothing: so a picture of a version that did not know
-    it can be made again.
+    Each has a default, which is what versions did that did not know it: so their pictures can be
+    made again.
     """
 
     samples: Annotated[Samples, Option("N", "rays for each pixel that needs them")] = 1
@@ -79,11 +79,7 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
     ] = None
     exposure: Annotated[
         Exposure,
-        Option(
-            "max|NUMBER",
-            "max: the brightest channel becomes 255; a number: light times that",
-            "max or a number > 0",
-        ),
+        Option("max|NUMBER", "max: the brightest channel becomes 255; a number: light times that"),
     ] = "max"
     background: Annotated[
         Background,
