@@ -27,7 +27,7 @@ def test_render_takes_all_settings() -> None:
     for name in NAMES:
         assert parameters[name].kind is inspect.Parameter.KEYWORD_ONLY
         assert parameters[name].default is None
-        assert f"\n    {name}\n        " in vtray.render.__doc__
+        assert f"\n{name}\n    " in inspect.getdoc(vtray.render)
 
 
 def test_what_type_checkers_see_is_what_there_is() -> None:
@@ -45,8 +45,8 @@ def test_what_type_checkers_see_is_what_there_is() -> None:
 
 def test_settings_are_described() -> None:
     for name in NAMES:
-        assert f"\n    {name} : " in RenderSettings.__doc__
-        assert re.search(rf"\n    (\w+, )*{name}\b", vtray.Provenance.__doc__)
+        assert f"\n{name} : " in inspect.getdoc(RenderSettings)
+        assert re.search(rf"\n(\w+, )*{name}\b", inspect.getdoc(vtray.Provenance))
 
 
 def test_settings_that_are_given() -> None:
