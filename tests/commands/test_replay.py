@@ -5,6 +5,7 @@ import json
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from examples import one_sphere
 
@@ -216,6 +217,44 @@ def test_settings_of_the_picture_reach_the_render(
     assert capfd.readouterr().err == f"Warning: {picture}: {warning}\n"
     assert cli.run(["-q", "--replay", str(picture), str(small), str(again)]) == 0
     assert capfd.readouterr().err == ""
+
+
+def test_picture_of_an_older_version_is_made_again(
+    small: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    picture, again = small.with_name("picture.npz"), small.with_name("again.npz")
+    document = json.loads(small.read_text())
+    tell = vtray.Provenance.to_text
+    with monkeypatch.context() as old:
+        old.setattr(
+            vtray.Provenance,
+            "to_text",
+            lambda self: json.dumps({"version": self.version, "scene": self.scene, "samples": 4}),
+        )
+        assert cli.run([str(small), str(picture), "--samples", "4"]) == 0
+    # What it did not know yet had its default, whatever the scene says now.
+    small.write_text(json.dumps({**document, "render": {"seed": 7, "exposure": 2}}))
+    assert cli.run(["--replay", str(picture), str(small), str(again)]) == 0
+    assert capfd.readouterr() == ("", "")
+    with np.load(picture) as one, np.load(again) as two:
+        assert (one["pixels"] == two["pixels"]).all()
+        assert one["pixels"].any()
+        assert str(two["provenance"]) == tell(vtray.read_provenance(again))
+
+
+def test_picture_of_a_newer_version_is_refused(
+    small: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    picture = small.with_name("picture.png")
+    tell = vtray.Provenance.to_text
+    more = {"version": "9.9", "motion": 1}
+    newer = lambda self: json.dumps({**json.loads(tell(self)), **more})  # noqa: E731
+    monkeypatch.setattr(vtray.Provenance, "to_text", newer)
+    assert cli.run([str(small), str(picture)]) == 0
+    assert cli.run(["--replay", str(picture), str(small), str(small.with_name("b.png"))]) == 1
+    told = "what it says of how it was made by vtray 9.9 is not understood"
+    unknown = "Object contains unknown field `motion`"
+    assert capfd.readouterr().err == f"Error: {picture}: {told}: {unknown}\n"
 
 
 def test_exposure_that_was_locked_is_locked_again(

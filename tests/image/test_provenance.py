@@ -203,6 +203,33 @@ def test_what_is_understood(tmp_path: Path) -> None:
     assert vtray.read_provenance(write(tmp_path / "a.png", told())).filter == "box"
 
 
+OPTIONAL = [name for name in json.loads(told()) if name not in ("version", "scene")]
+
+
+@pytest.mark.parametrize("missing", [*((name,) for name in OPTIONAL), OPTIONAL])
+def test_what_an_older_version_does_not_tell_has_its_default(
+    missing: list[str], tmp_path: Path
+) -> None:
+    said = json.loads(told(samples=4, filter="box", seed=3, exposure=2.0, bits=16, aov=["ids"]))
+    kept = {name: value for name, value in said.items() if name not in missing}
+    found = vtray.read_provenance(write(tmp_path / "a.png", json.dumps(kept)))
+    default = Provenance(version="0.1.0", scene=said["scene"])
+    for name in missing:
+        assert getattr(found, name) == getattr(default, name)
+    assert json.loads(found.to_text()) == {**json.loads(default.to_text()), **kept}
+    assert found.settings == RenderSettings(
+        **{name: getattr(found, name) for name in RenderSettings.__struct_fields__}
+    )
+
+
+@pytest.mark.parametrize("missing", ["version", "scene"])
+def test_what_every_version_has_told_is_expected(missing: str, tmp_path: Path) -> None:
+    said = json.loads(told())
+    del said[missing]
+    with pytest.raises(vtray.ProvenanceError, match=f"missing required field `{missing}`"):
+        vtray.read_provenance(write(tmp_path / "a.png", json.dumps(said)))
+
+
 @pytest.mark.parametrize("ending", [*FORMATS, "", ".gif"])
 @pytest.mark.parametrize("content", [b"", b"\x89PNG\r\n\x1a\n", b"nothing of the kind" * 9, None])
 def test_no_picture(ending: str, content: bytes | None, tmp_path: Path) -> None:

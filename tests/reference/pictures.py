@@ -8,7 +8,7 @@ import msgspec
 import numpy as np
 
 import vtray
-from vtray.image.image import Surfaces
+from vtray.image.surfaces import Surfaces
 from vtray.scene.settings import RenderSettings
 
 SCENE = vtray.Scene(

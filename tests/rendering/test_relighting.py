@@ -1,12 +1,15 @@
 """Other lights and colours are those of a new render, to the last bit."""
 
+import gc
 import json
+import pickle
+import weakref
 from typing import Any
 
 import numpy as np
 import pytest
 from clouds import cloud
-from examples import light, plane, scene, sphere
+from examples import light, one_sphere, plane, scene, sphere
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import colors, may_be_dark, scenes
@@ -242,3 +245,16 @@ def test_without_lights_or_objects() -> None:
         vtray.SceneError, match="recolor: index: expected nothing, as there are no objects, got 0"
     ):
         vtray.render(load(scene([], [])), keep_lights=True).recolor(0, "red")
+
+
+def test_pictures_of_the_same_rays_share_surfaces_and_hold_no_other_picture() -> None:
+    image = vtray.render(vtray.loads(json.dumps(one_sphere())), size=(8, 6), keep_lights=True)
+    other = image.relight([2.0]).expose(1.5)
+    assert other.ids is image.ids
+    gone = weakref.ref(image)
+    del image
+    gc.collect()
+    assert gone() is None
+    again = pickle.loads(pickle.dumps(other))
+    assert (again.pixels == other.pixels).all()
+    assert again.scene_hash == other.scene_hash

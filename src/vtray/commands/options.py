@@ -6,21 +6,15 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-import msgspec
-
-from vtray.base.errors import SceneError
 from vtray.commands.command import Parser
-from vtray.image.formats.picture import AOVS
-from vtray.scene.colors.names import to_rgb
-from vtray.scene.settings import FILTERS, Exposure, Samples, Seed
-from vtray.scene.vectors import Color
+from vtray.commands.setting_options import add_settings, wrong
+from vtray.image.aovs import AOVS
+from vtray.scene.settings import RenderSettings
 
 HINT = "usage: vtray [-t THREADS] SCENE OUTPUT (more: vtray --help)"
 
-SETTINGS = ("samples", "filter", "seed", "size", "exposure", "background")
+SETTINGS = RenderSettings.__struct_fields__
 """The options that a render takes; None for what the scene says."""
-
-MAX_SIDE = 2**31 - 1
 
 
 def parse(arguments: Sequence[str]) -> argparse.Namespace:
@@ -79,32 +73,7 @@ def settings_of(options: argparse.Namespace) -> dict[str, Any]:
 def _add_settings(parser: Parser) -> None:
     """Add how the picture is taken, which is as the scene says unless said otherwise."""
     group = parser.add_argument_group("the picture (otherwise as the scene says)")
-    group.add_argument(
-        "--samples", metavar="N", type=_samples, help="rays for each pixel that needs them"
-    )
-    group.add_argument("--filter", choices=FILTERS, metavar="NAME", help=", ".join(FILTERS))
-    group.add_argument("--seed", metavar="N", type=_seed, help="other places of the samples")
-    group.add_argument("--size", metavar="WxH", type=_size, help="width and height in pixels")
-    group.add_argument(
-        "--exposure",
-        metavar="max|NUMBER",
-        type=_exposure,
-        help="max: the brightest channel becomes 255; a number: light times that",
-    )
-    behind = group.add_mutually_exclusive_group()
-    behind.add_argument(
-        "--background",
-        metavar="COLOR",
-        type=_background,
-        help='what is seen where nothing is: black, transparent, "orange", "#e0e8ff", ...',
-    )
-    behind.add_argument(
-        "--alpha",
-        dest="background",
-        action="store_const",
-        const="transparent",
-        help="the same as --background transparent",
-    )
+    add_settings(group, RenderSettings)
     group.add_argument(
         "--replay",
         metavar="PICTURE",
@@ -141,32 +110,10 @@ def _add_reports(parser: Parser) -> None:
     )
 
 
-def _wrong(expected: str, text: str) -> argparse.ArgumentTypeError:
-    return argparse.ArgumentTypeError(f"expected {expected}, got {text}")
-
-
-def _number_of(kind: Any, expected: str) -> Callable[[str], Any]:  # noqa: ANN401
-    """Return what reads an integer of a kind that a setting has."""
-
-    def read(text: str) -> Any:  # noqa: ANN401
-        if re.fullmatch(r"[0-9]{1,20}", text):
-            try:
-                return msgspec.convert(int(text), kind)
-            except msgspec.ValidationError:
-                pass
-        raise _wrong(expected, text)
-
-    return read
-
-
-_samples = _number_of(Samples, "an integer from 1 to 65536")
-_seed = _number_of(Seed, "an integer from 0 to 4294967295")
-
-
 def _thread_count(text: str) -> int:
     """Return the value of ``--threads``."""
     if not re.fullmatch(r"0*[1-9][0-9]{0,8}", text):
-        raise _wrong("an integer ≥ 1", text)
+        raise wrong("an integer ≥ 1", text)
     return int(text)
 
 
@@ -174,49 +121,14 @@ def _pixel(text: str) -> tuple[int, int]:
     """Return the value of ``--pixel``."""
     match = re.fullmatch(r"([0-9]{1,9}),([0-9]{1,9})", text)
     if not match:
-        raise _wrong("column,row such as 12,34", text)
+        raise wrong("column,row such as 12,34", text)
     return int(match[1]), int(match[2])
-
-
-def _size(text: str) -> tuple[int, int]:
-    """Return the value of ``--size``."""
-    match = re.fullmatch(r"([0-9]{1,10})x([0-9]{1,10})", text)
-    sides = (int(match[1]), int(match[2])) if match else (0, 0)
-    if not all(1 <= side <= MAX_SIDE for side in sides):
-        raise _wrong("width and height such as 1200x800", text)
-    return sides
-
-
-def _exposure(text: str) -> Any:  # noqa: ANN401
-    """Return the value of ``--exposure``."""
-    number = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
-    try:
-        value: str | float = float(text) if re.fullmatch(number, text) else text
-        if value != float("inf"):
-            return msgspec.convert(value, Exposure)
-    except msgspec.ValidationError:
-        pass
-    raise _wrong("max or a number > 0", text)
-
-
-_COLOR = 'black, transparent, a name such as "orange", or digits such as "#e0e8ff"'
-
-
-def _background(text: str) -> str | Color:
-    """Return the value of ``--background``."""
-    if text in ("black", "transparent"):
-        return text
-    try:
-        return Color(*to_rgb(text, "background"))
-    except SceneError as error:
-        _, semicolon, hint = str(error).partition("; ")
-        raise _wrong(_COLOR, f"{text}{semicolon}{hint}") from None
 
 
 def _bits(text: str) -> int:
     """Return the value of ``--bits``; which formats have it is checked later."""
     if text not in ("8", "16", "32"):
-        raise _wrong("8 or 16", text)
+        raise wrong("8 or 16", text)
     return int(text)
 
 
@@ -224,5 +136,5 @@ def _aov(text: str) -> tuple[str, ...]:
     """Return the value of ``--aov``."""
     names = tuple(text.split(","))
     if not set(names) <= set(AOVS):
-        raise _wrong(f"names of {', '.join(AOVS)} with commas between", text)
+        raise wrong(f"names of {', '.join(AOVS)} with commas between", text)
     return names

@@ -10,12 +10,11 @@ from numpy.typing import NDArray
 from vtray.figures.flat import lit_colors
 from vtray.figures.lettering import write
 from vtray.figures.sheet import INCH, FigureError
+from vtray.scene.objects import Object
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.backend_bases import RendererBase
-
-    from vtray.image.image import Image
 
 Pixels = NDArray[np.uint8]
 
@@ -29,10 +28,10 @@ LEAST_LINE = 6.0
 """How long the lines of a label may be beside a short bar, in sizes of its font."""
 
 
-def color_scales(image: "Image") -> list[Any]:
-    """Return the different colour scales of the objects, in their order."""
+def color_scales(objects: Sequence[Object]) -> list[Any]:
+    """Return the different colour scales of objects, in their order."""
     scales: list[Any] = []
-    for item in image.scene.objects:
+    for item in objects:
         scale = getattr(item, "color_scale", None)
         if scale is not None and scale not in scales:
             scales.append(scale)

@@ -18,10 +18,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-    from vtray.image.image import Image
+    from vtray.figures.subject import HasPixels, Pixels
 
-    Pixels: TypeAlias = NDArray[np.uint8]
-    Picture: TypeAlias = Image | NDArray[np.uint8] | str | PathLike[str]
+    Picture: TypeAlias = HasPixels | Pixels | str | PathLike[str]
 
 MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")
 """Pillow's names for images of at most 8 bits per channel, in colours of a monitor."""

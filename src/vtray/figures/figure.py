@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vtray.base.extras import need
 from vtray.figures.color_bar import bar_labels, color_scales
@@ -29,16 +28,13 @@ from vtray.figures.sheet import (
     picture_zoom,
     usual_dpi,
 )
+from vtray.figures.subject import Pixels, Subject
 from vtray.scene.scene import Plane
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
-
-    from vtray.image.image import Image
-
-Pixels = NDArray[np.uint8]
 
 BAR_SHARE = 0.25
 """The share of the picture's width that a scale bar takes at most."""
@@ -48,7 +44,7 @@ FONT_SIZES = ("font.size", "axes.titlesize", "axes.labelsize", "xtick.labelsize"
 
 
 def make_figure(
-    image: "Image",
+    image: Subject,
     *,
     colorbar: bool | str | Sequence[str],
     scalebar: object,
@@ -70,7 +66,7 @@ def make_figure(
     sizes = (
         {} if fontsize is None else dict.fromkeys(FONT_SIZES, check_number("fontsize", fontsize))
     )
-    scales = color_scales(image) if colorbar else []
+    scales = color_scales(image.scene.objects) if colorbar else []
     labels = bar_labels(colorbar, len(scales))
     bar = _scale_bar(image, scalebar, at)
     if ax is not None:
@@ -203,7 +199,7 @@ def compare_figure(
     return figure
 
 
-def _scale_bar(image: "Image", scalebar: object, at: "ArrayLike | None") -> ScaleBar | None:
+def _scale_bar(image: Subject, scalebar: object, at: "ArrayLike | None") -> ScaleBar | None:
     """Return the scale bar of an image, None if it should have none."""
     if not isinstance(scalebar, (bool, str)):
         message = f'scalebar: expected True, False or a unit such as "nm", got {scalebar!r}'
@@ -225,7 +221,7 @@ def _scale_bar(image: "Image", scalebar: object, at: "ArrayLike | None") -> Scal
     return ScaleBar(length, length / unit, text)
 
 
-def _pattern(image: "Image", scalebar: bool | str) -> str:
+def _pattern(image: Subject, scalebar: bool | str) -> str:
     """Return what is written beside a scale bar, with the names of numbers in braces."""
     if isinstance(scalebar, str) and "{length}" in scalebar:
         return scalebar
@@ -238,7 +234,7 @@ def _pattern(image: "Image", scalebar: bool | str) -> str:
     return pattern
 
 
-def _median_depth(image: "Image") -> float | None:
+def _median_depth(image: Subject) -> float | None:
     """Return the median distance of what is seen, along the view; None if nothing is.
 
     Planes, which have no end, only count where there is nothing else.
@@ -253,7 +249,7 @@ def _median_depth(image: "Image") -> float | None:
     return float(np.median(depth_along_view(image.scene.camera, image.depth)[seen]))
 
 
-def _depth_of(image: "Image", at: "ArrayLike | None") -> float | None:
+def _depth_of(image: Subject, at: "ArrayLike | None") -> float | None:
     """Return how far from the eye along z' a point lies."""
     if at is None:
         return None

@@ -6,20 +6,13 @@ darker by `CONTRAST`. Colours that have no room below, such as the dark end of v
 above them.
 """
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.figures.oklab import oklab_to_linear, oklab_to_srgb, srgb_to_oklab
+from vtray.figures.subject import Floats, Pixels, Subject
 from vtray.scene.objects import Object, Plane, Sphere
 from vtray.scene.vectors import Color
-
-if TYPE_CHECKING:
-    from vtray.image.image import Image
-
-Floats = NDArray[np.float64]
-Pixels = NDArray[np.uint8]
 
 CONTRAST = 0.3
 """By how much L changes from shadow to full light, where there is room for it."""
@@ -31,7 +24,7 @@ _STEPS = 40
 """How often an interval of L is halved to find the edge of the gamut: to far below 8 bits."""
 
 
-def flat_pixels(image: "Image") -> Pixels:
+def flat_pixels(image: Subject) -> Pixels:
     """Return the flat picture of an image; see `vtray.Image.flat`."""
     places = image.ids[..., 0]
     picture = np.zeros((*places.shape, 3), np.uint8)
@@ -96,7 +89,7 @@ def _own_colors(objects: list[Object], ids: NDArray[np.int32]) -> Pixels:
     return colors
 
 
-def _lightness(image: "Image", seen: NDArray[np.bool_], colors: Pixels) -> Floats:
+def _lightness(image: Subject, seen: NDArray[np.bool_], colors: Pixels) -> Floats:
     """Return how much light there is on what is seen, from 0 to 1, (n,).
 
     That is how often the light of a pixel contains the colour of its surface, in parts of what

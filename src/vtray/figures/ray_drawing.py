@@ -19,14 +19,13 @@ from vtray.figures.section import (
     where_blocked,
     widen,
 )
+from vtray.figures.traced_rays import ShadowRay, Surface, TracedRays
 from vtray.geometry.vector import Vec
 from vtray.scene.scene import Plane
 from vtray.scene.spheres import Spheres
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from vtray.figures.ray_tree import RayTree, ShadowRay, Surface
 
 Floats = NDArray[np.float64]
 
@@ -40,7 +39,7 @@ FAR = 1.3
 """Lights farther away than this many camera rays are not drawn, only the way to them."""
 
 
-def draw(tree: "RayTree", ax: "Axes | None", light: int | None) -> "Axes":
+def draw(tree: TracedRays, ax: "Axes | None", light: int | None) -> "Axes":
     """Draw the rays of a pixel; see `RayTree.draw`."""
     need("matplotlib", "figure", "RayTree.draw")
     ray = _main_ray(tree, light)
@@ -64,7 +63,7 @@ def draw(tree: "RayTree", ax: "Axes | None", light: int | None) -> "Axes":
     return ax
 
 
-def _main_ray(tree: "RayTree", light: int | None) -> "ShadowRay | None":
+def _main_ray(tree: TracedRays, light: int | None) -> ShadowRay | None:
     """Return the shadow ray that lies in the plane of the drawing."""
     if light is not None:
         if not 0 <= light < len(tree.lights):
@@ -82,7 +81,7 @@ def _main_ray(tree: "RayTree", light: int | None) -> "ShadowRay | None":
 class _Drawing(Pen):
     """A drawing of rays while it is made."""
 
-    def __init__(self, tree: "RayTree", section: Section, ax: "Axes") -> None:
+    def __init__(self, tree: TracedRays, section: Section, ax: "Axes") -> None:
         self.tree = tree
         super().__init__(ax)
         self.section = section
@@ -255,7 +254,7 @@ class _Drawing(Pen):
         self.arrow(self.pixel, self.end, RAY, lw=0)
         self.note("hits nothing", self.end, (-6, 9), ha="right", va="bottom", color=RAY)
 
-    def surface(self, surface: "Surface", *, filled: bool) -> None:
+    def surface(self, surface: Surface, *, filled: bool) -> None:
         """Draw a sphere or a plane that a ray meets."""
         self.drawn.add(surface)
         red, green, blue = surface.color
@@ -286,7 +285,7 @@ class _Drawing(Pen):
             )
             self.front(self.ax.add_patch(body))
 
-    def shadow_ray(self, ray: "ShadowRay", *, thin: bool) -> None:
+    def shadow_ray(self, ray: ShadowRay, *, thin: bool) -> None:
         """Draw the ray to a light: solid if it arrives, dashed up to what blocks it."""
         goal, shown = self._light_place(ray)
         color = LIT if ray.arrives else BLOCKED
@@ -315,7 +314,7 @@ class _Drawing(Pen):
             away = "" if shown else f", {ray.distance:.3g} away"
             self.light_label(f"lights[{ray.light}]{away}\n{text}", goal, color)
 
-    def _light_place(self, ray: "ShadowRay") -> tuple[Floats, bool]:
+    def _light_place(self, ray: ShadowRay) -> tuple[Floats, bool]:
         """Return where a shadow ray ends in the drawing, and whether the light is there."""
         place = self.section(ray.location)
         low, high = self.box
@@ -371,7 +370,7 @@ class _Drawing(Pen):
                 level = "bottom" if above else "top"
                 self.note(str(hit.surface), place, (0, 3 if above else -3), ha="right", va=level)
 
-    def captions(self, ray: "ShadowRay | None") -> None:
+    def captions(self, ray: ShadowRay | None) -> None:
         """Write what is shown, and how long a unit is."""
         tree = self.tree
         column, row = tree.pixel

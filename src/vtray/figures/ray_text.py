@@ -1,13 +1,11 @@
 """The rays of a pixel in words: what ``vtray --pixel`` prints."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from vtray.figures.ray_tree import Exposed, Hit, RayTree, ShadowRay
+from vtray.figures.traced_rays import Exposed, Hit, ShadowRay, TracedRays
 
 
-def describe(tree: "RayTree") -> str:
+def describe(tree: TracedRays) -> str:
     """Return how a pixel got its value, as text of some lines."""
     (column, row), (width, height) = tree.pixel, tree.view.size
     lines = [
@@ -26,7 +24,7 @@ def describe(tree: "RayTree") -> str:
     return "\n".join(lines)
 
 
-def _describe_hit(hit: "Hit") -> list[str]:
+def _describe_hit(hit: Hit) -> list[str]:
     """Return the lines on what the ray hit."""
     red, green, blue = hit.surface.color
     return [
@@ -37,7 +35,7 @@ def _describe_hit(hit: "Hit") -> list[str]:
     ]
 
 
-def _describe_light(ray: "ShadowRay", hit: "Hit") -> list[str]:
+def _describe_light(ray: ShadowRay, hit: Hit) -> list[str]:
     """Return the lines on a light: its direction, what blocks it or what it adds."""
     name = f"lights[{ray.light}]"
     first = f"{name:12} towards {_vector(ray.direction)}, {ray.distance:.10g} away"
@@ -50,7 +48,7 @@ def _describe_light(ray: "ShadowRay", hit: "Hit") -> list[str]:
     return [first, f"  adds       {_vector(ray.adds)} = {factors}"]
 
 
-def _describe_exposure(exposed: "Exposed", light: Sequence[float]) -> list[str]:
+def _describe_exposure(exposed: Exposed, light: Sequence[float]) -> list[str]:
     """Return the lines on the value before and after exposure."""
     lines = []
     if exposed.light != light:

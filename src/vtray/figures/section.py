@@ -2,16 +2,14 @@
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.figures.traced_rays import ShadowRay, TracedRays
 from vtray.scene.scene import Plane, Scene, Sphere
 from vtray.scene.spheres import Spheres
-
-if TYPE_CHECKING:
-    from vtray.figures.ray_tree import RayTree, ShadowRay
 
 Floats = NDArray[np.float64]
 
@@ -54,7 +52,7 @@ class Section:
         return np.sqrt(np.where(squared > 0, squared, np.nan))
 
 
-def choose_section(tree: "RayTree", ray: "ShadowRay | None") -> Section:
+def choose_section(tree: TracedRays, ray: ShadowRay | None) -> Section:
     """Return the plane through the camera ray and a shadow ray, or upright if there is none.
 
     The drawing's right is where the camera looks, as far as it lies in the plane, so the image
@@ -113,7 +111,7 @@ def widen(box: Floats, aspect: float) -> Floats:
     return np.array([box[0] - grow, box[1] + grow])
 
 
-def where_blocked(tree: "RayTree", ray: "ShadowRay") -> Floats:
+def where_blocked(tree: TracedRays, ray: ShadowRay) -> Floats:
     """Return where in world space a shadow ray meets its blocker."""
     hit, blocker = tree.hit, ray.blocker
     assert hit is not None  # noqa: S101

@@ -4,6 +4,7 @@ import math
 import reprlib
 import sys
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,27 +35,35 @@ def develop(
     background: Background,
     alpha: Callable[[], NDArray[np.float64]],
     threads: int = 1,
-) -> NDArray[np.uint8]:
-    """Expose the light of an image: a channel v becomes ``floor(255 * v / white)``.
+    bits: int = 8,
+) -> NDArray[Any]:
+    """Expose the light of an image: a channel v becomes ``floor(maximum * v / white)``.
 
     Parameters
     ----------
     linear
         Linear light, (height, width, 3).
     white
-        What becomes 255, as does what is more; if it is 0, the picture is black.
+        What becomes the maximum, as does what is more; if it is 0, the picture is black.
     background
         What is seen where nothing is.
     alpha
         Gives how much of each pixel is covered, (height, width); called only where it matters.
     threads
         How many threads to use at the most.
+    bits
+        8 or 16, of each channel; the maximum is 255 or 65535.
 
     Returns
     -------
     array
-        The pixels, (height, width, 3), or with alpha, not premultiplied, (height, width, 4).
+        The pixels, uint8 or uint16, (height, width, 3), or with alpha, not premultiplied,
+        (height, width, 4).
     """
+    if bits != 8:
+        cover = alpha() if background != "black" else np.ones(linear.shape[:2])
+        exposed = put_on_background(linear, white, background, cover, 2**bits - 1)
+        return exposed.astype(np.uint16)
     pixels = np.empty(linear.shape, np.uint8)
 
     def develop_rows(top: int) -> None:
@@ -134,6 +143,18 @@ def locked_white(lock: object, exposure: object = None) -> float:
     raise RenderError(message)
 
 
-def white_of(exposure: Exposure, peak: float) -> float:
-    """Return the light that becomes 255 in an image whose largest channel is `peak`."""
+def white_of(exposure: Exposure, peak: float, lock: object = None) -> float:
+    """Return the light that becomes 255 in an image whose largest channel is `peak`.
+
+    Parameters
+    ----------
+    exposure
+        What the settings say.
+    peak
+        The largest channel, ≥ 0.
+    lock
+        A picture whose exposure is taken instead, or None.
+    """
+    if lock is not None:
+        return locked_white(lock)
     return peak if exposure == "max" else 255.0 / exposure

@@ -1,34 +1,22 @@
-"""The picture that a render gives."""
+"""The picture that a render gives, with all that can be done with it.
 
-import io
-from collections.abc import Callable, Collection, Mapping, Sequence
-from functools import cached_property
+Each of that stands in a module of its own, which knows no more of a picture than it uses.
+"""
+
+from collections.abc import Collection, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.errors import RenderError
-from vtray.image.exposure import (
-    check_brightness,
-    develop,
-    locked_white,
-    put_on_background,
-    white_of,
-)
-from vtray.image.formats.image_file import write_picture
-from vtray.image.formats.image_format import check_format
-from vtray.image.formats.png_file import write_8_bits
-from vtray.image.provenance import describe
-from vtray.image.surfaces import Surfaces
+from vtray.image.exposure import locked_white
+from vtray.image.formats.png_file import as_png
+from vtray.image.rendered import Rendered
+from vtray.image.saving import save_picture
 from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.edits import recolored, relit
-from vtray.scene.fingerprint import scene_hash
-from vtray.scene.scene import Scene
-from vtray.scene.settings import RenderSettings
-from vtray.scene.spheres import check_spares_data
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,10 +26,8 @@ if TYPE_CHECKING:
     from vtray.scene.colors.color_scale import ColorMap
     from vtray.scene.colors.names import AnyColor
 
-Floats = NDArray[np.float64]
 
-
-class Image:
+class Image(Rendered):
     """A rendered picture.
 
     Attributes
@@ -62,97 +48,6 @@ class Image:
         and ``"develop"``; the number of ``"rays"`` cast; of the hierarchy, its ``"nodes"``, its
         ``"depth"``, and its ``"memory"`` in bytes.
     """
-
-    def __init__(
-        self,
-        linear: Floats,
-        pixels: NDArray[np.uint8] | None,
-        white: float,
-        scene: Scene,
-        settings: RenderSettings,
-        stats: Mapping[str, float],
-        *,
-        look: Callable[[], Surfaces],
-        alpha: Floats | None = None,
-        relighting: Callable[[Scene], Floats] | None = None,
-        threads: int = 1,
-        original: Scene | None = None,
-        locked: bool = False,
-    ) -> None:
-        self.linear = linear
-        self.white = white
-        self.scene = scene
-        self.settings = settings
-        self.stats = stats
-        self._look = look
-        self._pixels = pixels
-        self._alpha = alpha
-        self._relighting = relighting
-        self._threads = threads
-        self._original = original or scene
-        self.locked = locked
-
-    def __repr__(self) -> str:
-        height, width = self.linear.shape[:2]
-        return f"<Image of {width} x {height} pixels, {self.settings}>"
-
-    @property
-    def pixels(self) -> NDArray[np.uint8]:
-        """Light after exposure, uint8, (height, width, 3), or with alpha (height, width, 4)."""
-        return self.develop()
-
-    def develop(self, bits: int = 8) -> NDArray[Any]:
-        """Return light after exposure with 8 or 16 bits for each channel.
-
-        A channel v of light becomes ``floor(maximum * v / white)``, where the maximum is 255 or
-        65535. With a transparent background there is a fourth channel, alpha, and colours are not
-        multiplied by it.
-        """
-        background = self.settings.background
-        if bits != 8:
-            alpha = self.alpha if background != "black" else np.ones(self.linear.shape[:2])
-            maximum = 2**bits - 1
-            exposed = put_on_background(self.linear, self.white, background, alpha, maximum)
-            return exposed.astype(np.uint16)
-        if self._pixels is None:
-            self._pixels = develop(
-                self.linear, self.white, background, lambda: self.alpha, self._threads
-            )
-        return self._pixels
-
-    @cached_property
-    def _surfaces(self) -> Surfaces:
-        return self._look()
-
-    @property
-    def depth(self) -> Floats:
-        """Distance along the ray in scene units, infinite where nothing is, (height, width)."""
-        return self._surfaces.depth
-
-    @property
-    def normals(self) -> Floats:
-        """Unit normals in world space on the ray's side, 0 where nothing is, (h, w, 3)."""
-        return self._surfaces.normals
-
-    @property
-    def ids(self) -> NDArray[np.int32]:
-        """What is seen, (height, width, 2): the place in ``scene.objects``, and that in its arrays.
-
-        Both are -1 where nothing is; the second is 0 for a single sphere and for a plane.
-        """
-        return self._surfaces.ids
-
-    @cached_property
-    def alpha(self) -> Floats:
-        """How much of each pixel is covered, from 0 to 1, (height, width)."""
-        if self._alpha is not None:
-            return self._alpha
-        return (self.ids[..., 0] >= 0).astype(np.float64)
-
-    @cached_property
-    def scene_hash(self) -> str:
-        """A hash of the scene, 32 hexadecimal digits: that of the same scene loaded again."""
-        return scene_hash(self._original)
 
     def expose(
         self, exposure: Literal["max"] | float | None = None, *, lock: "Image | None" = None
@@ -175,9 +70,9 @@ class Image:
         """
         if lock is not None:
             locked_white(lock, exposure)
-            return self._with(self.linear, self.scene, self.settings, lock)
+            return self._again(lock)
         settings = self.settings.replace(exposure="max" if exposure is None else exposure)
-        return self._with(self.linear, self.scene, settings, None)
+        return self._again(None, settings=settings)
 
     def relight(self, intensities: Sequence[float], *, lock: "Image | None" = None) -> "Image":
         """Return the picture with other intensities of its lights, exactly as a new render.
@@ -196,9 +91,7 @@ class Image:
         SceneError
             An intensity is wrong, or there are too many or too few.
         """
-        lights = relit(self.scene.lights, intensities)
-        scene = Scene(self.scene.camera, lights, self.scene.objects, self.scene.render)
-        return self._relit(scene, lock)
+        return self._relit(relit(self.scene, intensities), lock)
 
     @explain_unknown
     def recolor(
@@ -231,43 +124,8 @@ class Image:
         SceneError
             There is no such object, or a colour is wrong.
         """
-        objects = recolored(
-            self.scene.objects, index, color, cmap=cmap, clim=clim, nan_color=nan_color
-        )
-        scene = Scene(self.scene.camera, self.scene.lights, objects, self.scene.render)
+        scene = recolored(self.scene, index, color, cmap=cmap, clim=clim, nan_color=nan_color)
         return self._relit(scene, lock)
-
-    def _relit(self, scene: Scene, lock: "Image | None") -> "Image":
-        """Return the picture of a scene that differs in lights and colours alone."""
-        if self._relighting is None:
-            message = "image: its lights were not kept; render it with keep_lights=True"
-            raise RenderError(message)
-        check_brightness(scene.lights)
-        return self._with(self._relighting(scene), scene, self.settings, lock)
-
-    def _with(
-        self, linear: Floats, scene: Scene, settings: RenderSettings, lock: "Image | None"
-    ) -> "Image":
-        """Return a picture of the same view with other light or exposure."""
-        if lock is None:
-            white = white_of(settings.exposure, max(float(linear.max()), 0.0))
-        else:
-            white = locked_white(lock)
-        camera = self._original.camera  # its size may be another, and the hash is of this one
-        return Image(
-            linear,
-            None,
-            white,
-            scene,
-            settings,
-            self.stats,
-            look=lambda: self._surfaces,
-            alpha=self._alpha,
-            relighting=self._relighting,
-            threads=self._threads,
-            original=Scene(camera, scene.lights, scene.objects, scene.render),
-            locked=lock is not None,
-        )
 
     def save(
         self, path: str | PathLike[str], *, bits: int | None = None, aov: Collection[str] = ()
@@ -295,17 +153,11 @@ class Image:
             The ending is unknown, the format cannot hold what is asked for, the package for it is
             missing, the file holds arrays that the scene was read from, or it cannot be written.
         """
-        path = Path(path)
-        check_spares_data(path, self.scene.objects)
-        size = self.linear.shape[:2]
-        how = check_format(path, bits, aov, self.settings.background, size)
-        write_picture(self, path, how._replace(provenance=describe(self, how).to_text()))
+        save_picture(self, Path(path), bits, aov)
 
     def _repr_png_(self) -> bytes:
         """Return the picture as a PNG, by which notebooks show it."""
-        buffer = io.BytesIO()
-        write_8_bits(self.pixels, buffer, {})
-        return buffer.getvalue()
+        return as_png(self.pixels)
 
     def flat(self) -> NDArray[np.uint8]:
         """Return the picture with light that changes lightness only: colours can be read back.

@@ -9,14 +9,17 @@ from msgspec import Meta
 from vtray.base.errors import OutputError, ProvenanceError, why_unreadable
 from vtray.base.input_file import open_input
 from vtray.base.version import __version__
+from vtray.image.aovs import AovName
 from vtray.image.formats.image_format import FORMATS, find_format, needs_package
 from vtray.image.formats.picture import How, Picture
-from vtray.scene.checks.limits import END, NonNegative, SizePair
-from vtray.scene.settings import Background, Exposure, FilterName, RenderSettings, Samples, Seed
+from vtray.scene.checks.limits import END, NonNegative
+from vtray.scene.settings import RenderSettings, Settings
 
 
-class Provenance(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """How a picture was made.
+
+    What an older version did not know yet, and so did not tell, has its default.
 
     Attributes
     ----------
@@ -26,8 +29,8 @@ class Provenance(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_onl
         The hash of the scene.
     samples, filter, seed, exposure, background
         As in the settings of the render, those that were left out too.
-    size : tuple of int
-        Width and height of the picture in pixels.
+    size : tuple of int or None
+        Width and height of the picture in pixels; None for those of the camera.
     lock : float or None
         The light that became white, where another picture decided that.
     bits : int
@@ -38,25 +41,19 @@ class Provenance(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_onl
 
     version: str
     scene: Annotated[str, Meta(pattern=f"^[0-9a-f]{{16,64}}{END}")]
-    samples: Samples
-    filter: FilterName
-    seed: Seed
-    size: SizePair
-    exposure: Exposure
-    background: Background
-    lock: NonNegative | None
-    bits: Literal[8, 16, 32]
-    aov: tuple[Literal["depth", "normals", "ids"], ...]
+    lock: NonNegative | None = None
+    bits: Literal[8, 16, 32] = 8
+    aov: tuple[AovName, ...] = ()
 
     @property
     def settings(self) -> RenderSettings:
         """The settings of the render."""
-        names = RenderSettings.__struct_fields__
-        return RenderSettings(**{name: getattr(self, name) for name in names})
+        return RenderSettings(**{name: getattr(self, name) for name in Settings.__struct_fields__})
 
     def to_text(self) -> str:
         """Return the JSON that stands in files, all of it ASCII."""
-        return msgspec.json.encode(self).decode("ascii")
+        first = {"version": self.version, "scene": self.scene}
+        return msgspec.json.encode({**first, **msgspec.structs.asdict(self)}).decode("ascii")
 
 
 def describe(picture: Picture, how: How) -> Provenance:

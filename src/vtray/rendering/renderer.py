@@ -22,7 +22,7 @@ from vtray.rendering.surfaces import Look
 from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.files.scene_file import Warn
 from vtray.scene.scene import Camera, Scene
-from vtray.scene.settings import RenderSettings
+from vtray.scene.settings import RenderSettings, overridden
 
 Progress = Callable[[str, int, int], None]
 
@@ -119,14 +119,7 @@ def render(
     problem = _darkness(scene, keep_lights=keep_lights)
     if problem:
         (warn or _warn)(problem)
-    settings = scene.render.replace(
-        samples=samples,
-        filter=filter,
-        seed=seed,
-        size=size,
-        exposure=exposure,
-        background=background,
-    )
+    settings = overridden(scene.render, locals())
     shown = _snapshot(scene, _camera(scene, settings))
     width, height = shown.camera.size
     behind = 0 if settings.background == "black" else BYTES_PER_PIXEL_AND_MORE

@@ -1,4 +1,4 @@
-"""Objects with other colours, and lights with other intensities."""
+"""Scenes with other colours of an object, and with other intensities of the lights."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -7,7 +7,8 @@ import msgspec
 
 from vtray.base.errors import SceneError
 from vtray.scene.colors.color_arrays import color_array
-from vtray.scene.objects import Light, Object
+from vtray.scene.objects import Light
+from vtray.scene.scene import Scene
 from vtray.scene.spheres import Spheres, from_arrays
 from vtray.scene.vectors import Color
 
@@ -19,20 +20,20 @@ if TYPE_CHECKING:
 
 
 def recolored(
-    objects: Sequence[Object],
+    scene: Scene,
     index: int,
     color: "AnyColor | ArrayLike | Sequence[AnyColor]",
     *,
     cmap: "ColorMap | None" = None,
     clim: tuple[float, float] | None = None,
     nan_color: "AnyColor" = "gray",
-) -> list[Object]:
-    """Return objects of which one has another colour, or its spheres have.
+) -> Scene:
+    """Return a scene in which one object has another colour, or its spheres have.
 
     Parameters
     ----------
-    objects
-        The objects.
+    scene
+        The scene.
     index
         The place of the one that changes; a negative one counts from the end.
     color, cmap, clim, nan_color
@@ -43,8 +44,8 @@ def recolored(
     SceneError
         If there is no such object, or a colour is not right.
     """
-    _check_index(index, len(objects))
-    changed = list(objects)
+    changed = list(scene.objects)
+    _check_index(index, len(changed))
     item = changed[index]
     count = len(item) if isinstance(item, Spheres) else 1
     colors, scale = color_array(
@@ -56,17 +57,18 @@ def recolored(
     else:
         one = Color(*colors.reshape(3).tolist())
         changed[index] = item.replace(color=one)
-    return changed
+    return Scene(scene.camera, scene.lights, changed, scene.render)
 
 
-def relit(lights: Sequence[Light], intensities: Sequence[float]) -> list[Light]:
-    """Return lights with other intensities.
+def relit(scene: Scene, intensities: Sequence[float]) -> Scene:
+    """Return a scene whose lights have other intensities.
 
     Raises
     ------
     SceneError
         If an intensity is not right, or there are too many or too few.
     """
+    lights = scene.lights
     count = len(intensities) if hasattr(intensities, "__len__") else repr(intensities)
     if count != len(lights):
         words = f"{len(lights)} numbers, one for each light"
@@ -80,7 +82,7 @@ def relit(lights: Sequence[Light], intensities: Sequence[float]) -> list[Light]:
             words = str(problem).partition(": ")[2]
             message = f"relight: intensities[{k}]: {words}"
             raise SceneError(message) from None
-    return changed
+    return Scene(scene.camera, changed, scene.objects, scene.render)
 
 
 def _check_index(index: int, count: int) -> None:

@@ -1,13 +1,22 @@
-"""How a picture is taken of a scene, beside its camera: the settings of a render."""
+"""How a picture is taken of a scene, beside its camera: the settings of a render.
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
+`Settings` defines each of them once: its name, kind, limits and default, and how a command line
+writes it. From that come the checks and the words of their errors, the JSON Schema, the options of
+the command, what pictures say of how they were made, and what `vtray.render` takes, whose signature
+a test compares with it.
+"""
+
+import functools
+import typing
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, Self, get_args
 
 import msgspec
 from msgspec import Meta
 
 from vtray.scene.checks.checked import Checked, Frozen, bind
-from vtray.scene.checks.limits import Positive, SizePair
+from vtray.scene.checks.limits import Positive, SizePair, alternatives
 from vtray.scene.colors.names import to_rgb
 from vtray.scene.vectors import Color
 
@@ -33,6 +42,84 @@ FILTERS: tuple[str, ...] = get_args(FilterName)
 """The names of the reconstruction filters."""
 
 
+class Option(NamedTuple):
+    """How a command line writes a setting.
+
+    Attributes
+    ----------
+    form
+        What stands for its value, such as "N".
+    help
+        What it is, in a line.
+    words
+        What is expected, where a command line writes it in other words than a scene file.
+    flags
+        Options without a value that stand for one.
+    """
+
+    form: str
+    help: str
+    words: str = ""
+    flags: Mapping[str, str] = MappingProxyType({})
+
+
+class Settings(msgspec.Struct, frozen=True, gc=False):
+    """The settings of a render.
+
+    Each has a default, which is what versions did that did not know it: so their pictures can be
+    made again.
+    """
+
+    samples: Annotated[Samples, Option("N", "rays for each pixel that needs them")] = 1
+    filter: Annotated[FilterName, Option("NAME", ", ".join(FILTERS))] = "blackman-harris"
+    seed: Annotated[Seed, Option("N", "other places of the samples")] = 0
+    size: Annotated[
+        SizePair | None,
+        Option("WxH", "width and height in pixels", "width and height such as 1200x800"),
+    ] = None
+    exposure: Annotated[
+        Exposure,
+        Option("max|NUMBER", "max: the brightest channel becomes 255; a number: light times that"),
+    ] = "max"
+    background: Annotated[
+        Background,
+        Option(
+            "COLOR",
+            'what is seen where nothing is: black, transparent, "orange", "#e0e8ff", ...',
+            'black, transparent, a name such as "orange", or digits such as "#e0e8ff"',
+            MappingProxyType({"--alpha": "transparent"}),
+        ),
+    ] = "black"
+
+    def __post_init__(self) -> None:
+        """Hold equal settings equally: integers as such, and the colour black as "black"."""
+        for name, (kind, _) in kinds_of(type(self)).items():
+            msgspec.structs.force_setattr(self, name, _whole(getattr(self, name), kind))
+        if self.background == Color(0, 0, 0):
+            msgspec.structs.force_setattr(self, "background", "black")
+
+
+@functools.cache
+def kinds_of(cls: type[Settings]) -> dict[str, tuple[Any, Option]]:
+    """Return the kind of each setting that a type has, and how a command line writes it."""
+    kinds = typing.get_type_hints(cls, include_extras=True)
+    return {
+        name: (kinds[name], extra)
+        for name in cls.__struct_fields__
+        for extra in getattr(kinds[name], "__metadata__", ())
+        if isinstance(extra, Option)
+    }
+
+
+def _whole(value: object, kind: Any) -> Any:  # noqa: ANN401
+    """Return a value of a kind, with integers as such."""
+    parts = alternatives(kind)
+    if isinstance(value, tuple):
+        (pair,) = (part for part in parts if typing.get_origin(part) is tuple)
+        return tuple(map(_whole, value, get_args(pair)))
+    return int(value) if isinstance(value, float) and int in parts else value
+
+
 class _CheckedSettings(Checked):
     """Makes construction in code take a background in all ways to write a colour."""
 
@@ -46,7 +133,9 @@ class _CheckedSettings(Checked):
         return super().__call__(**values)
 
 
-class RenderSettings(Frozen, metaclass=_CheckedSettings, frozen=True, omit_defaults=True, gc=False):
+class RenderSettings(
+    Settings, Frozen, metaclass=_CheckedSettings, frozen=True, omit_defaults=True, gc=False
+):
     """How a picture is taken of a scene.
 
     Attributes
@@ -68,13 +157,6 @@ class RenderSettings(Frozen, metaclass=_CheckedSettings, frozen=True, omit_defau
         `vtray.colors.to_rgb`.
     """
 
-    samples: Samples = 1
-    filter: FilterName = "blackman-harris"
-    seed: Seed = 0
-    size: SizePair | None = None
-    exposure: Exposure = "max"
-    background: Background = "black"
-
     if TYPE_CHECKING:  # what code may give, beside what the attributes hold
 
         def __init__(
@@ -87,17 +169,7 @@ class RenderSettings(Frozen, metaclass=_CheckedSettings, frozen=True, omit_defau
             background: "str | Color | Sequence[float]" = "black",
         ) -> None: ...
 
-    def __post_init__(self) -> None:
-        """Hold equal settings equally: integers as such, and the colour black as "black"."""
-        for name in ("samples", "seed"):
-            msgspec.structs.force_setattr(self, name, int(getattr(self, name)))
-        if self.size is not None:
-            width, height = self.size
-            msgspec.structs.force_setattr(self, "size", (int(width), int(height)))
-        if self.background == Color(0, 0, 0):
-            msgspec.structs.force_setattr(self, "background", "black")
-
-    def replace(self, **changes: Any) -> "RenderSettings":  # noqa: ANN401
+    def replace(self, **changes: Any) -> Self:  # noqa: ANN401
         """Return these settings with others in place of some; None means as here.
 
         Raises
@@ -108,4 +180,23 @@ class RenderSettings(Frozen, metaclass=_CheckedSettings, frozen=True, omit_defau
             If there is no setting of a name.
         """
         given = {name: value for name, value in changes.items() if value is not None}
-        return RenderSettings(**{**msgspec.structs.asdict(self), **given})
+        return type(self)(**{**msgspec.structs.asdict(self), **given})
+
+
+def overridden(settings: RenderSettings, given: Mapping[str, Any]) -> RenderSettings:
+    """Return settings with those that are given in place of some.
+
+    Parameters
+    ----------
+    settings
+        The settings.
+    given
+        Values by their names, for instance the arguments of a function. None means as it is, and
+        what is no setting is passed over.
+
+    Raises
+    ------
+    SceneError
+        If a value is not right.
+    """
+    return settings.replace(**{name: given.get(name) for name in settings.__struct_fields__})

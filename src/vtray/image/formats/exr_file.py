@@ -18,6 +18,7 @@ import io
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from vtray.base.version import SOFTWARE
+from vtray.image.aovs import AOVS, aov_of
 from vtray.image.formats.picture import How, Picture
 
 if TYPE_CHECKING:
@@ -47,30 +48,26 @@ def write_exr(picture: Picture, how: How, file: BinaryIO) -> None:
 
 
 def _channels(picture: Picture, how: How) -> "dict[str, NDArray[Any]]":
-    """Return all channels by their names, each (height, width)."""
+    """Return all channels by their names, each (height, width), of float32 or uint32."""
     import numpy as np
 
     channels: dict[str, NDArray[Any]] = {}
 
-    def add(names: tuple[str, ...], values: "NDArray[Any]", kind: type) -> None:
+    def add(names: tuple[str, ...], values: "NDArray[Any]") -> None:
         with np.errstate(over="ignore"):  # light beyond a float32 is infinite
-            planes: NDArray[Any] = values.astype(kind)
+            # -1, for nothing, becomes the largest 32-bit integer.
+            planes: NDArray[Any] = values.astype("u4" if values.dtype.kind == "i" else "f4")
         for k, name in enumerate(names):
-            channels[name] = np.ascontiguousarray(planes[..., k])
+            channels[name] = np.ascontiguousarray(planes if len(names) == 1 else planes[..., k])
 
     light = picture.linear / 255.0
     if picture.settings.background != "black":
-        add(("A",), picture.alpha[..., None], np.float32)
+        add(("A",), picture.alpha)
         # What covers nothing sends no light; filters with negative sides leave a little.
         light = np.where(picture.alpha[..., None] > 0.0, light, 0.0)
-    add(("R", "G", "B"), light, np.float32)
-    if "depth" in how.aov:
-        add(("Z",), picture.depth[..., None], np.float32)
-    if "normals" in how.aov:
-        add(("N.X", "N.Y", "N.Z"), picture.normals, np.float32)
-    if "ids" in how.aov:
-        # -1, for nothing, becomes the largest 32-bit integer.
-        add(("objectid", "particleid"), picture.ids.view(np.uint32), np.uint32)
+    add(("R", "G", "B"), light)
+    for name in how.aov:
+        add(AOVS[name].channels, aov_of(picture, name))
     return channels
 
 

@@ -8,9 +8,10 @@ from typing import BinaryIO, NamedTuple
 
 from vtray.base.errors import OutputError
 from vtray.base.extras import PACKAGES, pip_install
+from vtray.image.aovs import AOVS
 from vtray.image.formats.exr_file import read_exr, write_exr
 from vtray.image.formats.npz_file import read_npz, write_npz
-from vtray.image.formats.picture import AOVS, How, Picture, has_alpha
+from vtray.image.formats.picture import How, Picture, has_alpha
 from vtray.image.formats.pillow_file import read_exif, write_jpeg, write_webp
 from vtray.image.formats.png_file import read_png, write_png
 from vtray.image.formats.tiff_file import write_tiff
@@ -31,7 +32,7 @@ class Format(NamedTuple):
     alpha
         Whether a pixel may be transparent.
     aov
-        Whether it holds depth, normals and ids too.
+        Whether it holds AOVs too.
     needs
         The module of another package that is needed, by the bits of a channel.
     side
@@ -95,7 +96,7 @@ def check_format(
     bits
         Bits of each channel; None for what is usual in the format.
     aov
-        What to write beside the picture: "depth", "normals", "ids".
+        What to write beside the picture, of `AOVS`.
     background
         The background of the picture.
     size
@@ -155,7 +156,7 @@ def _check_aov(aov: Collection[str]) -> tuple[str, ...]:
     """Return the names of AOVs in their usual order, each once."""
     given = [aov] if isinstance(aov, str) else list(aov)
     for name in given:
-        if name not in AOVS:
+        if name not in tuple(AOVS):
             message = f"aov: expected names of {', '.join(AOVS)}, got {name!r}"
             raise OutputError(message)
     return tuple(name for name in AOVS if name in given)

@@ -2,6 +2,7 @@
 
 from typing import Any, BinaryIO
 
+from vtray.image.aovs import aov_of
 from vtray.image.formats.picture import LONGEST_TEXT, How, Picture
 from vtray.scene.files.array_file import read_text
 
@@ -17,7 +18,7 @@ def write_npz(picture: Picture, how: How, file: BinaryIO) -> None:
     if picture.settings.background != "black":
         arrays["alpha"] = picture.alpha
     for name in how.aov:
-        arrays[name] = getattr(picture, name)
+        arrays[name] = aov_of(picture, name)
     arrays[NAME] = np.array(how.provenance)
     np.savez(file, **arrays)
 

@@ -3,6 +3,7 @@
 from collections.abc import Collection
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
+from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 
 if TYPE_CHECKING:
@@ -11,18 +12,16 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-AOVS = ("depth", "normals", "ids")
-"""What files may hold beside the picture itself: its arbitrary output variables."""
-
 LONGEST_TEXT = 1 << 20
 """Bytes that a file may hold to say how its picture was made; it takes some hundred."""
 
 
 class Picture(Protocol):
-    """A picture, as `vtray.Image` is one."""
+    """A picture, as `vtray.Image` is one; it also has an attribute for each of `AOVS`."""
 
     linear: "Floats"
     white: float
+    scene: Scene
     settings: RenderSettings
     locked: bool
 
@@ -33,18 +32,6 @@ class Picture(Protocol):
     @property
     def alpha(self) -> "Floats":
         """How much of each pixel is covered, from 0 to 1, (height, width)."""
-
-    @property
-    def depth(self) -> "Floats":
-        """Distance along the ray, infinite where nothing is, (height, width)."""
-
-    @property
-    def normals(self) -> "Floats":
-        """Unit normals in world space, 0 where nothing is, (height, width, 3)."""
-
-    @property
-    def ids(self) -> "NDArray[np.int32]":
-        """Places in the scene and in the object's arrays, -1 where nothing is, (h, w, 2)."""
 
     def develop(self, bits: int) -> "NDArray[Any]":
         """Return exposed pixels of 8 or 16 bits, (height, width, 3), or 4 with alpha."""

@@ -10,6 +10,7 @@ References
 Portable Network Graphics (PNG) Specification, third edition, W3C.
 """
 
+import io
 import struct
 import zlib
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -49,6 +50,13 @@ def write_8_bits(pixels: "NDArray[Any]", file: BinaryIO, texts: dict[str, str]) 
     for keyword, text in texts.items():
         info.add_text(keyword, text)
     PillowImage.fromarray(pixels).save(file, "PNG", compress_level=LEVEL, pnginfo=info)
+
+
+def as_png(pixels: "NDArray[Any]") -> bytes:
+    """Return pixels, uint8, (height, width, 3 or 4), as a PNG."""
+    buffer = io.BytesIO()
+    write_8_bits(pixels, buffer, {})
+    return buffer.getvalue()
 
 
 def write_16_bits(pixels: "NDArray[Any]", file: BinaryIO, texts: dict[str, str]) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self
 
 import msgspec
 
+from vtray.scene.checks.limits import limits_alone
 from vtray.scene.checks.unknown_names import unknown_argument, unknown_attribute
 
 if TYPE_CHECKING:
@@ -33,7 +34,10 @@ class Checked(msgspec.StructMeta):
         left_out = getattr(cls, "_in_code", {})
         return found.replace(
             parameters=[
-                parameter.replace(default=left_out.get(name, parameter.default))
+                parameter.replace(
+                    default=left_out.get(name, parameter.default),
+                    annotation=limits_alone(parameter.annotation),
+                )
                 for name, parameter in found.parameters.items()
             ]
         )

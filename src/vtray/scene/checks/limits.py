@@ -3,7 +3,9 @@
 Each description completes "expected ..." in an error message.
 """
 
-from typing import Annotated, Literal
+import types
+import typing
+from typing import Annotated, Any, Literal
 
 from msgspec import Meta
 
@@ -32,6 +34,23 @@ END = r"(?![\s\S])"
 DataPath = Annotated[
     str, Meta(pattern=rf"\.np[yz]{END}", description="the path of a .npz or .npy file")
 ]
+
+
+def alternatives(kind: Any) -> tuple[Any, ...]:  # noqa: ANN401
+    """Return the plain types that a kind allows, without limits and descriptions."""
+    if hasattr(kind, "__metadata__"):
+        return alternatives(kind.__origin__)
+    if typing.get_origin(kind) not in (typing.Union, types.UnionType):
+        return (kind,)
+    return tuple(plain for part in typing.get_args(kind) for plain in alternatives(part))
+
+
+def limits_alone(kind: Any) -> Any:  # noqa: ANN401
+    """Return a kind without what is not for checks, such as how a command line writes it."""
+    if not hasattr(kind, "__metadata__"):
+        return kind
+    limits = tuple(item for item in kind.__metadata__ if isinstance(item, Meta))
+    return Annotated[(kind.__origin__, *limits)] if limits else kind.__origin__
 
 
 class FieldError(ValueError):

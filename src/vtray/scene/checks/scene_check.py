@@ -15,7 +15,7 @@ import msgspec
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import CLEAN, Members, Tree, Written
-from vtray.scene.checks.limits import FieldError
+from vtray.scene.checks.limits import FieldError, limits_alone
 from vtray.scene.checks.scene_words import (
     Struct,
     Unknown,
@@ -207,9 +207,9 @@ def _is_triple(structs: tuple[Struct, ...]) -> bool:
 
 @functools.cache
 def hints_of(cls: Struct) -> dict[str, Kind]:
-    """Give the annotations of a Struct's fields, in their order."""
+    """Give the annotations of a Struct's fields, in their order, without what is not for checks."""
     hints = typing.get_type_hints(cls, include_extras=True)
-    return {name: hints[name] for name in cls.__struct_fields__}
+    return {name: limits_alone(hints[name]) for name in cls.__struct_fields__}
 
 
 @functools.cache

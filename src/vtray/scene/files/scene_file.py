@@ -177,8 +177,7 @@ def _count_optional(found: SceneInFile) -> int:
     camera = found.camera
     keys = (camera.projection != "perspective") + (camera.up is not None) * (1 + _keys(Direction))
     if found.render is not UNSET:
-        keys += 1 + len(msgspec.to_builtins(found.render))
-        keys += _keys(Color) * isinstance(found.render.background, Color)
+        keys += 1 + _colons_in(msgspec.to_builtins(found.render))
     return keys
 
 

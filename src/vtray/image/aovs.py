@@ -1,0 +1,42 @@
+"""What files may hold beside the picture itself: its arbitrary output variables (AOVs)."""
+
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+class Aov(NamedTuple):
+    """An array of what is known of each pixel: the attribute of a picture that has its name.
+
+    Attributes
+    ----------
+    dtype
+        Of its numbers.
+    channels
+        What OpenEXR calls its channels, of float32 or, for integers, of uint32. The array is
+        (height, width) if there is one, else (height, width, channels).
+    """
+
+    dtype: str
+    channels: tuple[str, ...]
+
+
+AOVS = {
+    "depth": Aov("float64", ("Z",)),
+    "normals": Aov("float64", ("N.X", "N.Y", "N.Z")),
+    "ids": Aov("int32", ("objectid", "particleid")),
+}
+"""The AOVs by their names, in their usual order."""
+
+if TYPE_CHECKING:
+    AovName = str
+else:
+    AovName = Literal[tuple(AOVS)]
+
+
+def aov_of(picture: object, name: str) -> "NDArray[Any]":
+    """Return an AOV of a picture."""
+    import numpy as np
+
+    return np.asarray(getattr(picture, name), AOVS[name].dtype)

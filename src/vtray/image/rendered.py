@@ -1,0 +1,150 @@
+"""What a render gives: light, the pixels that it becomes, and what the rays met."""
+
+import copy
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.errors import RenderError
+from vtray.image.exposure import check_brightness, develop, white_of
+from vtray.image.surfaces import Surfaces
+from vtray.scene.fingerprint import scene_hash
+from vtray.scene.scene import Scene
+from vtray.scene.settings import RenderSettings
+
+Floats = NDArray[np.float64]
+
+
+class Rendered:
+    """A rendered picture as data; `Image` says what its attributes are, and what can be done.
+
+    Parameters
+    ----------
+    linear, white, scene, settings, stats, locked
+        The attributes.
+    pixels
+        Light after exposure with 8 bits; None until it is asked for.
+    look
+        Gives what the middle rays meet; called once, when it is first asked for.
+    alpha
+        How much of each pixel is covered, if that is known; None for what `look` says.
+    relighting
+        Gives the light of the same view of a scene with other lights or colours, if that was kept.
+    threads
+        How many threads to use at the most.
+    original
+        The scene with its camera as it was given, whatever size was asked for.
+    """
+
+    def __init__(
+        self,
+        linear: Floats,
+        pixels: NDArray[np.uint8] | None,
+        white: float,
+        scene: Scene,
+        settings: RenderSettings,
+        stats: Mapping[str, float],
+        *,
+        look: Callable[[], Surfaces],
+        alpha: Floats | None = None,
+        relighting: Callable[[Scene], Floats] | None = None,
+        threads: int = 1,
+        original: Scene | None = None,
+        locked: bool = False,
+    ) -> None:
+        self.linear = linear
+        self.white = white
+        self.scene = scene
+        self.settings = settings
+        self.stats = stats
+        self._look = look
+        self._seen: list[Surfaces] = []  # what it gave; shared with other exposures of the view
+        self._pixels = pixels
+        self._alpha = alpha
+        self._relighting = relighting
+        self._threads = threads
+        self._original = original or scene
+        self.locked = locked
+
+    def __repr__(self) -> str:
+        height, width = self.linear.shape[:2]
+        return f"<Image of {width} x {height} pixels, {self.settings}>"
+
+    @property
+    def pixels(self) -> NDArray[np.uint8]:
+        """Light after exposure, uint8, (height, width, 3), or with alpha (height, width, 4)."""
+        return self.develop()
+
+    def develop(self, bits: int = 8) -> NDArray[Any]:
+        """Return light after exposure with 8 or 16 bits for each channel.
+
+        A channel v of light becomes ``floor(maximum * v / white)``, where the maximum is 255 or
+        65535. With a transparent background there is a fourth channel, alpha, and colours are not
+        multiplied by it.
+        """
+        if bits == 8 and self._pixels is not None:
+            return self._pixels
+        background = self.settings.background
+        pixels = develop(
+            self.linear, self.white, background, lambda: self.alpha, self._threads, bits
+        )
+        if bits == 8:
+            self._pixels = pixels
+        return pixels
+
+    @property
+    def _surfaces(self) -> Surfaces:
+        if not self._seen:
+            self._seen.append(self._look())
+        return self._seen[0]
+
+    @property
+    def depth(self) -> Floats:
+        """Distance along the ray in scene units, infinite where nothing is, (height, width)."""
+        return self._surfaces.depth
+
+    @property
+    def normals(self) -> Floats:
+        """Unit normals in world space on the ray's side, 0 where nothing is, (h, w, 3)."""
+        return self._surfaces.normals
+
+    @property
+    def ids(self) -> NDArray[np.int32]:
+        """What is seen, (height, width, 2): the place in ``scene.objects``, and that in its arrays.
+
+        Both are -1 where nothing is; the second is 0 for a single sphere and for a plane.
+        """
+        return self._surfaces.ids
+
+    @cached_property
+    def alpha(self) -> Floats:
+        """How much of each pixel is covered, from 0 to 1, (height, width)."""
+        if self._alpha is not None:
+            return self._alpha
+        return (self.ids[..., 0] >= 0).astype(np.float64)
+
+    @cached_property
+    def scene_hash(self) -> str:
+        """A hash of the scene, 32 hexadecimal digits: that of the same scene loaded again."""
+        return scene_hash(self._original)
+
+    def _relit(self, scene: Scene, lock: object) -> Self:
+        """Return the picture of a scene that differs in lights and colours alone."""
+        if self._relighting is None:
+            message = "image: its lights were not kept; render it with keep_lights=True"
+            raise RenderError(message)
+        check_brightness(scene.lights)
+        # The camera may have another size now, and the hash is that of the scene as it was given.
+        given = Scene(self._original.camera, scene.lights, scene.objects, scene.render)
+        return self._again(lock, linear=self._relighting(scene), scene=scene, _original=given)
+
+    def _again(self, lock: object, **changes: object) -> Self:
+        """Return a picture of the same view with other attributes, exposed anew."""
+        other = copy.copy(self)
+        vars(other).pop("scene_hash", None)
+        vars(other).update(changes, _pixels=None, locked=lock is not None)
+        other.white = white_of(other.settings.exposure, max(float(other.linear.max()), 0.0), lock)
+        return other

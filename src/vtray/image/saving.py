@@ -1,0 +1,18 @@
+"""A picture saved: checked first, with how it was made, and whole or not at all."""
+
+from collections.abc import Collection
+from pathlib import Path
+
+from vtray.image.formats.image_file import write_picture
+from vtray.image.formats.image_format import check_format
+from vtray.image.formats.picture import Picture
+from vtray.image.provenance import describe
+from vtray.scene.spheres import check_spares_data
+
+
+def save_picture(picture: Picture, path: Path, bits: int | None, aov: Collection[str]) -> None:
+    """Write a picture to a file; see `vtray.Image.save`."""
+    check_spares_data(path, picture.scene.objects)
+    size = picture.linear.shape[:2]
+    how = check_format(path, bits, aov, picture.settings.background, size)
+    write_picture(picture, path, how._replace(provenance=describe(picture, how).to_text()))
