@@ -16,8 +16,8 @@ pytestmark = compiled_only
 
 ONE_RAY = {"trace_tile", "_expose"}
 HIERARCHY = {
-    *("bound_spheres", "find_extent", "set_keys", "sort_range", "split_top", "take_numbers"),
-    *("gather_spheres", "build_subtree", "finish_top"),
+    *("bound_spheres", "find_extent", "set_keys", "sort_range", "take_numbers", "gather_spheres"),
+    *("split_ranges", "finish_subtrees", "finish_top"),
 }
 
 WHITE = (255, 255, 255)

@@ -5,7 +5,7 @@ are then built side by side. The tree is the same for any number of threads.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -14,29 +14,33 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import pinned, uncompiled
 from vtray.base.pool import Progress, run_tasks
 from vtray.geometry.bvh.join import join_trees
-from vtray.geometry.bvh.key_sort import sort_keys
+from vtray.geometry.bvh.key_sort import Keys, sort_keys
 from vtray.geometry.bvh.morton import Grid, make_grid
 from vtray.geometry.bvh.nodes import (
     Extent,
-    build_subtree,
     find_extent,
+    finish_subtrees,
     finish_top,
     set_keys,
-    split_top,
+    split_ranges,
     take_numbers,
 )
 from vtray.geometry.bvh.primitives import Boxes, Numbers, Primitives, new_boxes
 from vtray.geometry.bvh.split import Order, new_scratch
-from vtray.geometry.bvh.tree import LEAF, SIDES, STACK, WIDTH, Bvh, Frame, new_bvh
+from vtray.geometry.bvh.tree import LEAF, SIDES, STACK, WIDTH, Bvh, Frame, new_bvh, node_count
 from vtray.geometry.vector import Vec
 
-CHUNK = 1 << 14
+CHUNK = 1 << 15
 """Primitives whose boxes are looked at as one task."""
 
 SMALL = 1 << 14
 """Primitives, about, whose trees are built as one task: a cache holds them and their boxes."""
 
+CROWD = 1 << 16
+"""If there are more primitives in one cell, all threads divide it together."""
+
 Range = tuple[int, int]
+Bound = Callable[[Range, Boxes], None]
 
 
 class Tree(NamedTuple):
@@ -75,69 +79,80 @@ def build(primitives: Primitives, threads: int, progress: Progress | None = None
     progress
         Called from time to time with the number of tasks done and the number of all.
     """
-    frame, grid, largest = _find_frame(primitives, threads)
-    order = _sort(primitives, frame, grid, threads)
+    everything = 0, primitives.count
+
+    def bound(chunk: Range, boxes: Boxes) -> None:
+        primitives.bound(*chunk, boxes)
+
+    extent = _find_extent(everything, bound, threads)
+    frame, largest = _make_frame(extent)
+    grid = _make_grid(extent, frame, max(primitives.count - 1, 1).bit_length())
+    keys = sort_keys(_new_keys(everything, bound, frame, grid, threads), threads, grid.number_bits)
+    order = Order(keys, grid)
     numbers = np.empty(primitives.count, np.int32)
     bvh, depth = _build_nodes(primitives, frame, order, numbers, threads, progress)
     return Tree(numbers, bvh, frame, depth, largest)
 
 
-def _find_frame(primitives: Primitives, threads: int) -> tuple[Frame, Grid, float]:
-    """Find the space of the boxes.
-
-    Returns
-    -------
-    frame
-        The space.
-    grid
-        The grid of the keys, in that space.
-    largest
-        As in `Tree`.
-    """
+def _find_extent(whole: Range, bound: Bound, threads: int) -> Extent:
+    """Return the extent of a range of primitives."""
     found: dict[Range, Extent] = {}
 
     def look(chunk: Range, boxes: Boxes) -> None:
         found[chunk] = find_extent(boxes, chunk[1] - chunk[0])
 
-    _bound_all(primitives, look, threads)
-    # In the order of the chunks, as of 0 and -0 it is the first that is taken.
+    _look_at_all(whole, bound, look, threads)
+    # In the order of the chunks, as of 0 and -0 the first is taken.
     extents = [found[chunk] for chunk in sorted(found)]
     low = np.min([extent.low for extent in extents], axis=0)
     high = np.max([extent.high for extent in extents], axis=0)
-    largest = max(-float(low.min()), float(high.max()), *(extent.half for extent in extents))
-    # The scale and its inverse must be ordinary doubles.
-    scale = math.ldexp(1.0, -max(math.frexp(largest)[1], -1000))
-    middle = low * scale * 0.5 + high * scale * 0.5
-    number_bits = max(primitives.count - 1, 1).bit_length()
-    corners = _vec(low * scale - middle), _vec(high * scale - middle)
-    return Frame(scale, _vec(middle)), uncompiled(make_grid)(*corners, number_bits), largest
+    return Extent(_vec(low), _vec(high), max(extent.half for extent in extents))
 
 
-def _sort(primitives: Primitives, frame: Frame, grid: Grid, threads: int) -> Order:
-    """Return the order of primitives along Morton's curve."""
-    order = Order(np.empty(primitives.count, np.uint64), grid)
+def _new_keys(whole: Range, bound: Bound, frame: Frame, grid: Grid, threads: int) -> Keys:
+    """Return keys of a range of primitives, whose low bits count the primitives from 0."""
+    order = Order(np.empty(whole[1] - whole[0], np.uint64), grid)
     place, target = pinned(frame), pinned(order)
-    _bound_all(primitives, lambda chunk, boxes: set_keys(boxes, place, *chunk, target), threads)
-    return Order(sort_keys(order.keys, threads, grid.number_bits), grid)
+
+    def look(chunk: Range, boxes: Boxes) -> None:
+        set_keys(boxes, place, chunk[0] - whole[0], chunk[1] - whole[0], target)
+
+    _look_at_all(whole, bound, look, threads)
+    return order.keys
 
 
-def _bound_all(
-    primitives: Primitives, look: Callable[[Range, Boxes], object], threads: int
+def _look_at_all(
+    whole: Range, bound: Bound, look: Callable[[Range, Boxes], None], threads: int
 ) -> None:
-    """Have the boxes of all primitives looked at, chunk by chunk."""
-    n = primitives.count
-    chunks = [(begin, min(begin + CHUNK, n)) for begin in range(0, n, CHUNK)]
+    """Have the boxes of a range of primitives looked at, chunk by chunk."""
+    begins = range(*whole, CHUNK)
+    chunks = [(begin, min(begin + CHUNK, whole[1])) for begin in begins]
 
     def new_worker() -> Callable[[Range], None]:
-        boxes = new_boxes(min(CHUNK, n))
+        boxes = new_boxes(min(CHUNK, whole[1] - whole[0]))
 
-        def bound(chunk: Range) -> None:
-            primitives.bound(*chunk, boxes)
+        def work(chunk: Range) -> None:
+            bound(chunk, boxes)
             look(chunk, boxes)
 
-        return bound
+        return work
 
     run_tasks(chunks, new_worker, threads)
+
+
+def _make_frame(extent: Extent) -> tuple[Frame, float]:
+    """Return the space of the boxes, and the largest coordinate or half extent in world space."""
+    largest = max(-min(extent.low), *extent.high, extent.half)
+    # The scale and its inverse must be ordinary doubles.
+    scale = math.ldexp(1.0, -max(math.frexp(largest)[1], -1000))
+    low, high = np.array(extent.low), np.array(extent.high)
+    return Frame(scale, _vec(low * scale * 0.5 + high * scale * 0.5)), largest
+
+
+def _make_grid(extent: Extent, frame: Frame, number_bits: int) -> Grid:
+    """Return the grid over the centres of primitives."""
+    low, high = (np.array(corner) * frame.scale - frame.origin for corner in extent[:2])
+    return uncompiled(make_grid)(_vec(low), _vec(high), number_bits)
 
 
 def _build_nodes(
@@ -155,31 +170,27 @@ def _build_nodes(
     bvh, depth
         As in `Tree`.
     """
-    top, ranges, depth = _split_top(frame, order)
+    top, ranges, depth = _split_top(primitives, frame, order, threads)
     tasks = _tasks(ranges)
     parts, depths = [top] * (len(tasks) + 1), [depth] * (len(tasks) + 1)
     largest = max(int(task[-1, 2] - task[0, 1]) for task in tasks)
-    shared = pinned(frame), pinned(order)
-    above, target = pinned(top), pinned(numbers)
+    place, sorted_, above = pinned(frame), pinned(order), pinned(top)
+    ordered, nothing = pinned(numbers), pinned(np.empty((0, 4), np.int64))
 
     def new_worker() -> Callable[[int], None]:
         # All nodes but the last, which have more primitives than a leaf, have eight children, so
         # that a tree of m primitives has fewer than m / 4 nodes.
-        bvh, boxes, drawn = (
-            new_bvh(largest // 4 + 1),
-            new_boxes(largest),
-            np.empty(largest, np.int32),
-        )
-        tree, scratch = pinned(bvh), pinned(new_scratch())
+        bvh, boxes = new_bvh(largest // 4 + 1), new_boxes(largest)
+        tree, scratch, drawn = pinned(bvh), pinned(new_scratch()), np.empty(largest, np.int32)
 
         def build_one(k: int) -> None:
-            begin, end = int(tasks[k][0, 1]), int(tasks[k][-1, 2])
-            take_numbers(shared[1], begin, end, drawn)
+            task, begin, end = tasks[k], int(tasks[k][0, 1]), int(tasks[k][-1, 2])
+            take_numbers(sorted_, begin, end, drawn)
             primitives.gather(drawn[: end - begin], begin, boxes)
-            size, depths[k + 1], changed = build_subtree(
-                boxes, *shared, drawn, tasks[k], tree, above, target, scratch
+            size, _, depths[k + 1] = split_ranges(
+                boxes, place, sorted_, 0, task, above, tree, 0, nothing, scratch
             )
-            if changed:
+            if finish_subtrees(boxes, place, sorted_, drawn, task, above, tree, size, ordered):
                 primitives.gather(numbers[begin:end], begin, boxes)
             parts[k + 1] = Bvh(bvh.sides[: size * SIDES].copy(), bvh.child[: size * WIDTH].copy())
 
@@ -188,13 +199,14 @@ def _build_nodes(
     run_tasks(range(len(tasks)), new_worker, threads, progress=progress)
     bvh, first = join_trees(parts, threads)
     for task, root in zip(tasks, first[1:], strict=True):
-        places = task[task[:, 2] - task[:, 1] > LEAF, 0]
-        bvh.child[places] += root
-    finish_top(bvh, len(top.child) // WIDTH)
+        bvh.child[task[task[:, 2] - task[:, 1] > LEAF, 0]] += root
+    finish_top(bvh, node_count(top))
     return bvh, 1 + max(depths)
 
 
-def _split_top(frame: Frame, order: Order) -> tuple[Bvh, NDArray[np.int64], int]:
+def _split_top(
+    primitives: Primitives, frame: Frame, order: Order, threads: int
+) -> tuple[Bvh, NDArray[np.int64], int]:
     """Make the topmost nodes.
 
     Returns
@@ -202,19 +214,49 @@ def _split_top(frame: Frame, order: Order) -> tuple[Bvh, NDArray[np.int64], int]
     top
         The nodes, without boxes.
     ranges
-        The ranges below, as `split_top` sets them, in the order of their slots.
+        The ranges below, as in `split_ranges`, in the order of their slots.
     depth
         The depth of the deepest of these nodes.
     """
+    n = primitives.count
     # Nodes of one depth have primitives of their own, so at most n / SMALL of them are larger than
     # that. Memory that is never written to costs nothing.
-    most = (len(order.keys) // SMALL + 1) * (STACK // WIDTH)
-    top, found = new_bvh(most), np.empty((most * WIDTH, 4), np.int64)
-    no_boxes = new_boxes(0)
-    size, count, depth = split_top(no_boxes, frame, order, SMALL, top, found, new_scratch())
-    ranges = found[:count]
+    most = (n // SMALL + 1) * (STACK // WIDTH)
+    top, left = new_bvh(most), np.empty((most * WIDTH, 4), np.int64)
+    waiting, done = np.array([[0, 0, n, 0]]), []
+    nodes, deepest = 0, 0
+    while len(waiting) > 0:
+        nodes, found, depth = split_ranges(
+            new_boxes(0), frame, order, SMALL, waiting, top, top, nodes, left, new_scratch()
+        )
+        deepest = max(deepest, depth)
+        crowded = left[:found, 2] - left[:found, 1] > CROWD
+        done.append(left[:found][~crowded])
+        waiting = left[:found][crowded]
+        for begin, end in waiting[:, 1:3].tolist():
+            _divide_crowd(primitives, frame, order, (begin, end), threads)
+    ranges = np.concatenate(done)
     ranges = ranges[ranges[:, 1].argsort()]
-    return Bvh(top.sides[: size * SIDES], top.child[: size * WIDTH]), ranges, depth
+    return Bvh(top.sides[: nodes * SIDES], top.child[: nodes * WIDTH]), ranges, deepest
+
+
+def _divide_crowd(
+    primitives: Primitives, frame: Frame, order: Order, crowd: Range, threads: int
+) -> None:
+    """Sort the primitives of one cell by a grid of their own, or else divide them by numbers."""
+    keys, bits = order.keys[slice(*crowd)], np.uint64(order.grid.number_bits)
+    numbers = (keys & ((np.uint64(1) << bits) - np.uint64(1))).astype(np.int32)
+
+    def bound(chunk: Range, boxes: Boxes) -> None:
+        begin, end = chunk
+        primitives.gather(numbers[begin - crowd[0] : end - crowd[0]], begin, boxes)
+
+    grid = _make_grid(_find_extent(crowd, bound, threads), frame, order.grid.number_bits)
+    if grid.cells > 0.0:
+        finer = _new_keys(crowd, bound, frame, grid, threads)
+    else:
+        finer = np.arange(len(keys), dtype=np.uint64) << bits
+    keys[...] = sort_keys(finer >> bits << bits | numbers.astype(np.uint64), threads, int(bits))
 
 
 def _tasks(ranges: NDArray[np.int64]) -> list[NDArray[np.int64]]:
@@ -227,7 +269,7 @@ def _tasks(ranges: NDArray[np.int64]) -> list[NDArray[np.int64]]:
     return np.split(ranges, cuts)
 
 
-def _vec(array: NDArray[np.float64]) -> Vec:
-    """Return an array of three numbers as a tuple."""
-    x, y, z = map(float, array)
+def _vec(values: Iterable[float]) -> Vec:
+    """Return three numbers as a tuple."""
+    x, y, z = map(float, values)
     return x, y, z

@@ -1,43 +1,57 @@
 """Sorts keys: all of them by many threads, or a few within a kernel."""
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel, pinned
-from vtray.base.pool import run_tasks
+from vtray.base.pool import run_tasks, useful_threads
 
 Keys = NDArray[np.uint64]
 Counts = NDArray[np.int64]
 
-SMALL = 1 << 14
-"""About so many keys are sorted as one task: with their scratch memory they fit into a cache."""
+SMALL = 1 << 16
+"""A thread for fewer keys than this is not worth its start."""
 
 CHUNK = 1 << 16
 """Keys that are divided into parts as one task."""
 
-LEVELS = 8
-
-PARTS = 1 << LEVELS
-"""Into so many parts all keys are divided."""
+PARTS = 256
+"""Into so many parts all keys are divided; their numbers fit into a byte."""
 
 SAMPLES = 16 * PARTS
 """Keys that are looked at so that the parts are of about the same size."""
 
-DIGIT_BITS = 10
-"""Bits of a digit at the most, by which the keys of a part are sorted at a time."""
+CELL_BITS = 12
+"""High bits of a key, by which its part is looked up."""
 
-MAX_DIGITS = 8
-"""Digits of a key at the most: an even number that is enough for 64 bits."""
+DIGIT_BITS = 11
+"""Bits of a digit at the most, by which keys are sorted at a time."""
+
+
+class Parts(NamedTuple):
+    """Where the parts of all keys begin.
+
+    Attributes
+    ----------
+    splitters
+        In their order the keys at which parts begin, but that of the first, (PARTS - 1,).
+    first
+        For each value of a key's high bits how many splitters have lower ones, and at the end their
+        number, (2**CELL_BITS + 1,).
+    """
+
+    splitters: Keys
+    first: NDArray[np.int32]
 
 
 def sort_keys(keys: Keys, threads: int, sorted_bits: int = 0) -> Keys:
     """Return the keys in their order; `keys` itself is used as scratch memory.
 
-    Samples divide them into parts of about the same size, each of which is then sorted within a
-    cache, digit by digit from the lowest on. For a million keys this takes 15 ns each, where
-    NumPy's sort takes 50.
+    Samples divide them into parts of about the same size, which are sorted side by side, digit by
+    digit from the lowest on. A million keys take 15 ns each, where NumPy's sort takes 50.
 
     Parameters
     ----------
@@ -53,20 +67,20 @@ def sort_keys(keys: Keys, threads: int, sorted_bits: int = 0) -> Keys:
     Sanders, Winkel, "Super Scalar Sample Sort", 2004.
     """
     n = len(keys)
-    if n <= SMALL:
+    if useful_threads(threads, n // SMALL) == 1:
         _sorter(keys, np.empty_like(keys), sorted_bits)((0, n))
         return keys
     chunks = [(begin, min(begin + CHUNK, n)) for begin in range(0, n, CHUNK)]
-    splitters = _splitters(keys)
-    parts, counts = np.empty(n, np.uint8), np.zeros((len(chunks), PARTS), np.int64)
+    labels, counts = np.empty(n, np.uint8), np.zeros((len(chunks), PARTS), np.int64)
     divided = np.empty_like(keys)
-    source, labels, target = pinned(keys), pinned(parts), pinned(divided)
+    parts, part = pinned(_find_parts(keys)), pinned(labels)
+    source, target = pinned(keys), pinned(divided)
 
     def count(k: int) -> None:
-        count_parts(source, *chunks[k], splitters, labels, counts[k])
+        count_parts(source, *chunks[k], parts, part, counts[k])
 
     def divide(k: int) -> None:
-        divide_keys(source, *chunks[k], labels, counts[k], target)
+        divide_keys(source, *chunks[k], part, counts[k], target)
 
     run_tasks(range(len(chunks)), lambda: count, threads)
     # Keys of a part keep the order of the chunks that they come from.
@@ -77,13 +91,15 @@ def sort_keys(keys: Keys, threads: int, sorted_bits: int = 0) -> Keys:
     return divided
 
 
-def _splitters(keys: Keys) -> Keys:
-    """Return in their order the keys at which parts begin, but that of the first."""
+def _find_parts(keys: Keys) -> Parts:
+    """Return parts of about the same size."""
     # Steps of the golden ratio: in whatever order the keys are given, no regular steps meet it.
     steps = np.arange(SAMPLES, dtype=np.uint64) * np.uint64(0x9E3779B97F4A7C15)
     places = (steps >> np.uint64(32)) * np.uint64(len(keys)) >> np.uint64(32)
-    sample: Keys = np.sort(keys[places])
-    return sample[SAMPLES // PARTS :: SAMPLES // PARTS].copy()
+    splitters = np.sort(keys[places])[SAMPLES // PARTS :: SAMPLES // PARTS]
+    cells = splitters >> np.uint64(64 - CELL_BITS)
+    first = np.searchsorted(cells, np.arange((1 << CELL_BITS) + 1, dtype=np.uint64))
+    return Parts(splitters.copy(), first.astype(np.int32))
 
 
 def _runs(ends: Counts) -> list[tuple[int, int]]:
@@ -100,7 +116,7 @@ def _runs(ends: Counts) -> list[tuple[int, int]]:
 def _sorter(keys: Keys, scratch: Keys, sorted_bits: int) -> Callable[[tuple[int, int]], None]:
     """Return what sorts ranges of keys in place, for one thread."""
     source, other = pinned(keys), pinned(scratch)
-    counts = pinned(np.empty(MAX_DIGITS << DIGIT_BITS, np.int64))
+    counts = pinned(np.empty(2 << DIGIT_BITS, np.int64))
 
     def sort(run: tuple[int, int]) -> None:
         sort_range(source, other, *run, sorted_bits, counts)
@@ -110,7 +126,7 @@ def _sorter(keys: Keys, scratch: Keys, sorted_bits: int) -> Callable[[tuple[int,
 
 @kernel
 def count_parts(
-    keys: Keys, begin: int, end: int, splitters: Keys, parts: NDArray[np.uint8], counts: Counts
+    keys: Keys, begin: int, end: int, parts: Parts, part: NDArray[np.uint8], counts: Counts
 ) -> None:
     """Find the part of each key of a range.
 
@@ -118,32 +134,38 @@ def count_parts(
     ----------
     keys, begin, end
         The keys.
-    splitters
-        As `_splitters` returns them, (PARTS - 1,).
     parts
+        Where the parts begin.
+    part
         Out: the part of each key, (n,).
     counts
         Out: how many of the range belong to each part, (PARTS,), 0 before.
     """
+    splitters, first = parts
     for k in range(begin, end):
-        key, part = keys[k], 0
-        # As many steps for each key, and no branch: several keys are under way at a time.
-        for level in range(LEVELS):
-            half = PARTS >> (level + 1)
-            part += half if key >= splitters[part + half - 1] else 0
-        parts[k] = part
-        counts[part] += 1
+        key = keys[k]
+        cell = int(key >> np.uint64(64 - CELL_BITS))
+        # Where keys are spread evenly, most cells have no splitter.
+        low, high = first[cell], first[cell + 1]
+        while low < high:
+            middle = (low + high) >> 1
+            if key < splitters[middle]:
+                high = middle
+            else:
+                low = middle + 1
+        part[k] = low
+        counts[low] += 1
 
 
 @kernel
 def divide_keys(
-    keys: Keys, begin: int, end: int, parts: NDArray[np.uint8], places: Counts, divided: Keys
+    keys: Keys, begin: int, end: int, part: NDArray[np.uint8], places: Counts, divided: Keys
 ) -> None:
     """Bring the keys of a range to their parts.
 
     Parameters
     ----------
-    keys, begin, end, parts
+    keys, begin, end, part
         As in `count_parts`.
     places
         Where in `divided` the next key of each part belongs, (PARTS,); counted on.
@@ -151,9 +173,9 @@ def divide_keys(
         Out: the keys, (n,).
     """
     for k in range(begin, end):
-        part = parts[k]
-        divided[places[part]] = keys[k]
-        places[part] += 1
+        place = places[part[k]]
+        divided[place] = keys[k]
+        places[part[k]] = place + 1
 
 
 @kernel
@@ -171,7 +193,7 @@ def sort_range(
     sorted_bits
         As in `sort_keys`.
     counts
-        Room for the digits' counts, (MAX_DIGITS << DIGIT_BITS,).
+        Room for the counts of two digits, (2 << DIGIT_BITS,).
     """
     one = np.uint64(1)
     changed = np.uint64(0)
@@ -182,24 +204,20 @@ def sort_range(
     while changed > np.uint64(0):
         changed >>= one
         bits += 1
-    # An even number of passes, so that the keys end where they began.
-    digits = 2 * ((bits + 2 * DIGIT_BITS - 1) // (2 * DIGIT_BITS))
-    if digits == 0:
-        return
-    width = np.uint64((bits + digits - 1) // digits)
-    last = (one << width) - one
+    # Two digits at a time, so that the keys end where they began.
+    pairs = -(-bits // (2 * DIGIT_BITS))
+    width = np.uint64(-(-bits // max(2 * pairs, 1)))
     size = 1 << int(width)
-    counts[: digits * size] = 0
-    for k in range(begin, end):
-        key = keys[k] >> np.uint64(sorted_bits)
-        for digit in range(digits):
-            counts[digit * size + int(key & last)] += 1
-            key >>= width
+    last = (one << width) - one
     shift = np.uint64(sorted_bits)
-    for digit in range(0, digits, 2):
-        places = digit * size
-        _move(keys, scratch, begin, end, shift, last, places, counts)
-        _move(scratch, keys, begin, end, shift + width, last, places + size, counts)
+    for _ in range(pairs):
+        counts[: 2 * size] = 0
+        for k in range(begin, end):
+            key = keys[k] >> shift
+            counts[int(key & last)] += 1
+            counts[size + int(key >> width & last)] += 1
+        _move(keys, scratch, begin, end, shift, last, 0, counts)
+        _move(scratch, keys, begin, end, shift + width, last, size, counts)
         shift += width + width
 
 
@@ -236,8 +254,9 @@ def _move(
         place += count
     for k in range(begin, end):
         digit = first + int(keys[k] >> shift & last)
-        target[counts[digit]] = keys[k]
-        counts[digit] += 1
+        place = counts[digit]
+        target[place] = keys[k]
+        counts[digit] = place + 1
 
 
 @device

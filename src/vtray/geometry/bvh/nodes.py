@@ -59,40 +59,60 @@ def set_keys(boxes: Boxes, frame: Frame, begin: int, end: int, order: Order) -> 
 
 
 @kernel
-def split_top(
+def split_ranges(
     boxes: Boxes,
     frame: Frame,
     order: Order,
     grain: int,
-    bvh: Bvh,
     ranges: NDArray[np.int64],
+    above: Bvh,
+    bvh: Bvh,
+    nodes: int,
+    left: NDArray[np.int64],
     scratch: Scratch,
 ) -> tuple[int, int, int]:
-    """Make the topmost nodes.
+    """Make the nodes of ranges of primitives, without boxes.
 
     Parameters
     ----------
     boxes, frame
-        Not looked at: any will do.
+        The boxes that the keys lead to, and the space of the hierarchy's boxes; where `grain` is
+        not 0 they are not looked at.
     order
-        The order of the primitives.
+        The order of the primitives, which becomes finer where many are in one cell.
     grain
-        The size of the ranges that are left for `build_subtree`.
-    bvh
-        Out: the nodes, without boxes.
+        The size of the ranges that are left for later, or 0 to go on to the leaves.
     ranges
-        Out: for each of these ranges the place in ``bvh.child`` for its node or leaf, its begin,
-        its end, and its depth, (m, 4).
+        For each range the place in ``above.child`` for its node or leaf, its begin and its end in
+        slots, and the depth of its node, (m, 4).
+    above
+        Out: where the ranges belong, the numbers of their nodes, or their leaves.
+    bvh, nodes
+        Out: the nodes, which follow those that it has already.
+    left
+        Out: the ranges that are left, with their places in ``bvh.child``, as in `ranges`.
     scratch
         Scratch memory.
 
     Returns
     -------
     nodes, ranges, depth
-        How many there are, and the depth of the deepest of these nodes.
+        How many nodes there are, how many ranges are left, and the depth of the deepest node that
+        was made, 0 if none was.
     """
-    end = order.keys.shape[0]
-    return split_range(boxes, frame, order, 0, end, 0, grain, bvh, 0, ranges, scratch)
+    used, found, deepest = nodes, 0, 0
+    for k in range(ranges.shape[0]):
+        place, begin, end = ranges[k, 0], ranges[k, 1], ranges[k, 2]
+        if grain == 0 and end - begin <= LEAF:
+            above.child[place] = leaf_code(begin, end - begin)
+        else:
+            above.child[place] = used
+            used, found, depth = split_range(
+                *(boxes, frame, order, begin, end, ranges[k, 3], grain, bvh, used),
+                *(left, found, scratch),
+            )
+            deepest = max(deepest, depth)
+    return used, found, deepest
 
 
 @kernel
@@ -118,70 +138,53 @@ def take_numbers(order: Order, begin: int, end: int, numbers: Numbers) -> None:
 
 
 @kernel
-def build_subtree(
+def finish_subtrees(
     boxes: Boxes,
     frame: Frame,
     order: Order,
     numbers: Numbers,
     ranges: NDArray[np.int64],
+    above: Bvh,
     bvh: Bvh,
-    top: Bvh,
+    nodes: int,
     ordered: Numbers,
-    scratch: Scratch,
-) -> tuple[int, int, bool]:
-    """Build the trees of neighbouring ranges of primitives.
+) -> bool:
+    """Set the boxes of neighbouring trees, and the numbers of their primitives.
 
     Parameters
     ----------
     boxes, numbers
         Boxes and numbers of the primitives, where the keys lead.
-    frame
-        The space of the hierarchy's boxes.
-    order
-        The order of the primitives.
-    ranges
-        As in `split_top`, in the order of their slots, at least one, (m, 4).
-    bvh
-        Out: the nodes, numbered from 0.
-    top
-        Out: where the ranges belong, the number of their node, or their leaf and its box.
+    frame, order, ranges
+        As in `split_ranges`, the ranges one after the other, at least one.
+    above
+        Out: the boxes of those ranges that are leaves.
+    bvh, nodes
+        Out: the boxes of all nodes, of which there are so many.
     ordered
         Out: the numbers of all primitives by their slots, (n,).
-    scratch
-        Scratch memory.
 
     Returns
     -------
-    nodes, depth, changed
-        How many there are, the depth of the deepest, 0 if there is none, and whether the numbers
-        by slots are in another order than `numbers`.
+    bool
+        Whether the numbers by slots are in another order than `numbers`.
     """
-    used, deepest, changed = 0, 0, False
-    for k in range(ranges.shape[0]):
-        place, begin, end = ranges[k, 0], ranges[k, 1], ranges[k, 2]
-        if end - begin <= LEAF:
-            top.child[place] = leaf_code(begin, end - begin)
-            _set_box(top, place, _leaf_box(boxes, frame, order, begin, end))
-        else:
-            top.child[place] = used
-            used, _, depth = split_range(
-                boxes, frame, order, begin, end, ranges[k, 3], 0, bvh, used, ranges, scratch
-            )
-            deepest = max(deepest, depth)
+    changed = False
     first, last = ranges[0, 1], ranges[ranges.shape[0] - 1, 2]
     for k in range(last - first):
         drawn = key_number(order.keys[first + k], order.grid)
         changed |= drawn != k
         ordered[first + k] = numbers[drawn]
-    for node in range(used - 1, -1, -1):
-        for place in range(node * WIDTH, (node + 1) * WIDTH):
-            child = bvh.child[place]
-            if child < EMPTY:
-                begin, end = leaf_range(child)
-                _set_box(bvh, place, _leaf_box(boxes, frame, order, begin, end))
-            else:
-                _set_box(bvh, place, _node_box(child, bvh))
-    return used, deepest, changed
+    for place in range(nodes * WIDTH - 1, -1, -1):
+        if bvh.child[place] < EMPTY:
+            _set_box(bvh, place, _leaf_box(boxes, frame, order, bvh.child[place]))
+        else:
+            _set_box(bvh, place, _node_box(bvh.child[place], bvh))
+    for k in range(ranges.shape[0]):
+        place = ranges[k, 0]
+        if above.child[place] < EMPTY:
+            _set_box(above, place, _leaf_box(boxes, frame, order, above.child[place]))
+    return changed
 
 
 @kernel
@@ -200,10 +203,11 @@ def _largest_half(boxes: Boxes, k: int) -> float:
 
 
 @device
-def _leaf_box(boxes: Boxes, frame: Frame, order: Order, begin: int, end: int) -> tuple[Vec, Vec]:
+def _leaf_box(boxes: Boxes, frame: Frame, order: Order, code: int) -> tuple[Vec, Vec]:
     """Return the box around the boxes of a leaf, wider than rounding could explain."""
     low = OUTSIDE, OUTSIDE, OUTSIDE
     high = -OUTSIDE, -OUTSIDE, -OUTSIDE
+    begin, end = leaf_range(code)
     for slot in range(begin, end):
         k = key_number(order.keys[slot], order.grid)
         place = box_place(boxes, k, frame)

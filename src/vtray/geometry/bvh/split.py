@@ -67,40 +67,33 @@ def split_range(
     grain: int,
     bvh: Bvh,
     root: int,
-    ranges: NDArray[np.int64],
+    left: NDArray[np.int64],
+    found: int,
     scratch: Scratch,
 ) -> tuple[int, int, int]:
-    """Make the nodes of a range, down to ranges of `grain` if that is more than a leaf has.
+    """Make the nodes of a range, down to ranges of `grain` or to leaves.
 
     A child comes after its parent. Until a node is split, its begin, its end and its depth stand in
     the places of its children.
 
     Parameters
     ----------
-    boxes, frame
-        The boxes that the keys lead to, and the space of their grid; needed for leaves only.
-    order
-        The order of the primitives, which becomes finer where many are in one cell.
-    begin, end
-        The range, in slots.
-    depth
-        That of the root.
-    grain
-        The size of the ranges that are left, or 0 to go on to the leaves.
+    boxes, frame, order, grain, left, scratch
+        As in `split_ranges`.
+    begin, end, depth
+        The range, in slots, and the depth of its node.
     bvh, root
         Out: the nodes, and the number of the first.
-    ranges
-        Out: for each range that is left its place in ``bvh.child``, begin, end and depth, (m, 4).
-    scratch
-        Scratch memory.
+    found
+        How many ranges are left already.
 
     Returns
     -------
     nodes, ranges, depth
-        The first number that is no node, how many ranges are left, and the depth of the deepest.
+        How many nodes there are now, how many ranges are left, and the depth of the deepest node.
     """
     child, stack = bvh.child, scratch.stack
-    used, found, waiting = root + 1, 0, 1
+    used, waiting = root + 1, 1
     stack[0] = root
     child[root * WIDTH] = begin
     child[root * WIDTH + 1] = end
@@ -119,10 +112,10 @@ def split_range(
             if k >= count:
                 child[first + k] = EMPTY
             elif high - low <= grain or _is_left(order, low, high, grain):
-                ranges[found, 0] = first + k
-                ranges[found, 1] = low
-                ranges[found, 2] = high
-                ranges[found, 3] = depth + 1
+                left[found, 0] = first + k
+                left[found, 1] = low
+                left[found, 2] = high
+                left[found, 3] = depth + 1
                 found += 1
             elif high - low <= LEAF:
                 child[first + k] = leaf_code(low, high - low)
