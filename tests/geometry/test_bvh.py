@@ -12,8 +12,7 @@ from hypothesis.extra import numpy as arrays_of
 from conftest import JIT, compiled_only
 from vtray.geometry.bvh import build as bvh_build
 from vtray.geometry.bvh import key_sort
-from vtray.geometry.bvh import nodes as bvh_nodes
-from vtray.geometry.bvh.build import Built, build
+from vtray.geometry.bvh import split as bvh_split
 from vtray.geometry.bvh.tree import (
     COUNT_BITS,
     COUNT_MASK,
@@ -25,6 +24,8 @@ from vtray.geometry.bvh.tree import (
     WIDTH,
 )
 from vtray.geometry.packets.shaft import MARGIN
+from vtray.geometry.shapes.sphere_columns import Built
+from vtray.geometry.shapes.sphere_columns import build_spheres as build
 
 COUNT = 3000 if JIT else 60
 
@@ -174,7 +175,7 @@ def test_spheres_at_one_point_or_without_size() -> None:
 
 def test_depth_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     if not JIT:
-        monkeypatch.setattr(bvh_nodes, "MAX_DEPTH", 2)
+        monkeypatch.setattr(bvh_split, "MAX_DEPTH", 2)
     # A thousand scales, which halve from one to the next: most splits take off few points. What
     # is symmetric has its middle at 0, where no scale is lost to rounding.
     random = np.random.default_rng(2)

@@ -15,7 +15,10 @@ from vtray.rendering import pixel_rays, renderer
 pytestmark = compiled_only
 
 ONE_RAY = {"trace_tile", "_expose"}
-HIERARCHY = {"find_extent", "set_keys", "split_top", "build_subtree", "finish_top"}
+HIERARCHY = {
+    *("bound_spheres", "find_extent", "set_keys", "sort_range", "take_numbers", "gather_spheres"),
+    *("split_ranges", "finish_subtrees", "finish_top"),
+}
 
 WHITE = (255, 255, 255)
 BALL = vtray.Sphere((0, 0, 5), 1, WHITE, 1)

@@ -16,8 +16,8 @@ from vtray.base.capacity import MAX_SPHERES
 from vtray.base.errors import RenderError
 from vtray.base.memory import check_memory_of_spheres
 from vtray.base.pool import Progress
-from vtray.geometry.bvh.build import Built, build
-from vtray.geometry.bvh.tree import WIDTH, Bvh, Frame, Leaves, no_bvh
+from vtray.geometry.bvh.tree import Bvh, Frame, no_bvh, node_count
+from vtray.geometry.shapes.sphere_columns import Built, Leaves, build_spheres
 from vtray.scene.fingerprint import arrays_of, hash_arrays
 from vtray.scene.scene import Plane, Scene, Sphere
 from vtray.scene.spheres import Spheres
@@ -89,7 +89,7 @@ class Acceleration:
     @property
     def nodes(self) -> int:
         """How many nodes the hierarchy has."""
-        return len(self.bvh.child) // WIDTH
+        return node_count(self.bvh)
 
     @property
     def memory(self) -> int:
@@ -180,7 +180,7 @@ def _make(
     if count <= FEW:
         built = Built(_in_order(source), no_bvh(), Frame(1.0, (0.0, 0.0, 0.0)), 0, _largest(source))
     else:
-        built = build(source.center, source.radius, threads, progress)
+        built = build_spheres(source.center, source.radius, threads, progress)
     return Acceleration(
         *built,
         source=source,

@@ -1,52 +1,55 @@
 """Builds the hierarchy, in parallel from the first step to the last but the topmost nodes.
 
-Points are sorted along Morton's curve. A few topmost nodes divide them into some hundred ranges,
-whose trees are then built side by side. The tree is the same for any number of threads.
+Primitives are sorted along Morton's curve. A few topmost nodes divide them into ranges, whose trees
+are then built side by side. The tree is the same for any number of threads.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import pinned, uncompiled
-from vtray.base.pool import Progress, run_tasks, useful_threads
-from vtray.geometry.bvh.key_sort import sort_keys
-from vtray.geometry.bvh.morton import make_grid
+from vtray.base.pool import Progress, run_tasks
+from vtray.geometry.bvh.join import join_trees
+from vtray.geometry.bvh.key_sort import Keys, sort_keys
+from vtray.geometry.bvh.morton import Grid, make_grid
 from vtray.geometry.bvh.nodes import (
     Extent,
-    Order,
-    Points,
-    build_subtree,
     find_extent,
+    finish_subtrees,
     finish_top,
-    new_points,
-    new_scratch,
     set_keys,
-    split_top,
+    split_ranges,
+    take_numbers,
 )
-from vtray.geometry.bvh.tree import SIDES, STACK, WIDTH, Bvh, Frame, Leaves
+from vtray.geometry.bvh.primitives import Boxes, Numbers, Primitives, new_boxes
+from vtray.geometry.bvh.split import Order, new_scratch
+from vtray.geometry.bvh.tree import LEAF, SIDES, STACK, WIDTH, Bvh, Frame, new_bvh, node_count
 from vtray.geometry.vector import Vec
 
-CHUNK = 1 << 16
-"""Points that are looked at as one task."""
-
-SUBTREES = 256
-"""Ranges, about, whose trees are built as tasks of their own."""
+CHUNK = 1 << 15
+"""Primitives whose boxes are looked at as one task."""
 
 SMALL = 1 << 14
-"""A range of fewer points is not worth a task."""
+"""Primitives, about, whose trees are built as one task: a cache holds them and their boxes."""
+
+CROWD = 1 << 16
+"""If there are more primitives in one cell, all threads divide it together."""
+
+Range = tuple[int, int]
+Bound = Callable[[Range, Boxes], None]
 
 
-class Built(NamedTuple):
+class Tree(NamedTuple):
     """A hierarchy and what belongs to it.
 
     Attributes
     ----------
-    leaves
-        The spheres in the order of the leaves.
+    numbers
+        The numbers of the primitives in the order of the leaves, (n,).
     bvh
         The hierarchy.
     frame
@@ -54,172 +57,219 @@ class Built(NamedTuple):
     depth
         How many nodes lie one below the other at the most.
     largest
-        The largest coordinate or radius.
+        The largest coordinate of a centre, or half extent, in world space.
     """
 
-    leaves: Leaves
+    numbers: Numbers
     bvh: Bvh
     frame: Frame
     depth: int
     largest: float
 
 
-def build(
-    center: NDArray[np.float64],
-    radius: NDArray[np.float64],
-    threads: int,
-    progress: Progress | None = None,
-) -> Built:
-    """Build the hierarchy of spheres.
+def build(primitives: Primitives, threads: int, progress: Progress | None = None) -> Tree:
+    """Build the hierarchy of primitives.
 
     Parameters
     ----------
-    center
-        World space, (n, 3), float32 or float64, at least one.
-    radius
-        (n,), or (1,) if all are the same.
+    primitives
+        What it is built over, at least one.
     threads
         How many threads to use.
     progress
         Called from time to time with the number of tasks done and the number of all.
     """
-    n = len(center)
-    points = new_points(center, radius)
-    chunks = [(begin, min(begin + CHUNK, n)) for begin in range(0, n, CHUNK)]
-    extents: list[Extent] = []
-    unframed = pinned(points)
-    _run(chunks, lambda chunk: extents.append(find_extent(unframed, *chunk)), threads)
-    points, low, high, largest = _place_in_frame(points, extents)
+    everything = 0, primitives.count
 
-    shared = pinned(points)
-    grid = uncompiled(make_grid)(low, high, max(n - 1, 1).bit_length())
-    order = Order(np.empty(n, np.uint64), grid)
-    unsorted = pinned(order)
-    _run(chunks, lambda chunk: set_keys(shared, *chunk, unsorted), threads)
-    order = Order(sort_keys(order.keys, threads), order.grid)
+    def bound(chunk: Range, boxes: Boxes) -> None:
+        primitives.bound(*chunk, boxes)
 
-    leaves = Leaves(np.empty(4 * n), np.empty(n, np.int32))
-    bvh, depth = _build_nodes(points, order, leaves, threads, progress)
-    return Built(leaves, bvh, points.frame, depth, largest)
+    extent = _find_extent(everything, bound, threads)
+    frame, largest = _make_frame(extent)
+    grid = _make_grid(extent, frame, max(primitives.count - 1, 1).bit_length())
+    keys = sort_keys(_new_keys(everything, bound, frame, grid, threads), threads, grid.number_bits)
+    order = Order(keys, grid)
+    numbers = np.empty(primitives.count, np.int32)
+    bvh, depth = _build_nodes(primitives, frame, order, numbers, threads, progress)
+    return Tree(numbers, bvh, frame, depth, largest)
+
+
+def _find_extent(whole: Range, bound: Bound, threads: int) -> Extent:
+    """Return the extent of a range of primitives."""
+    found: dict[Range, Extent] = {}
+
+    def look(chunk: Range, boxes: Boxes) -> None:
+        found[chunk] = find_extent(boxes, chunk[1] - chunk[0])
+
+    _look_at_all(whole, bound, look, threads)
+    # In the order of the chunks, as of 0 and -0 the first is taken.
+    extents = [found[chunk] for chunk in sorted(found)]
+    low = np.min([extent.low for extent in extents], axis=0)
+    high = np.max([extent.high for extent in extents], axis=0)
+    return Extent(_vec(low), _vec(high), max(extent.half for extent in extents))
+
+
+def _new_keys(whole: Range, bound: Bound, frame: Frame, grid: Grid, threads: int) -> Keys:
+    """Return keys of a range of primitives, whose low bits count the primitives from 0."""
+    order = Order(np.empty(whole[1] - whole[0], np.uint64), grid)
+    place, target = pinned(frame), pinned(order)
+
+    def look(chunk: Range, boxes: Boxes) -> None:
+        set_keys(boxes, place, chunk[0] - whole[0], chunk[1] - whole[0], target)
+
+    _look_at_all(whole, bound, look, threads)
+    return order.keys
+
+
+def _look_at_all(
+    whole: Range, bound: Bound, look: Callable[[Range, Boxes], None], threads: int
+) -> None:
+    """Have the boxes of a range of primitives looked at, chunk by chunk."""
+    begins = range(*whole, CHUNK)
+    chunks = [(begin, min(begin + CHUNK, whole[1])) for begin in begins]
+
+    def new_worker() -> Callable[[Range], None]:
+        boxes = new_boxes(min(CHUNK, whole[1] - whole[0]))
+
+        def work(chunk: Range) -> None:
+            bound(chunk, boxes)
+            look(chunk, boxes)
+
+        return work
+
+    run_tasks(chunks, new_worker, threads)
+
+
+def _make_frame(extent: Extent) -> tuple[Frame, float]:
+    """Return the space of the boxes, and the largest coordinate or half extent in world space."""
+    largest = max(-min(extent.low), *extent.high, extent.half)
+    # The scale and its inverse must be ordinary doubles.
+    scale = math.ldexp(1.0, -max(math.frexp(largest)[1], -1000))
+    low, high = np.array(extent.low), np.array(extent.high)
+    return Frame(scale, _vec(low * scale * 0.5 + high * scale * 0.5)), largest
+
+
+def _make_grid(extent: Extent, frame: Frame, number_bits: int) -> Grid:
+    """Return the grid over the centres of primitives."""
+    low, high = (np.array(corner) * frame.scale - frame.origin for corner in extent[:2])
+    return uncompiled(make_grid)(_vec(low), _vec(high), number_bits)
 
 
 def _build_nodes(
-    points: Points, order: Order, leaves: Leaves, threads: int, progress: Progress | None
+    primitives: Primitives,
+    frame: Frame,
+    order: Order,
+    numbers: Numbers,
+    threads: int,
+    progress: Progress | None,
 ) -> tuple[Bvh, int]:
-    """Build the nodes over sorted points, and put the spheres into their leaves.
+    """Build the nodes over sorted primitives, and set the numbers of these by their slots.
 
     Returns
     -------
     bvh, depth
-        As in `Built`.
+        As in `Tree`.
     """
-    n = len(order.keys)
-    grain = max(n // SUBTREES, SMALL)
-    # Nodes of one depth have points of their own, so at most n / grain of them are larger than
-    # that. Memory that is never written to costs nothing.
-    most = (n // grain + 1) * (STACK // WIDTH)
-    top, found = _new_bvh(most), np.empty((most * WIDTH, 4), np.int64)
-    top_nodes, count, deepest = split_top(points, order, grain, top, found, new_scratch())
-    subtrees = found[:count]
-    parts, depths = _build_subtrees(points, order, leaves, subtrees, threads, progress)
-
-    parts.insert(0, Bvh(top.sides[: top_nodes * SIDES], top.child[: top_nodes * WIDTH]))
-    bvh, roots = _join(parts, threads)
-    bvh.child[subtrees[:, 0]] = roots[1:]
-    finish_top(points, order, top_nodes, bvh, leaves)
-    return bvh, 1 + max([deepest, *depths])
-
-
-def _build_subtrees(
-    points: Points,
-    order: Order,
-    leaves: Leaves,
-    subtrees: NDArray[np.int64],
-    threads: int,
-    progress: Progress | None,
-) -> tuple[list[Bvh], list[int]]:
-    """Return the trees of ranges of points, each numbered from 0, and their depths."""
-    # All nodes but the last, which have more points than a leaf, have eight children, so that a
-    # tree of m points has fewer than m / 4 nodes.
-    most = int((subtrees[:, 2] - subtrees[:, 1]).max(initial=0)) // 4 + 1
-    cloud, sorted_, target = pinned(points), pinned(order), pinned(leaves)
-    parts = [_new_bvh(0)] * len(subtrees)
-    depths = [0] * len(subtrees)
+    top, ranges, depth = _split_top(primitives, frame, order, threads)
+    tasks = _tasks(ranges)
+    parts, depths = [top] * (len(tasks) + 1), [depth] * (len(tasks) + 1)
+    largest = max(int(task[-1, 2] - task[0, 1]) for task in tasks)
+    place, sorted_, above = pinned(frame), pinned(order), pinned(top)
+    ordered, nothing = pinned(numbers), pinned(np.empty((0, 4), np.int64))
 
     def new_worker() -> Callable[[int], None]:
-        bvh = _new_bvh(most)
-        tree, scratch = pinned(bvh), pinned(new_scratch())
-        nothing = pinned(np.empty((0, 4), np.int64))
+        # All nodes but the last, which have more primitives than a leaf, have eight children, so
+        # that a tree of m primitives has fewer than m / 4 nodes.
+        bvh, boxes = new_bvh(largest // 4 + 1), new_boxes(largest)
+        tree, scratch, drawn = pinned(bvh), pinned(new_scratch()), np.empty(largest, np.int32)
 
         def build_one(k: int) -> None:
-            _, begin, end, depth = map(int, subtrees[k])
-            size, depths[k] = build_subtree(
-                cloud, sorted_, begin, end, depth, tree, target, nothing, scratch
+            task, begin, end = tasks[k], int(tasks[k][0, 1]), int(tasks[k][-1, 2])
+            take_numbers(sorted_, begin, end, drawn)
+            primitives.gather(drawn[: end - begin], begin, boxes)
+            size, _, depths[k + 1] = split_ranges(
+                boxes, place, sorted_, 0, task, above, tree, 0, nothing, scratch
             )
-            parts[k] = Bvh(bvh.sides[: size * SIDES].copy(), bvh.child[: size * WIDTH].copy())
+            if finish_subtrees(boxes, place, sorted_, drawn, task, above, tree, size, ordered):
+                primitives.gather(numbers[begin:end], begin, boxes)
+            parts[k + 1] = Bvh(bvh.sides[: size * SIDES].copy(), bvh.child[: size * WIDTH].copy())
 
         return build_one
 
-    run_tasks(range(len(subtrees)), new_worker, threads, progress=progress)
-    return parts, depths
+    run_tasks(range(len(tasks)), new_worker, threads, progress=progress)
+    bvh, first = join_trees(parts, threads)
+    for task, root in zip(tasks, first[1:], strict=True):
+        bvh.child[task[task[:, 2] - task[:, 1] > LEAF, 0]] += root
+    finish_top(bvh, node_count(top))
+    return bvh, 1 + max(depths)
 
 
-def _new_bvh(nodes: int) -> Bvh:
-    """Return room for nodes."""
-    return Bvh(np.empty(nodes * SIDES, np.float32), np.empty(nodes * WIDTH, np.int32))
-
-
-def _join(parts: list[Bvh], threads: int) -> tuple[Bvh, NDArray[np.int64]]:
-    """Return the nodes of several trees in one, and the numbers that their roots have there."""
-    sizes = np.array([len(part.child) // WIDTH for part in parts])
-    roots = np.cumsum(sizes) - sizes
-    bvh = _new_bvh(int(sizes.sum()))
-
-    def put(run: NDArray[np.int64]) -> None:
-        nodes = slice(roots[run[0]], roots[run[-1]] + sizes[run[-1]])
-        sides = bvh.sides[nodes.start * SIDES : nodes.stop * SIDES]
-        child = bvh.child[nodes.start * WIDTH : nodes.stop * WIDTH]
-        np.concatenate([parts[k].sides for k in run], out=sides)
-        np.concatenate([parts[k].child for k in run], out=child)
-        # Numbers of nodes are counted from the root of all; those of leaves are below 0.
-        shift = np.repeat(roots[run], sizes[run] * WIDTH)
-        np.add(child, shift, out=child, where=child >= 0, casting="unsafe")
-
-    runs = np.array_split(np.arange(len(parts)), useful_threads(threads, len(parts)))
-    run_tasks(runs, lambda: put, threads)
-    return bvh, roots
-
-
-def _place_in_frame(points: Points, extents: list[Extent]) -> tuple[Points, Vec, Vec, float]:
-    """Find the space of the boxes.
+def _split_top(
+    primitives: Primitives, frame: Frame, order: Order, threads: int
+) -> tuple[Bvh, NDArray[np.int64], int]:
+    """Make the topmost nodes.
 
     Returns
     -------
-    points
-        The points with that space.
-    low, high
-        The box around their centres in it.
-    largest
-        The largest coordinate or radius in world space.
+    top
+        The nodes, without boxes.
+    ranges
+        The ranges below, as in `split_ranges`, in the order of their slots.
+    depth
+        The depth of the deepest of these nodes.
     """
-    low = np.min([extent.low for extent in extents], axis=0)
-    high = np.max([extent.high for extent in extents], axis=0)
-    largest = max(-float(low.min()), float(high.max()), *(extent.radius for extent in extents))
-    # The scale and its inverse must be ordinary doubles.
-    scale = math.ldexp(1.0, -max(math.frexp(largest)[1], -1000))
-    middle = low * scale * 0.5 + high * scale * 0.5
-    placed = points._replace(frame=Frame(scale, _vec(middle)))
-    return placed, _vec(low * scale - middle), _vec(high * scale - middle), largest
+    n = primitives.count
+    # Nodes of one depth have primitives of their own, so at most n / SMALL of them are larger than
+    # that. Memory that is never written to costs nothing.
+    most = (n // SMALL + 1) * (STACK // WIDTH)
+    top, left = new_bvh(most), np.empty((most * WIDTH, 4), np.int64)
+    waiting, done = np.array([[0, 0, n, 0]]), []
+    nodes, deepest = 0, 0
+    while len(waiting) > 0:
+        nodes, found, depth = split_ranges(
+            new_boxes(0), frame, order, SMALL, waiting, top, top, nodes, left, new_scratch()
+        )
+        deepest = max(deepest, depth)
+        crowded = left[:found, 2] - left[:found, 1] > CROWD
+        done.append(left[:found][~crowded])
+        waiting = left[:found][crowded]
+        for begin, end in waiting[:, 1:3].tolist():
+            _divide_crowd(primitives, frame, order, (begin, end), threads)
+    ranges = np.concatenate(done)
+    ranges = ranges[ranges[:, 1].argsort()]
+    return Bvh(top.sides[: nodes * SIDES], top.child[: nodes * WIDTH]), ranges, deepest
 
 
-def _vec(array: NDArray[np.float64]) -> Vec:
-    """Return an array of three numbers as a tuple."""
-    x, y, z = map(float, array)
-    return x, y, z
-
-
-def _run(
-    chunks: list[tuple[int, int]], function: Callable[[tuple[int, int]], object], threads: int
+def _divide_crowd(
+    primitives: Primitives, frame: Frame, order: Order, crowd: Range, threads: int
 ) -> None:
-    """Call a function with each chunk."""
-    run_tasks(chunks, lambda: function, threads)
+    """Sort the primitives of one cell by a grid of their own, or else divide them by numbers."""
+    keys, bits = order.keys[slice(*crowd)], np.uint64(order.grid.number_bits)
+    numbers = (keys & ((np.uint64(1) << bits) - np.uint64(1))).astype(np.int32)
+
+    def bound(chunk: Range, boxes: Boxes) -> None:
+        begin, end = chunk
+        primitives.gather(numbers[begin - crowd[0] : end - crowd[0]], begin, boxes)
+
+    grid = _make_grid(_find_extent(crowd, bound, threads), frame, order.grid.number_bits)
+    if grid.cells > 0.0:
+        finer = _new_keys(crowd, bound, frame, grid, threads)
+    else:
+        finer = np.arange(len(keys), dtype=np.uint64) << bits
+    keys[...] = sort_keys(finer >> bits << bits | numbers.astype(np.uint64), threads, int(bits))
+
+
+def _tasks(ranges: NDArray[np.int64]) -> list[NDArray[np.int64]]:
+    """Return neighbouring ranges together; several have no more primitives than `SMALL`."""
+    cuts, begin = [], 0
+    for k, end in enumerate(ranges[:, 2].tolist()):
+        if end - begin > SMALL and k > 0:
+            cuts.append(k)
+            begin = int(ranges[k, 1])
+    return np.split(ranges, cuts)
+
+
+def _vec(values: Iterable[float]) -> Vec:
+    """Return three numbers as a tuple."""
+    x, y, z = map(float, values)
+    return x, y, z

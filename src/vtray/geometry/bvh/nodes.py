@@ -1,393 +1,223 @@
-"""The nodes of the hierarchy: ranges of sorted points, split where their codes differ.
-
-References
-----------
-Lauterbach, Garland, Sengupta, Luebke, Manocha, "Fast BVH Construction on GPUs", 2009.
-"""
+"""The kernels of building: keys of boxes, the topmost nodes, and the trees below them."""
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device, input_array, kernel
-from vtray.geometry.bvh.key_sort import Keys, sort_few
-from vtray.geometry.bvh.morton import Grid, in_one_cell, key_number, make_grid, make_key
-from vtray.geometry.bvh.tree import (
-    EMPTY,
-    LEAF,
-    MAX_DEPTH,
-    SIDES,
-    STACK,
-    WIDTH,
-    Bvh,
-    Frame,
-    Leaves,
-    leaf_code,
-    leaf_range,
-)
+from vtray.base.compiler.compiled import device, kernel
+from vtray.geometry.bvh.morton import key_number, make_key
+from vtray.geometry.bvh.primitives import Boxes, Numbers
+from vtray.geometry.bvh.split import Order, Scratch, box_place, split_range
+from vtray.geometry.bvh.tree import EMPTY, LEAF, SIDES, WIDTH, Bvh, Frame, leaf_code, leaf_range
 from vtray.geometry.packets.shaft import MARGIN
-from vtray.geometry.vector import Vec, add, lower, magnitude, scale, sub, upper
-
-FULL_ENOUGH = 3
-"""The children of a node are split further until none has more spheres, or the node is full."""
+from vtray.geometry.vector import Vec, add, lower, magnitude, sub, upper
 
 OUTSIDE = 3.0e38
 """The low sides of an empty box, and minus its high sides."""
 
 
-class Points(NamedTuple):
-    """The spheres as they are given.
-
-    Of two kinds of numbers, so that nobody waits for kernels of the other kind: one array holds the
-    centres, and the other none.
-
-    Attributes
-    ----------
-    center
-        World space, (n, 3), or (0, 3) if they are single.
-    single
-        The same of numbers of single precision, (0, 3) or (n, 3).
-    radius
-        (n,), or (1,) if all are the same.
-    frame
-        The space of the boxes.
-    """
-
-    center: NDArray[np.float64]
-    single: NDArray[np.float32]
-    radius: NDArray[np.float64]
-    frame: Frame
-
-
 class Extent(NamedTuple):
-    """The box around some points, and the largest radius."""
+    """The box around the centres of some boxes, and the largest of half their extents."""
 
     low: Vec
     high: Vec
-    radius: float
-
-
-class Order(NamedTuple):
-    """The points' order: their sorted keys, and the grid of these."""
-
-    keys: Keys
-    grid: Grid
-
-
-class Scratch(NamedTuple):
-    """The nodes that wait to be split, and the ranges of a node's children."""
-
-    stack: NDArray[np.int64]
-    begin: NDArray[np.int64]
-    end: NDArray[np.int64]
-
-
-def new_scratch() -> Scratch:
-    """Return the scratch memory of one thread."""
-    return Scratch(*(np.empty(size, np.int64) for size in (STACK, WIDTH, WIDTH)))
-
-
-def new_points(center: NDArray[Any], radius: NDArray[Any]) -> Points:
-    """Return spheres in world space, in no frame yet; the numbers are copied only if they must be.
-
-    Parameters
-    ----------
-    center
-        (n, 3), float32 or float64.
-    radius
-        (n,), or (1,) if all are the same.
-    """
-    single = center.dtype == np.float32
-    return Points(
-        input_array(center[:0] if single else center, np.float64),
-        input_array(center if single else center[:0], np.float32),
-        input_array(radius, np.float64),
-        Frame(1.0, (0.0, 0.0, 0.0)),
-    )
+    half: float
 
 
 @kernel
-def find_extent(points: Points, begin: int, end: int) -> Extent:
-    """Return the extent in world space of a range of points."""
+def find_extent(boxes: Boxes, count: int) -> Extent:
+    """Return the extent in world space of the first boxes."""
     low = math.inf, math.inf, math.inf
     high = -math.inf, -math.inf, -math.inf
-    radius = 0.0
-    last = points.radius.shape[0] - 1
-    for k in range(begin, end):
-        place = _center(points, k)
-        low, high = lower(low, place), upper(high, place)
-        radius = max(radius, points.radius[min(k, last)])
-    return Extent(low, high, radius)
+    half = 0.0
+    for k in range(count):
+        center = boxes[0, k], boxes[1, k], boxes[2, k]
+        low, high = lower(low, center), upper(high, center)
+        half = max(half, _largest_half(boxes, k))
+    return Extent(low, high, half)
 
 
 @kernel
-def set_keys(points: Points, begin: int, end: int, order: Order) -> None:
-    """Set the keys of a range of points."""
-    for k in range(begin, end):
-        order.keys[k] = make_key(_place(points, k), k, order.grid)
-
-
-@kernel
-def split_top(
-    points: Points,
-    order: Order,
-    grain: int,
-    bvh: Bvh,
-    subtrees: NDArray[np.int64],
-    scratch: Scratch,
-) -> tuple[int, int, int]:
-    """Make the topmost nodes.
+def set_keys(boxes: Boxes, frame: Frame, begin: int, end: int, order: Order) -> None:
+    """Set the keys of a range of primitives.
 
     Parameters
     ----------
-    grain
-        The size of the ranges that are left for `build_subtree`.
-    subtrees
-        Out: for each of these ranges the place in ``bvh.child`` for its node, its begin, its end,
-        and its depth, (n, 4).
-
-    Returns
-    -------
-    nodes, subtrees, depth
-        How many there are, and the depth of the deepest of these nodes.
+    boxes
+        Theirs are the first.
+    frame
+        The space of the keys' grid.
+    begin, end
+        The range, in numbers.
+    order
+        Out: the keys, not yet sorted.
     """
-    end = order.keys.shape[0]
-    return _split(points, order, 0, end, 0, grain, bvh, subtrees, scratch)
+    for k in range(end - begin):
+        order.keys[begin + k] = make_key(box_place(boxes, k, frame), begin + k, order.grid)
 
 
 @kernel
-def build_subtree(
-    points: Points,
+def split_ranges(
+    boxes: Boxes,
+    frame: Frame,
     order: Order,
-    begin: int,
-    end: int,
-    depth: int,
-    bvh: Bvh,
-    leaves: Leaves,
-    subtrees: NDArray[np.int64],
-    scratch: Scratch,
-) -> tuple[int, int]:
-    """Build the tree of a range of points, its root as node 0.
-
-    Returns
-    -------
-    nodes, depth
-        How many there are, and the depth of the deepest.
-    """
-    used, _, deepest = _split(points, order, begin, end, depth, LEAF, bvh, subtrees, scratch)
-    _gather(points, order, begin, end, leaves)
-    for node in range(used - 1, -1, -1):
-        _find_boxes(node, bvh, leaves, points.frame)
-    return used, deepest
-
-
-@kernel
-def finish_top(points: Points, order: Order, nodes: int, bvh: Bvh, leaves: Leaves) -> None:
-    """Set leaves and boxes of the topmost nodes, whose subtrees are built."""
-    for node in range(nodes - 1, -1, -1):
-        for k in range(node * WIDTH, (node + 1) * WIDTH):
-            if bvh.child[k] < EMPTY:
-                begin, end = leaf_range(bvh.child[k])
-                _gather(points, order, begin, end, leaves)
-        _find_boxes(node, bvh, leaves, points.frame)
-
-
-@device
-def _center(points: Points, number: int) -> Vec:
-    """Return the centre of a sphere in world space."""
-    center, single = points.center, points.single
-    if single.shape[0] > 0:
-        return float(single[number, 0]), float(single[number, 1]), float(single[number, 2])
-    return center[number, 0], center[number, 1], center[number, 2]
-
-
-@device
-def _place(points: Points, number: int) -> Vec:
-    """Return the centre of a sphere in the boxes' space."""
-    return _to_frame(_center(points, number), points.frame)
-
-
-@device
-def _to_frame(center: Vec, frame: Frame) -> Vec:
-    """Return a point of world space in the boxes' space."""
-    return sub(scale(frame.scale, center), frame.origin)
-
-
-@device
-def _split(
-    points: Points,
-    order: Order,
-    begin: int,
-    end: int,
-    depth: int,
     grain: int,
+    ranges: NDArray[np.int64],
+    above: Bvh,
     bvh: Bvh,
-    subtrees: NDArray[np.int64],
+    nodes: int,
+    left: NDArray[np.int64],
     scratch: Scratch,
 ) -> tuple[int, int, int]:
-    """Make nodes of a range, down to ranges of `grain`; return their number, subtrees, and depth.
+    """Make the nodes of ranges of primitives, without boxes.
 
-    A child comes after its parent. Until a node is split, its begin, its end and its depth stand in
-    the places of its children.
+    Parameters
+    ----------
+    boxes, frame
+        The boxes that the keys lead to, and the space of the hierarchy's boxes; where `grain` is
+        not 0 they are not looked at.
+    order
+        The order of the primitives, which becomes finer where many are in one cell.
+    grain
+        The size of the ranges that are left for later, or 0 to go on to the leaves.
+    ranges
+        For each range the place in ``above.child`` for its node or leaf, its begin and its end in
+        slots, and the depth of its node, (m, 4).
+    above
+        Out: where the ranges belong, the numbers of their nodes, or their leaves.
+    bvh, nodes
+        Out: the nodes, which follow those that it has already.
+    left
+        Out: the ranges that are left, with their places in ``bvh.child``, as in `ranges`.
+    scratch
+        Scratch memory.
+
+    Returns
+    -------
+    nodes, ranges, depth
+        How many nodes there are, how many ranges are left, and the depth of the deepest node that
+        was made, 0 if none was.
     """
-    child, stack = bvh.child, scratch.stack
-    used, found, waiting = 1, 0, 1
-    stack[0] = 0
-    child[0] = begin
-    child[1] = end
-    child[2] = depth
-    deepest = depth
-    while waiting > 0:
-        waiting -= 1
-        first = stack[waiting] * WIDTH
-        depth = child[first + 2]
-        deepest = max(deepest, depth)
-        ranges = _split_node(points, order, child[first], child[first + 1], depth, grain, scratch)
-        for k in range(WIDTH):
-            low, high = scratch.begin[k], scratch.end[k]
-            if k >= ranges:
-                child[first + k] = EMPTY
-            elif high - low <= LEAF:
-                child[first + k] = leaf_code(low, high - low)
-            elif high - low <= grain or _is_left(order, low, high, grain):
-                subtrees[found, 0] = first + k
-                subtrees[found, 1] = low
-                subtrees[found, 2] = high
-                subtrees[found, 3] = depth + 1
-                found += 1
-            else:
-                child[first + k] = used
-                child[used * WIDTH] = low
-                child[used * WIDTH + 1] = high
-                child[used * WIDTH + 2] = depth + 1
-                stack[waiting] = used
-                waiting += 1
-                used += 1
+    used, found, deepest = nodes, 0, 0
+    for k in range(ranges.shape[0]):
+        place, begin, end = ranges[k, 0], ranges[k, 1], ranges[k, 2]
+        if grain == 0 and end - begin <= LEAF:
+            above.child[place] = leaf_code(begin, end - begin)
+        else:
+            above.child[place] = used
+            used, found, depth = split_range(
+                *(boxes, frame, order, begin, end, ranges[k, 3], grain, bvh, used),
+                *(left, found, scratch),
+            )
+            deepest = max(deepest, depth)
     return used, found, deepest
 
 
-@device
-def _is_left(order: Order, begin: int, end: int, grain: int) -> bool:
-    """Tell whether a range is left for a subtree, which sorts it by a finer grid."""
-    return grain > LEAF and in_one_cell(order.keys[begin], order.keys[end - 1], order.grid)
+@kernel
+def take_numbers(order: Order, begin: int, end: int, numbers: Numbers) -> None:
+    """Take the numbers of a range of primitives out of their keys.
+
+    From then on, the keys lead to where the numbers stand now, and where their boxes will.
+
+    Parameters
+    ----------
+    order
+        The order of the primitives.
+    begin, end
+        The range, in slots.
+    numbers
+        Out: the numbers, (m,), m >= end - begin.
+    """
+    keys, bits = order.keys, np.uint64(order.grid.number_bits)
+    for k in range(end - begin):
+        key = keys[begin + k]
+        numbers[k] = key_number(key, order.grid)
+        keys[begin + k] = key >> bits << bits | np.uint64(k)
 
 
-@device
-def _split_node(
-    points: Points, order: Order, begin: int, end: int, depth: int, grain: int, scratch: Scratch
-) -> int:
-    """Split a range into up to eight, always the largest next; return how many."""
-    starts, ends = scratch.begin, scratch.end
-    starts[0] = begin
-    ends[0] = end
-    ranges = 1
-    while ranges < WIDTH:
-        largest = 0
-        for k in range(1, ranges):
-            if ends[k] - starts[k] > ends[largest] - starts[largest]:
-                largest = k
-        low, high = starts[largest], ends[largest]
-        if high - low <= FULL_ENOUGH or _is_left(order, low, high, grain):
-            break
-        middle = _split_range(points, order, low, high, depth)
-        for k in range(ranges, largest + 1, -1):
-            starts[k] = starts[k - 1]
-            ends[k] = ends[k - 1]
-        ends[largest] = middle
-        starts[largest + 1] = middle
-        ends[largest + 1] = high
-        ranges += 1
-    return ranges
+@kernel
+def finish_subtrees(
+    boxes: Boxes,
+    frame: Frame,
+    order: Order,
+    numbers: Numbers,
+    ranges: NDArray[np.int64],
+    above: Bvh,
+    bvh: Bvh,
+    nodes: int,
+    ordered: Numbers,
+) -> bool:
+    """Set the boxes of neighbouring trees, and the numbers of their primitives.
 
+    Parameters
+    ----------
+    boxes, numbers
+        Boxes and numbers of the primitives, where the keys lead.
+    frame, order, ranges
+        As in `split_ranges`, the ranges one after the other, at least one.
+    above
+        Out: the boxes of those ranges that are leaves.
+    bvh, nodes
+        Out: the boxes of all nodes, of which there are so many.
+    ordered
+        Out: the numbers of all primitives by their slots, (n,).
 
-@device
-def _split_range(points: Points, order: Order, begin: int, end: int, depth: int) -> int:
-    """Return where the second part of a range begins."""
-    keys, grid = order.keys, order.grid
-    half = (begin + end) // 2
-    if depth >= MAX_DEPTH:
-        return half
-    if in_one_cell(keys[begin], keys[end - 1], grid):
-        _sort_within_cell(points, order, begin, end)
-        if in_one_cell(keys[begin], keys[end - 1], grid):
-            return half
-    # The highest bit that changes between the first and the last key changes just once.
-    first, last = keys[begin], keys[end - 1]
-    low, high = begin, end - 1
-    while low + 1 < high:
-        half = (low + high) // 2
-        # A key shares that bit with the one from which it differs by less.
-        if keys[half] ^ first < keys[half] ^ last:
-            low = half
+    Returns
+    -------
+    bool
+        Whether the numbers by slots are in another order than `numbers`.
+    """
+    changed = False
+    first, last = ranges[0, 1], ranges[ranges.shape[0] - 1, 2]
+    for k in range(last - first):
+        drawn = key_number(order.keys[first + k], order.grid)
+        changed |= drawn != k
+        ordered[first + k] = numbers[drawn]
+    for place in range(nodes * WIDTH - 1, -1, -1):
+        if bvh.child[place] < EMPTY:
+            _set_box(bvh, place, _leaf_box(boxes, frame, order, bvh.child[place]))
         else:
-            high = half
-    return high
+            _set_box(bvh, place, _node_box(bvh.child[place], bvh))
+    for k in range(ranges.shape[0]):
+        place = ranges[k, 0]
+        if above.child[place] < EMPTY:
+            _set_box(above, place, _leaf_box(boxes, frame, order, above.child[place]))
+    return changed
+
+
+@kernel
+def finish_top(bvh: Bvh, nodes: int) -> None:
+    """Set the boxes of the topmost nodes, whose subtrees are built and whose leaves have theirs."""
+    for place in range(nodes * WIDTH - 1, -1, -1):
+        if bvh.child[place] >= EMPTY:
+            _set_box(bvh, place, _node_box(bvh.child[place], bvh))
 
 
 @device
-def _sort_within_cell(points: Points, order: Order, begin: int, end: int) -> None:
-    """Sort the points of one cell by a grid of their own, if they are not all in one place."""
-    keys, grid = order.keys, order.grid
-    low = _place(points, key_number(keys[begin], grid))
-    high = low
-    for k in range(begin, end):
-        place = _place(points, key_number(keys[k], grid))
-        low, high = lower(low, place), upper(high, place)
-    finer = make_grid(low, high, grid.number_bits)
-    if finer.cells > 0.0:
-        for k in range(begin, end):
-            number = key_number(keys[k], grid)
-            keys[k] = make_key(_place(points, number), number, finer)
-        sort_few(keys, begin, end)
+def _largest_half(boxes: Boxes, k: int) -> float:
+    """Return the largest of half the extents of a box."""
+    largest: float = max(boxes[3, k], boxes[4, k], boxes[5, k])
+    return largest
 
 
 @device
-def _gather(points: Points, order: Order, begin: int, end: int, leaves: Leaves) -> None:
-    """Copy a range of spheres to where they belong."""
-    # A loop of its own: most of these loads miss all caches, and the less else there is to do, the
-    # more of them the processor has under way at a time.
-    last = points.radius.shape[0] - 1
-    for slot in range(begin, end):
-        number = key_number(order.keys[slot], order.grid)
-        x, y, z = _center(points, number)
-        leaves.data[4 * slot] = x
-        leaves.data[4 * slot + 1] = y
-        leaves.data[4 * slot + 2] = z
-        leaves.data[4 * slot + 3] = points.radius[min(number, last)]
-        leaves.number[slot] = number
-
-
-@device
-def _find_boxes(node: int, bvh: Bvh, leaves: Leaves, frame: Frame) -> None:
-    """Set the boxes of a node's children, once the nodes below it have theirs."""
-    for k in range(WIDTH):
-        child = bvh.child[node * WIDTH + k]
-        low = OUTSIDE, OUTSIDE, OUTSIDE
-        high = -OUTSIDE, -OUTSIDE, -OUTSIDE
-        if child >= 0:
-            low, high = _node_box(child, bvh)
-        elif child != EMPTY:
-            begin, end = leaf_range(child)
-            low, high = _leaf_box(begin, end, leaves, frame)
-        for axis in range(3):
-            bvh.sides[node * SIDES + axis * WIDTH + k] = low[axis]
-            bvh.sides[node * SIDES + (3 + axis) * WIDTH + k] = high[axis]
-
-
-@device
-def _leaf_box(begin: int, end: int, leaves: Leaves, frame: Frame) -> tuple[Vec, Vec]:
-    """Return the box around the spheres of a leaf, wider than rounding could explain."""
+def _leaf_box(boxes: Boxes, frame: Frame, order: Order, code: int) -> tuple[Vec, Vec]:
+    """Return the box around the boxes of a leaf, wider than rounding could explain."""
     low = OUTSIDE, OUTSIDE, OUTSIDE
     high = -OUTSIDE, -OUTSIDE, -OUTSIDE
-    data = leaves.data
+    begin, end = leaf_range(code)
     for slot in range(begin, end):
-        place = _to_frame((data[4 * slot], data[4 * slot + 1], data[4 * slot + 2]), frame)
-        reach = data[4 * slot + 3] * frame.scale
-        reach += MARGIN * (magnitude(place) + reach)
-        corner = reach, reach, reach
-        low, high = lower(low, sub(place, corner)), upper(high, add(place, corner))
+        k = key_number(order.keys[slot], order.grid)
+        place = box_place(boxes, k, frame)
+        margin = MARGIN * (magnitude(place) + _largest_half(boxes, k) * frame.scale)
+        half = (
+            boxes[3, k] * frame.scale + margin,
+            boxes[4, k] * frame.scale + margin,
+            boxes[5, k] * frame.scale + margin,
+        )
+        low, high = lower(low, sub(place, half)), upper(high, add(place, half))
     return (
         (_below(low[0]), _below(low[1]), _below(low[2])),
         (-_below(-high[0]), -_below(-high[1]), -_below(-high[2])),
@@ -402,17 +232,28 @@ def _below(value: float) -> float:
 
 @device
 def _node_box(node: int, bvh: Bvh) -> tuple[Vec, Vec]:
-    """Return the box around a node's children."""
+    """Return the box around a node's children, an empty one if there is no such node."""
     low = OUTSIDE, OUTSIDE, OUTSIDE
     high = -OUTSIDE, -OUTSIDE, -OUTSIDE
     sides = bvh.sides
-    for k in range(node * SIDES, node * SIDES + WIDTH):
-        low_k = float(sides[k]), float(sides[k + WIDTH]), float(sides[k + 2 * WIDTH])
-        k_high = k + 3 * WIDTH
-        high_k = (
-            float(sides[k_high]),
-            float(sides[k_high + WIDTH]),
-            float(sides[k_high + 2 * WIDTH]),
-        )
-        low, high = lower(low, low_k), upper(high, high_k)
+    if node != EMPTY:
+        for k in range(node * SIDES, node * SIDES + WIDTH):
+            low_k = float(sides[k]), float(sides[k + WIDTH]), float(sides[k + 2 * WIDTH])
+            k_high = k + 3 * WIDTH
+            high_k = (
+                float(sides[k_high]),
+                float(sides[k_high + WIDTH]),
+                float(sides[k_high + 2 * WIDTH]),
+            )
+            low, high = lower(low, low_k), upper(high, high_k)
     return low, high
+
+
+@device
+def _set_box(bvh: Bvh, place: int, box: tuple[Vec, Vec]) -> None:
+    """Set the box of a child, whose place is that in ``bvh.child``."""
+    low, high = box
+    first = place // WIDTH * SIDES + place % WIDTH
+    for axis in range(3):
+        bvh.sides[first + axis * WIDTH] = low[axis]
+        bvh.sides[first + (3 + axis) * WIDTH] = high[axis]

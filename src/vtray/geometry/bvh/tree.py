@@ -1,9 +1,9 @@
-"""The bounding volume hierarchy: which spheres a ray, or a beam of rays, may meet.
+"""The bounding volume hierarchy: which primitives a ray, or a beam of rays, may meet.
 
 A node has up to eight children, whose boxes stand side by side in float32, so that one loop of
 eight lanes tests them all. The boxes are rounded outwards, and wider than rounding errors of what
-is tested against them, so that nothing is ever missed; what is hit is decided by the spheres
-themselves, in doubles. The hierarchy does not depend on the camera.
+is tested against them, so that nothing is ever missed; what is hit is decided by the
+primitives themselves, in doubles. The hierarchy does not depend on the camera.
 
 References
 ----------
@@ -27,15 +27,15 @@ SIDES = 6 * WIDTH
 """Numbers of a node in ``Bvh.sides``: eight for each side of a box."""
 
 LEAF = 8
-"""Spheres of a leaf at the most."""
+"""Primitives of a leaf at the most."""
 
 COUNT_BITS = 31 - (MAX_SPHERES - 1).bit_length()
-"""Low bits of a leaf's code, which say how many spheres it has; the others say the first."""
+"""Low bits of a leaf's code, which say how many primitives it has; the others say the first."""
 
 COUNT_MASK = (1 << COUNT_BITS) - 1
 
 EMPTY = -1
-"""In place of a child: there is none. (As a leaf, it has no spheres.)"""
+"""In place of a child: there is none. (As a leaf, it has no primitives.)"""
 
 MAX_DEPTH = 96
 """From this depth on, nodes are split into halves, which bounds the depth of all trees."""
@@ -52,7 +52,7 @@ class Frame(NamedTuple):
     scale
         A power of two.
     origin
-        The middle of the spheres' centres, scaled.
+        The middle of the primitives' centres, scaled.
     """
 
     scale: float
@@ -60,7 +60,9 @@ class Frame(NamedTuple):
 
 
 class Bvh(NamedTuple):
-    """A hierarchy; the root is node 0, and without nodes there is no hierarchy.
+    """One hierarchy whose root is node 0, or several; without nodes there is none.
+
+    Several stand one after the other, each with its root first: see `join_trees`.
 
     Attributes
     ----------
@@ -75,21 +77,6 @@ class Bvh(NamedTuple):
     child: NDArray[np.int32]
 
 
-class Leaves(NamedTuple):
-    """The spheres in the order of the leaves.
-
-    Attributes
-    ----------
-    data
-        x, y, z of the centre and the radius of each sphere, side by side, in world space, (4 * n,).
-    number
-        The number of each sphere in the scene, (n,).
-    """
-
-    data: NDArray[np.float64]
-    number: NDArray[np.int32]
-
-
 @device
 def leaf_code(first: int, count: int) -> int:
     """Return what stands in ``Bvh.child`` for a leaf."""
@@ -98,11 +85,21 @@ def leaf_code(first: int, count: int) -> int:
 
 @device
 def leaf_range(code: int) -> tuple[int, int]:
-    """Return the first sphere of a leaf, and the first that no longer belongs to it."""
+    """Return the first slot of a leaf, and the first that no longer belongs to it."""
     first = ~code >> COUNT_BITS
     return first, first + (~code & COUNT_MASK)
 
 
+def new_bvh(nodes: int) -> Bvh:
+    """Return room for nodes."""
+    return Bvh(np.empty(nodes * SIDES, np.float32), np.empty(nodes * WIDTH, np.int32))
+
+
 def no_bvh() -> Bvh:
     """Return a hierarchy without nodes."""
-    return Bvh(np.empty(0, np.float32), np.empty(0, np.int32))
+    return new_bvh(0)
+
+
+def node_count(bvh: Bvh) -> int:
+    """Return how many nodes there are."""
+    return len(bvh.child) // WIDTH
