@@ -1,0 +1,220 @@
+"""The kinds of bounded shapes, and all shapes of a kind as they are given."""
+
+import operator
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.geometry.bvh.primitives import Primitives
+from vtray.geometry.shapes.cylinder_columns import GivenCylinders
+from vtray.geometry.shapes.sphere_columns import GivenSpheres
+from vtray.geometry.world import CYLINDER, SPHERE
+from vtray.scene.arrays import Arrays
+from vtray.scene.cylinders import Cylinders
+from vtray.scene.objects import Cylinder, Object, Plane, Sphere
+from vtray.scene.spheres import Spheres
+
+
+class Given(Primitives, Protocol):
+    """Shapes as they are given, which know how to come into the order of a hierarchy."""
+
+    data: NDArray[np.float64]
+
+
+class Source(NamedTuple):
+    """All shapes of a kind as they are given, in the order of their numbers.
+
+    Attributes
+    ----------
+    geometry
+        The columns that shapes are made of, in world space: points, (n, 3), and last the radius,
+        (n,), or (1,) if all are the same.
+    color
+        0 to 255, (n, 3), or (1, 3).
+    color_end
+        Those of second halves, likewise; None if they are as the first.
+    lambert
+        (n,), or (1,).
+    """
+
+    geometry: tuple[NDArray[Any], ...]
+    color: NDArray[np.uint8]
+    color_end: NDArray[np.uint8] | None
+    lambert: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of bounded shapes.
+
+    Attributes
+    ----------
+    name
+        What they are called.
+    shape
+        Their number in the kernels.
+    single, arrays
+        The types of objects: of one shape, and of many.
+    points
+        The names of the points that a shape is made of, beside its radius.
+    given
+        Makes of their geometry what a hierarchy is built over.
+    """
+
+    name: str
+    shape: int
+    single: type
+    arrays: type[Arrays]
+    points: tuple[str, ...]
+    given: Callable[..., Given]
+
+    def items_of(self, objects: Sequence[Object]) -> list[Any]:
+        """Return those of some objects that are of this kind."""
+        return [item for item in objects if isinstance(item, (self.single, self.arrays))]
+
+
+KINDS = (
+    Kind("spheres", SPHERE, Sphere, Spheres, ("center",), GivenSpheres),
+    Kind("cylinders", CYLINDER, Cylinder, Cylinders, ("start", "end"), GivenCylinders),
+)
+"""In the order in which primitives are numbered; planes come last."""
+
+
+class Numbering(NamedTuple):
+    """Which numbers the primitives of the objects of a scene have.
+
+    Attributes
+    ----------
+    place
+        The places of objects in ``scene.objects``, in the order of their numbers.
+    first
+        The number of the first primitive of each.
+    """
+
+    place: NDArray[np.int64]
+    first: NDArray[np.int64]
+
+
+def number_objects(objects: Sequence[Object]) -> Numbering:
+    """Return the numbers of objects: kind by kind, and in the order of the scene."""
+    kinds = [*((kind.single, kind.arrays) for kind in KINDS), (Plane,)]
+    place = [k for types in kinds for k, item in enumerate(objects) if isinstance(item, types)]
+    sizes = np.array([count_of(objects[k]) for k in place], np.int64)
+    return Numbering(np.array(place, np.int64), np.cumsum(sizes) - sizes)
+
+
+def count_of(item: Object) -> int:
+    """Return how many primitives an object has."""
+    return len(item) if isinstance(item, Arrays) else 1
+
+
+def locate(objects: Sequence[Object], number: int) -> tuple[int, int]:
+    """Return the place of the object that a primitive belongs to, and its index there."""
+    numbering = number_objects(objects)
+    row = int(np.searchsorted(numbering.first, number, side="right")) - 1
+    return int(numbering.place[row]), number - int(numbering.first[row])
+
+
+def locate_all(objects: Sequence[Object], primitives: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Return place and index, as `locate` does, of many primitives.
+
+    Parameters
+    ----------
+    objects
+        The objects of the scene.
+    primitives
+        Numbers of primitives, -1 for none, of any shape.
+
+    Returns
+    -------
+    array
+        int32, of the same shape with two numbers for each: place and index; -1 for none.
+    """
+    numbering = number_objects(objects)
+    places = np.append(numbering.place, -1).astype(np.int32)
+    which = np.searchsorted(numbering.first, primitives, side="right") - 1
+    ids = np.empty((*primitives.shape, 2), np.int32)
+    ids[..., 0] = places[which]
+    ids[..., 1] = np.where(which < 0, -1, primitives - np.append(numbering.first, 0)[which])
+    return ids
+
+
+def collect(kind: Kind, items: Sequence[Any]) -> Source:
+    """Return the shapes of all objects of a kind."""
+    parts = []
+    for is_array, group in groupby(items, lambda item: isinstance(item, Arrays)):
+        if is_array:
+            parts += [_from_arrays(kind, item) for item in group]
+        else:
+            parts.append(_from_objects(kind, list(group)))
+    if not parts:
+        return _from_objects(kind, [])
+    return parts[0] if len(parts) == 1 else _join(parts)
+
+
+def _from_objects(kind: Kind, items: list[Any]) -> Source:
+    """Return single shapes as arrays."""
+
+    def column(name: str) -> NDArray[np.float64]:
+        return np.fromiter(map(operator.attrgetter(name), items), np.float64, len(items))
+
+    points = tuple(
+        np.stack([column(f"{name}.{axis}") for axis in "xyz"], axis=1) for name in kind.points
+    )
+    color = np.stack([column(f"color.{channel}") for channel in "rgb"], axis=1).astype(np.uint8)
+    return Source((*points, column("radius")), color, None, column("lambert"))
+
+
+def _from_arrays(kind: Kind, item: Any) -> Source:  # noqa: ANN401
+    """Return shapes given as arrays, without a copy where that can be."""
+    end = getattr(item, "color_end", None)
+    return Source(
+        (
+            *(_row_by_row(getattr(item, name)) for name in kind.points),
+            _row_by_row(np.atleast_1d(item.radius), np.float64),
+        ),
+        _row_by_row(np.atleast_2d(item.color)),
+        None if end is None else _row_by_row(np.atleast_2d(end)),
+        _row_by_row(np.atleast_1d(item.lambert), np.float64),
+    )
+
+
+def _row_by_row(values: Any, dtype: type[np.generic] | None = None) -> NDArray[Any]:  # noqa: ANN401
+    """Return an array as it should lie in memory; each render would copy others for the kernels."""
+    return np.require(values, dtype, ["C", "A"])
+
+
+def _join(parts: list[Source]) -> Source:
+    """Return the shapes of several sources as one."""
+    counts = [len(part.geometry[0]) for part in parts]
+    ends = [part.color if part.color_end is None else part.color_end for part in parts]
+    return Source(
+        tuple(_in_one(column, counts, np.float64) for column in zip(*_geometries(parts), strict=True)),
+        _in_one([part.color for part in parts], counts, np.uint8),
+        None
+        if all(part.color_end is None for part in parts)
+        else _in_one(ends, counts, np.uint8),
+        _in_one([part.lambert for part in parts], counts, np.float64),
+    )
+
+
+def _geometries(parts: list[Source]) -> list[tuple[NDArray[Any], ...]]:
+    return [part.geometry for part in parts]
+
+
+def _in_one(
+    columns: Sequence[NDArray[Any]], counts: list[int], dtype: type[np.generic]
+) -> NDArray[Any]:
+    """Return one array of the columns of several sources."""
+    whole = [
+        np.broadcast_to(column, (count, *column.shape[1:]))
+        for column, count in zip(columns, counts, strict=True)
+    ]
+    joined: NDArray[Any] = np.empty((sum(counts), *columns[0].shape[1:]), dtype)
+    # On its own, it may choose column by column: where one colour stands for all.
+    np.concatenate(whole, out=joined)
+    return joined
