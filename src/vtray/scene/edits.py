@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from vtray.base.errors import SceneError
+from vtray.scene.arrays import Arrays
 from vtray.scene.colors.color_arrays import color_array
 from vtray.scene.objects import Light, Object
-from vtray.scene.spheres import Spheres, from_arrays
 from vtray.scene.vectors import Color
 
 if TYPE_CHECKING:
@@ -46,13 +46,13 @@ def recolored(
     _check_index(index, len(objects))
     changed = list(objects)
     item = changed[index]
-    count = len(item) if isinstance(item, Spheres) else 1
+    count = len(item) if isinstance(item, Arrays) else 1
     colors, scale = color_array(
         color, count, "recolor: ", cmap=cmap, clim=clim, nan_color=nan_color
     )
-    if isinstance(item, Spheres):
+    if isinstance(item, Arrays):
         arrays = {**msgspec.structs.asdict(item), "color": colors}
-        changed[index] = from_arrays(arrays, "recolor: ").with_scale(scale)
+        changed[index] = type(item).from_arrays(arrays, "recolor: ").with_scale(scale)
     else:
         one = Color(*colors.reshape(3).tolist())
         changed[index] = item.replace(color=one)

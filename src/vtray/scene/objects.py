@@ -1,13 +1,10 @@
 """What a scene is made of: lights, spheres and planes, as the scene file defines them."""
 
 from types import MappingProxyType
-from typing import TYPE_CHECKING
-
-import msgspec
-from msgspec import UNSET, UnsetType
+from typing import TYPE_CHECKING, TypeAlias
 
 from vtray.scene.checks.checked import Frozen
-from vtray.scene.checks.limits import DataPath, Fraction, NonNegative
+from vtray.scene.checks.limits import Fraction, NonNegative
 from vtray.scene.spheres import Spheres
 from vtray.scene.vectors import Color, Direction, Vector
 
@@ -110,29 +107,7 @@ class Plane(Frozen, frozen=True, gc=False, tag_field="type", tag="plane"):
         ) -> None: ...
 
 
-class SpheresInFile(
-    msgspec.Struct, frozen=True, tag_field="type", tag="spheres", omit_defaults=True
-):
-    """Many spheres, whose numbers stand in a file of NumPy arrays.
+Object: TypeAlias = Sphere | Plane | Spheres
 
-    Attributes
-    ----------
-    data : str
-        Path of the arrays, relative to the scene file: a .npz file with the arrays center
-        and, where they are not keys of this object, radius, color and lambert; or a .npy
-        file with the centres alone.
-    radius : float, optional
-        Radius of all spheres, in scene units; for a .npz file, it may stand there.
-    color : Color, optional
-        Colour of all spheres; for a .npz file, it may stand there.
-    lambert : float, optional
-        Share of the light that the surfaces scatter; for a .npz file, it may stand there.
-    """
-
-    data: DataPath
-    radius: NonNegative | UnsetType = UNSET
-    color: Color | UnsetType = UNSET
-    lambert: Fraction | UnsetType = UNSET
-
-
-Object = Sphere | Plane | Spheres
+ARRAY_KINDS = {str(kind.__struct_config__.tag): kind for kind in (Spheres,)}
+"""The kinds of many objects as arrays, by what a file calls them."""
