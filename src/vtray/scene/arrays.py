@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 import msgspec
 
 from vtray.scene.checks.checked import Checked, Frozen, bind, make_unchecked
-from vtray.scene.checks.columns import NO_NAMES, Columns, check_arrays
+from vtray.scene.checks.columns import NO_NAMES, Columns, check_arrays, read_only
+from vtray.scene.checks.limits import Byte
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -15,7 +16,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from vtray.scene.colors.color_scale import ColorScale
+    from vtray.scene.colors.color_scale import ColorMap, ColorScale
+    from vtray.scene.colors.names import AnyColor
 
     Floats = NDArray[np.float64] | NDArray[np.float32]
     Bytes = NDArray[np.uint8]
@@ -50,6 +52,9 @@ class Arrays(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=True)
 
     COLUMNS: ClassVar[Columns]
 
+    EACH: ClassVar[str]
+    """What one of them is called in messages about colours."""
+
     __hash__ = None  # type: ignore[assignment]  # arrays are compared, and may change
 
     @classmethod
@@ -69,6 +74,45 @@ class Arrays(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=True)
         """
         made: Self = make_unchecked(cls, **check_arrays(cls.COLUMNS, values, place, called))
         return made
+
+    @classmethod
+    def colored(
+        cls,
+        values: Mapping[str, object],
+        colors: Mapping[str, object],
+        place: str,
+        called: Mapping[str, str] = NO_NAMES,
+        *,
+        cmap: "ColorMap | None",
+        clim: object,
+        nan_color: "AnyColor",
+    ) -> Self:
+        """Make objects whose colours are given in any of the ways of `Scene.add_spheres`.
+
+        Parameters
+        ----------
+        values, place, called
+            As for `from_arrays`; colours among the values are not looked at.
+        colors
+            What was given for each array of colours; one that may be left out is absent or None.
+        cmap, clim, nan_color
+            As for `Scene.add_spheres`.
+        """
+        from vtray.scene.colors.color_arrays import color_arrays
+
+        black = {
+            name: None if column.stand_in else (0, 0, 0)
+            for name, column in cls.COLUMNS.items()
+            if column.kind is Byte
+        }
+        plain = cls.from_arrays({**values, **black}, place, called)
+        given = {name: value for name, value in colors.items() if value is not None}
+        found, scale = color_arrays(
+            given, len(plain), place, each=cls.EACH, cmap=cmap, clim=clim, nan_color=nan_color
+        )
+        shared = {name: read_only(array) for name, array in found.items()}
+        made: Self = make_unchecked(cls, **{**msgspec.structs.asdict(plain), **shared})
+        return made.with_scale(scale)
 
     @property
     def color_scale(self) -> "ColorScale | None":

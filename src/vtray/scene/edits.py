@@ -1,13 +1,14 @@
 """Objects with other colours, and lights with other intensities."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
 from vtray.base.errors import SceneError
 from vtray.scene.arrays import Arrays
-from vtray.scene.colors.color_arrays import color_array
+from vtray.scene.checks.scene_words import show
+from vtray.scene.colors.color_arrays import color_arrays
 from vtray.scene.objects import Light, Object
 from vtray.scene.vectors import Color
 
@@ -23,11 +24,12 @@ def recolored(
     index: int,
     color: "AnyColor | ArrayLike | Sequence[AnyColor]",
     *,
+    color_end: "AnyColor | ArrayLike | Sequence[AnyColor] | None" = None,
     cmap: "ColorMap | None" = None,
     clim: tuple[float, float] | None = None,
     nan_color: "AnyColor" = "gray",
 ) -> list[Object]:
-    """Return objects of which one has another colour, or its spheres have.
+    """Return objects of which one has another colour, or those in its arrays have.
 
     Parameters
     ----------
@@ -35,8 +37,8 @@ def recolored(
         The objects.
     index
         The place of the one that changes; a negative one counts from the end.
-    color, cmap, clim, nan_color
-        The colours, as for `Scene.add_spheres`.
+    color, color_end, cmap, clim, nan_color
+        The colours, as for `Scene.add_cylinders`; without `color_end`, objects have one each.
 
     Raises
     ------
@@ -46,16 +48,17 @@ def recolored(
     _check_index(index, len(objects))
     changed = list(objects)
     item = changed[index]
-    count = len(item) if isinstance(item, Arrays) else 1
-    colors, scale = color_array(
-        color, count, "recolor: ", cmap=cmap, clim=clim, nan_color=nan_color
-    )
+    if color_end is not None and "color_end" not in item.__struct_fields__:
+        words = f"expected None, as only Cylinders have two colours, got {show(color_end)}"
+        message = f"recolor: color_end: {words}"
+        raise SceneError(message)
+    scale: dict[str, Any] = {"cmap": cmap, "clim": clim, "nan_color": nan_color}
     if isinstance(item, Arrays):
-        arrays = {**msgspec.structs.asdict(item), "color": colors}
-        changed[index] = type(item).from_arrays(arrays, "recolor: ").with_scale(scale)
+        colors = {"color": color, "color_end": color_end}
+        changed[index] = item.colored(msgspec.structs.asdict(item), colors, "recolor: ", **scale)
     else:
-        one = Color(*colors.reshape(3).tolist())
-        changed[index] = item.replace(color=one)
+        found, _ = color_arrays({"color": color}, 1, "recolor: ", **scale)
+        changed[index] = item.replace(color=Color(*found["color"].reshape(3).tolist()))
     return changed
 
 

@@ -1,10 +1,11 @@
-"""What a scene is made of: lights, spheres and planes, as the scene file defines them."""
+"""What a scene is made of: lights and single objects, as the scene file defines them."""
 
 from types import MappingProxyType
 from typing import TYPE_CHECKING, TypeAlias
 
 from vtray.scene.checks.checked import Frozen
 from vtray.scene.checks.limits import Fraction, NonNegative
+from vtray.scene.cylinders import Cylinders
 from vtray.scene.spheres import Spheres
 from vtray.scene.vectors import Color, Direction, Vector
 
@@ -72,6 +73,45 @@ class Sphere(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
         ) -> None: ...
 
 
+class Cylinder(Frozen, frozen=True, gc=False, tag_field="type", tag="cylinder"):
+    """A solid cylinder with flat caps and a matt surface, which can also be seen from inside.
+
+    In code, the colour is white and `lambert` 1 unless they are given.
+
+    Attributes
+    ----------
+    start : Vector
+        Middle of one cap in world space.
+    end : Vector
+        Middle of the other; a cylinder of length 0 is never hit.
+    radius : float
+        Radius in scene units, ≥ 0; a cylinder of radius 0 is never hit.
+    color : Color
+        Colour of the surface.
+    lambert : float
+        Share of the light that the surface scatters, from 0 to 1.
+    """
+
+    start: Vector
+    end: Vector
+    radius: NonNegative
+    color: Color
+    lambert: Fraction
+
+    _in_code = _SURFACE
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            start: "Vector | Triple",
+            end: "Vector | Triple",
+            radius: float,
+            color: "Color | Triple" = ...,
+            lambert: float = 1.0,
+        ) -> None: ...
+
+
 class Plane(Frozen, frozen=True, gc=False, tag_field="type", tag="plane"):
     """A plane without edges and with two matt sides.
 
@@ -107,7 +147,7 @@ class Plane(Frozen, frozen=True, gc=False, tag_field="type", tag="plane"):
         ) -> None: ...
 
 
-Object: TypeAlias = Sphere | Plane | Spheres
+Object: TypeAlias = Sphere | Cylinder | Plane | Spheres | Cylinders
 
-ARRAY_KINDS = {str(kind.__struct_config__.tag): kind for kind in (Spheres,)}
+ARRAY_KINDS = {str(kind.__struct_config__.tag): kind for kind in (Spheres, Cylinders)}
 """The kinds of many objects as arrays, by what a file calls them."""

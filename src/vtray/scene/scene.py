@@ -16,7 +16,8 @@ from vtray.scene.camera import Camera
 from vtray.scene.checks.checked import Checked
 from vtray.scene.checks.unknown_names import explain_unknown, unknown_attribute
 from vtray.scene.colors.names import to_rgb
-from vtray.scene.objects import Light, Object, Plane, Sphere
+from vtray.scene.cylinders import Cylinders
+from vtray.scene.objects import Cylinder, Light, Object, Plane, Sphere
 from vtray.scene.settings import RenderSettings
 from vtray.scene.spheres import Spheres
 from vtray.scene.vectors import Color, Direction, Vector
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
 __all__ = [
     "Camera",
     "Color",
+    "Cylinder",
+    "Cylinders",
     "Direction",
     "Light",
     "Object",
@@ -54,7 +57,7 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
         Where the picture is taken from; None until it is set.
     lights : list of Light
         The lights; may be empty.
-    objects : list of Sphere, Plane or Spheres
+    objects : list of Sphere, Cylinder, Plane, Spheres or Cylinders
         The objects; may be empty.
     render : RenderSettings
         How the picture is taken, unless `vtray.render` is told otherwise.
@@ -172,18 +175,107 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
             If an argument is not right. The message names the place, for instance
             ``add_spheres: radius[17]``.
         """
-        from vtray.scene.colors.color_arrays import color_array
-
-        place, called = "add_spheres: ", {"center": "positions"}
-        plain = {"center": positions, "radius": radius, "lambert": lambert}
-        spheres = Spheres.from_arrays({**plain, "color": (0, 0, 0)}, place, called)
-        colors, scale = color_array(
-            color, len(spheres), place, cmap=cmap, clim=clim, nan_color=nan_color
+        spheres = Spheres.colored(
+            {"center": positions, "radius": radius, "lambert": lambert},
+            {"color": color},
+            "add_spheres: ",
+            {"center": "positions"},
+            cmap=cmap,
+            clim=clim,
+            nan_color=nan_color,
         )
-        checked = {**msgspec.structs.asdict(spheres), "color": colors}
-        spheres = Spheres.from_arrays(checked, place, called).with_scale(scale)
         self.objects.append(spheres)
         return spheres
+
+    @explain_unknown
+    def add_cylinder(
+        self,
+        start: "Vector | Triple",
+        end: "Vector | Triple",
+        radius: float,
+        color: "AnyColor" = "white",
+        lambert: float = 1.0,
+    ) -> Cylinder:
+        """Add a solid cylinder with flat caps to the objects.
+
+        Parameters
+        ----------
+        start, end
+            Middles of its caps in world space.
+        radius
+            Radius in scene units, ≥ 0.
+        color
+            A colour, in any of the ways of `vtray.colors.to_rgb`.
+        lambert
+            Share of the light that the surface scatters, from 0 to 1.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right.
+        """
+        one = _argument("add_cylinder", "start", start, Vector)
+        other = _argument("add_cylinder", "end", end, Vector)
+        rgb = Color(*to_rgb(color, "add_cylinder: color"))
+        cylinder = Cylinder(one, other, radius, rgb, lambert)
+        self.objects.append(cylinder)
+        return cylinder
+
+    @explain_unknown
+    def add_cylinders(
+        self,
+        start: "ArrayLike",
+        end: "ArrayLike",
+        radius: "ArrayLike",
+        color: "AnyColor | ArrayLike | Sequence[AnyColor]" = "white",
+        lambert: "ArrayLike" = 1.0,
+        *,
+        color_end: "AnyColor | ArrayLike | Sequence[AnyColor] | None" = None,
+        cmap: "ColorMap | None" = None,
+        clim: tuple[float, float] | None = None,
+        nan_color: "AnyColor" = "gray",
+    ) -> Cylinders:
+        """Add many solid cylinders with flat caps to the objects: bonds, for instance.
+
+        Arrays may be of any package, and are shared, as for `add_spheres`.
+
+        Parameters
+        ----------
+        start, end
+            Middles of their caps in world space, each (n, 3).
+        radius
+            Radii in scene units, (n,), or one for all, ≥ 0.
+        color
+            The colours, in any of the ways of `add_spheres`.
+        lambert
+            Share of the light that the surfaces scatter, from 0 to 1, (n,), or one for all.
+        color_end
+            In the same ways, the colours of the halves at `end`; `color` is then that of the halves
+            at `start`. By default, each cylinder has one colour.
+        cmap, clim, nan_color
+            As for `add_spheres`; `color` and `color_end` are both values, with common limits.
+
+        Returns
+        -------
+        Cylinders
+            What was added; its `color_scale` tells how values became colours.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right. The message names the place, for instance
+            ``add_cylinders: end[17, 2]``.
+        """
+        cylinders = Cylinders.colored(
+            {"start": start, "end": end, "radius": radius, "lambert": lambert},
+            {"color": color, "color_end": color_end},
+            "add_cylinders: ",
+            cmap=cmap,
+            clim=clim,
+            nan_color=nan_color,
+        )
+        self.objects.append(cylinders)
+        return cylinders
 
     @explain_unknown
     def add_plane(

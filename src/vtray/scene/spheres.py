@@ -55,6 +55,7 @@ class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="s
     COLUMNS = MappingProxyType(
         {"center": POINT, "radius": RADIUS, "color": COLOR, "lambert": LAMBERT}
     )
+    EACH = "position"
     _in_code = MappingProxyType({"color": (255, 255, 255), "lambert": 1.0})
 
     if TYPE_CHECKING:  # what code may give, beside what the attributes hold

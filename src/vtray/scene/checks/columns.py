@@ -199,6 +199,11 @@ def _check_numbers(given: AnyArray, kind: Any, place: str) -> Any:  # noqa: ANN4
         array = array.astype(np.uint8, copy=False)
     if array.ndim == 0:
         return float(array)
+    return read_only(array)
+
+
+def read_only(array: AnyArray) -> AnyArray:
+    """Return a view of an array by which it cannot be changed."""
     view = array.view()
     view.flags.writeable = False
     return view

@@ -8,8 +8,9 @@ from msgspec import UNSET, UnsetType
 
 from vtray.scene.arrays import Arrays
 from vtray.scene.camera import Camera
-from vtray.scene.checks.limits import DataPath, Fraction, NonNegative
-from vtray.scene.objects import Light, Plane, Sphere
+from vtray.scene.checks.limits import DataPath, Fraction, NonNegative, NpzPath
+from vtray.scene.cylinders import Cylinders
+from vtray.scene.objects import Cylinder, Light, Plane, Sphere
 from vtray.scene.settings import RenderSettings
 from vtray.scene.spheres import Spheres
 from vtray.scene.vectors import Color
@@ -60,7 +61,39 @@ class SpheresInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="ty
     ALONE = "center"
 
 
-ObjectInFile: TypeAlias = Sphere | Plane | SpheresInFile
+class CylindersInFile(
+    ArraysInFile, frozen=True, omit_defaults=True, tag_field="type", tag="cylinders"
+):
+    """Many cylinders, whose numbers stand in a file of NumPy arrays.
+
+    Attributes
+    ----------
+    data : str
+        Path of the arrays, relative to the scene file: a .npz file with the arrays start, end
+        and, where they are not keys of this object, radius, color and lambert; color_end may be
+        in neither.
+    radius : float, optional
+        Radius of all cylinders, in scene units; it may stand in the file of arrays.
+    color : Color, optional
+        Colour of all cylinders, or of their halves at start if there is color_end; it may
+        stand in the file of arrays.
+    color_end : Color, optional
+        Colour of the halves at end; it may stand in the file of arrays, or be left out.
+    lambert : float, optional
+        Share of the light that the surfaces scatter; it may stand in the file of arrays.
+    """
+
+    data: NpzPath
+    radius: NonNegative | UnsetType = UNSET
+    color: Color | UnsetType = UNSET
+    color_end: Color | UnsetType = UNSET
+    lambert: Fraction | UnsetType = UNSET
+
+    MADE = Cylinders
+    ONE = Cylinder
+
+
+ObjectInFile: TypeAlias = Sphere | Cylinder | Plane | SpheresInFile | CylindersInFile
 
 KINDS: tuple[type[msgspec.Struct], ...] = typing.get_args(ObjectInFile)
 """The types of objects, in the order of messages."""
@@ -77,7 +110,7 @@ class SceneInFile(msgspec.Struct, omit_defaults=True):
         Where the picture is taken from.
     lights : list of Light
         The lights; may be empty.
-    objects : list of Sphere, Plane or SpheresInFile
+    objects : list of Sphere, Cylinder, Plane, SpheresInFile or CylindersInFile
         The objects; may be empty.
     render : RenderSettings, optional
         How the picture is taken.
