@@ -1,4 +1,4 @@
-"""vtray: an exact and fast ray tracer for spheres and planes.
+"""vtray: an exact and fast ray tracer for spheres, cylinders and planes.
 
 import vtray
 
@@ -18,9 +18,20 @@ if TYPE_CHECKING:
     from vtray.rendering.pixel_rays import trace_pixel
     from vtray.rendering.renderer import render
     from vtray.scene.colors.color_scale import ColorScale
+    from vtray.scene.cylinders import Cylinders
     from vtray.scene.files.scene_dict import load_dict
     from vtray.scene.files.scene_file import load, loads
-    from vtray.scene.scene import Camera, Color, Direction, Light, Plane, Scene, Sphere, Vector
+    from vtray.scene.scene import (
+        Camera,
+        Color,
+        Cylinder,
+        Direction,
+        Light,
+        Plane,
+        Scene,
+        Sphere,
+        Vector,
+    )
     from vtray.scene.settings import RenderSettings
     from vtray.scene.spheres import Spheres
 
@@ -28,6 +39,8 @@ __all__ = [
     "Camera",
     "Color",
     "ColorScale",
+    "Cylinder",
+    "Cylinders",
     "Direction",
     "Image",
     "Light",
@@ -61,6 +74,8 @@ _MODULES = {
     "Camera": "scene.camera",
     "Color": "scene.vectors",
     "ColorScale": "scene.colors.color_scale",
+    "Cylinder": "scene.objects",
+    "Cylinders": "scene.cylinders",
     "Direction": "scene.vectors",
     "Image": "image.image",
     "Light": "scene.objects",

@@ -78,7 +78,8 @@ def test_scene_changed_in_code_is_checked() -> None:
     document = vtray.loads(json.dumps(one_sphere()))
     document.objects.append("cube")
     with pytest.raises(
-        vtray.SceneError, match=r"Scene.objects\[1\]: expected Sphere, Plane or Spheres"
+        vtray.SceneError,
+        match=r"Scene.objects\[1\]: expected Sphere, Cylinder, Plane, Spheres or Cylinders",
     ):
         vtray.render(document)
 

@@ -10,8 +10,9 @@ from vtray.base.errors import SceneError
 from vtray.scene.files.scene_file import loads
 from vtray.scene.scene import Scene
 
-OBJECT = 'expected an object with "type": "sphere", "plane" or "spheres", got'
-TYPE = 'expected "sphere", "plane" or "spheres", got'
+TYPES = '"sphere", "cylinder", "plane", "spheres" or "cylinders"'
+OBJECT = f'expected an object with "type": {TYPES}, got'
+TYPE = f"expected {TYPES}, got"
 LIGHT = "expected an object with the keys location and intensity, got"
 BYTE = "expected an integer from 0 to 255, got"
 SIZE = "expected an integer from 1 to 2147483647, got"
@@ -39,7 +40,11 @@ BAD_VALUES: list[tuple[str, object, str]] = [
     ("objects[1].type", "$.objects[0]", f'{TYPE} "$.objects[0]"'),
     ("objects[1].type", ["plane"], f'{TYPE} ["plane"]'),
     ("objects[1].type", 7, f"{TYPE} 7"),
-    ("objects[1].type", ABSENT, 'missing; expected "sphere", "plane" or "spheres"'),
+    (
+        "objects[1].type",
+        ABSENT,
+        f"missing; expected {TYPES}",
+    ),
     ("objects[1]", [1, 2, [3, [4]]], f"{OBJECT} [1, 2, [3, [...]]]"),
     ("objects[1]", None, f"{OBJECT} null"),
     ("objects", {"a": 1}, 'expected an array, got {"a": 1}'),

@@ -16,6 +16,7 @@ from vtray.scene.scene import Camera, Color, Direction, Light, Plane, Scene, Sph
 CAMERA = Camera(Vector(0, 0, 0), Direction(0, 0, 1), 10, (4, 3), (0.5, 0.25))
 SPHERE = Sphere(Vector(1, 2, 3), 0.1, Color(1, 2, 255), 0.3)
 PLANE = Plane(Vector(0, 5, 0), Direction(0, -1, 0), Color(9, 8, 7), 1)
+OBJECTS = "expected Sphere, Cylinder, Plane, Spheres or Cylinders"
 LIGHT = Light(Vector(0.1, -0.0, 1e300), 1e-320)
 
 
@@ -148,12 +149,12 @@ def test_integers_may_be_written_as_floats() -> None:
         (
             Scene,
             (CAMERA, [], [{"x": 1}]),
-            "Scene.objects[0]: expected Sphere, Plane or Spheres, got {'x': 1}",
+            f"Scene.objects[0]: {OBJECTS}, got {{'x': 1}}",
         ),
         (
             Scene,
             (CAMERA, [], [LIGHT]),
-            "Scene.objects[0]: expected Sphere, Plane or Spheres, got Light(",
+            f"Scene.objects[0]: {OBJECTS}, got Light(",
         ),
         (Scene, (1, [], []), "Scene.camera: expected Camera, got 1"),
         (Scene, (CAMERA, [], [], 4), "Scene.render: expected RenderSettings, got 4"),
@@ -199,7 +200,10 @@ def test_check_after_changes() -> None:
     changed.objects.append(SPHERE)
     changed.check()
     changed.objects.append(LIGHT)  # type: ignore[arg-type]
-    with pytest.raises(SceneError, match=r"Scene.objects\[3\]: expected Sphere, Plane or Spheres"):
+    with pytest.raises(
+        SceneError,
+        match=rf"Scene.objects\[3\]: {OBJECTS}",
+    ):
         changed.check()
 
 

@@ -85,6 +85,7 @@ def test_files_of_plain_scenes_are_as_before(tmp_path: Path) -> None:
         assert json.loads(path.read_text()) == json.loads((tmp_path / "again.json").read_text())
 
 
+TYPES = '"sphere", "cylinder", "plane", "spheres" or "cylinders"'
 PARALLEL = "expected a direction that is not parallel to normal, got"
 FILTER = 'expected "box", "tent", "gaussian", "mitchell" or "blackman-harris", got'
 BACKGROUND = 'expected "black", "transparent" or an object with the keys r, g and b, got'
@@ -345,7 +346,7 @@ def test_dictionaries_of_numpy_and_tuples() -> None:
         (
             "objects[1].type",
             "planet",
-            'expected "sphere", "plane" or "spheres", got "planet"; did you mean "plane"?',
+            f'expected {TYPES}, got "planet"; did you mean "plane"?',
         ),
         (
             "lights[0]",
@@ -492,7 +493,10 @@ def test_import_is_light() -> None:
     [
         ({"note": "a: b"}, "more unknown keys, ignored"),
         ({"color": {"r": 1, "g": 2, "b": 3, "a": 4}}, "more unknown keys, ignored"),
-        ({"type": "ball"}, 'objects[9].type: expected "sphere", "plane" or "spheres", got "ball"'),
+        (
+            {"type": "ball"},
+            f'objects[9].type: expected {TYPES}, got "ball"',
+        ),
         ({"radius": ABSENT}, "objects[9].radius: missing; expected a number ≥ 0"),
     ],
 )

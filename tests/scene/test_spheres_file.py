@@ -428,17 +428,17 @@ def test_arrays_are_refused_before_they_are_read(
     def fail(*_: object) -> None:
         raise AssertionError("was read")
 
-    monkeypatch.setattr("vtray.scene.files.spheres_file.MAX_SPHERES", COUNT + 1)
+    monkeypatch.setattr("vtray.scene.files.named_arrays.MAX_SPHERES", COUNT + 1)
     save("atoms.npz", **columns(center=np.zeros((COUNT, 3))))
     assert len(spheres_of()) == COUNT  # beside the two objects of the scene
     data = json.loads(text_of())
     data["objects"].append(data["objects"][1])
-    monkeypatch.setattr("vtray.scene.files.spheres_file.MAX_SPHERES", 2 * COUNT)
+    monkeypatch.setattr("vtray.scene.files.named_arrays.MAX_SPHERES", 2 * COUNT)
     message = message_of(json.dumps(data))
     left = f"expected fewer spheres, got {COUNT}, {COUNT - 1} of {2 * COUNT} are left"
     assert message == f"objects[2].data: atoms.npz: center: {left}"
     monkeypatch.setattr(np.lib.format, "read_array", fail)
-    monkeypatch.setattr("vtray.scene.files.spheres_file.MAX_SPHERES", 3)
+    monkeypatch.setattr("vtray.scene.files.named_arrays.MAX_SPHERES", 3)
     assert "expected fewer spheres, got 5, 2 of 3 are left" in message_of(text_of())
     save("atoms.npz", **columns(radius=np.zeros(3)))
     assert f"{FIVE_NUMBERS} shape (3,)" in message_of(text_of())

@@ -21,7 +21,7 @@ from vtray.figures.section import (
 )
 from vtray.figures.traced_rays import ShadowRay, Surface, TracedRays
 from vtray.geometry.vector import Vec
-from vtray.scene.scene import Plane
+from vtray.scene.scene import Plane, Sphere
 from vtray.scene.spheres import Spheres
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ class _Drawing(Pen):
         steep = float(np.dot(tree.direction, tree.view.forward))
         reach = 3 * tree.view.focus
         for item in tree.scene.objects:
-            if not isinstance(item, Plane) and (not isinstance(item, Spheres) or len(item)):
+            if isinstance(item, Sphere) or (isinstance(item, Spheres) and len(item)):
                 center, _ = spheres_of(item)
                 ahead = (center - np.array(tree.origin)) @ np.array(tree.view.forward)
                 reach = max(reach, 1.15 * float(np.median(ahead)))

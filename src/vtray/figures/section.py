@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.figures.traced_rays import ShadowRay, TracedRays
-from vtray.scene.scene import Plane, Scene, Sphere
+from vtray.scene.scene import Scene, Sphere
 from vtray.scene.spheres import Spheres
 
 Floats = NDArray[np.float64]
@@ -89,7 +89,7 @@ def cut_spheres(scene: Scene, section: Section, box: Floats) -> tuple[Floats, Fl
     """Return the largest of the circles that a plane cuts out of spheres, within a box."""
     centers, radii = [np.zeros((0, 2))], [np.zeros(0)]
     for item in scene.objects:
-        if isinstance(item, Plane):
+        if not isinstance(item, (Sphere, Spheres)):
             continue
         center, radius = spheres_of(item)
         cut = section.cut(center, radius)

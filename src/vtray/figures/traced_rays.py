@@ -8,24 +8,26 @@ from vtray.scene.scene import Scene
 
 @dataclass(frozen=True)
 class Surface:
-    """A sphere or a plane of the scene.
+    """A sphere, a cylinder or a plane of the scene.
 
     Attributes
     ----------
     object
         Its place in ``scene.objects``.
     index
-        Its place in the arrays of `Spheres`; None for a `Sphere` and a `Plane`.
+        Its place in the arrays of `Spheres` or `Cylinders`; None for a single object.
     center
-        Centre of the sphere or a point of the plane, in world space.
+        Centre of the sphere, start of the cylinder, or a point of the plane, in world space.
     radius
-        Radius of the sphere in scene units; None for a plane.
+        Radius of the sphere or the cylinder in scene units; None for a plane.
     normal
-        Unit normal of the plane in world space; None for a sphere.
+        Unit normal of the plane in world space; None for others.
     color
         Red, green and blue, from 0 to 255.
     lambert
         Share of the light that it scatters, from 0 to 1.
+    end
+        End of the cylinder in world space; None for others.
     """
 
     object: int
@@ -35,11 +37,12 @@ class Surface:
     normal: Vec | None
     color: Vec
     lambert: float
+    end: Vec | None = None
 
     def __str__(self) -> str:
-        if self.index is not None:
-            return f"objects[{self.object}], sphere {self.index}"
-        return f"objects[{self.object}], a {'plane' if self.radius is None else 'sphere'}"
+        name = "plane" if self.radius is None else "sphere" if self.end is None else "cylinder"
+        which = f"a {name}" if self.index is None else f"{name} {self.index}"
+        return f"objects[{self.object}], {which}"
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ hierarchy, and kept until they change. A new camera, light or plane costs no new
 
 import operator
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -113,10 +113,14 @@ class Acceleration:
     @property
     def memory(self) -> int:
         """Bytes that are used beside the arrays that were given."""
-        arrays = [*self.bvh]
+        arrays: list[NDArray[Any]] = [*self.bvh]
         for shapes in self.shapes:
             geometry, *rest = shapes.source
-            arrays += [*shapes.columns, *geometry, *(column for column in rest if column is not None)]
+            arrays += [
+                *shapes.columns,
+                *geometry,
+                *(column for column in rest if column is not None),
+            ]
         return sum(array.nbytes for array in arrays if array.base is None)
 
 
@@ -161,7 +165,7 @@ def _make(
     if len(trees) > 1:
         bvh, roots = join_trees(trees, threads)
         shapes = [
-            one if one.root == NO_TREE else replace_root(one, int(roots[one.root]))
+            one if one.root == NO_TREE else replace(one, root=int(roots[one.root]))
             for one in shapes
         ]
     else:

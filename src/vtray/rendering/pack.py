@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import input_array
-from vtray.geometry.bvh.tree import no_bvh
+from vtray.geometry.bvh.tree import Frame, no_bvh
 from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.vector import Vec
-from vtray.geometry.world import NO_TREE, PLANE, SPHERE, Groups, ToBoxes, World
+from vtray.geometry.world import CYLINDER, NO_TREE, PLANE, SPHERE, Groups, ToBoxes, World
 from vtray.rendering.hierarchy import Acceleration
 from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
@@ -72,28 +72,34 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
 
 def _pack_world(planes: list[Plane], kept: Acceleration, unit: float, origin: Vec) -> World:
     """Return what rays can meet."""
-    count = len(kept.leaves.number)
-    to_boxes = _pack_to_boxes(kept, origin, unit)
-    bvh = kept.bvh if to_boxes.ratio < LARGEST_RATIO else no_bvh()
-    root = 0 if len(bvh.child) else NO_TREE
-    frame = 0.0, 0.0, 0.0, to_boxes.ratio, *to_boxes.offset
-    rows = [
-        ((PLANE, 0, len(planes), NO_TREE, count), frame),
-        ((SPHERE, 0, count, root, 0), frame),
-    ]
-    rows = [row for row in rows if row[0][2]]
-    columns = np.array([row for row, _ in rows], np.int64).reshape(-1, 5).T
-    kind, begin, end, root, number = np.ascontiguousarray(columns)
-    frames = np.array([frame for _, frame in rows]).reshape(-1, 7)
+    rows: list[tuple[tuple[int, ...], tuple[float, ...]]] = []
+    columns: dict[int, Columns] = {}
+    number = 0
+    for shapes in kept.shapes:
+        to_boxes = _pack_to_boxes(shapes.frame, origin, unit)
+        root = shapes.root if to_boxes.ratio < LARGEST_RATIO else NO_TREE
+        frame = 0.0, 0.0, 0.0, to_boxes.ratio, *to_boxes.offset
+        rows.append(((shapes.kind.shape, 0, shapes.count, root, number), frame))
+        columns[shapes.kind.shape] = shapes.columns
+        number += shapes.count
+    rows.insert(0, ((PLANE, 0, len(planes), NO_TREE, number), (0.0,) * 7))
     return World(
-        Groups(kind, begin, end, root, number, frames),
+        _pack_groups([row for row in rows if row[0][2]]),
         _pack_planes(planes),
-        Columns(*kept.leaves),
-        None,
-        bvh,
+        columns[SPHERE],
+        columns[CYLINDER] if columns[CYLINDER].number.size else None,
+        kept.bvh if any(row[3] != NO_TREE for row, _ in rows) else no_bvh(),
         1.0 / unit,
         origin,
     )
+
+
+def _pack_groups(rows: list[tuple[tuple[int, ...], tuple[float, ...]]]) -> Groups:
+    """Return groups, a row for each: its integers, and where it stands."""
+    columns = np.array([integers for integers, _ in rows], np.int64).reshape(-1, 5).T
+    kind, begin, end, root, number = np.ascontiguousarray(columns)
+    frames = np.array([frame for _, frame in rows]).reshape(-1, 7)
+    return Groups(kind, begin, end, root, number, frames)
 
 
 def start_distance(camera: Camera) -> float:
@@ -179,10 +185,10 @@ def _pack_pixel(camera: Camera) -> Vec:
     return width, height, max(math.ldexp(camera.focus, own), sys.float_info.min)
 
 
-def _pack_to_boxes(kept: Acceleration, origin: Vec, unit: float) -> ToBoxes:
+def _pack_to_boxes(frame: Frame, origin: Vec, unit: float) -> ToBoxes:
     """Return what leads to the space of the boxes."""
-    ratio = kept.frame.scale * unit
-    (x, y, z), (a, b, c) = origin, kept.frame.origin
+    ratio = frame.scale * unit
+    (x, y, z), (a, b, c) = origin, frame.origin
     return ToBoxes(ratio, (x * ratio - a, y * ratio - b, z * ratio - c))
 
 
@@ -190,20 +196,28 @@ def _pack_materials(kept: Acceleration, planes: list[Plane]) -> Materials:
     """Return the materials of all primitives, a range for each kind of shape."""
     plane_color = [(plane.color.r, plane.color.g, plane.color.b) for plane in planes]
     plane_lambert = [plane.lambert for plane in planes]
-    colors = [kept.source.color, np.array(plane_color, np.uint8).reshape(-1, 3)]
-    lamberts = [kept.source.lambert, np.array(plane_lambert, np.float64)]
-    counts = np.array([len(kept.leaves.number), len(planes)])
-    color_row, color_step = _rows(colors)
+    sources = [shapes.source for shapes in kept.shapes]
+    colors = [source.color for source in sources]
+    colors.append(np.array(plane_color, np.uint8).reshape(-1, 3))
+    ends = [source.color_end for source in sources if source.color_end is not None]
+    lamberts = [source.lambert for source in sources]
+    lamberts.append(np.array(plane_lambert, np.float64))
+    counts = np.array([*(shapes.count for shapes in kept.shapes), len(planes)])
+    row, step = _rows([*colors, *ends])
+    color_row, color_step = row[: len(colors)], step[: len(colors)]
+    end_row, end_step = color_row.copy(), color_step.copy()
+    halved = [k for k, source in enumerate(sources) if source.color_end is not None]
+    end_row[halved], end_step[halved] = row[len(colors) :], step[len(colors) :]
     lambert_row, lambert_step = _rows(lamberts)
     return Materials(
         np.cumsum(counts) - counts,
         color_row,
         color_step,
-        color_row,
-        color_step,
+        end_row,
+        end_step,
         lambert_row,
         lambert_step,
-        _joined(colors, np.uint8),
+        _joined([*colors, *ends], np.uint8),
         _joined(lamberts, np.float64),
     )
 

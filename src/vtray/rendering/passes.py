@@ -97,7 +97,7 @@ class Tracer:
             return self._middles(middle_rays(), keep, "linear")
         self._passes = 2
         footprint = filter_footprint(settings, self._scene.camera)
-        wanted = "linear", "primitive", "shadows", "rims"
+        wanted = "linear", "primitive", "half", "shadows", "rims"
         found = self._middles(middle_rays(footprint), keep, *wanted)
         marks, peak = self._mark(found.film, settings)
         coverage = (found.film.primitive >= 0).astype(np.float64)

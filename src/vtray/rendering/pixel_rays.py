@@ -1,7 +1,7 @@
 """Tracing the rays of one pixel, to be looked at."""
 
 import operator
-from typing import TYPE_CHECKING, SupportsIndex
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 import numpy as np
 
@@ -11,11 +11,14 @@ from vtray.base.exact_math import hypotenuse
 from vtray.figures.ray_tree import Exposed, Hit, RayTree, ShadowRay, Surface, View
 from vtray.geometry.queries import NOTHING, new_stack
 from vtray.geometry.vector import Vec, add, scale
-from vtray.rendering.hierarchy import Acceleration, accelerate, locate
+from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import Packed, pack
+from vtray.rendering.shape_kinds import KINDS, locate
+from vtray.scene.arrays import Arrays
+from vtray.scene.objects import Plane
 from vtray.scene.placing.directions import unit
-from vtray.scene.scene import Plane, Scene
-from vtray.scene.spheres import Spheres
+from vtray.scene.scene import Scene
+from vtray.scene.vectors import Color, Vector
 from vtray.transport.integrators.reference import trace_pixel as trace_one
 
 if TYPE_CHECKING:
@@ -81,14 +84,14 @@ def trace_rays(
     hit, lights = None, []
     if traced.primitive != NOTHING:
         hit = Hit(
-            _surface(scene, kept, traced.primitive),
+            _surface(scene, traced.primitive, is_second=traced.interaction.is_second),
             traced.distance * packed.unit + packed.before,
             _world(scene, packed, traced.interaction.point),
             traced.interaction.normal,
         )
         for k in range(len(scene.lights)):
             number = int(blockers[k])
-            blocker = None if number == NOTHING else _surface(scene, kept, number)
+            blocker = None if number == NOTHING else _surface(scene, number)
             lights.append(_shadow_ray(scene, hit, k, float(cosines[k]), blocker))
     return RayTree(
         (column, row),
@@ -120,32 +123,48 @@ def _shadow_ray(
     return ShadowRay(number, place, light.intensity, way, distance, cosine, blocker, adds)
 
 
-def _surface(scene: Scene, kept: Acceleration, primitive: int) -> Surface:
-    """Return the sphere or the plane that has this number in the arrays."""
-    count = len(kept.leaves.number)
-    if primitive >= count:
-        planes = [place for place, item in enumerate(scene.objects) if isinstance(item, Plane)]
-        number = primitive - count
-        return _single(scene, planes[number])
-    place, index = locate(scene, kept, primitive)
-    item = scene.objects[place]
-    if not isinstance(item, Spheres):
-        return _single(scene, place)
-    x, y, z = map(float, item.center[index])
-    red, green, blue = map(float, item.color if item.color.ndim == 1 else item.color[index])
-    radius = float(np.broadcast_to(item.radius, len(item))[index])
-    lambert = float(np.broadcast_to(item.lambert, len(item))[index])
-    return Surface(place, index, (x, y, z), radius, None, (red, green, blue), lambert)
+def _surface(scene: Scene, primitive: int, *, is_second: bool = False) -> Surface:
+    """Return the primitive of a number, its colour as on its first or its second half."""
+    place, index = locate(scene.objects, primitive)
+    item: Any = scene.objects[place]
+    if isinstance(item, Plane):
+        center, normal = _vec(item.center), unit(item.normal)
+        return Surface(place, None, center, None, normal, _rgb(item.color), item.lambert)
+    (kind,) = (kind for kind in KINDS if isinstance(item, (kind.single, kind.arrays)))
+    single = isinstance(item, kind.single)
+    if single:
+        points = [_vec(getattr(item, name)) for name in kind.points]
+        color, radius, lambert, number = _rgb(item.color), item.radius, item.lambert, None
+    else:
+        points = [_row(item, name, index) for name in kind.points]
+        halves = is_second and getattr(item, "color_end", None) is not None
+        color = _row(item, "color_end" if halves else "color", index)
+        radius, lambert = _number(item, "radius", index), _number(item, "lambert", index)
+        number = index
+    end = points[1] if len(points) > 1 else None
+    return Surface(place, number, points[0], radius, None, color, lambert, end)
 
 
-def _single(scene: Scene, place: int) -> Surface:
-    """Return the surface of an object that is one sphere, or one plane."""
-    item = scene.objects[place]
-    assert not isinstance(item, Spheres)  # noqa: S101
-    center = (item.center.x, item.center.y, item.center.z)
-    color = (float(item.color.r), float(item.color.g), float(item.color.b))
-    radius, normal = (None, unit(item.normal)) if isinstance(item, Plane) else (item.radius, None)
-    return Surface(place, None, center, radius, normal, color, item.lambert)
+def _vec(point: Vector) -> Vec:
+    """Return a point as a tuple."""
+    return point.x, point.y, point.z
+
+
+def _rgb(color: Color) -> Vec:
+    """Return a colour as a tuple."""
+    return float(color.r), float(color.g), float(color.b)
+
+
+def _row(item: Arrays, name: str, index: int) -> Vec:
+    """Return a row of an array, in which one may stand for all."""
+    column = getattr(item, name)
+    x, y, z = map(float, column if column.ndim == 1 else column[index])
+    return x, y, z
+
+
+def _number(item: Arrays, name: str, index: int) -> float:
+    """Return a number of an array, or the one that stands for all."""
+    return float(np.broadcast_to(getattr(item, name), len(item))[index])
 
 
 def _view(scene: Scene, packed: Packed) -> View:

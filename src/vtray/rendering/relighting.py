@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 
 from vtray.base.pool import run_tasks
 from vtray.base.tiles import TILE
-from vtray.rendering.hierarchy import Acceleration, collect, spheres_of
+from vtray.rendering.hierarchy import Acceleration
 from vtray.rendering.pack import pack
+from vtray.rendering.shape_kinds import collect
 from vtray.scene.scene import Scene
 from vtray.transport.light_buffer import KeptLight, add_up_rows
 
@@ -19,7 +20,7 @@ class Relighting:
     Parameters
     ----------
     kept
-        The spheres of the scene that was traced.
+        The shapes of the scene that was traced.
     passes
         What was kept of the rays of each pass; a later one replaces pixels of those before it.
     samples
@@ -45,8 +46,11 @@ class Relighting:
             The scene that was traced, but for the intensities of its lights and the colours of its
             objects.
         """
-        spheres = replace(self._kept, source=collect(spheres_of(scene)))
-        arrays = pack(scene, spheres).arrays
+        shapes = (
+            replace(one, source=collect(one.kind, one.kind.items_of(scene.objects)))
+            for one in self._kept.shapes
+        )
+        arrays = pack(scene, replace(self._kept, shapes=tuple(shapes))).arrays
         linear = np.zeros((arrays.camera.height, arrays.camera.width, 3))
         for kept, samples in zip(self._passes, (1, self._samples), strict=False):
 

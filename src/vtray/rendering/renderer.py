@@ -146,7 +146,7 @@ def render(
         shown,
         settings,
         {},
-        look=Look(shown, kept, packed, threads),
+        look=Look(shown, packed, threads),
         alpha=traced.film.coverage if settings.samples > 1 else None,
         relighting=Relighting(kept, traced.kept, int(settings.samples), threads)
         if keep_lights

@@ -193,11 +193,11 @@ def _join(parts: list[Source]) -> Source:
     counts = [len(part.geometry[0]) for part in parts]
     ends = [part.color if part.color_end is None else part.color_end for part in parts]
     return Source(
-        tuple(_in_one(column, counts, np.float64) for column in zip(*_geometries(parts), strict=True)),
+        tuple(
+            _in_one(column, counts, np.float64) for column in zip(*_geometries(parts), strict=True)
+        ),
         _in_one([part.color for part in parts], counts, np.uint8),
-        None
-        if all(part.color_end is None for part in parts)
-        else _in_one(ends, counts, np.uint8),
+        None if all(part.color_end is None for part in parts) else _in_one(ends, counts, np.uint8),
         _in_one([part.lambert for part in parts], counts, np.float64),
     )
 

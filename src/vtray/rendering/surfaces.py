@@ -5,9 +5,9 @@ import sys
 import numpy as np
 
 from vtray.image.surfaces import Surfaces
-from vtray.rendering.hierarchy import Acceleration, locate_all
 from vtray.rendering.pack import Packed
 from vtray.rendering.passes import Tracer
+from vtray.rendering.shape_kinds import locate_all
 from vtray.scene.scene import Scene
 
 
@@ -18,17 +18,14 @@ class Look:
     ----------
     scene
         The scene as it was rendered.
-    kept
-        Its spheres.
     packed
         Its arrays.
     threads
         How many threads to use at the most.
     """
 
-    def __init__(self, scene: Scene, kept: Acceleration, packed: Packed, threads: int) -> None:
+    def __init__(self, scene: Scene, packed: Packed, threads: int) -> None:
         self._scene = scene
-        self._kept = kept
         self._packed = packed
         self._threads = threads
 
@@ -42,5 +39,5 @@ class Look:
         return Surfaces(
             depth,
             film.normal,
-            locate_all(self._scene, self._kept, film.primitive),
+            locate_all(self._scene.objects, film.primitive),
         )

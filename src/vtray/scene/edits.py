@@ -1,15 +1,16 @@
 """Scenes with other colours of an object, and with other intensities of the lights."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
 from vtray.base.errors import SceneError
-from vtray.scene.colors.color_arrays import color_array
+from vtray.scene.arrays import Arrays
+from vtray.scene.checks.scene_words import show
+from vtray.scene.colors.color_arrays import color_arrays
 from vtray.scene.objects import Light
 from vtray.scene.scene import Scene
-from vtray.scene.spheres import Spheres, from_arrays
 from vtray.scene.vectors import Color
 
 if TYPE_CHECKING:
@@ -24,11 +25,12 @@ def recolored(
     index: int,
     color: "AnyColor | ArrayLike | Sequence[AnyColor]",
     *,
+    color_end: "AnyColor | ArrayLike | Sequence[AnyColor] | None" = None,
     cmap: "ColorMap | None" = None,
     clim: tuple[float, float] | None = None,
     nan_color: "AnyColor" = "gray",
 ) -> Scene:
-    """Return a scene in which one object has another colour, or its spheres have.
+    """Return a scene in which one object has another colour, or those in its arrays have.
 
     Parameters
     ----------
@@ -36,8 +38,8 @@ def recolored(
         The scene.
     index
         The place of the one that changes; a negative one counts from the end.
-    color, cmap, clim, nan_color
-        The colours, as for `Scene.add_spheres`.
+    color, color_end, cmap, clim, nan_color
+        The colours, as for `Scene.add_cylinders`; without `color_end`, objects have one each.
 
     Raises
     ------
@@ -47,16 +49,17 @@ def recolored(
     changed = list(scene.objects)
     _check_index(index, len(changed))
     item = changed[index]
-    count = len(item) if isinstance(item, Spheres) else 1
-    colors, scale = color_array(
-        color, count, "recolor: ", cmap=cmap, clim=clim, nan_color=nan_color
-    )
-    if isinstance(item, Spheres):
-        arrays = {**msgspec.structs.asdict(item), "color": colors}
-        changed[index] = from_arrays(arrays, "recolor: ").with_scale(scale)
+    if color_end is not None and "color_end" not in item.__struct_fields__:
+        words = f"expected None, as only Cylinders have two colours, got {show(color_end)}"
+        message = f"recolor: color_end: {words}"
+        raise SceneError(message)
+    scale: dict[str, Any] = {"cmap": cmap, "clim": clim, "nan_color": nan_color}
+    if isinstance(item, Arrays):
+        colors = {"color": color, "color_end": color_end}
+        changed[index] = item.colored(msgspec.structs.asdict(item), colors, "recolor: ", **scale)
     else:
-        one = Color(*colors.reshape(3).tolist())
-        changed[index] = item.replace(color=one)
+        found, _ = color_arrays({"color": color}, 1, "recolor: ", **scale)
+        changed[index] = item.replace(color=Color(*found["color"].reshape(3).tolist()))
     return Scene(scene.camera, scene.lights, changed, scene.render)
 
 

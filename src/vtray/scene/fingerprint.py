@@ -12,8 +12,8 @@ from blake3 import blake3
 from numpy.typing import NDArray
 
 from vtray.base.pool import run_tasks
+from vtray.scene.arrays import Arrays
 from vtray.scene.scene import Scene
-from vtray.scene.spheres import COLUMNS, Spheres
 
 PIECE = 1 << 20
 """Bytes, about, that are hashed as one task."""
@@ -52,9 +52,10 @@ def _pieces_of(values: NDArray[Any]) -> Iterable[NDArray[Any]]:
     return [values[begin : begin + step] for begin in range(0, len(values), step)]
 
 
-def arrays_of(spheres: Spheres) -> list[NDArray[Any]]:
-    """Return what the attributes of spheres hold, as arrays."""
-    return [np.asarray(getattr(spheres, name)) for name in COLUMNS]
+def arrays_of(item: Arrays) -> list[NDArray[Any]]:
+    """Return what the attributes of many objects hold, as arrays, but for what was left out."""
+    values = (getattr(item, name) for name in item.COLUMNS)
+    return [np.asarray(value) for value in values if value is not None]
 
 
 def scene_hash(scene: Scene, threads: int = THREADS) -> str:
@@ -75,8 +76,9 @@ def scene_hash(scene: Scene, threads: int = THREADS) -> str:
     """
     parts: list[object] = [scene.camera, scene.lights]
     for item in scene.objects:
-        if isinstance(item, Spheres):
-            parts += ["spheres", hash_arrays(arrays_of(item), threads).hex()]
+        if isinstance(item, Arrays):
+            tag = item.__struct_config__.tag
+            parts += [tag, hash_arrays(arrays_of(item), threads).hex()]
         else:
             parts.append(item)
     return blake3(msgspec.json.encode(parts)).hexdigest(DIGITS // 2)

@@ -1,13 +1,11 @@
-"""What a scene is made of: lights, spheres and planes, as the scene file defines them."""
+"""What a scene is made of: lights and single objects, as the scene file defines them."""
 
 from types import MappingProxyType
-from typing import TYPE_CHECKING
-
-import msgspec
-from msgspec import UNSET, UnsetType
+from typing import TYPE_CHECKING, TypeAlias
 
 from vtray.scene.checks.checked import Frozen
-from vtray.scene.checks.limits import DataPath, Fraction, NonNegative
+from vtray.scene.checks.limits import Fraction, NonNegative
+from vtray.scene.cylinders import Cylinders
 from vtray.scene.spheres import Spheres
 from vtray.scene.vectors import Color, Direction, Vector
 
@@ -75,6 +73,45 @@ class Sphere(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
         ) -> None: ...
 
 
+class Cylinder(Frozen, frozen=True, gc=False, tag_field="type", tag="cylinder"):
+    """A solid cylinder with flat caps and a matt surface, which can also be seen from inside.
+
+    In code, the colour is white and `lambert` 1 unless they are given.
+
+    Attributes
+    ----------
+    start : Vector
+        Middle of one cap in world space.
+    end : Vector
+        Middle of the other; a cylinder of length 0 is never hit.
+    radius : float
+        Radius in scene units, ≥ 0; a cylinder of radius 0 is never hit.
+    color : Color
+        Colour of the surface.
+    lambert : float
+        Share of the light that the surface scatters, from 0 to 1.
+    """
+
+    start: Vector
+    end: Vector
+    radius: NonNegative
+    color: Color
+    lambert: Fraction
+
+    _in_code = _SURFACE
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            start: "Vector | Triple",
+            end: "Vector | Triple",
+            radius: float,
+            color: "Color | Triple" = ...,
+            lambert: float = 1.0,
+        ) -> None: ...
+
+
 class Plane(Frozen, frozen=True, gc=False, tag_field="type", tag="plane"):
     """A plane without edges and with two matt sides.
 
@@ -110,29 +147,7 @@ class Plane(Frozen, frozen=True, gc=False, tag_field="type", tag="plane"):
         ) -> None: ...
 
 
-class SpheresInFile(
-    msgspec.Struct, frozen=True, tag_field="type", tag="spheres", omit_defaults=True
-):
-    """Many spheres, whose numbers stand in a file of NumPy arrays.
+Object: TypeAlias = Sphere | Cylinder | Plane | Spheres | Cylinders
 
-    Attributes
-    ----------
-    data : str
-        Path of the arrays, relative to the scene file: a .npz file with the arrays center
-        and, where they are not keys of this object, radius, color and lambert; or a .npy
-        file with the centres alone.
-    radius : float, optional
-        Radius of all spheres, in scene units; for a .npz file, it may stand there.
-    color : Color, optional
-        Colour of all spheres; for a .npz file, it may stand there.
-    lambert : float, optional
-        Share of the light that the surfaces scatter; for a .npz file, it may stand there.
-    """
-
-    data: DataPath
-    radius: NonNegative | UnsetType = UNSET
-    color: Color | UnsetType = UNSET
-    lambert: Fraction | UnsetType = UNSET
-
-
-Object = Sphere | Plane | Spheres
+ARRAY_KINDS = {str(kind.__struct_config__.tag): kind for kind in (Spheres, Cylinders)}
+"""The kinds of many objects as arrays, by what a file calls them."""

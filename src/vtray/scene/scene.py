@@ -1,24 +1,23 @@
 """The scene: plain typed objects that are also the definition of the scene file.
 
-The file format, its checks, the words of its error messages and the JSON Schema all come
-from the annotations in this module.
+The file format, its checks, the words of its error messages and the JSON Schema all come from the
+annotations of these types, and of those in `vtray.scene.files.in_file`.
 """
 
-import itertools
 import os
-from collections.abc import Container, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import msgspec
-from msgspec import UNSET, UnsetType
 
-from vtray.base.errors import OutputError, SceneError
+from vtray.base.errors import SceneError
+from vtray.scene.arrays import Arrays
 from vtray.scene.camera import Camera
 from vtray.scene.checks.checked import Checked
 from vtray.scene.checks.unknown_names import explain_unknown, unknown_attribute
 from vtray.scene.colors.names import to_rgb
-from vtray.scene.objects import Light, Object, Plane, Sphere, SpheresInFile
+from vtray.scene.cylinders import Cylinders
+from vtray.scene.objects import Cylinder, Light, Object, Plane, Sphere
 from vtray.scene.settings import RenderSettings
 from vtray.scene.spheres import Spheres
 from vtray.scene.vectors import Color, Direction, Vector
@@ -33,38 +32,17 @@ if TYPE_CHECKING:
 __all__ = [
     "Camera",
     "Color",
+    "Cylinder",
+    "Cylinders",
     "Direction",
     "Light",
     "Object",
     "Plane",
     "Scene",
-    "SceneInFile",
     "Sphere",
     "Spheres",
-    "SpheresInFile",
     "Vector",
 ]
-
-
-class SceneInFile(msgspec.Struct, omit_defaults=True):
-    """All that a picture is made from.
-
-    Attributes
-    ----------
-    camera : Camera
-        Where the picture is taken from.
-    lights : list of Light
-        The lights; may be empty.
-    objects : list of Sphere, Plane or SpheresInFile
-        The objects; may be empty.
-    render : RenderSettings, optional
-        How the picture is taken.
-    """
-
-    camera: Camera
-    lights: list[Light]
-    objects: list[Sphere | Plane | SpheresInFile]
-    render: RenderSettings | UnsetType = UNSET
 
 
 class Scene(msgspec.Struct, metaclass=Checked, dict=True):
@@ -79,7 +57,7 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
         Where the picture is taken from; None until it is set.
     lights : list of Light
         The lights; may be empty.
-    objects : list of Sphere, Plane or Spheres
+    objects : list of Sphere, Cylinder, Plane, Spheres or Cylinders
         The objects; may be empty.
     render : RenderSettings
         How the picture is taken, unless `vtray.render` is told otherwise.
@@ -197,19 +175,107 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
             If an argument is not right. The message names the place, for instance
             ``add_spheres: radius[17]``.
         """
-        from vtray.scene.colors.color_arrays import color_array
-        from vtray.scene.spheres import from_arrays
-
-        place, called = "add_spheres: ", {"center": "positions"}
-        plain = {"center": positions, "radius": radius, "lambert": lambert}
-        spheres = from_arrays({**plain, "color": (0, 0, 0)}, place, called)
-        colors, scale = color_array(
-            color, len(spheres), place, cmap=cmap, clim=clim, nan_color=nan_color
+        spheres = Spheres.colored(
+            {"center": positions, "radius": radius, "lambert": lambert},
+            {"color": color},
+            "add_spheres: ",
+            {"center": "positions"},
+            cmap=cmap,
+            clim=clim,
+            nan_color=nan_color,
         )
-        checked = {**msgspec.structs.asdict(spheres), "color": colors}
-        spheres = from_arrays(checked, place, called).with_scale(scale)
         self.objects.append(spheres)
         return spheres
+
+    @explain_unknown
+    def add_cylinder(
+        self,
+        start: "Vector | Triple",
+        end: "Vector | Triple",
+        radius: float,
+        color: "AnyColor" = "white",
+        lambert: float = 1.0,
+    ) -> Cylinder:
+        """Add a solid cylinder with flat caps to the objects.
+
+        Parameters
+        ----------
+        start, end
+            Middles of its caps in world space.
+        radius
+            Radius in scene units, ≥ 0.
+        color
+            A colour, in any of the ways of `vtray.colors.to_rgb`.
+        lambert
+            Share of the light that the surface scatters, from 0 to 1.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right.
+        """
+        one = _argument("add_cylinder", "start", start, Vector)
+        other = _argument("add_cylinder", "end", end, Vector)
+        rgb = Color(*to_rgb(color, "add_cylinder: color"))
+        cylinder = Cylinder(one, other, radius, rgb, lambert)
+        self.objects.append(cylinder)
+        return cylinder
+
+    @explain_unknown
+    def add_cylinders(
+        self,
+        start: "ArrayLike",
+        end: "ArrayLike",
+        radius: "ArrayLike",
+        color: "AnyColor | ArrayLike | Sequence[AnyColor]" = "white",
+        lambert: "ArrayLike" = 1.0,
+        *,
+        color_end: "AnyColor | ArrayLike | Sequence[AnyColor] | None" = None,
+        cmap: "ColorMap | None" = None,
+        clim: tuple[float, float] | None = None,
+        nan_color: "AnyColor" = "gray",
+    ) -> Cylinders:
+        """Add many solid cylinders with flat caps to the objects: bonds, for instance.
+
+        Arrays may be of any package, and are shared, as for `add_spheres`.
+
+        Parameters
+        ----------
+        start, end
+            Middles of their caps in world space, each (n, 3).
+        radius
+            Radii in scene units, (n,), or one for all, ≥ 0.
+        color
+            The colours, in any of the ways of `add_spheres`.
+        lambert
+            Share of the light that the surfaces scatter, from 0 to 1, (n,), or one for all.
+        color_end
+            In the same ways, the colours of the halves at `end`; `color` is then that of the halves
+            at `start`. By default, each cylinder has one colour.
+        cmap, clim, nan_color
+            As for `add_spheres`; `color` and `color_end` are both values, with common limits.
+
+        Returns
+        -------
+        Cylinders
+            What was added; its `color_scale` tells how values became colours.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right. The message names the place, for instance
+            ``add_cylinders: end[17, 2]``.
+        """
+        cylinders = Cylinders.colored(
+            {"start": start, "end": end, "radius": radius, "lambert": lambert},
+            {"color": color, "color_end": color_end},
+            "add_cylinders: ",
+            cmap=cmap,
+            clim=clim,
+            nan_color=nan_color,
+        )
+        self.objects.append(cylinders)
+        return cylinders
 
     @explain_unknown
     def add_plane(
@@ -276,10 +342,9 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
         if _is_none(self.camera):
             remedy = "set one, for instance vtray.Camera.fit(scene)"
             raise SceneError(f"Scene.camera: there is none; {remedy}")
-        if Spheres in map(type, self.objects):
-            for index, item in enumerate(self.objects):
-                if isinstance(item, Spheres):
-                    item.check(f"Scene.objects[{index}]")
+        for index, item in enumerate(self.objects):
+            if isinstance(item, Arrays):
+                item.check(f"Scene.objects[{index}]")
 
     def to_dict(self) -> dict[str, Any]:
         """Return the scene as a dictionary that `vtray.load_dict` makes an equal scene of.
@@ -295,14 +360,10 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
         SceneError
             If the scene is not valid.
         """
+        from vtray.scene.files.scene_dict import to_dict
+
         self.check()
-        data: dict[str, Any] = {
-            "camera": msgspec.to_builtins(self.camera),
-            "lights": [msgspec.to_builtins(light) for light in self.lights],
-            "objects": [_object_to_dict(item) for item in self.objects],
-        }
-        settings = msgspec.to_builtins(self.render)
-        return {**data, "render": settings} if settings else data
+        return to_dict(self)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the scene as indented JSON that `vtray.load` reads back as an equal scene.
@@ -324,33 +385,10 @@ class Scene(msgspec.Struct, metaclass=Checked, dict=True):
         OutputError
             If a file cannot be written, or one for arrays is there that is not the scene's own.
         """
-        from vtray.base.atomic_file import write_whole
+        from vtray.scene.files.saving import save
 
         self.check()
-        target = Path(path)
-        objects: list[Sphere | Plane | SpheresInFile] = []
-        arrays: dict[str, dict[str, object]] = {}
-        for item in self.objects:
-            if isinstance(item, Spheres):
-                name = _unused_name(target, arrays)
-                _check_own(target, name, item)
-                entry, arrays[name] = _split_spheres(item, name)
-                objects.append(entry)
-            else:
-                objects.append(item)
-        found = SceneInFile(self.camera, self.lights, objects)
-        if self.render != RenderSettings():
-            found.render = self.render
-        data = msgspec.json.format(_encode(found, target), indent=2) + b"\n"
-
-        def write(file: BinaryIO) -> None:
-            file.write(data)
-
-        for name, columns in arrays.items():
-            from vtray.scene.files.array_file import write_arrays
-
-            write_arrays(target.with_name(name), columns)
-        write_whole(target, write)
+        save(self, path)
 
 
 def _no_attribute(name: str) -> str:
@@ -370,76 +408,3 @@ def _argument(call: str, name: str, value: object, kind: Any) -> Any:  # noqa: A
     from vtray.scene.checks.scene_check import from_code
 
     return value if isinstance(value, kind) else from_code(value, kind, f"{call}: {name}")
-
-
-def _object_to_dict(item: Object) -> dict[str, Any]:
-    """Return an object as what a scene file says of it, or with its arrays."""
-    if not isinstance(item, Spheres):
-        plain: dict[str, Any] = msgspec.to_builtins(item)
-        return plain
-    columns = msgspec.structs.asdict(item)
-    if item.color.ndim == 1:
-        columns["color"] = dict(zip("rgb", item.color.tolist(), strict=True))
-    return {"type": "spheres", **columns}
-
-
-def _unused_name(scene: Path, used: Container[str]) -> str:
-    """Give the name for the next arrays of a scene."""
-    numbers = itertools.chain([""], (f"-{number}" for number in itertools.count(2)))
-    names = (f"{scene.stem}{number}.npz" for number in numbers)
-    return next(name for name in names if name not in used and name != scene.name)
-
-
-def _check_own(scene: Path, name: str, spheres: Spheres) -> None:
-    """Raise OutputError if a file in the place of a scene's arrays is not its own."""
-    file = scene.with_name(name)
-    if not file.exists():
-        return
-    own = spheres.source is not None and spheres.source.exists() and file.samefile(spheres.source)
-    if not own and name not in _arrays_of(scene):
-        remedy = "save the scene under another name, or delete that file first"
-        raise OutputError(f"{file}: is there already and does not belong to {scene.name}; {remedy}")
-
-
-def _arrays_of(scene: Path) -> list[str]:
-    """Return what files of arrays a scene file names, none if it is no scene file."""
-    from vtray.base.input_file import read_input
-
-    try:
-        found = msgspec.json.decode(read_input(scene), type=_Objects)
-    except (OSError, msgspec.DecodeError, RecursionError):
-        return []
-    return [item.data for item in found.objects]
-
-
-class _Data(msgspec.Struct):
-    """An object of a scene file, as far as it names a file."""
-
-    data: str = ""
-
-
-class _Objects(msgspec.Struct):
-    """A scene file, as far as it names files."""
-
-    objects: list[_Data]
-
-
-def _split_spheres(spheres: Spheres, name: str) -> tuple[SpheresInFile, dict[str, object]]:
-    """Split spheres into what stands in a scene file, and the arrays of a file of this name."""
-    arrays = msgspec.structs.asdict(spheres)
-    shared: dict[str, Any] = {}
-    if spheres.color.ndim == 1:
-        shared["color"] = Color(*arrays.pop("color").tolist())
-    for key in ("radius", "lambert"):
-        if isinstance(arrays[key], float):
-            shared[key] = arrays.pop(key)
-    return SpheresInFile(name, **shared), arrays
-
-
-def _encode(scene: SceneInFile, target: Path) -> bytes:
-    """Write a scene as JSON."""
-    try:
-        return msgspec.json.encode(scene)
-    except UnicodeEncodeError:
-        message = f"{target}: cannot be written: the name is not UTF-8, as JSON needs it"
-        raise OutputError(message) from None

@@ -10,6 +10,7 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import (
     BLOCK,
     DISTANCE,
+    HALF,
     LANES,
     LIGHT,
     NO_PRIMITIVE,
@@ -45,6 +46,8 @@ class Film(NamedTuple):
         At the middle ray's hit, on its side, 0 for no hit, (height, width, 3).
     primitive
         What the middle ray hits, -1 for nothing, (height, width).
+    half
+        1 where that is the second half of a shape that has two, else 0, (height, width).
     shadows
         A number for the lights that something keeps from the middle ray's hit, (height, width).
     rims
@@ -58,6 +61,7 @@ class Film(NamedTuple):
     distance: NDArray[np.float64]
     normal: NDArray[np.float64]
     primitive: NDArray[np.int32]
+    half: NDArray[np.int8]
     shadows: NDArray[np.float64]
     rims: NDArray[np.bool_]
     kept: KeptLight
@@ -76,6 +80,7 @@ def new_film(width: int, height: int, *wanted: str) -> Film:
         distance=rows("distance"),
         normal=rows("normal", np.float64, 3),
         primitive=rows("primitive", np.int32),
+        half=rows("half", np.int8),
         shadows=rows("shadows"),
         rims=rows("rims", np.bool_),
         kept=nothing_kept(),
@@ -201,6 +206,11 @@ def _write_rays(
         for lane in range(end - begin):
             row, column = _place(block, pixels[begin + lane])
             film.primitive[row, column] = numbers[PRIMITIVE + lane]
+    if is_wanted(film.half):
+        for lane in range(end - begin):
+            row, column = _place(block, pixels[begin + lane])
+            is_hit = numbers[PRIMITIVE + lane] != NO_PRIMITIVE
+            film.half[row, column] = numbers[HALF + lane] if is_hit else 0
     if is_wanted(film.rims):
         for lane in range(end - begin):
             row, column = _place(block, pixels[begin + lane])

@@ -79,7 +79,8 @@ def gather_cylinders(
 @device
 def _radius(given: CylinderColumns, number: int) -> float:
     """Return the radius of a cylinder."""
-    return given.radius[number if given.radius.shape[0] > 1 else 0]
+    radius: float = given.radius[number if given.radius.shape[0] > 1 else 0]
+    return radius
 
 
 @device

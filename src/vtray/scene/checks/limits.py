@@ -34,6 +34,7 @@ END = r"(?![\s\S])"
 DataPath = Annotated[
     str, Meta(pattern=rf"\.np[yz]{END}", description="the path of a .npz or .npy file")
 ]
+NpzPath = Annotated[str, Meta(pattern=rf"\.npz{END}", description="the path of a .npz file")]
 
 
 def alternatives(kind: Any) -> tuple[Any, ...]:  # noqa: ANN401

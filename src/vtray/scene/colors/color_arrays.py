@@ -1,5 +1,6 @@
-"""The colours of many spheres: one, one for each, or values that a colour map turns into them."""
+"""The colours of many objects: one, one for each, or values that a colour map turns into them."""
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,33 +28,36 @@ Bytes = NDArray[np.uint8]
 _VALUE = ("value",)
 
 
-def color_array(
-    color: Any,  # noqa: ANN401
+def color_arrays(
+    given: Mapping[str, Any],
     count: int,
     place: str,
     *,
+    each: str = "position",
     cmap: "ColorMap | None",
     clim: object,
     nan_color: "AnyColor",
-) -> tuple[Bytes, ColorScale | None]:
-    """Return the colours of `count` spheres.
+) -> tuple[dict[str, Bytes], ColorScale | None]:
+    """Return the colours of `count` objects.
 
     Parameters
     ----------
-    color
-        Without `cmap`: a colour as `vtray.colors.to_rgb` takes it, a list of such, or numbers of
-        shape (count, 3). With `cmap`: numbers of shape (count,).
+    given
+        By the name of an argument, without `cmap`: a colour as `vtray.colors.to_rgb` takes it, a
+        list of such, or numbers of shape (count, 3). With `cmap`: numbers of shape (count,).
     count
-        How many spheres there are.
+        How many objects there are.
     place
         What messages begin with, right before the name of an argument.
+    each
+        What one object is called in messages.
     cmap, clim, nan_color
-        As for `Scene.add_spheres`.
+        As for `Scene.add_spheres`; all arguments share the limits of the map.
 
     Returns
     -------
-    colors : array
-        uint8, (count, 3), or (3,) for one colour.
+    colors : dict of array
+        By the same names: uint8, (count, 3), or (3,) for one colour.
     scale : ColorScale or None
         How values became colours, if they did.
 
@@ -63,18 +67,23 @@ def color_array(
         If an argument is not right.
     """
     if cmap is not None:
-        values = _values(color, count, f"{place}color")
-        scale = scale_of(values, cmap, clim, nan_color, place)
-        return scale.colors(values), scale
+        values = {
+            name: _values(item, count, f"{place}{name}", each) for name, item in given.items()
+        }
+        together = np.concatenate(list(values.values()))
+        scale = scale_of(together, cmap, clim, nan_color, place)
+        return {name: scale.colors(numbers) for name, numbers in values.items()}, scale
     if clim is not None:
         hint = 'give a colour map too, for instance cmap="viridis"'
         raise SceneError(f"{place}clim: expected None without cmap, got {show(clim)}; {hint}")
-    return _colors(color, count, f"{place}color"), None
+    return {
+        name: _colors(item, count, f"{place}{name}", each) for name, item in given.items()
+    }, None
 
 
-def _values(given: Any, count: int, place: str) -> NDArray[np.float64]:  # noqa: ANN401
+def _values(given: Any, count: int, place: str, each: str) -> NDArray[np.float64]:  # noqa: ANN401
     """Return the numbers that a colour map is for, as doubles; what is masked is NaN."""
-    words = f"with cmap: expected numbers of shape ({count},), one for each position"
+    words = f"with cmap: expected numbers of shape ({count},), one for each {each}"
     masked = isinstance(given, np.ma.MaskedArray)
     try:
         array = np.asarray(given)
@@ -93,21 +102,21 @@ def _values(given: Any, count: int, place: str) -> NDArray[np.float64]:  # noqa:
     return values
 
 
-def _colors(given: Any, count: int, place: str) -> Bytes:  # noqa: ANN401
-    """Return one colour or one for each sphere."""
+def _colors(given: Any, count: int, place: str, each: str) -> Bytes:  # noqa: ANN401
+    """Return one colour or one for each object."""
     if isinstance(given, (str, Color)):
         return np.array(to_rgb(given, place), np.uint8)
     if isinstance(given, (list, tuple)) and any(isinstance(item, (str, Color)) for item in given):
-        return _listed(given, count, place)
+        return _listed(given, count, place, each)
     try:
         array = np.asarray(given)
     except (TypeError, ValueError, RuntimeError, OverflowError):
         # Rows of different length, or of integers too large.
         if isinstance(given, (list, tuple)):
-            return _listed(given, count, place)
+            return _listed(given, count, place, each)
         raise _no_colors(given, place) from None
     if array.dtype.kind in "OUT" and array.ndim == 1 and not is_masked(given):
-        return _listed(array.tolist(), count, place)
+        return _listed(array.tolist(), count, place, each)
     return _numbers(given, array, count, place)
 
 
@@ -141,10 +150,10 @@ def _wrong_shape(given: object, shape: tuple[int, ...], count: int) -> str:
     return words
 
 
-def _listed(items: Any, count: int, place: str) -> Bytes:  # noqa: ANN401
+def _listed(items: Any, count: int, place: str, each: str) -> Bytes:  # noqa: ANN401
     """Return colours of which each may be written in another way."""
     if len(items) != count:
-        words = f"one colour, or {count}, one for each position"
+        words = f"one colour, or {count}, one for each {each}"
         raise SceneError(f"{place}: expected {words}, got {len(items)}")
     # The same name often stands for many.
     numbers: dict[str, int] = {}

@@ -2,18 +2,20 @@
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, cast
 
 import msgspec
 
 from vtray.base.errors import SceneError
+from vtray.scene.arrays import Arrays
+from vtray.scene.checks.columns import array_words
+from vtray.scene.checks.limits import Byte
 from vtray.scene.checks.scene_words import Unknown, join, nearest, show
 from vtray.scene.files.scene_file import Warn, loads
+from vtray.scene.objects import ARRAY_KINDS, Object
 from vtray.scene.scene import Scene
-from vtray.scene.spheres import COLUMNS, Spheres, array_words, from_arrays
 
-_KEYS = ["type", *COLUMNS]
-# Stands in the text for spheres whose arrays stand in the dictionary.
+# Stands in the text for objects whose arrays stand in the dictionary.
 _PLACEHOLDER = msgspec.Raw(
     b'{"type":"sphere","center":{"x":0,"y":0,"z":0},"radius":0,"color":{"r":0,"g":0,"b":0},"lambert":0}'
 )
@@ -48,10 +50,11 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
     """
     warnings: list[str] = []
     given = dict(data) if isinstance(data, Mapping) else data
-    arrays: dict[int, Mapping[str, Any]] = {}
+    arrays: dict[int, type[Arrays]] = {}
     if isinstance(given, dict) and isinstance(given.get("objects"), (list, tuple)):
         objects = given["objects"]
-        arrays = {index: item for index, item in enumerate(objects) if _has_arrays(item)}
+        kinds = enumerate(map(_kind_of_arrays, objects))
+        arrays = {index: kind for index, kind in kinds if kind is not None}
         if arrays:
             given["objects"] = [
                 _PLACEHOLDER if index in arrays else item for index, item in enumerate(objects)
@@ -68,8 +71,10 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
         _check(given, "", name)
         raise
     unknown = Unknown("key")
-    for index, item in arrays.items():
-        scene.objects[index] = _spheres(item, f"objects[{index}]", name, unknown)
+    for index, kind in arrays.items():
+        place = f"objects[{index}]"
+        made = _from_dict(kind, data["objects"][index], place, name, unknown)
+        scene.objects[index] = cast("Object", made)
     for line in [*warnings, *(f"{name}: {line}" for line in unknown.lines())]:
         if warn is None:
             _warn(line)
@@ -78,31 +83,64 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
     return scene
 
 
-def _has_arrays(item: object) -> bool:
-    """Tell whether an object is spheres whose arrays stand in it, not in a file."""
-    return isinstance(item, Mapping) and item.get("type") == "spheres" and "data" not in item
+def to_dict(scene: Scene) -> dict[str, Any]:
+    """Return a valid scene as `Scene.to_dict` does."""
+    data: dict[str, Any] = {
+        "camera": msgspec.to_builtins(scene.camera),
+        "lights": [msgspec.to_builtins(light) for light in scene.lights],
+        "objects": [_object_to_dict(item) for item in scene.objects],
+    }
+    settings = msgspec.to_builtins(scene.render)
+    return {**data, "render": settings} if settings else data
 
 
-def _spheres(item: Mapping[str, Any], place: str, name: str, unknown: Unknown) -> Spheres:
-    """Make spheres of the arrays in a dictionary; note the unknown keys."""
-    strange = [key for key in item if key not in _KEYS]
-    for key in COLUMNS:
-        if key not in item:
+def _object_to_dict(item: Object) -> dict[str, Any]:
+    """Return an object as what a scene file says of it, or with its arrays."""
+    if not isinstance(item, Arrays):
+        plain: dict[str, Any] = msgspec.to_builtins(item)
+        return plain
+    values: dict[str, Any] = {"type": item.__struct_config__.tag}
+    for key, column in item.COLUMNS.items():
+        value = getattr(item, key)
+        if column.kind is Byte and value is not None and value.ndim == 1:
+            values[key] = dict(zip("rgb", value.tolist(), strict=True))
+        elif value is not None:
+            values[key] = value
+    return values
+
+
+def _kind_of_arrays(item: object) -> type[Arrays] | None:
+    """Return what an object is whose arrays stand in it, not in a file; None for any other."""
+    if not isinstance(item, Mapping) or "data" in item:
+        return None
+    tag = item.get("type")
+    return ARRAY_KINDS.get(tag) if isinstance(tag, str) else None
+
+
+def _from_dict(
+    kind: type[Arrays], item: Mapping[str, Any], place: str, name: str, unknown: Unknown
+) -> Arrays:
+    """Make objects of the arrays in a dictionary; note the unknown keys."""
+    known = ["type", *kind.COLUMNS]
+    strange = [key for key in item if key not in known]
+    for key, column in kind.COLUMNS.items():
+        if key not in item and not column.stand_in:
             close = nearest(key, list(map(str, strange)), cutoff=0.6)
             hint = f" (is {close} meant for it?)" if close else ""
-            words = f"missing; expected {array_words(key)}{hint}"
+            words = f"missing; expected {array_words(column)}{hint}"
             raise SceneError(f"{name}: {place}.{key}: {words}")
-    given = {key: item[key] for key in COLUMNS}
-    color = given["color"]
-    if isinstance(color, Mapping) and set(color) == {"r", "g", "b"}:
-        given["color"] = [color[channel] for channel in "rgb"]
+    given = {key: item[key] for key in kind.COLUMNS if key in item}
+    for key, value in given.items():
+        is_color = kind.COLUMNS[key].kind is Byte and isinstance(value, Mapping)
+        if is_color and set(value) == {"r", "g", "b"}:
+            given[key] = [value[channel] for channel in "rgb"]
     try:
-        spheres = from_arrays(given, f"{place}.")
+        made = kind.from_arrays(given, f"{place}.")
     except SceneError as problem:
         raise SceneError(f"{name}: {problem}") from None
     for key in strange:
-        unknown.add(join(place, str(key)), str(key), _KEYS)
-    return spheres
+        unknown.add(join(place, str(key)), str(key), known)
+    return made
 
 
 def _warn(message: str) -> None:

@@ -16,25 +16,17 @@ from msgspec import UNSET
 from vtray.base.errors import SceneError, why_unreadable
 from vtray.base.input_file import is_given, read_input
 from vtray.scene.checks.checked import make_unchecked
-from vtray.scene.scene import (
-    Color,
-    Direction,
-    Light,
-    Object,
-    Plane,
-    Scene,
-    SceneInFile,
-    Sphere,
-    SpheresInFile,
-    Vector,
-)
+from vtray.scene.files.in_file import ARRAYS_IN_FILE, KINDS, ArraysInFile, ObjectInFile, SceneInFile
+from vtray.scene.objects import Light, Object
+from vtray.scene.scene import Scene
+from vtray.scene.vectors import Color, Direction, Vector
 
 Warn = Callable[[str], None]
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _DECODER = msgspec.json.Decoder(SceneInFile)
 _LIGHT = msgspec.json.Decoder(Light)
-_OBJECT = msgspec.json.Decoder(Sphere | Plane | SpheresInFile)
+_OBJECT = msgspec.json.Decoder(ObjectInFile)
 
 
 def load(path: str | os.PathLike[str], *, warn: Warn | None = None) -> Scene:
@@ -120,8 +112,8 @@ def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
     if not _has_only_known_keys(raw, found, kinds):
         _explain(raw, name, warn)
     objects: list[Any] = found.objects
-    if SpheresInFile in kinds:
-        objects = _read_spheres(found, name, folder, warn)
+    if not kinds.keys().isdisjoint(ARRAYS_IN_FILE):
+        objects = _read_arrays(found, name, folder, warn)
     parts: dict[str, object] = {} if found.render is UNSET else {"render": found.render}
     scene: Scene = make_unchecked(
         Scene, camera=found.camera, lights=found.lights, objects=objects, **parts
@@ -147,23 +139,29 @@ def _keys(*classes: type[msgspec.Struct]) -> int:
 
 # The required keys that a file has once.
 _KEYS_ONCE = 3 + 5 + _keys(Vector, Direction)
-_KEYS_OF: dict[type[msgspec.Struct], int] = {
-    Light: _keys(Light, Vector),
-    Sphere: _keys(Sphere, Vector, Color),
-    Plane: _keys(Plane, Vector, Direction, Color),
-    SpheresInFile: 0,  # counted one by one, as most of its keys are optional
-}
+
+
+def _keys_within(cls: type[msgspec.Struct]) -> int:
+    """Count the keys of an object of a file and of what it holds, its tag included."""
+    parts = [kind for kind in cls.__annotations__.values() if isinstance(kind, msgspec.StructMeta)]
+    return _keys(cls, *parts)
+
+
+_PARTS: tuple[type[msgspec.Struct], ...] = (Light, *KINDS)
+_KEYS_OF = {kind: _keys_within(kind) for kind in _PARTS}
+# Counted one by one, as most of their keys are optional.
+_KEYS_OF |= dict.fromkeys(ARRAYS_IN_FILE, 0)
 
 
 def _has_only_known_keys(raw: bytes, found: SceneInFile, kinds: Counter[Any]) -> bool:
     """Tell whether a file has as many colons as what was read of it, so no unknown keys."""
     keys = _KEYS_ONCE + _count_optional(found) + _KEYS_OF[Light] * len(found.lights)
     keys += sum(_KEYS_OF[kind] * count for kind, count in kinds.items())
-    if SpheresInFile in kinds:
-        spheres = [item for item in found.objects if isinstance(item, SpheresInFile)]
-        keys += sum(map(_count_colons, spheres))
+    if not kinds.keys().isdisjoint(ARRAYS_IN_FILE):
+        arrays = [item for item in found.objects if isinstance(item, ArraysInFile)]
+        keys += sum(map(_count_colons, arrays))
         # A colon of a path that is written as an escape is not in the file.
-        if any(":" in item.data for item in spheres) and b"\\u003" in raw:
+        if any(":" in item.data for item in arrays) and b"\\u003" in raw:
             return False
     # A colon inside any other string is that of an unknown key or its value.
     return raw.count(b":") == keys
@@ -181,11 +179,13 @@ def _count_optional(found: SceneInFile) -> int:
     return keys
 
 
-def _count_colons(item: SpheresInFile) -> int:
-    """Count the colons of spheres in a file: one for each key, and those of the path."""
-    given = [key for key in item.__struct_fields__ if getattr(item, key) is not UNSET]
+def _count_colons(item: ArraysInFile) -> int:
+    """Count the colons of such an object in a file: one for each key, and those of the path."""
+    values = [getattr(item, key) for key in item.__struct_fields__]
+    given = [value for value in values if value is not UNSET]
+    colors = sum(isinstance(value, Color) for value in given)
     tag = 1
-    return tag + len(given) + ("color" in given) * _keys(Color) + item.data.count(":")
+    return tag + len(given) + colors * _keys(Color) + item.data.count(":")
 
 
 class _Split(msgspec.Struct):
@@ -218,9 +218,9 @@ def _explain(raw: bytes, name: str, warn: Warn) -> None:
         warn(f"{name}: {line}")
 
 
-def _read_spheres(found: SceneInFile, name: str, folder: str, warn: Warn) -> list[Object]:
+def _read_arrays(found: SceneInFile, name: str, folder: str, warn: Warn) -> list[Object]:
     """Return the objects of a file with the arrays it names; warn about unknown arrays."""
-    from vtray.scene.files.spheres_file import with_arrays
+    from vtray.scene.files.named_arrays import with_arrays
 
     try:
         objects, unknown = with_arrays(found.objects, folder)

@@ -1,4 +1,4 @@
-"""The JSON Schema of the scene file, made from the types of `vtray.scene.scene`.
+"""The JSON Schema of the scene file, made from the types of `vtray.scene.files.in_file`.
 
 ``python -m vtray.scene.files.schema`` prints it; ``docs/scene.schema.json`` is that output.
 """
@@ -11,18 +11,11 @@ from typing import Any
 
 import msgspec
 
-from vtray.scene.scene import (
-    Camera,
-    Color,
-    Direction,
-    Light,
-    Plane,
-    SceneInFile,
-    Sphere,
-    SpheresInFile,
-    Vector,
-)
+from vtray.scene.camera import Camera
+from vtray.scene.files.in_file import ARRAYS_IN_FILE, KINDS, SceneInFile
+from vtray.scene.objects import Light
 from vtray.scene.settings import RenderSettings
+from vtray.scene.vectors import Color, Direction, Vector
 
 _FIELD = re.compile(r"^(\w+(?:, \w+)*) : .*\n((?:    .+\n?)+)", re.MULTILINE)
 
@@ -36,8 +29,8 @@ def scene_schema() -> dict[str, Any]:
         A schema of draft 2020-12. It checks all that a schema can; that a key is given only
         once, for instance, it cannot.
     """
-    objects = (Sphere, Plane, SpheresInFile)
-    classes = (SceneInFile, Camera, Light, *objects, RenderSettings, Vector, Direction, Color)
+    values = (RenderSettings, Vector, Direction, Color)
+    classes: list[type[msgspec.Struct]] = [SceneInFile, Camera, Light, *KINDS, *values]
     (_, parts) = msgspec.json.schema_components(classes, ref_template="#/$defs/{name}")
     for cls in classes:
         _describe(parts[cls.__name__], inspect.getdoc(cls) or "")
@@ -45,11 +38,13 @@ def scene_schema() -> dict[str, Any]:
     parts["Direction"]["not"] = {
         "properties": {name: {"const": 0} for name in Direction.__struct_fields__}
     }
-    # A file of centres alone has nothing else.
-    parts["SpheresInFile"] |= {
-        "if": {"properties": {"data": {"pattern": r"\.npy$"}}},
-        "then": {"required": ["radius", "color", "lambert"]},
-    }
+    for kind in ARRAYS_IN_FILE:
+        if kind.ALONE:  # a file of one array has nothing else
+            _, *keys = kind.__struct_fields__
+            parts[kind.__name__] |= {
+                "if": {"properties": {"data": {"pattern": r"\.npy$"}}},
+                "then": {"required": keys},
+            }
     scene = parts.pop("SceneInFile")
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

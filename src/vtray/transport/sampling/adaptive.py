@@ -1,8 +1,8 @@
 """Which pixels need more than one ray.
 
 A pixel gets samples if what its filter covers may not all look like its middle: if the outline of a
-sphere passes through it, seen or just missed by its middle ray, or if near it another surface, or
-the shadow of another thing, begins. None of these questions has a threshold for light, so the
+shape passes through it, seen or just missed by its middle ray, or if near it another surface, the
+other half of one, or the shadow of another thing, begins. None of these questions has a threshold for light, so the
 choice depends neither on colours nor on the strength of lights. The rays by which pixels are chosen
 are not used in those that are: their samples are as unbiased as if all pixels had them.
 
@@ -25,7 +25,7 @@ def mark_rows(film: Film, near: int, top: int, bottom: int, marks: NDArray[np.bo
     Parameters
     ----------
     film
-        What the middle rays found: light, primitives, shadows and rims.
+        What the middle rays found: light, primitives, their halves, shadows and rims.
     near
         How many pixels away what is near begins.
     top, bottom
@@ -59,5 +59,6 @@ def _mark_changes(film: Film, row: int, other: int, shift: int, marks: NDArray[n
     for column in range(max(0, -shift), marks.shape[1] - max(0, shift)):
         beside = column + shift
         surface = film.primitive[row, column] != film.primitive[other, beside]
+        half = film.half[row, column] != film.half[other, beside]
         shadow = film.shadows[row, column] != film.shadows[other, beside]
-        marks[row, column] |= surface | shadow
+        marks[row, column] |= surface | half | shadow

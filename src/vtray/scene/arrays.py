@@ -1,0 +1,198 @@
+"""Many objects of one kind as arrays: what `Spheres` and their like have in common."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+import msgspec
+
+from vtray.scene.checks.checked import Checked, Frozen, bind, make_unchecked
+from vtray.scene.checks.columns import NO_NAMES, Columns, check_arrays, read_only
+from vtray.scene.checks.limits import Byte
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from pathlib import Path
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from vtray.scene.colors.color_scale import ColorMap, ColorScale
+    from vtray.scene.colors.names import AnyColor
+
+    Floats = NDArray[np.float64] | NDArray[np.float32]
+    Bytes = NDArray[np.uint8]
+else:
+    Floats = Bytes = Any
+
+
+def check_spares_data(path: "Path", objects: "Iterable[object]") -> None:
+    """Raise OutputError if writing a file would destroy arrays that objects were read from."""
+    from vtray.base.atomic_file import check_spares
+
+    found = [item.source for item in objects if isinstance(item, Arrays)]
+    what = "holds arrays of the scene itself"
+    check_spares(path, filter(None, found), what, "choose another name for the image")
+
+
+class _CheckedArrays(Checked):
+    """Makes construction in code check and convert arrays."""
+
+    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
+        """Bind the arguments, check and convert them, and make the object."""
+        values = bind(cls, args, kwargs)
+        return cls.from_arrays(values, f"{cls.__name__}.")  # type: ignore[attr-defined]
+
+
+class Arrays(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=True):
+    """Many objects of one kind, as arrays.
+
+    A kind is a class that says its arrays twice: as `COLUMNS`, and as fields of the same names in
+    the same order.
+    """
+
+    COLUMNS: ClassVar[Columns]
+
+    EACH: ClassVar[str]
+    """What one of them is called in messages about colours."""
+
+    __hash__ = None  # type: ignore[assignment]  # arrays are compared, and may change
+
+    @classmethod
+    def from_arrays(
+        cls, values: Mapping[str, object], place: str, called: Mapping[str, str] = NO_NAMES
+    ) -> Self:
+        """Make objects as calling the class does, with other places in the messages.
+
+        Parameters
+        ----------
+        values
+            What was given for each array.
+        place
+            What messages begin with, right before the name of an array.
+        called
+            The names of arrays in messages, where they differ.
+        """
+        made: Self = make_unchecked(cls, **check_arrays(cls.COLUMNS, values, place, called))
+        return made
+
+    @classmethod
+    def colored(
+        cls,
+        values: Mapping[str, object],
+        colors: Mapping[str, object],
+        place: str,
+        called: Mapping[str, str] = NO_NAMES,
+        *,
+        cmap: "ColorMap | None",
+        clim: object,
+        nan_color: "AnyColor",
+    ) -> Self:
+        """Make objects whose colours are given in any of the ways of `Scene.add_spheres`.
+
+        Parameters
+        ----------
+        values, place, called
+            As for `from_arrays`; colours among the values are not looked at.
+        colors
+            What was given for each array of colours; one that may be left out is absent or None.
+        cmap, clim, nan_color
+            As for `Scene.add_spheres`.
+        """
+        from vtray.scene.colors.color_arrays import color_arrays
+
+        black = {
+            name: None if column.stand_in else (0, 0, 0)
+            for name, column in cls.COLUMNS.items()
+            if column.kind is Byte
+        }
+        plain = cls.from_arrays({**values, **black}, place, called)
+        given = {name: value for name, value in colors.items() if value is not None}
+        found, scale = color_arrays(
+            given, len(plain), place, each=cls.EACH, cmap=cmap, clim=clim, nan_color=nan_color
+        )
+        shared = {name: read_only(array) for name, array in found.items()}
+        made: Self = make_unchecked(cls, **{**msgspec.structs.asdict(plain), **shared})
+        return made.with_scale(scale)
+
+    @property
+    def color_scale(self) -> "ColorScale | None":
+        """How values became the colours, for a colour bar; None if they are no such colours.
+
+        It is not a part of what makes objects equal, nor of a scene file.
+        """
+        return self.__dict__.get("color_scale_")
+
+    @property
+    def source(self) -> "Path | None":
+        """The file that the arrays were read from; None if they come from code."""
+        return self.__dict__.get("source_")
+
+    def read_from(self, source: "Path") -> Self:
+        """Return these objects, which from now on remember the file that they were read from."""
+        self.__dict__["source_"] = source.absolute()  # the folder may be changed
+        return self
+
+    def with_scale(self, scale: "ColorScale | None") -> Self:
+        """Return the same objects, which remember how values became their colours."""
+        same: Self = make_unchecked(type(self), **msgspec.structs.asdict(self))
+        same.__dict__["color_scale_"] = scale
+        return same
+
+    def __copy__(self) -> Self:
+        return self.with_scale(self.color_scale)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _rebuild, (type(self), msgspec.structs.astuple(self), self.color_scale)
+
+    def __len__(self) -> int:
+        return len(getattr(self, self.__struct_fields__[0]))
+
+    def __eq__(self, other: object) -> bool:
+        """Tell whether the same objects stand in the same order, whatever the dtypes."""
+        if type(other) is not type(self):
+            return NotImplemented
+        if len(self) != len(other):
+            return False
+        import numpy as np
+
+        pairs = ((self.given_for(name), other.given_for(name)) for name in self.COLUMNS)
+        return len(self) == 0 or all(bool(np.all(one == two)) for one, two in pairs)
+
+    def __ne__(self, other: object) -> bool:
+        return NotImplemented if type(other) is not type(self) else not self == other
+
+    def __repr__(self) -> str:
+        shown = [f"{name}={_show(getattr(self, name))}" for name in self.COLUMNS]
+        return f"{type(self).__name__}({', '.join(shown)})"
+
+    def given_for(self, name: str) -> Any:  # noqa: ANN401
+        """Return an array or a number, or what stands in for it where it was left out."""
+        value = getattr(self, name)
+        return getattr(self, self.COLUMNS[name].stand_in) if value is None else value
+
+    def check(self, place: str = "") -> None:
+        """Check the arrays again, after those that they share may have been changed.
+
+        Parameters
+        ----------
+        place
+            Where the objects belong, for messages; the name of the type by default.
+
+        Raises
+        ------
+        SceneError
+            If a number is not right any more.
+        """
+        values = msgspec.structs.asdict(self)
+        check_arrays(self.COLUMNS, values, f"{place or type(self).__name__}.")
+
+
+def _rebuild(kind: type[Arrays], values: tuple[Any, ...], scale: "ColorScale | None") -> Arrays:
+    """Make objects again after copying or pickling."""
+    made: Arrays = kind(*values)
+    return made.with_scale(scale)
+
+
+def _show(value: Any) -> str:  # noqa: ANN401
+    """Write an array in short, or a number."""
+    return f"<{value.dtype} {value.shape}>" if hasattr(value, "dtype") else repr(value)

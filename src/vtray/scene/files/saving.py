@@ -1,0 +1,114 @@
+"""Writes scene files, and the files of arrays beside them."""
+
+import itertools
+import os
+from collections.abc import Container
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import msgspec
+
+from vtray.base.atomic_file import write_whole
+from vtray.base.errors import OutputError
+from vtray.scene.arrays import Arrays
+from vtray.scene.checks.limits import Byte
+from vtray.scene.files.in_file import ARRAYS_IN_FILE, ArraysInFile, SceneInFile
+from vtray.scene.settings import RenderSettings
+from vtray.scene.vectors import Color
+
+if TYPE_CHECKING:
+    from vtray.scene.scene import Scene
+
+
+def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
+    """Write a valid scene as `Scene.save` does."""
+    target = Path(path)
+    objects: list[Any] = []
+    arrays: dict[str, dict[str, object]] = {}
+    for item in scene.objects:
+        if isinstance(item, Arrays):
+            name = _unused_name(target, arrays)
+            _check_own(target, name, item)
+            entry, arrays[name] = _split(item, name)
+            objects.append(entry)
+        else:
+            objects.append(item)
+    found = SceneInFile(scene.camera, scene.lights, objects)
+    if scene.render != RenderSettings():
+        found.render = scene.render
+    data = msgspec.json.format(_encode(found, target), indent=2) + b"\n"
+
+    def write(file: BinaryIO) -> None:
+        file.write(data)
+
+    for name, columns in arrays.items():
+        from vtray.scene.files.array_file import write_arrays
+
+        write_arrays(target.with_name(name), columns)
+    write_whole(target, write)
+
+
+def _unused_name(scene: Path, used: Container[str]) -> str:
+    """Give the name for the next arrays of a scene."""
+    numbers = itertools.chain([""], (f"-{number}" for number in itertools.count(2)))
+    names = (f"{scene.stem}{number}.npz" for number in numbers)
+    return next(name for name in names if name not in used and name != scene.name)
+
+
+def _check_own(scene: Path, name: str, arrays: Arrays) -> None:
+    """Raise OutputError if a file in the place of a scene's arrays is not its own."""
+    file = scene.with_name(name)
+    if not file.exists():
+        return
+    own = arrays.source is not None and arrays.source.exists() and file.samefile(arrays.source)
+    if not own and name not in _arrays_of(scene):
+        remedy = "save the scene under another name, or delete that file first"
+        raise OutputError(f"{file}: is there already and does not belong to {scene.name}; {remedy}")
+
+
+def _arrays_of(scene: Path) -> list[str]:
+    """Return what files of arrays a scene file names, none if it is no scene file."""
+    from vtray.base.input_file import read_input
+
+    try:
+        found = msgspec.json.decode(read_input(scene), type=_Objects)
+    except (OSError, msgspec.DecodeError, RecursionError):
+        return []
+    return [item.data for item in found.objects]
+
+
+class _Data(msgspec.Struct):
+    """An object of a scene file, as far as it names a file."""
+
+    data: str = ""
+
+
+class _Objects(msgspec.Struct):
+    """A scene file, as far as it names files."""
+
+    objects: list[_Data]
+
+
+def _split(item: Arrays, name: str) -> tuple[ArraysInFile, dict[str, object]]:
+    """Split objects into what stands in a scene file, and the arrays of a file of this name."""
+    (kind,) = (kind for kind in ARRAYS_IN_FILE if kind.MADE is type(item))
+    shared: dict[str, Any] = {}
+    arrays: dict[str, object] = {}
+    for key, column in item.COLUMNS.items():
+        value = getattr(item, key)
+        if isinstance(value, float):
+            shared[key] = value
+        elif column.kind is Byte and value is not None and value.ndim == 1:
+            shared[key] = Color(*value.tolist())
+        elif value is not None:
+            arrays[key] = value
+    return kind(name, **shared), arrays
+
+
+def _encode(scene: SceneInFile, target: Path) -> bytes:
+    """Write a scene as JSON."""
+    try:
+        return msgspec.json.encode(scene)
+    except UnicodeEncodeError:
+        message = f"{target}: cannot be written: the name is not UTF-8, as JSON needs it"
+        raise OutputError(message) from None
