@@ -107,13 +107,13 @@ def test_keys_are_sorted(shape: str, threads: int, monkeypatch: pytest.MonkeyPat
 @pytest.mark.parametrize("shape", SHAPES)
 def test_low_bits_that_are_in_order_stay_so(shape: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(key_sort, "SMALL", 20)
-    monkeypatch.setattr(key_sort, "CHUNK", 64 if JIT else 7)
-    count = 1000 if JIT else 100
-    high = SHAPES[shape](np.random.default_rng(3), count) >> np.uint64(10)
-    keys = high << np.uint64(10) | np.arange(count, dtype=np.uint64)
+    monkeypatch.setattr(key_sort, "CHUNK", 7)
+    count = 1500
+    high = SHAPES[shape](np.random.default_rng(3), count) >> np.uint64(11)
+    keys = high << np.uint64(11) | np.arange(count, dtype=np.uint64)
     expected = np.sort(keys)
     for threads in (1, 2, 5):
-        np.testing.assert_array_equal(sort_keys(keys.copy(), threads, 10), expected)
+        np.testing.assert_array_equal(sort_keys(keys.copy(), threads, 11), expected)
 
 
 @pytest.mark.parametrize("shape", SHAPES)
