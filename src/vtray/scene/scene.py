@@ -38,7 +38,7 @@ __all__ = [
 ]
 
 
-class Scene(Adding, msgspec.Struct, metaclass=Checked, dict=True):
+class Scene(msgspec.Struct, Adding, metaclass=Checked, dict=True):
     """All that a picture is made from.
 
     Its attributes may be replaced, its lists changed, and so may arrays that `Spheres` and
