@@ -370,7 +370,7 @@ ONE_CYLINDER = st.fixed_dictionaries(
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(st.lists(many_cylinders(), max_size=2), st.lists(ONE_CYLINDER, max_size=2))
+@given(many=st.lists(many_cylinders(), max_size=2), single=st.lists(ONE_CYLINDER, max_size=2))
 def test_files_and_dictionaries_give_the_same_scene(
     many: list[Cylinders],
     single: list[dict[str, Any]],
