@@ -72,6 +72,10 @@ class Sphere(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
             lambert: float = 1.0,
         ) -> None: ...
 
+    def balls(self) -> list[tuple[Vector, float]]:
+        """Return centre and radius of balls whose hull is the sphere: itself."""
+        return [(self.center, self.radius)]
+
 
 class Cylinder(Frozen, frozen=True, gc=False, tag_field="type", tag="cylinder"):
     """A solid cylinder with flat caps and a matt surface, which can also be seen from inside.
@@ -110,6 +114,10 @@ class Cylinder(Frozen, frozen=True, gc=False, tag_field="type", tag="cylinder"):
             color: "Color | Triple" = ...,
             lambert: float = 1.0,
         ) -> None: ...
+
+    def balls(self) -> list[tuple[Vector, float]]:
+        """Return centre and radius of balls whose hull holds the cylinder: one at each end."""
+        return [(self.start, self.radius), (self.end, self.radius)]
 
 
 class Plane(Frozen, frozen=True, gc=False, tag_field="type", tag="plane"):

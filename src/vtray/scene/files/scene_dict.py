@@ -28,9 +28,10 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
     ----------
     data : dict
         What a scene file says. Numbers may also be NumPy's; in place of an array of the file, there
-        may be a tuple or an array of NumPy. Many spheres may hold their arrays themselves:
-        ``{"type": "spheres", "center": array, "radius": 0.5, "color": array, "lambert": 1}``, which
-        are not copied where `Spheres` does not. Paths are relative to the current folder.
+        may be a tuple or an array of NumPy. Many spheres or cylinders may hold their arrays
+        themselves: ``{"type": "spheres", "center": array, "radius": 0.5, "color": array,
+        "lambert": 1}``, which are not copied where `Spheres` does not. Paths are relative to the
+        current folder.
     name : str
         What messages call the dictionary.
     warn : callable, optional
