@@ -226,7 +226,7 @@ def test_fit_of_many_spheres(name: str, direction: Any, monkeypatch: Any) -> Non
     kinds: list[Any] = [("perspective", 1), ("perspective", 40), ("perspective", 120)]
     kinds.append(("orthographic", 40))
     for dtype in (np.float32, np.float64):
-        for radius in (0.0, 0.2, random.uniform(0, 0.02, 3000), random.uniform(0, 2, 3000)):
+        for radius in (0.0, 0.2, 1e3, random.uniform(0, 0.02, 3000), random.uniform(0, 2, 3000)):
             spheres = Spheres(center.astype(dtype), radius, (1, 2, 3), 1)
             cameras, around = [], []
             for many, piece in ((10**6, 10**6), (1, 256)):
