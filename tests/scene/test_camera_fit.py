@@ -16,6 +16,8 @@ from hypothesis import strategies as st
 import vtray
 from conftest import compiled_only
 from vtray import Camera, Scene, SceneError, Spheres
+from vtray.scene.placing import camera_fit, pieces, seen
+from vtray.scene.placing.bounds import Balls, bounding_sphere
 
 TURN = np.linspace(0, 2 * np.pi, 720, endpoint=False)
 
@@ -196,6 +198,66 @@ def test_fit_of_a_million_spheres_is_fast() -> None:
         Camera.fit(spheres, (1, 2, -1))
         seconds.append(time.perf_counter() - begin)
     assert min(seconds) < 0.5  # 0.06 s on an idle core
+
+
+def clouds() -> dict[str, Any]:
+    """Return many centres in shapes that leave much, little and nothing to choose from, (n, 3)."""
+    random = np.random.default_rng(5)
+    cube, normal = random.random((3000, 3)), random.normal(size=(3000, 3))
+    return {
+        "cube": cube,
+        "normal": normal,
+        "shell": normal / np.linalg.norm(normal, axis=1)[:, None],
+        "sheet": cube * (1, 1, 0),
+        "edge-on": cube[:, :1] * (1, 2, -1) + cube[:, 1:2] * (0, 1, 0),
+        "line": cube[:, :1] * (1.0, 2.0, -3.0),
+        "lattice": np.floor(cube * 12),
+        "far": cube + 1e6,
+        "two": np.repeat(cube[:2], 1500, axis=0),
+    }
+
+
+@pytest.mark.parametrize("name", clouds())
+@pytest.mark.parametrize("direction", [(0, 0, -1), (1, 2, -1), (1, 0, 0)])
+def test_fit_of_many_spheres(name: str, direction: Any, monkeypatch: Any) -> None:
+    """What is worked out piece by piece, of few chosen among many, is the same to the last bit."""
+    center = clouds()[name]
+    random = np.random.default_rng(7)
+    kinds: list[Any] = [("perspective", 1), ("perspective", 40), ("perspective", 120)]
+    kinds.append(("orthographic", 40))
+    for dtype in (np.float32, np.float64):
+        for radius in (0.0, 0.2, 1e3, random.uniform(0, 0.02, 3000), random.uniform(0, 2, 3000)):
+            spheres = Spheres(center.astype(dtype), radius, (1, 2, 3), 1)
+            cameras, around = [], []
+            for many, piece in ((10**6, 10**6), (1, 256)):
+                monkeypatch.setattr(seen, "MANY", many)
+                monkeypatch.setattr(seen, "SAMPLE", 128)
+                monkeypatch.setattr(pieces, "PIECE", piece)
+                cameras.append(
+                    [
+                        Camera.fit(spheres, direction, projection=projection, fov_degrees=fov)
+                        for projection, fov in kinds
+                    ]
+                )
+                around.append(repr(bounding_sphere(Balls(spheres.center, spheres.radius))))
+            assert cameras[0] == cameras[1]
+            assert around[0] == around[1]
+
+
+def test_few_of_many_spheres_decide(monkeypatch: Any) -> None:
+    counts = []
+    look = seen.look
+
+    def count(*arguments: Any) -> Any:
+        found = look(*arguments)
+        counts.append(len(found.x))
+        return found
+
+    monkeypatch.setattr(camera_fit, "look", count)
+    center = np.random.default_rng(3).normal(size=(200_000, 3))
+    for fov in (1, 40, 90):
+        Camera.fit(Spheres(center, 0.01, (1, 2, 3), 1), (1, 2, -1), fov_degrees=fov)
+    assert max(counts) < 2000
 
 
 @pytest.mark.parametrize("fov", [1, 40, 120])

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from vtray.base.errors import SceneError
 from vtray.scene.objects import Object, Plane, Sphere
 from vtray.scene.placing.directions import Vec, dot, unit
+from vtray.scene.placing.pieces import by_pieces
 from vtray.scene.spheres import Spheres, from_arrays
 
 Floats = NDArray[np.float64]
@@ -94,12 +95,30 @@ def ups_of_planes(subject: object, middle: Sequence[float] | Floats) -> list[Vec
     return ups
 
 
+def some(balls: Balls, rows: Any) -> Balls:  # noqa: ANN401 - whatever NumPy takes
+    """Return those of the spheres that an index chooses."""
+    radius = balls.radius
+    return Balls(balls.center[rows], radius if isinstance(radius, float) else radius[rows])
+
+
+def box_of(center: NDArray[Any]) -> tuple[Floats, Floats]:
+    """Return the least and the greatest coordinates of points, each (3,)."""
+
+    def ends(rows: slice) -> tuple[list[float], list[float]]:
+        # Column by column, which NumPy does forty times as fast as along an axis.
+        columns = center[rows].T
+        return [float(c.min()) for c in columns], [float(c.max()) for c in columns]
+
+    low, high = zip(*by_pieces(len(center), ends), strict=True)
+    return np.min(low, axis=0), np.max(high, axis=0)
+
+
 def middle_of(center: NDArray[Any]) -> Floats:
     """Return the middle of the box around points, (3,)."""
-    # Column by column, which NumPy does forty times as fast as along an axis; and halves, as the
-    # sum may be more than a double can be.
-    columns = center.T
-    return np.array([float(c.min()) / 2 + float(c.max()) / 2 for c in columns])
+    low, high = box_of(center)
+    # Halves, as the sum may be more than a double can be.
+    middle: Floats = low / 2 + high / 2
+    return middle
 
 
 def from_middle(center: NDArray[Any], middle: Floats) -> list[Floats]:
@@ -113,10 +132,14 @@ def bounding_sphere(balls: Balls) -> tuple[Floats, float]:
     Its centre is that of the box around their centres, so it may be larger than need be: its radius
     is at most the square root of 3 times that of the smallest.
     """
-    middle = middle_of(balls.center)
-    columns = from_middle(balls.center, middle)
+    low, high = box_of(balls.center)
+    middle = low / 2 + high / 2
     # In a unit in which no square overflows.
-    unit = max(float(np.abs(column).max()) for column in columns) or 1.0
-    squares = sum(np.square(column / unit) for column in columns)
-    reach = np.sqrt(squares) * unit + balls.radius
-    return middle, float(reach.max())
+    unit = float(max((high - middle).max(), (middle - low).max())) or 1.0
+
+    def reach(rows: slice) -> float:
+        part = some(balls, rows)
+        squares = sum(np.square(column / unit) for column in from_middle(part.center, middle))
+        return float((np.sqrt(squares) * unit + part.radius).max())
+
+    return middle, max(by_pieces(len(balls.center), reach))

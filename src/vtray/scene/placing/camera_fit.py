@@ -7,7 +7,8 @@ is the answer.
 """
 
 import math
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,9 +16,10 @@ from numpy.typing import NDArray
 from vtray.base.errors import SceneError
 from vtray.scene.checks.limits import FieldOfView, Margin, Projection, SizePair
 from vtray.scene.checks.scene_words import show
-from vtray.scene.placing.bounds import Balls, balls_of, from_middle, middle_of, ups_of_planes
+from vtray.scene.placing.bounds import balls_of, middle_of, ups_of_planes
 from vtray.scene.placing.directions import Vec, along, are_parallel, unit, view_axes
 from vtray.scene.placing.look_at import NEAR, argument, orthographic, perspective, pixel_slope
+from vtray.scene.placing.seen import Seen, Slopes, look, rooms
 from vtray.scene.vectors import Direction
 
 Floats = NDArray[np.float64]
@@ -36,23 +38,6 @@ enough to see a floor before the spheres, if it is looked at from more than 4 de
 
 Frames = tuple[tuple[float, float], tuple[float, float]]
 """Where silhouettes may begin and end, across and down, in pixels from the axis."""
-
-
-class Seen(NamedTuple):
-    """Spheres in the space of a camera that is in the middle of them.
-
-    Attributes
-    ----------
-    x, y, z
-        Centres to the right, downwards and forward, (n,).
-    radius
-        Radii, (n,), or one for all.
-    """
-
-    x: Floats
-    y: Floats
-    z: Floats
-    radius: Floats | float
 
 
 def fitting(
@@ -84,14 +69,14 @@ def fitting(
     axes = (right, down, forward)
     frames = _frame(int(width), share), _frame(int(height), share)
     with np.errstate(over="ignore", invalid="ignore"):
-        seen = _look(balls, middle, axes)
         if kind == "perspective":
             slope = pixel_slope(fov, pixels)
-            place, focus = _stand(seen, frames, slope)
+            edges = [(first * slope, last * slope) for first, last in frames]
+            place, focus = _stand(look(balls, middle, axes, edges), edges)
             eye = _to_world(place, middle, axes)
             fields = perspective(eye, forward, upward, focus, slope, pixels)
         else:
-            place, focus, pixel = _stand_back(seen, frames, pixels)
+            place, focus, pixel = _stand_back(look(balls, middle, axes), frames, pixels)
             eye = _to_world(place, middle, axes)
             fields = orthographic(eye, forward, upward, focus, pixel, pixels)
     if not all(map(math.isfinite, fields["center"])):
@@ -114,15 +99,6 @@ def _choose_up(subject: object, up: object, forward: Vec, middle: Floats) -> Dir
     return Direction(*free[0])
 
 
-def _look(balls: Balls, middle: Floats, axes: tuple[Vec, Vec, Vec]) -> Seen:
-    """Bring spheres into the space of a camera."""
-    columns = from_middle(balls.center, middle)
-    # Not by a product of matrices: for three rows, BLAS is slower.
-    x, y, z = (columns[0] * a + columns[1] * b + columns[2] * c for a, b, c in axes)
-    radius = balls.radius
-    return Seen(x, y, z, radius if isinstance(radius, float) else radius.astype(float, copy=False))
-
-
 def _to_world(point: Vec, middle: Floats, axes: tuple[Vec, Vec, Vec]) -> Vec:
     """Bring a point from the space of the camera into the world."""
     place = (0.0, 0.0, 0.0)
@@ -141,32 +117,29 @@ def _frame(count: int, margin: float) -> tuple[float, float]:
     return first + margin * length, first + (1 - margin) * length
 
 
-def _stand(seen: Seen, frames: Frames, slope: float) -> tuple[Vec, float]:
+def _stand(seen: Seen, edges: Sequence[Slopes]) -> tuple[Vec, float]:
     """Return the eye that is as near to the spheres as can be, and the focus."""
-    front = float((seen.z - seen.radius).min())
-    sides = [(seen.x, *frames[0]), (seen.y, *frames[1])]
+    front = float(seen.surfaces[0, 2])
+    sides = list(zip((seen.x, seen.y), edges, strict=True))
     depths = [front - _least_gap(seen, front)]
-    for place, first, last in sides:
-        low, high = first * slope, last * slope
+    for place, (low, high) in sides:
         room = _room(place, seen, low, -1)[0] + _room(place, seen, high, 1)[0]
         depths.append(room / (high - low))
     depth = min(depths)
-    x, y = (_middle(place, seen, (a * slope, b * slope), depth) for place, a, b in sides)
-    distance = float(seen.z.min() / 2 + seen.z.max() / 2) - depth
+    x, y = (_middle(place, seen, slopes, depth) for place, slopes in sides)
+    distance = float(seen.centers[0, 2] / 2 + seen.centers[1, 2] / 2) - depth
     return (x, y, depth), min(NEAR * distance, (front - depth) / 2)
 
 
 def _least_gap(seen: Seen, front: float) -> float:
     """Return the least distance from the eye to the spheres."""
-    extent = max(float(np.ptp(seen.x)), float(np.ptp(seen.y)), float(seen.z.max()) - front)
+    (left, top, _), (right, bottom, back) = seen.centers.tolist()
+    extent = max(right - left, bottom - top, back - front)
     return LEAST_GAP * extent if extent > 0 else 1.0
 
 
 def _room(place: Floats, seen: Seen, slope: float, side: int) -> tuple[float, float]:
-    """Return the bound that the spheres set to the eye on one side of the picture.
-
-    The eye at depth d and place p sees all spheres on the inner side of the plane of this slope if
-    ``side * (slope * d - p)`` is at most this bound.
+    """Return the least bound that the spheres set to the eye on one side, as `rooms` does.
 
     Returns
     -------
@@ -174,15 +147,14 @@ def _room(place: Floats, seen: Seen, slope: float, side: int) -> tuple[float, fl
         The bound, and how it changes with the slope.
     """
     length = math.sqrt(1.0 + slope * slope)
-    rooms = seen.z * (side * slope)
-    rooms -= place if side > 0 else -place
-    rooms -= seen.radius * length
-    k = int(rooms.argmin())
-    radius = float(np.broadcast_to(seen.radius, rooms.shape)[k])
-    return float(rooms[k]), side * float(seen.z[k]) - radius * slope / length
+    bounds = rooms(place, seen.z, slope, side)
+    bounds -= seen.radius * length
+    k = int(bounds.argmin())
+    radius = float(np.broadcast_to(seen.radius, bounds.shape)[k])
+    return float(bounds[k]), side * float(seen.z[k]) - radius * slope / length
 
 
-def _middle(place: Floats, seen: Seen, slopes: tuple[float, float], depth: float) -> float:
+def _middle(place: Floats, seen: Seen, slopes: Slopes, depth: float) -> float:
     """Return the place across from which the picture has the same free space on both sides.
 
     The narrowest field of view around the same middle in which all spheres fit is the root of a
@@ -205,18 +177,14 @@ def _middle(place: Floats, seen: Seen, slopes: tuple[float, float], depth: float
 
 def _stand_back(seen: Seen, frames: Frames, size: tuple[int, int]) -> tuple[Vec, float, float]:
     """Return the eye, the focus and the width of a pixel of an orthographic picture."""
-    ranges = [
-        (float((place - seen.radius).min()), float((place + seen.radius).max()))
-        for place in (seen.x, seen.y)
-    ]
-    pairs = list(zip(ranges, frames, strict=True))
+    (left, top, front), (right, bottom, end) = seen.surfaces.tolist()
+    pairs = list(zip(((left, right), (top, bottom)), frames, strict=True))
     pixel = max((high - low) / (last - first) for (low, high), (first, last) in pairs)
     # Points on a line along the view have no extent: any pixel will do.
     pixel = pixel or 1.0 / max(size)
     x, y = (
         (low / 2 + high / 2) - pixel * (first + last) / 2 for (low, high), (first, last) in pairs
     )
-    front = float((seen.z - seen.radius).min())
-    extent = max(pixel * max(size), float((seen.z + seen.radius).max()) - front)
+    extent = max(pixel * max(size), end - front)
     back = CLEARANCE * extent
     return (x, y, front - back), NEAR * back, pixel
