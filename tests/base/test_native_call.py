@@ -81,6 +81,19 @@ def test_nested_arguments(factor: object) -> None:
     assert len(kernel._native) == 1
 
 
+def test_none_is_left_out_of_what_is_compiled() -> None:
+    def add(first: Any, missing: Any, second: Any) -> Any:
+        if missing is None:
+            return first + second
+        return first + missing[0] + second
+
+    kernel = Kernel(add)
+    array = np.array([10.0])
+    assert (kernel(1.5, None, 2), kernel(1.5, array, 2), kernel(0.5, None, 1)) == (3.5, 13.5, 1.5)
+    assert native(kernel)
+    assert len(kernel._native) == 2
+
+
 @pytest.mark.parametrize(
     "value",
     [0, -1, 2**63 - 1, -(2**63), 0.1, -0.0, np.inf, True, False, (), (1, 2.5), ((1.0,), (True, 2))],
@@ -151,7 +164,7 @@ def test_arrays_of_any_order(order: str) -> None:
     assert native(kernel)
 
 
-@pytest.mark.parametrize("value", [2**63, "text", None, [1.0], np.zeros(1, "f2"), 1j])
+@pytest.mark.parametrize("value", [2**63, "text", b"text", [1.0], np.zeros(1, "f2"), 1j])
 def test_other_values_are_left_to_numba(value: object) -> None:
     with pytest.raises(UnsupportedError):
         unpack([value])
