@@ -22,6 +22,7 @@ import vtray
 from conftest import compiled_only
 from vtray.base.compiler.compiled import Device, Kernel
 from vtray.base.compiler.object_code import compile_object, read_object_code
+from vtray.geometry.bvh.key_sort import SMALL, sort_keys
 
 SOURCES = Path(vtray.__file__).parent
 
@@ -45,6 +46,7 @@ def test_machine_code_of_all_kernels() -> None:
     scene.lights = [vtray.Light((2, 3, 4), 1), vtray.Light((-5, 3, 4), 2)]
     vtray.render(scene, samples=2, keep_lights=True).relight([1, 2])
     vtray.trace_pixel(scene, 4, 3)
+    sort_keys(np.zeros(2 * SMALL, np.uint64), threads=2)  # as for many spheres
     for item in kernels():
         files = [file for types in item._native if (file := item._file(types))]
         codes = [compiled.code for file in files if (compiled := read_object_code(file))]

@@ -33,7 +33,7 @@ def join_trees(
     """
     sizes = np.array([node_count(part) for part in parts], np.int64)
     first = np.cumsum(sizes) - sizes
-    bvh = new_bvh(int(sizes.sum()))
+    bvh = new_bvh(sum(map(node_count, parts)))
 
     def put(run: NDArray[np.int64]) -> None:
         for k in map(int, run):

@@ -49,7 +49,7 @@ class Primitives(Protocol):
     def gather(self, numbers: Numbers, slot: int, boxes: Boxes) -> None:
         """Bring primitives to their places in the order of the leaves, and set boxes to theirs.
 
-        Called once for each place, or twice if there is a better order.
+        Called again for places where a better order is found; the last call counts.
 
         Parameters
         ----------
