@@ -105,14 +105,16 @@ def compile_object(
     check_memory_of_compiler()
     import numba
 
+    from vtray.base.compiler.numba_pipeline import Pipeline
+
     # The wrappers through which Python would call it need Numba in memory.
     unwrapped: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-    compiler: Any = numba.njit(function, **options, **unwrapped)
+    compiler: Any = numba.njit(function, pipeline_class=Pipeline, **options, **unwrapped)
     typeof: Any = numba.typeof
     types = tuple(map(typeof, arguments))
     compiler.compile(types)
     result = compiler.overloads[types]
-    _, _, (code, _) = result.library.serialize_using_object_code()
+    code = result.library.object_code()
     return ObjectCode(result.fndesc.llvm_func_name, _layout(result.signature.return_type), code)
 
 
