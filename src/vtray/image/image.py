@@ -20,10 +20,11 @@ from vtray.image.exposure import (
 )
 from vtray.image.formats.image_file import write_picture
 from vtray.image.formats.image_format import check_format
-from vtray.image.formats.png_file import write_pixels
+from vtray.image.formats.png_file import write_8_bits
 from vtray.image.provenance import describe
 from vtray.image.surfaces import Surfaces
 from vtray.scene.checks.unknown_names import explain_unknown
+from vtray.scene.edits import recolored, relit
 from vtray.scene.fingerprint import scene_hash
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
@@ -195,8 +196,6 @@ class Image:
         SceneError
             An intensity is wrong, or there are too many or too few.
         """
-        from vtray.scene.edits import relit
-
         lights = relit(self.scene.lights, intensities)
         scene = Scene(self.scene.camera, lights, self.scene.objects, self.scene.render)
         return self._relit(scene, lock)
@@ -232,8 +231,6 @@ class Image:
         SceneError
             There is no such object, or a colour is wrong.
         """
-        from vtray.scene.edits import recolored
-
         objects = recolored(
             self.scene.objects, index, color, cmap=cmap, clim=clim, nan_color=nan_color
         )
@@ -307,7 +304,7 @@ class Image:
     def _repr_png_(self) -> bytes:
         """Return the picture as a PNG, by which notebooks show it."""
         buffer = io.BytesIO()
-        write_pixels(self.pixels, buffer, {})
+        write_8_bits(self.pixels, buffer, {})
         return buffer.getvalue()
 
     def flat(self) -> NDArray[np.uint8]:
