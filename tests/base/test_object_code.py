@@ -93,8 +93,7 @@ def test_file_that_cannot_be_written_or_read(tmp_path: Path) -> None:
         lambda patch: patch.setattr(llvmlite, "__version__", "0.1"),
         lambda patch: patch.setattr(object_code, "_numba_version", lambda: "0.1"),
         lambda patch: patch.setattr(sys, "version", "3.99"),
-        lambda patch: patch.setattr(binding, "get_host_cpu_name", lambda: "another"),
-        lambda patch: patch.setattr(binding, "get_process_triple", lambda: "another"),
+        lambda patch: patch.setattr(object_code, "processor", lambda: "another"),
     ],
 )
 def test_other_circumstances_have_another_file(

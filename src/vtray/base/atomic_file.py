@@ -15,21 +15,23 @@ takes it over.
 """
 
 import contextlib
-import hashlib
 import os
 import re
-import shutil
 import stat
-import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import BinaryIO
+
+from blake3 import blake3
 
 from vtray.base.errors import OutputError
 from vtray.base.signals import LastStep, blocked
 
 TEMPORARY_NAMES = 16
 """How many processes may write to a file at once before their names are chosen at random."""
+
+_STEP = 1 << 20
+"""Bytes that are copied at a time."""
 
 _OPEN = re.compile(r"/dev/std(?:out|err)|/(?:dev|proc/self)/fd/([0-9]{1,6})")
 
@@ -177,7 +179,7 @@ def _open_temporary(target: Path) -> tuple[int, str, int | None]:
     lock
         A second descriptor, if it is locked for as long as this is open.
     """
-    mark = hashlib.blake2b(os.fsencode(target.name), digest_size=6).hexdigest()
+    mark = blake3(os.fsencode(target.name)).hexdigest(6)
     # Where there are no locks, as in Windows, nothing can be taken over.
     for k in range(TEMPORARY_NAMES if hasattr(os, "O_NOFOLLOW") else 0):
         name = str(target.with_name(f".vtray-{mark}-{k}.part"))
@@ -187,6 +189,8 @@ def _open_temporary(target: Path) -> tuple[int, str, int | None]:
                 os.ftruncate(handle, 0)
                 return handle, name, os.dup(handle)
             os.close(handle)
+    import tempfile
+
     # If the folder cannot be written to, this says why.
     handle, name = tempfile.mkstemp(prefix=".vtray-", suffix=".part", dir=target.parent)
     return handle, name, None
@@ -233,7 +237,8 @@ def _overwrite(target: Path, name: str) -> None:
             file.truncate(before)
             raise
         with blocked():
-            shutil.copyfileobj(new, file)
+            while part := new.read(_STEP):
+                file.write(part)
             file.truncate()
 
 

@@ -10,7 +10,6 @@ import contextlib
 import errno
 import os
 import stat
-import tempfile
 from functools import reduce
 from operator import or_
 from pathlib import Path
@@ -65,6 +64,8 @@ def write_own(file: Path, content: bytes) -> None:
     OSError
         It cannot be written.
     """
+    import tempfile
+
     # A file made so can be read and written by its owner alone.
     opened, name = tempfile.mkstemp(prefix=f"{file.name}.", dir=file.parent)
 

@@ -5,6 +5,7 @@ import contextlib
 import os
 import sys
 from collections.abc import Callable
+from functools import partial
 from typing import NoReturn
 
 from vtray.base.errors import OutputError, UsageError, VtrayError, printable
@@ -22,11 +23,27 @@ class Parser(argparse.ArgumentParser):
     ----------
     hint
         A line on how to call the command, for its error messages.
+    formatter
+        How the help is laid out.
     """
 
-    def __init__(self, *, hint: str, **options: object) -> None:
-        super().__init__(allow_abbrev=False, **options)  # type: ignore[arg-type]
+    def __init__(
+        self,
+        *,
+        hint: str,
+        formatter: type[argparse.HelpFormatter] = argparse.HelpFormatter,
+        **options: object,
+    ) -> None:
+        # Each option asks for one, which would load a lot to look how wide the terminal is.
+        narrow = partial(formatter, width=80)
+        super().__init__(allow_abbrev=False, formatter_class=narrow, **options)  # type: ignore[arg-type]
         self._hint = hint
+        self._formatter = formatter
+
+    def format_help(self) -> str:
+        """Return the help, as wide as the terminal."""
+        self.formatter_class = self._formatter
+        return super().format_help()
 
     def error(self, message: str) -> NoReturn:
         """Raise UsageError instead of printing and exiting with status 2."""

@@ -135,7 +135,7 @@ def _parse(arguments: Sequence[str]) -> argparse.Namespace:
         prog="vtray-diff",
         description="Say how different two images look to people.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("a", metavar="A.png", type=Path, help="an image")
     parser.add_argument("b", metavar="B.png", type=Path, help="another image of the same size")

@@ -147,8 +147,12 @@ class Device:
         """
         import numba
 
+        from vtray.base.compiler.numba_pipeline import Pipeline
+
         options = {**self._options, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-        compiled: Callable[..., object] = numba.njit(self._function, **options)
+        compiled: Callable[..., object] = numba.njit(
+            self._function, pipeline_class=Pipeline, **options
+        )
         return compiled
 
     @property

@@ -1,8 +1,8 @@
 """Compiled kernels on disk, and their way into memory without Numba.
 
 Importing Numba takes longer than rendering most scenes, and only its compiler is needed. So each
-kernel's object code, as LLVM has made it, goes into a file of its own, from which LLVM's linker
-loads it within a millisecond.
+kernel's object code, as LLVM has made it, goes into a file of its own, from which it is loaded
+within a millisecond: by `elf_loader`, or where that is not enough by LLVM's linker.
 
 A file is used only if all that could make its code wrong is as it was: the types of the arguments,
 the processor, Python, Numba with its settings, and LLVM are part of its name, the sources of vtray
@@ -11,7 +11,6 @@ again, and the file replaced as a whole, so that several processes may do so at 
 """
 
 import contextlib
-import hashlib
 import os
 import sys
 from collections.abc import Callable, Mapping
@@ -23,9 +22,12 @@ from pathlib import Path
 from typing import Any
 
 import msgspec
+from blake3 import blake3
 
+from vtray.base.compiler.elf_loader import load
 from vtray.base.compiler.kernel_folder import SUFFIX, cache_folder, read_kept
 from vtray.base.compiler.native_call import Layout, TupleLayout
+from vtray.base.compiler.processor import processor
 from vtray.base.memory import check_memory_of_compiler, check_memory_of_start
 from vtray.base.own_files import write_own
 
@@ -65,7 +67,7 @@ def object_file(kernel: str, types: str) -> Path | None:
     if folder is None:
         return None
     circumstances = [*_circumstances(), *_numba_settings()]
-    key = hashlib.sha256("\n".join([kernel, types, *circumstances]).encode()).hexdigest()
+    key = blake3("\n".join([kernel, types, *circumstances]).encode()).hexdigest()
     return folder / f"{kernel}-{key[:16]}{SUFFIX}"
 
 
@@ -74,7 +76,7 @@ def read_object_code(file: Path) -> ObjectCode | None:
     content = read_kept(file) or b""
     checksum, body = content[:_HASH_BYTES], content[_HASH_BYTES:]
     with contextlib.suppress(msgspec.DecodeError):
-        if checksum == hashlib.sha256(body).digest():
+        if checksum == blake3(body).digest():
             return msgspec.msgpack.decode(body, type=ObjectCode)
     return None
 
@@ -83,7 +85,7 @@ def write_object_code(file: Path, compiled: ObjectCode) -> None:
     """Write a file, whole; if that fails, the next process compiles again."""
     body = msgspec.msgpack.encode(compiled)
     with contextlib.suppress(OSError):
-        write_own(file, hashlib.sha256(body).digest() + body)
+        write_own(file, blake3(body).digest() + body)
 
 
 def compile_object(
@@ -103,14 +105,16 @@ def compile_object(
     check_memory_of_compiler()
     import numba
 
+    from vtray.base.compiler.numba_pipeline import Pipeline
+
     # The wrappers through which Python would call it need Numba in memory.
     unwrapped: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-    compiler: Any = numba.njit(function, **options, **unwrapped)
+    compiler: Any = numba.njit(function, pipeline_class=Pipeline, **options, **unwrapped)
     typeof: Any = numba.typeof
     types = tuple(map(typeof, arguments))
     compiler.compile(types)
     result = compiler.overloads[types]
-    _, _, (code, _) = result.library.serialize_using_object_code()
+    code = result.library.object_code()
     return ObjectCode(result.fndesc.llvm_func_name, _layout(result.signature.return_type), code)
 
 
@@ -122,6 +126,9 @@ def link(compiled: ObjectCode) -> int:
     RuntimeError
         It is not object code of this machine, or it needs something that there is not.
     """
+    entry = load(compiled.code, compiled.symbol)
+    if entry is not None:
+        return entry
     try:
         return _link(compiled, {})
     except RuntimeError:  # a symbol is missing
@@ -129,7 +136,7 @@ def link(compiled: ObjectCode) -> int:
 
 
 def _link(compiled: ObjectCode, helpers: Mapping[str, int]) -> int:
-    """Load object code that may call C's library, and the helpers at some addresses."""
+    """Let LLVM load object code that may call C's library, and the helpers at some addresses."""
     from llvmlite.binding import JITLibraryBuilder
 
     builder = JITLibraryBuilder().add_object_img(compiled.code).add_current_process()
@@ -186,16 +193,8 @@ def _layout(returned: Any) -> Layout:  # noqa: ANN401 - a type of Numba's
 def _circumstances() -> list[str]:
     """Return what the compiled code depends on, besides the sources and the arguments."""
     import llvmlite
-    from llvmlite import binding
 
-    return [
-        sys.version,
-        _numba_version(),
-        llvmlite.__version__,
-        binding.get_process_triple(),
-        binding.get_host_cpu_name(),
-        binding.get_host_cpu_features().flatten(),
-    ]
+    return [sys.version, _numba_version(), llvmlite.__version__, processor()]
 
 
 def _numba_settings() -> list[str]:

@@ -4,7 +4,6 @@ from typing import Any, BinaryIO
 
 from vtray.image.aovs import aov_of
 from vtray.image.formats.picture import LONGEST_TEXT, How, Picture
-from vtray.scene.files.array_file import read_text
 
 NAME = "provenance"
 """The array, of one text, that says how a picture was made."""
@@ -25,4 +24,6 @@ def write_npz(picture: Picture, how: How, file: BinaryIO) -> None:
 
 def read_npz(file: BinaryIO) -> str | None:
     """Return what a .npz file says of how its picture was made, None if it says nothing."""
+    from vtray.scene.files.array_file import read_text
+
     return read_text(file, NAME, LONGEST_TEXT)

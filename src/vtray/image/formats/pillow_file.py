@@ -4,8 +4,6 @@ All three say how the picture was made in the same two tags of Exif, which are T
 """
 
 import io
-import logging
-import warnings
 from typing import BinaryIO
 
 from vtray.base.version import SOFTWARE
@@ -43,6 +41,9 @@ def _write(picture: Picture, how: How, file: BinaryIO, name: str, **options: obj
 
 def read_exif(file: BinaryIO) -> str | None:
     """Return what a TIFF, JPEG or WebP says of how it was made, None if it says nothing."""
+    import logging
+    import warnings
+
     from PIL import Image as PillowImage
 
     log = logging.getLogger(PillowImage.__name__.partition(".")[0])
