@@ -103,7 +103,9 @@ def test_equality_is_that_of_the_objects(kind: type[Arrays]) -> None:
 
 
 def test_kinds_differ_even_if_empty() -> None:
-    assert Spheres([], 1) != Cylinders([], [], 1)
+    spheres, cylinders = Spheres([], 1), Cylinders([], [], 1)
+    assert spheres != cylinders
+    assert (spheres == cylinders) is False
 
 
 @each_kind
@@ -418,6 +420,16 @@ def test_any_change_is_another_scene() -> None:
     assert scene_hash(scenes[0]) == scene_hash(Scene(CAMERA, [], [Cylinders(**base)]))
 
 
+@each_kind
+def test_hashes_stay_what_they_are(kind: type[Arrays]) -> None:
+    found = scene_hash(Scene(CAMERA, [], [kind(**COLUMNS_OF[kind]())]))
+    assert found == HASHES[kind]
+
+
+HASHES: dict[type[Arrays], str] = {
+    Spheres: "57801293ada7e1faa5cf8f106260f6b5",
+    Cylinders: "fe8745703f2488b7260db2e0292e8eff",
+}
 KINDS_OF_NONE: list[tuple[Any, ...]] = [(Spheres, 1), (Cylinders, [], 1)]
 
 

@@ -100,9 +100,10 @@ class Scene(msgspec.Struct, Adding, metaclass=Checked, dict=True):
         if _is_none(self.camera):
             remedy = "set one, for instance vtray.Camera.fit(scene)"
             raise SceneError(f"Scene.camera: there is none; {remedy}")
-        for index, item in enumerate(self.objects):
-            if isinstance(item, Arrays):
-                item.check(f"Scene.objects[{index}]")
+        if any(issubclass(kind, Arrays) for kind in set(map(type, self.objects))):
+            for index, item in enumerate(self.objects):
+                if isinstance(item, Arrays):
+                    item.check(f"Scene.objects[{index}]")
 
     def to_dict(self) -> dict[str, Any]:
         """Return the scene as a dictionary that `vtray.load_dict` makes an equal scene of.
