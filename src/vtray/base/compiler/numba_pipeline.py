@@ -27,7 +27,6 @@ class Pipeline(Compiler):
         locals: Any,  # noqa: A002, ANN401
     ) -> None:
         made = Library(targetctx.codegen(), "function")
-        made.counts_references = flags.nrt
         super().__init__(typingctx, targetctx, made, args, return_type, flags, locals)
 
 
@@ -39,16 +38,9 @@ class _NoEnvironments:
 
 
 class Library(JITCodeLibrary):
-    """A function and all that it calls, in LLVM's language.
-
-    Attributes
-    ----------
-    counts_references
-        Whether it counts those to its arrays; kernels do not.
-    """
+    """A function and all that it calls, in LLVM's language."""
 
     codegen = _NoEnvironments()
-    counts_references = False
 
     def object_code(self) -> bytes:
         """Return an object file of this machine."""
@@ -64,13 +56,3 @@ class Library(JITCodeLibrary):
     def _finalize_final_module(self) -> None:
         """Leave the module, which has been optimized, as it is."""
         self._finalized = True
-
-    def _optimize_functions(self, module: Any) -> None:  # noqa: ANN401
-        """Optimize nothing before the functions that are called are there.
-
-        It took a tenth of the time, and made the code worse: a million spheres took 0.19 s, not
-        0.16.
-        """
-        if self.counts_references:  # only so is most of the counting removed
-            super()._optimize_functions(module)
-        module.data_layout = self._codegen._data_layout  # noqa: SLF001
