@@ -92,7 +92,7 @@ def _check_output(options: argparse.Namespace) -> None:
 def _check_picture(scene: "Scene", options: argparse.Namespace) -> None:
     """Raise an error if the output is a part of the scene, or cannot hold the picture."""
     from vtray.image.formats.image_format import check_format, find_format
-    from vtray.scene.spheres import check_spares_data
+    from vtray.scene.arrays import check_spares_data
 
     check_spares_data(options.output, scene.objects)
     background = options.background or scene.render.background

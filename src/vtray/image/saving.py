@@ -7,7 +7,7 @@ from vtray.image.formats.image_file import write_picture
 from vtray.image.formats.image_format import check_format
 from vtray.image.formats.picture import Picture
 from vtray.image.provenance import describe
-from vtray.scene.spheres import check_spares_data
+from vtray.scene.arrays import check_spares_data
 
 
 def save_picture(picture: Picture, path: Path, bits: int | None, aov: Collection[str]) -> None:

@@ -3,13 +3,11 @@
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from vtray.scene.arrays import Arrays, Bytes, Floats, check_spares_data
+from vtray.scene.arrays import Arrays, Bytes, Floats
 from vtray.scene.checks.columns import COLOR, LAMBERT, POINT, RADIUS
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
-
-__all__ = ["Spheres", "check_spares_data", "from_arrays"]
 
 
 class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="spheres"):
@@ -67,6 +65,3 @@ class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="s
             color: ArrayLike = ...,
             lambert: ArrayLike = 1.0,
         ) -> None: ...
-
-
-from_arrays = Spheres.from_arrays

@@ -10,7 +10,7 @@ from vtray.base.errors import SceneError
 from vtray.scene.objects import Object, Plane, Sphere
 from vtray.scene.placing.directions import Vec, dot, unit
 from vtray.scene.placing.pieces import by_pieces
-from vtray.scene.spheres import Spheres, from_arrays
+from vtray.scene.spheres import Spheres
 
 Floats = NDArray[np.float64]
 
@@ -52,7 +52,7 @@ def balls_of(subject: object, place: str) -> Balls:
     else:
         zeros = {"radius": 0, "color": (0, 0, 0), "lambert": 0}
         called = {"center": "positions"}
-        points = from_arrays({"center": subject, **zeros}, f"{place}: ", called)
+        points = Spheres.from_arrays({"center": subject, **zeros}, f"{place}: ", called)
         found = [Balls(points.center, 0.0)]
     found = [balls for balls in found if len(balls.center)]
     if not found:
