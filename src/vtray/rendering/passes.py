@@ -1,20 +1,17 @@
 """From the arrays of a scene to a film: which rays are cast, tile by tile, in one pass or two."""
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import pinned
 from vtray.base.memory import check_memory_of_lights
 from vtray.base.pool import Progress, run_tasks
 from vtray.base.tiles import TILE, Tile, split_into_tiles
-from vtray.geometry.packets.packet import new_packet
-from vtray.geometry.packets.workspace import new_workspace
+from vtray.rendering.engines.engine import Engine, Plan, trace
+from vtray.rendering.engines.threads import Threads
 from vtray.scene.settings import RenderSettings
 from vtray.transport.film import Film, new_film
-from vtray.transport.integrators.direct import trace_tile
 from vtray.transport.light_buffer import KeptLight, new_kept_light
 from vtray.transport.sampling.adaptive import mark_rows
 from vtray.transport.sampling.filters import FILTERS
@@ -73,6 +70,7 @@ class Tracer:
         self._scene = scene
         self._size = scene.camera.width, scene.camera.height
         self._threads = threads
+        self._engine: Engine = Threads(threads)
         self._tile = tile
         self._progress = progress
         self._passes = 1
@@ -138,26 +136,10 @@ class Tracer:
 
     def _trace(self, sampling: Sampling, film: Film) -> Traced:
         """Cast rays, and write to a film."""
-        stop = np.zeros(1, np.bool_)
-        results: list[tuple[float, int]] = []
-        world, places = pinned(self._scene), pinned(sampling)
-        canvas, flag = pinned(film), pinned(stop)
-
-        def new_worker() -> Callable[[Tile], None]:
-            packet, work = pinned(new_packet()), pinned(new_workspace(self._scene.world))
-
-            def trace(tile: Tile) -> None:
-                results.append(trace_tile(world, places, *tile, canvas, packet, work, flag))
-
-            return trace
-
-        def hurry() -> None:
-            stop[0] = True
-
         tiles = split_into_tiles(*self._size, self._tile)
         progress = self._progress_of(len(tiles))
-        run_tasks(tiles, new_worker, self._threads, stop=hurry, progress=progress)
-        return Traced(film, max(peak for peak, _ in results), sum(rays for _, rays in results))
+        cast = self._engine.trace(self._scene, sampling, tiles, film, progress)
+        return Traced(film, cast.peak, cast.rays)
 
     def _progress_of(self, tiles: int) -> Progress | None:
         """Return what shows the progress of a pass as a part of all passes."""
@@ -168,8 +150,6 @@ class Tracer:
 
 def compile_kernels(scene: SceneArrays, settings: RenderSettings) -> None:
     """Compile what is needed to trace a scene, or load it from disk."""
-    stop = np.zeros(1, np.bool_)
-    packet, work = new_packet(), new_workspace(scene.world)
-    trace_tile(scene, middle_rays(), 0, 0, 0, 0, new_film(0, 0), packet, work, stop)
+    trace(scene, Plan(middle_rays(), ()), Tile(0, 0, 0, 0))
     if settings.samples > 1:
         mark_rows(new_film(0, 0), 0, 0, 0, np.zeros((0, 0), np.bool_))

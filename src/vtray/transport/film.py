@@ -36,6 +36,8 @@ class Film(NamedTuple):
 
     Attributes
     ----------
+    left, top
+        The pixel of the image at which it begins: 0, 0 where it is that of the whole image.
     linear
         Linear light, (height, width, 3).
     coverage
@@ -56,6 +58,8 @@ class Film(NamedTuple):
         What is kept of all rays to change lights and colours afterwards.
     """
 
+    left: int
+    top: int
     linear: NDArray[np.float64]
     coverage: NDArray[np.float64]
     distance: NDArray[np.float64]
@@ -67,7 +71,7 @@ class Film(NamedTuple):
     kept: KeptLight
 
 
-def new_film(width: int, height: int, *wanted: str) -> Film:
+def new_film(width: int, height: int, *wanted: str, left: int = 0, top: int = 0) -> Film:
     """Return a film for what is wanted, of no certain content."""
 
     def rows(name: str, kind: Any = np.float64, *more: int) -> NDArray[Any]:  # noqa: ANN401
@@ -75,6 +79,8 @@ def new_film(width: int, height: int, *wanted: str) -> Film:
         return np.empty((*size, *more), kind)
 
     return Film(
+        left=left,
+        top=top,
         linear=rows("linear", np.float64, 3),
         coverage=rows("coverage"),
         distance=rows("distance"),
@@ -221,8 +227,8 @@ def _write_rays(
 
 @device
 def _place(block: Block, pixel: int) -> tuple[int, int]:
-    """Return row and column of a pixel of a block in the image."""
-    return block.top + pixel // BLOCK, block.left + (pixel & (BLOCK - 1))
+    """Return row and column of a pixel of a block in the film."""
+    return block.row + pixel // BLOCK, block.column + (pixel & (BLOCK - 1))
 
 
 @device

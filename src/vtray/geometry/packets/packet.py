@@ -115,12 +115,24 @@ Packet = NDArray[np.float64]
 
 
 class Block(NamedTuple):
-    """A rectangle of pixels, at most ``BLOCK`` wide and high, traced as one packet."""
+    """A rectangle of pixels, at most ``BLOCK`` wide and high, traced as one packet.
+
+    Attributes
+    ----------
+    left, top
+        Its first pixel in the image.
+    width, height
+        Its size.
+    column, row
+        Its first pixel on the film, which may be that of a part of the image.
+    """
 
     left: int
     top: int
     width: int
     height: int
+    column: int
+    row: int
 
 
 class Sheaf(NamedTuple):

@@ -86,7 +86,8 @@ def trace_tile(
     together = max(1, LANES // sampling.rays)
     for y in range(top, bottom, BLOCK):
         for x in range(left, right, BLOCK):
-            block = Block(x, y, min(BLOCK, right - x), min(BLOCK, bottom - y))
+            width, height = min(BLOCK, right - x), min(BLOCK, bottom - y)
+            block = Block(x, y, width, height, x - film.left, y - film.top)
             pixels = list_pixels(block, sampling.marks, work.curve, work.pixels)
             for begin in range(0, pixels, together):
                 end = min(begin + together, pixels)

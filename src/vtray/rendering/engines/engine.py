@@ -1,0 +1,108 @@
+"""What an engine is: it traces the tiles of a picture, with whatever it has to work with."""
+
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.pool import Progress
+from vtray.base.tiles import Tile
+from vtray.geometry.packets.packet import new_packet
+from vtray.geometry.packets.workspace import new_workspace
+from vtray.transport.film import Film, new_film
+from vtray.transport.integrators.direct import trace_tile
+from vtray.transport.sampling.pixel_samples import Sampling
+from vtray.transport.scene_arrays import SceneArrays
+
+
+class Cast(NamedTuple):
+    """What casting rays came to.
+
+    Attributes
+    ----------
+    peak
+        The largest channel of light.
+    rays
+        How many rays were cast.
+    """
+
+    peak: float
+    rays: int
+
+
+class Plan(NamedTuple):
+    """What is traced.
+
+    Attributes
+    ----------
+    sampling
+        Which rays are cast for which pixels.
+    wanted
+        The parts of a film that are recorded.
+    """
+
+    sampling: Sampling
+    wanted: tuple[str, ...]
+
+
+class Engine(Protocol):
+    """Traces the tiles of a picture, in any order: none depends on another."""
+
+    def trace(
+        self,
+        scene: SceneArrays,
+        sampling: Sampling,
+        tiles: Sequence[Tile],
+        film: Film,
+        progress: Progress | None = None,
+    ) -> Cast:
+        """Trace tiles, and write them to the film of the picture.
+
+        Parameters
+        ----------
+        scene
+            The scene.
+        sampling
+            Which rays are cast for which pixels.
+        tiles
+            The tiles.
+        film
+            Out: what is wanted of the picture.
+        progress
+            Called from time to time with the tiles done and their number.
+        """
+
+
+def trace(scene: SceneArrays, plan: Plan, tile: Tile) -> tuple[Film, Cast]:
+    """Trace one tile on its own, as an engine does that works elsewhere; return its film.
+
+    Nothing but the arguments is read, and nothing else is written. All bits are those of the tile
+    in the whole picture.
+    """
+    width, height = tile.right - tile.left, tile.bottom - tile.top
+    film = new_film(width, height, *plan.wanted, left=tile.left, top=tile.top)
+    packet, work = new_packet(), new_workspace(scene.world)
+    go_on = np.zeros(1, np.bool_)
+    return film, Cast(*trace_tile(scene, plan.sampling, *tile, film, packet, work, go_on))
+
+
+def paste(tile: Tile, part: Film, marks: NDArray[np.bool_], film: Film) -> None:
+    """Put the film of a tile into that of the picture.
+
+    Parameters
+    ----------
+    tile, part
+        The tile, and its film.
+    marks
+        The pixels of the picture that were traced, or (0, 0) for all, as in `Sampling`.
+    film
+        Out: the film of the picture.
+    """
+    place = np.s_[tile.top : tile.bottom, tile.left : tile.right]
+    traced = marks[place] if marks.size else np.ones((1, 1), np.bool_)
+    for name in set(Film._fields) - {"left", "top", "kept"}:
+        source, target = getattr(part, name), getattr(film, name)
+        if source.size and target.size:
+            where = traced[..., np.newaxis] if source.ndim > traced.ndim else traced
+            np.copyto(target[place], source, where=where)
