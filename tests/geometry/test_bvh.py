@@ -23,7 +23,7 @@ from vtray.geometry.bvh.tree import (
     STACK,
     WIDTH,
 )
-from vtray.geometry.packets.shaft import MARGIN
+from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.sphere_columns import Built
 from vtray.geometry.shapes.sphere_columns import build_spheres as build
 

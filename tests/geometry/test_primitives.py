@@ -14,7 +14,7 @@ from vtray.geometry.bvh.build import Tree, build
 from vtray.geometry.bvh.join import join_trees
 from vtray.geometry.bvh.primitives import GivenBoxes
 from vtray.geometry.bvh.tree import EMPTY, WIDTH, Bvh, leaf_range
-from vtray.geometry.packets.shaft import MARGIN
+from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.sphere_columns import build_spheres
 
 COUNT = 2000 if JIT else 60

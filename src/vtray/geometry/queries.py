@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import STACK, WIDTH, leaf_range
 from vtray.geometry.packets.beam import Beam, beam_margin, children_met, enter_child, make_beam
-from vtray.geometry.packets.shaft import MARGIN
 from vtray.geometry.ray import Ray, Segment
+from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.shapes.cylinder import cylinder_distance, cylinder_hides, load_cylinder
 from vtray.geometry.shapes.plane import load_plane, plane_distance, plane_hides

@@ -17,3 +17,6 @@ section 6.8.
 ROUNDING = 2.0**-47
 """Bound on the distance of a computed point from its true surface, relative to the magnitudes that
 took part: 32 machine epsilons, where the longest chain of operations can reach 20."""
+
+MARGIN = 8.0 * ROUNDING
+"""How much wider than that things are taken where it is asked whether they can be left out."""

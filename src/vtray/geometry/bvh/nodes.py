@@ -11,7 +11,7 @@ from vtray.geometry.bvh.morton import key_number, make_key
 from vtray.geometry.bvh.primitives import Boxes, Numbers
 from vtray.geometry.bvh.split import Order, Scratch, box_place, split_range
 from vtray.geometry.bvh.tree import EMPTY, LEAF, SIDES, WIDTH, Bvh, Frame, leaf_code, leaf_range
-from vtray.geometry.packets.shaft import MARGIN
+from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import Vec, add, lower, magnitude, sub, upper
 
 OUTSIDE = 3.0e38

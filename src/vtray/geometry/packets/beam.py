@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh
-from vtray.geometry.packets.shaft import MARGIN
+from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import Vec, magnitude
 
 TINY = 1e-30

@@ -21,9 +21,9 @@ from vtray.geometry.packets.packet import (
     load_ray,
 )
 from vtray.geometry.packets.ray_bounds import find_farthest, octets_met
-from vtray.geometry.packets.shaft import MARGIN
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Footprint, Ray, has_width
+from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.shapes.cylinder import cylinder_distance, cylinder_outline, load_cylinder
 from vtray.geometry.shapes.plane import load_plane, plane_distance

@@ -17,10 +17,10 @@ from vtray.geometry.packets.packet import (
     Packet,
     load,
 )
-from vtray.geometry.packets.shaft import MARGIN, outside_shaft
+from vtray.geometry.packets.shaft import outside_shaft
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Segment
-from vtray.geometry.rounding import ROUNDING
+from vtray.geometry.rounding import MARGIN, ROUNDING
 from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.shapes.cylinder import cylinder_hides, load_cylinder
 from vtray.geometry.shapes.plane import PlaneShape, end_side, hides_side, load_plane, plane_side

@@ -8,9 +8,6 @@ for NaN, which keeps the sphere.
 from vtray.base.compiler.compiled import device
 from vtray.geometry.vector import Vec, dot, scale, sub
 
-MARGIN = 2.0**-44
-"""Widening of each sphere, relative to the magnitudes at hand: eight times ``ROUNDING``."""
-
 
 @device
 def outside_shaft(center: Vec, radius: float, light: Vec, box_center: Vec, box_half: Vec) -> bool:

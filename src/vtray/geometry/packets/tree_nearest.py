@@ -6,9 +6,9 @@ from vtray.geometry.packets.beam import Beam, beam_margin, children_met, enter_c
 from vtray.geometry.packets.nearest import nearest_slots
 from vtray.geometry.packets.packet import Packet, Sheaf
 from vtray.geometry.packets.ray_bounds import farthest_of, part_directions, part_starts
-from vtray.geometry.packets.shaft import MARGIN
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Footprint
+from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import add, scale, sub
 from vtray.geometry.world import Group, ToBoxes, World
 

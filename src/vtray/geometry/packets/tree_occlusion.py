@@ -8,8 +8,8 @@ from vtray.geometry.bvh.tree import WIDTH, leaf_range
 from vtray.geometry.packets.beam import Beam, beam_margin, children_met, make_beam
 from vtray.geometry.packets.occlusion import Bounds, Target, block_by_slot, in_shaft
 from vtray.geometry.packets.packet import BLOCKED, ERROR_SCALE, POINT, Packet, load
-from vtray.geometry.packets.shaft import MARGIN
 from vtray.geometry.packets.workspace import Workspace
+from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import Vec, add, lower, scale, sub, upper
 from vtray.geometry.world import Group, ToBoxes, World
 
