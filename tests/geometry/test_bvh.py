@@ -8,6 +8,8 @@ from clouds import CLOUDS, cloud
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays_of
+from sphere_trees import Built
+from sphere_trees import build_spheres as build
 
 from conftest import JIT, compiled_only
 from vtray.geometry.bvh import build as bvh_build
@@ -24,8 +26,6 @@ from vtray.geometry.bvh.tree import (
     WIDTH,
 )
 from vtray.geometry.rounding import MARGIN
-from vtray.geometry.shapes.sphere_columns import Built
-from vtray.geometry.shapes.sphere_columns import build_spheres as build
 
 COUNT = 3000 if JIT else 60
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from clouds import CLOUDS, cloud
+from sphere_trees import build_spheres
 
 from conftest import JIT, compiled_only
 from vtray.geometry.bvh import build as bvh_build
@@ -15,7 +16,6 @@ from vtray.geometry.bvh.join import join_trees
 from vtray.geometry.bvh.primitives import GivenBoxes
 from vtray.geometry.bvh.tree import EMPTY, WIDTH, Bvh, leaf_range
 from vtray.geometry.rounding import MARGIN
-from vtray.geometry.shapes.sphere_columns import build_spheres
 
 COUNT = 2000 if JIT else 60
 

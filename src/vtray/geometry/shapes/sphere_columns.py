@@ -6,50 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, input_array, kernel, pinned
-from vtray.base.pool import Progress
-from vtray.geometry.bvh.build import build
 from vtray.geometry.bvh.primitives import Boxes, Numbers
-from vtray.geometry.bvh.tree import Bvh, Frame
 from vtray.geometry.vector import Vec
-
-
-class Leaves(NamedTuple):
-    """The spheres in the order of the leaves.
-
-    Attributes
-    ----------
-    data
-        x, y, z of the centre and the radius of each sphere, side by side, in world space, (4 * n,).
-    number
-        The number of each sphere in the scene, (n,).
-    """
-
-    data: NDArray[np.float64]
-    number: NDArray[np.int32]
-
-
-class Built(NamedTuple):
-    """The hierarchy of spheres and what belongs to it.
-
-    Attributes
-    ----------
-    leaves
-        The spheres in the order of the leaves.
-    bvh
-        The hierarchy.
-    frame
-        The space of its boxes.
-    depth
-        How many nodes lie one below the other at the most.
-    largest
-        The largest coordinate or radius.
-    """
-
-    leaves: Leaves
-    bvh: Bvh
-    frame: Frame
-    depth: int
-    largest: float
 
 
 class SphereColumns(NamedTuple):
@@ -104,28 +62,6 @@ class GivenSpheres:
     def gather(self, numbers: Numbers, slot: int, boxes: Boxes) -> None:
         """Bring spheres to their slots, and set boxes to theirs."""
         gather_spheres(self._given, numbers, slot, self._data, boxes)
-
-
-def build_spheres(
-    center: NDArray[Any], radius: NDArray[Any], threads: int, progress: Progress | None = None
-) -> Built:
-    """Build the hierarchy of spheres.
-
-    Parameters
-    ----------
-    center
-        World space, (n, 3), float32 or float64, at least one.
-    radius
-        (n,), or (1,) if all are the same.
-    threads
-        How many threads to use.
-    progress
-        Called from time to time with the number of tasks done and the number of all.
-    """
-    spheres = GivenSpheres(center, radius)
-    tree = build(spheres, threads, progress)
-    leaves = Leaves(spheres.data, tree.numbers)
-    return Built(leaves, tree.bvh, tree.frame, tree.depth, tree.largest)
 
 
 @kernel
