@@ -3,7 +3,9 @@
 It works on the scene as decoded JSON, on whole images, and tests every object against every ray.
 Nothing of vtray is imported. With ``dtype=np.float64`` vtray must equal it to the last bit: both do
 the same operations in the same order, and neither fuses a multiplication with an addition. With
-``dtype=np.longdouble`` it tells how near both are to the truth.
+``dtype=np.longdouble`` it tells how near both are to the truth. Cylinders are worked out by other
+formulas, and always in long doubles: where they are seen or in the way, vtray must equal it as far
+as rounding allows, but for pixels that are in `doubt`.
 
 Rays go through any places in the image, which are in pixels from the left and from the top; a pixel
 itself is at integers.
@@ -13,6 +15,7 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
+from oracle_cylinder import Cylinder
 
 ROUNDING = 2.0**-47
 Scene = dict[str, Any]
@@ -34,6 +37,8 @@ class Seen(NamedTuple):
         The place in ``scene["objects"]``, -1 where nothing is, (...).
     shadows
         Whether something is between the hit and a light that it faces, (..., lights).
+    parts
+        What part of a cylinder is hit: its face, and 3 more in its second half; else 0, (...).
     """
 
     linear: Array
@@ -41,6 +46,7 @@ class Seen(NamedTuple):
     normals: Array
     ids: Array
     shadows: Array
+    parts: Array
 
 
 def render(scene: Scene, dtype: type = np.float64) -> Array:
@@ -56,6 +62,28 @@ def look(scene: Scene, columns: Any = None, rows: Any = None, dtype: type = np.f
     columns, rows = np.broadcast_arrays(np.asarray(columns, dtype), np.asarray(rows, dtype))
     with np.errstate(all="ignore"):
         return _Render(scene, dtype).look(columns, rows)
+
+
+def doubt(scene: Scene) -> Array:
+    """Tell in which pixels rounding may decide what cylinders show or hide, (height, width).
+
+    What is seen there changes if cylinders are larger or smaller by what rounding may amount to.
+    """
+    rows, columns = np.mgrid[0 : scene["camera"]["size"][1], 0 : scene["camera"]["size"][0]]
+    renders = []
+    for first, last in ((0, 0), (1, 1), (-1, -1), (1, -1), (-1, 1)):
+        render = _Render(scene, np.float64)
+        # Those in the same place stay the same, so that the first of them is seen.
+        places = [str(item.get("start")) + str(item.get("end")) for item in render.objects]
+        ranks = np.unique(places, return_inverse=True)[1].astype(float)
+        render.growth = (first + (last - first) * ranks / max(ranks.max(initial=0), 1)) / 4
+        with np.errstate(all="ignore"):
+            renders.append(render.look(columns.astype(float), rows.astype(float)))
+    found = np.zeros(rows.shape, bool)
+    for seen in renders[1:]:
+        found |= (seen.ids != renders[0].ids) | (seen.parts != renders[0].parts)
+        found |= (seen.shadows != renders[0].shadows).any(axis=-1)
+    return found
 
 
 def directions(scene: Scene, columns: Any, rows: Any) -> Array:
@@ -143,11 +171,15 @@ class _Render:
         # How far from there a ray may start.
         self.extent = self.width * self.shift[0] + self.height * self.shift[1]
         self.eye = -self.focus * self.forward
-        # At the same distance spheres come before planes.
+        # At the same distance spheres come before cylinders, and these before planes.
         objects = scene["objects"]
-        self.order = sorted(range(len(objects)), key=lambda k: objects[k]["type"] == "plane")
+        kinds = ["sphere", "cylinder", "plane"]
+        self.order = sorted(range(len(objects)), key=lambda k: kinds.index(objects[k]["type"]))
         self.objects = [objects[k] for k in self.order]
         self.lights = scene["lights"]
+        # By how much of the bound on rounding each object is enlarged, if it is a cylinder.
+        self.growth = np.zeros(len(objects))
+        self.cylinders = [self.cylinder(item) for item in self.objects]
 
     def vector(self, xyz: dict[str, float]) -> Array:
         return np.array([xyz["x"], xyz["y"], xyz["z"]], self.dtype)
@@ -155,10 +187,24 @@ class _Render:
     def place(self, xyz: dict[str, float]) -> Array:
         return self.vector(xyz) - self.center
 
-    def color(self, item: Scene) -> Array:
-        return np.array([item["color"][c] for c in "rgb"], self.dtype)
+    def cylinder(self, item: Scene) -> Cylinder | None:
+        if item["type"] != "cylinder":
+            return None
+        center = self.center.astype(np.longdouble)
+        start, end = (
+            np.array([item[name][axis] for axis in "xyz"], np.longdouble) - center
+            for name in ("start", "end")
+        )
+        return Cylinder(start, end, item["radius"])
+
+    def color(self, item: Scene, name: str = "color") -> Array:
+        return np.array([item.get(name, item["color"])[c] for c in "rgb"], self.dtype)
 
     def magnitude(self, item: Scene) -> Any:
+        if item["type"] == "cylinder":
+            way = self.vector(item["end"]).astype(np.longdouble) - self.vector(item["start"])
+            length = self.dtype(np.sqrt(dot(way, way)))
+            return np.abs(self.place(item["start"])).sum() + length + self.dtype(item["radius"])
         return np.abs(self.place(item["center"])).sum() + self.dtype(item.get("radius", 0))
 
     def normal(self, plane: Scene) -> Array:
@@ -171,13 +217,14 @@ class _Render:
         depth, hit = self.nearest(starts, rays)
         linear = np.zeros((*hit.shape, 3), self.dtype)
         normals, shadows = np.zeros_like(linear), np.zeros((*hit.shape, len(self.lights)), bool)
-        for k, item in enumerate(self.objects):
+        parts = np.zeros(hit.shape, int)
+        for k in range(len(self.objects)):
             mine = hit == k
             if mine.any():
-                shaded = self.shade(item, starts[mine], rays[mine], depth[mine])
-                linear[mine], normals[mine], shadows[mine] = shaded
+                shaded = self.shade(k, starts[mine], rays[mine], depth[mine])
+                linear[mine], normals[mine], shadows[mine], parts[mine] = shaded
         depth = depth + (self.eye_distance - self.focus)
-        return Seen(linear, depth, normals, np.array([*self.order, -1])[hit], shadows)
+        return Seen(linear, depth, normals, np.array([*self.order, -1])[hit], shadows, parts)
 
     def rays(self, columns: Array, rows: Array) -> tuple[Array, Array]:
         """Return where rays start, and their unit directions, both (..., 3)."""
@@ -195,8 +242,11 @@ class _Render:
         hit = np.full(rays.shape[:-1], -1)
         forward = dot(rays, self.forward)
         for k, item in enumerate(self.objects):
-            find = self.meet_sphere if item["type"] == "sphere" else self.meet_plane
-            distance = find(item, starts, rays, forward)
+            if item["type"] == "cylinder":
+                distance = self.meet_cylinder(k, starts, rays)[0]
+            else:
+                find = self.meet_sphere if item["type"] == "sphere" else self.meet_plane
+                distance = find(item, starts, rays, forward)
             nearer = distance < best
             best[nearer], hit[nearer] = distance[nearer], k
         return best, hit
@@ -224,12 +274,45 @@ class _Render:
         bound = ROUNDING * (np.abs(point).sum() + (self.extent + self.focus) + np.abs(t))
         return np.where((descent != 0) & (depth * np.abs(descent) > bound), t, self.dtype(np.inf))
 
+    def meet_cylinder(self, k: int, starts: Array, rays: Array) -> tuple[Array, Array]:
+        """Return the distances, and which face is met."""
+        cylinder, item = self.cylinders[k], self.objects[k]
+        shape = rays.shape[:-1]
+        starts, rays = starts.reshape(-1, 3), rays.reshape(-1, 3)
+        magnitude = self.magnitude(item) + (self.extent + self.focus)
+        away = np.abs(dot(cylinder.start - starts, rays))
+        larger = self.growth[k] * ROUNDING * (magnitude + away)
+        found = cylinder.cross(starts, rays, larger)
+        depth = found.at * dot(rays, self.forward) - self.focus
+        bound = ROUNDING * (np.abs(found.at) + magnitude)
+        seen = depth * found.steepness > bound
+        first = np.where(seen[0], 0, 1)[None]
+        at = np.take_along_axis(np.where(seen, found.at, np.inf), first, 0)[0]
+        face = np.take_along_axis(found.face, first, 0)[0]
+        return at.astype(self.dtype).reshape(shape), face.reshape(shape)
+
+    def surface_of_cylinder(
+        self, k: int, starts: Array, rays: Array, points: Array
+    ) -> tuple[Array, Array]:
+        """Return the normals at points, and which part of a cylinder is met there."""
+        cylinder = self.cylinders[k]
+        face = self.meet_cylinder(k, starts, rays)[1]
+        larger = self.growth[k] * ROUNDING * self.magnitude(self.objects[k])
+        second = cylinder.is_second(points, larger)
+        return cylinder.normal(points, face).astype(self.dtype), face + 3 * second
+
     def shade(
-        self, item: Scene, starts: Array, rays: Array, distance: Array
-    ) -> tuple[Array, Array, Array]:
-        """Return light, normals and shadows of points on one object, (n, 3), (n, 3), (n, m)."""
+        self, number: int, starts: Array, rays: Array, distance: Array
+    ) -> tuple[Array, Array, Array, Array]:
+        """Return light, normals, shadows and parts of points on one object, (n, ...)."""
+        item = self.objects[number]
         points = starts + distance[:, None] * rays
-        if item["type"] == "sphere":
+        parts = np.zeros(len(points), int)
+        color = self.color(item)
+        if item["type"] == "cylinder":
+            normal, parts = self.surface_of_cylinder(number, starts, rays, points)
+            color = np.where((parts >= 3)[:, None], self.color(item, "color_end"), color)
+        elif item["type"] == "sphere":
             normal = points - self.place(item["center"])
             length = np.sqrt(dot(normal, normal))[:, None]
             normal = np.where(length > 0, normal / length, -rays)
@@ -248,16 +331,39 @@ class _Render:
             shadows[:, k] = (cosine > 0) & self.blocked(points, error, place)
             cosine[shadows[:, k]] = 0
             strength = cosine * self.dtype(item["lambert"]) * self.dtype(light["intensity"])
-            total = total + strength[:, None] * self.color(item)
-        return total, normal, shadows
+            total = total + strength[:, None] * color
+        return total, normal, shadows, parts
 
     def blocked(self, points: Array, error: Array, light: Array) -> Array:
         """Tell which points any object hides from a light."""
         hidden = np.zeros(len(points), bool)
-        for item in self.objects:
-            hides = self.sphere_hides if item["type"] == "sphere" else self.plane_hides
-            hidden |= hides(item, points, ROUNDING * (error + self.magnitude(item)), light)
+        for k, item in enumerate(self.objects):
+            reach = ROUNDING * (error + self.magnitude(item))
+            if item["type"] == "cylinder":
+                hidden |= self.cylinder_hides(k, points, reach, light)
+            else:
+                hides = self.sphere_hides if item["type"] == "sphere" else self.plane_hides
+                hidden |= hides(item, points, reach, light)
         return hidden
+
+    def cylinder_hides(self, k: int, points: Array, reach: Array, light: Array) -> Array:
+        cylinder = self.cylinders[k]
+        larger = self.growth[k] * reach
+        ends = np.broadcast_to(light.astype(np.longdouble), points.shape)
+        end_reach = self.light_reach(light, self.magnitude(self.objects[k]))
+        light_depth = dot(light, self.forward)
+        if light_depth < 0:  # the part behind the image plane does not count
+            depth = dot(points, self.forward)
+            share = depth / (depth - light_depth)
+            ends = points + share[:, None] * (ends - points)
+            end_reach = reach + share * end_reach
+        start = cylinder.outside(points, larger)
+        end = cylinder.outside(ends, self.growth[k] * end_reach)
+        near, far = cylinder.cross(points, ends - points, larger).at
+        ahead = near + far > 0  # false for NaN
+        enters = ahead & ((end < -end_reach) | (near + far < 2))
+        leaves = (end > end_reach) & ((start < -reach) | ahead)
+        return ~np.bool_(cylinder.is_nothing) & np.where(start > reach, enters, leaves)
 
     def sphere_hides(self, item: Scene, points: Array, reach: Array, light: Array) -> Array:
         center, radius = self.place(item["center"]), self.dtype(item["radius"])

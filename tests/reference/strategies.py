@@ -78,6 +78,39 @@ def scenes(draw: st.DrawFn, most_objects: int = 8) -> Scene:
     return {"camera": camera | draw(views(camera)), "lights": lights, "objects": objects}
 
 
+@st.composite
+def cylinder_scenes(draw: st.DrawFn) -> Scene:
+    """Scenes as those of `scenes`, with cylinders that often touch, coincide, or hold a light."""
+    scene = draw(scenes(most_objects=4))
+    camera, objects, lights = scene["camera"], scene["objects"], scene["lights"]
+    size = max(abs(n) for n in (*camera["center"].values(), camera["resolution"][0])) or 1.0
+    sizes = [item["center"] for item in objects] + [item["location"] for item in lights]
+    size = max([size, *(abs(n) for place in sizes for n in place.values())])
+    radii = st.sampled_from([0.0, 1e-6, 0.1, 0.25, 0.5, 1.0, 1e4]).map(lambda r: r * size)
+    material = {"color": colors(), "lambert": st.floats(0, 1)}
+    cylinder = st.fixed_dictionaries(
+        {
+            "type": st.just("cylinder"),
+            "start": places(size),
+            "end": places(size),
+            "radius": radii,
+            **material,
+        },
+        optional={"color_end": colors()},
+    )
+    found = draw(st.lists(cylinder, min_size=1, max_size=4))
+    first = found[0]
+    if draw(st.booleans()):
+        found.append({**first, **draw(st.fixed_dictionaries(material))})
+    share = draw(st.sampled_from([0.0, 0.25, 1.0]))
+    between = {a: (1 - share) * first["start"][a] + share * first["end"][a] for a in "xyz"}
+    if draw(st.booleans()):
+        lights.append({"location": between, "intensity": 1.0})  # within, or on a cap
+    elif draw(st.booleans()):
+        camera["center"] = between  # the image plane cuts it
+    return {**scene, "objects": draw(st.permutations([*objects, *found]))}
+
+
 def views(camera: dict[str, Any]) -> st.SearchStrategy[dict[str, Any]]:
     """Return optional keys of a camera, often none."""
     ways = {"up": directions().filter(lambda up: not _near_parallel(up, camera["normal"]))}

@@ -2,20 +2,30 @@
 
 import math
 
+import numpy as np
 import pytest
 
 import vtray
+from vtray.geometry.shapes.columns import Place
 from vtray.geometry.shapes.plane import load_plane
 from vtray.geometry.shapes.sphere import load_sphere
+from vtray.geometry.world import PLANE, SPHERE, World, load_group
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import Packed
 from vtray.rendering.pack import pack as pack_arrays
+from vtray.transport.materials.material import load_material
 
 WHITE = (255, 255, 255)
 
 
 def pack(scene: vtray.Scene) -> Packed:
     return pack_arrays(scene, accelerate(scene))
+
+
+def place_of(kind: int, world: World) -> Place:
+    """Return where the shapes of a kind stand."""
+    (row,) = np.flatnonzero(world.groups.kind == kind)
+    return load_group(world, row).place
 
 
 def scene(objects: list, lights: list | None = None, **camera: object) -> vtray.Scene:
@@ -42,8 +52,8 @@ def test_places_are_relative_to_the_image_plane_in_units_of_a_power_of_two() -> 
     )
     assert packed.unit == 16 / 2**200
     camera, world, lights, materials = packed.arrays
-    plane = load_plane(world.planes, 0, world.place)
-    sphere = load_sphere(world.spheres, 0, world.place)
+    plane = load_plane(world.planes, 0, place_of(PLANE, world))
+    sphere = load_sphere(world.spheres, 0, place_of(SPHERE, world))
 
     def lengths(*values: float) -> list[float]:
         return [value * packed.unit for value in values]
@@ -58,9 +68,8 @@ def test_places_are_relative_to_the_image_plane_in_units_of_a_power_of_two() -> 
     assert lengths(lights.x[0], lights.y[0], lights.z[0]) == [4, 0, -3]
     assert lengths(lights.depth[0], lights.error_scale[0]) == [-3, 13]
     assert lights.intensity[0] == 7
-    assert materials.color.tolist() == [[255, 255, 255]]
-    assert materials.plane_color.tolist() == [[1, 2, 3]]
-    assert (materials.lambert.tolist(), materials.plane_lambert.tolist()) == ([1], [0.5])
+    assert load_material(materials, 0, False) == ((255, 255, 255), 1)
+    assert load_material(materials, 1, False) == ((1, 2, 3), 0.5)
 
 
 @pytest.mark.parametrize("size", [1e-320, 1e-300, 1.0, 1e300, 1.7e308])
@@ -68,7 +77,7 @@ def test_unit_keeps_squares_of_squares_within_range(size: float) -> None:
     sphere = vtray.Sphere((0, 0, size), size / 2, WHITE, 1)
     packed = pack(scene([sphere], center=(0, 0, 0), focus=size, resolution=(size / 8, size / 8)))
     world = packed.arrays.world
-    radius = load_sphere(world.spheres, 0, world.place).radius
+    radius = load_sphere(world.spheres, 0, place_of(SPHERE, world)).radius
     assert 0 < radius**4 < 1e290
     assert all(0 < length**2 < 1e302 for length in packed.arrays.camera.pixel)
 

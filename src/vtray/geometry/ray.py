@@ -9,6 +9,9 @@ from typing import NamedTuple
 from vtray.base.compiler.compiled import device
 from vtray.geometry.vector import Vec, add, scale
 
+CORNER = 1.5
+"""How far beyond its edges a shape reaches that is larger by 1 to all sides: more than √2."""
+
 
 class Ray(NamedTuple):
     """A half-line.
@@ -91,3 +94,12 @@ def has_width(footprint: Footprint) -> bool:
 def width_at(footprint: Footprint, distance: float) -> float:
     """Return how far from a ray its pixel's part of the scene reaches at a distance."""
     return footprint.width + footprint.growth * distance
+
+
+@device
+def reach_at(footprint: Footprint, distance: float) -> float:
+    """Return how far from a ray a shape may be that the ray would meet if it were a width larger.
+
+    Larger to all sides, it reaches farther than that beyond its edges.
+    """
+    return CORNER * width_at(footprint, distance)

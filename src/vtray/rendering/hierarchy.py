@@ -197,7 +197,7 @@ def _prepare(
 def _in_order(source: Source) -> NDArray[np.float64]:
     """Return the columns of shapes in the order of their numbers."""
     count = len(source.geometry[0])
-    parts = [column if column.ndim > 1 else column[:, None] for column in source.geometry]
+    parts = [column if column.ndim > 1 else column[:, np.newaxis] for column in source.geometry]
     rows = [np.broadcast_to(part, (count, part.shape[1])) for part in parts]
     return np.concatenate(rows, axis=1, dtype=np.float64).reshape(-1)
 

@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
+from vtray.geometry.packets.occlusion import Target
 from vtray.geometry.packets.packet import (
-    BLOCKED,
-    COSINE,
     HALF,
     KEPT,
     NO_PRIMITIVE,
@@ -23,6 +22,7 @@ from vtray.geometry.packets.packet import (
     Packet,
 )
 from vtray.geometry.vector import add, scale
+from vtray.transport.lights.lighting import arriving_cosine
 from vtray.transport.materials.material import load_material, scattered
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -85,13 +85,12 @@ def keep_ray(packet: Packet, lane: int, place: int, kept: KeptLight) -> None:
 
 
 @device
-def keep_cosines(packet: Packet, hits: int, light: int, kept: KeptLight) -> None:
+def keep_cosines(packet: Packet, hits: int, target: Target, light: int, kept: KeptLight) -> None:
     """Keep the cosine of a light at the hits that it reaches."""
     numbers = packet.view(np.int64)
     for hit in range(hits):
         place = numbers[KEPT + numbers[SOURCE + hit]]
-        reached = packet[BLOCKED + hit] == 0.0
-        kept.cosines[light, place] = packet[COSINE + hit] if reached else 0.0
+        kept.cosines[light, place] = arriving_cosine(packet, hit, target)
 
 
 @kernel

@@ -1,5 +1,6 @@
 """Which points of a packet have something between them and a light."""
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -12,10 +13,14 @@ from vtray.geometry.packets.packet import (
     DEPTH,
     ERROR_SCALE,
     LANES,
+    MET,
+    NORMAL,
     OCTET,
     POINT,
+    SOURCE,
     Packet,
     load,
+    split_met,
 )
 from vtray.geometry.packets.shaft import outside_shaft
 from vtray.geometry.packets.workspace import Workspace
@@ -25,7 +30,7 @@ from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.shapes.cylinder import cylinder_hides, load_cylinder
 from vtray.geometry.shapes.plane import PlaneShape, end_side, hides_side, load_plane, plane_side
 from vtray.geometry.shapes.sphere import load_sphere, sphere_hides
-from vtray.geometry.vector import Vec, add, lower, magnitude, scale, sub, upper
+from vtray.geometry.vector import Vec, add, dot, lower, magnitude, scale, sub, upper
 from vtray.geometry.world import PLANE, SPHERE, Group, World, group_count, load_group
 
 Flags = NDArray[np.bool_]
@@ -50,6 +55,27 @@ class Target(NamedTuple):
 
 
 class Bounds(NamedTuple):
+    """What the points of a packet are within.
+
+    Attributes
+    ----------
+    low, high
+        Their least and their greatest coordinates.
+    least, most
+        The least and the greatest components of their normals.
+    depth, error_scale
+        Their largest depth, and what their rounding errors are relative to at the most.
+    """
+
+    low: Vec
+    high: Vec
+    least: Vec
+    most: Vec
+    depth: float
+    error_scale: float
+
+
+class PointBox(NamedTuple):
     """A box around points, and what their rounding errors are relative to at the most."""
 
     center: Vec
@@ -60,68 +86,171 @@ class Bounds(NamedTuple):
 @device
 def bound_points(packet: Packet, hits: int) -> Bounds:
     """Return the bounds of a packet's points."""
-    low = load(packet, POINT, 0)
-    high = low
+    low = high = load(packet, POINT, 0)
+    least = most = load(packet, NORMAL, 0)
+    depth = -math.inf
     error_scale = 0.0
     for lane in range(hits):
-        point = load(packet, POINT, lane)
+        point, normal = load(packet, POINT, lane), load(packet, NORMAL, lane)
         low, high = lower(low, point), upper(high, point)
+        least, most = lower(least, normal), upper(most, normal)
+        depth = max(depth, packet[DEPTH + lane])
         error_scale = max(error_scale, packet[ERROR_SCALE + lane])
-    return Bounds(scale(0.5, add(low, high)), scale(0.5, sub(high, low)), error_scale)
+    return Bounds(low, high, least, most, depth, error_scale)
+
+
+@device
+def box_of(bounds: Bounds) -> PointBox:
+    """Return the box of points within bounds."""
+    center = scale(0.5, add(bounds.low, bounds.high))
+    return PointBox(center, scale(0.5, sub(bounds.high, bounds.low)), bounds.error_scale)
+
+
+@device
+def height_range(bounds: Bounds, light: Vec) -> tuple[float, float]:
+    """Return how high a light is at the least and at the most above surfaces within bounds.
+
+    The operations are those that find the height above one of them. Rounding keeps the order of
+    numbers, so none is outside this range.
+    """
+    a, b = bounds.least, bounds.most
+    near, far = sub(light, bounds.high), sub(light, bounds.low)
+    x, y, z = (
+        _product_range(a[0], b[0], near[0], far[0]),
+        _product_range(a[1], b[1], near[1], far[1]),
+        _product_range(a[2], b[2], near[2], far[2]),
+    )
+    return x[0] + y[0] + z[0], x[1] + y[1] + z[1]
+
+
+@device
+def _product_range(a: float, b: float, c: float, d: float) -> tuple[float, float]:
+    """Return the least and the greatest product of numbers from a to b with ones from c to d."""
+    return min(a * c, a * d, b * c, b * d), max(a * c, a * d, b * c, b * d)
+
+
+@device
+def own_sphere(packet: Packet, hits: int, world: World) -> int:
+    """Return the slot of the sphere on which all points are, outside; -1 if there is none.
+
+    It hides none of them from a light above their horizon: a shadow ray that starts on a sphere, or
+    outside, meets it only on its way towards the centre, and this one leads away by more than
+    rounding could explain.
+    """
+    numbers = packet.view(np.int64)
+    met = numbers[MET + numbers[SOURCE]]
+    row, slot = split_met(met)
+    group = load_group(world, row)
+    if group.kind != SPHERE:
+        return -1
+    center = load_sphere(world.spheres, slot, group.place).center
+    for hit in range(hits):
+        outward = sub(load(packet, POINT, hit), center)
+        is_outside = dot(load(packet, NORMAL, hit), outward) > 0.0
+        if numbers[MET + numbers[SOURCE + hit]] != met or not is_outside:
+            return -1
+    return slot
 
 
 @device
 def find_sides(packet: Packet, hits: int, world: World, work: Workspace) -> None:
-    """Find on which sides of each plane a packet's points lie."""
+    """Find how near a packet's points come to each plane on both of its sides."""
     for row in range(group_count(world)):
         group = load_group(world, row)
         if group.kind == PLANE:
             for slot in range(group.begin, group.end):
                 plane = load_plane(world.planes, slot, group.place)
-                _find_side(packet, hits, plane, slot, work)
+                _find_sides_of(packet, hits, plane, slot, work)
 
 
 @device
-def _find_side(packet: Packet, hits: int, plane: PlaneShape, slot: int, work: Workspace) -> None:
-    """Find on which sides of a plane a packet's points lie."""
-    above = 0
-    below = 0
+def _find_sides_of(
+    packet: Packet, hits: int, plane: PlaneShape, slot: int, work: Workspace
+) -> None:
+    """Find how near a packet's points come to a plane on both of its sides."""
+    far = np.float64(math.inf).view(np.int64)
+    # Doubles ≥ 0 are in the order of their bits, and a minimum of integers can be vectorised.
+    above = far
+    below = far
     for lane in range(hits):
         side = plane_side(plane, load(packet, POINT, lane))
         error_bound = ROUNDING * (packet[ERROR_SCALE + lane] + plane.error_scale)
-        above += 1 if side > error_bound else 0
-        below += 1 if side < -error_bound else 0
-    work.above[slot] = above > 0
-    work.below[slot] = below > 0
+        bits = np.float64(abs(side)).view(np.int64)
+        above = min(above, bits if side > error_bound else far)
+        below = min(below, bits if side < -error_bound else far)
+    work.above[slot] = np.int64(above).view(np.float64)
+    work.below[slot] = np.int64(below).view(np.float64)
 
 
 @device
 def block_by_planes(
-    packet: Packet, hits: int, world: World, group: Group, target: Target, work: Workspace
-) -> None:
-    """Mark the points that planes hide from a light."""
-    for slot in range(group.begin, group.end):
-        plane = load_plane(world.planes, slot, group.place)
-        end = end_side(plane, target.place, target.error_scale)
-        if (end < 0.0 and work.above[slot]) or (end > 0.0 and work.below[slot]):
-            _block_lanes(packet, 0, hits, target, (plane, end), hides_side)
-
-
-@device
-def block_by_few(
     packet: Packet,
     hits: int,
     bounds: Bounds,
     world: World,
     group: Group,
     target: Target,
+    work: Workspace,
+) -> bool:
+    """Mark the points that planes hide from a light; tell whether any is left."""
+    for slot in range(group.begin, group.end):
+        plane = load_plane(world.planes, slot, group.place)
+        # Worked out here: in the loop over lanes, the compiler did not see that it is always the
+        # same, and it took a quarter more time.
+        end = end_side(plane, target.place, target.error_scale)
+        nearest = work.above[slot] if end < 0.0 else work.below[slot]
+        if end != 0.0 and _crosses(nearest, abs(end), bounds.depth, target.depth):
+            _block_lanes(packet, 0, hits, target, (plane, end), hides_side)
+            if not _any_open(packet, hits):
+                return False
+    return True
+
+
+@device
+def _crosses(nearest: float, end: float, depth: float, end_depth: float) -> bool:
+    """Tell whether shadow rays may cross a plane in front of the image plane.
+
+    Rounding keeps the order of numbers, so where this is not so, it is for no point of a packet.
+
+    Parameters
+    ----------
+    nearest, end
+        The least distance from the plane of points on its one side, and of the light on the other.
+    depth, end_depth
+        The largest depth of the points, and that of the light.
+    """
+    crossing = nearest * end_depth + end * depth
+    return (nearest < math.inf) & ((end_depth >= 0.0) | (crossing > 0.0))
+
+
+@device
+def _any_open(packet: Packet, hits: int) -> bool:
+    """Tell whether nothing so far hides a light from any of the points."""
+    count = 0
+    for lane in range(hits):
+        count += 1 if packet[BLOCKED + lane] == 0.0 else 0
+    return count > 0
+
+
+@device
+def block_by_few(
+    packet: Packet,
+    hits: int,
+    box: PointBox,
+    own: int,
+    world: World,
+    group: Group,
+    target: Target,
     near: Flags,
 ) -> None:
-    """Mark the points that shapes of a group without a hierarchy hide from a light."""
+    """Mark the points that shapes of a group without a hierarchy hide from a light.
+
+    If all are on one sphere, `own` is its slot, and it is not asked; otherwise it is -1.
+    """
     for slot in range(group.begin, group.end):
-        near[slot] = in_shaft(world, group, slot, target, bounds)
+        near[slot] = in_shaft(world, group, slot, target, box)
     for slot in range(group.begin, group.end):
-        if near[slot]:
+        if near[slot] and not (slot == own and group.kind == SPHERE):
             block_by_slot(packet, 0, hits, world, group, slot, target)
 
 
@@ -155,33 +284,33 @@ def _block_by_cylinder(
 
 
 @device
-def in_shaft(world: World, group: Group, slot: int, target: Target, bounds: Bounds) -> bool:
+def in_shaft(world: World, group: Group, slot: int, target: Target, box: PointBox) -> bool:
     """Tell whether a shape of a group may stand between any point of a box and a light."""
     if group.kind != SPHERE:
-        return _cylinder_in_shaft(world.cylinders, group, slot, target, bounds)
+        return _cylinder_in_shaft(world.cylinders, group, slot, target, box)
     sphere = load_sphere(world.spheres, slot, group.place)
-    return _ball_in_shaft(sphere.center, sphere.radius, sphere.error_scale, target, bounds)
+    return _ball_in_shaft(sphere.center, sphere.radius, sphere.error_scale, target, box)
 
 
 @device
 def _cylinder_in_shaft(
-    cylinders: Columns | None, group: Group, slot: int, target: Target, bounds: Bounds
+    cylinders: Columns | None, group: Group, slot: int, target: Target, box: PointBox
 ) -> bool:
     """Tell whether a cylinder may stand between any point of a box and a light."""
     if cylinders is None:
         return False
     cylinder = load_cylinder(cylinders, slot, group.place)
-    return _ball_in_shaft(cylinder.center, cylinder.radius, cylinder.error_scale, target, bounds)
+    return _ball_in_shaft(cylinder.center, cylinder.radius, cylinder.error_scale, target, box)
 
 
 @device
 def _ball_in_shaft(
-    center: Vec, radius: float, error_scale: float, target: Target, bounds: Bounds
+    center: Vec, radius: float, error_scale: float, target: Target, box: PointBox
 ) -> bool:
     """Tell whether a ball may stand between any point of a box and a light."""
-    margin = error_scale + bounds.error_scale + magnitude(target.place)
+    margin = error_scale + box.error_scale + magnitude(target.place)
     wider = radius + MARGIN * margin
-    return not outside_shaft(center, wider, target.place, bounds.center, bounds.half)
+    return not outside_shaft(center, wider, target.place, box.center, box.half)
 
 
 @device

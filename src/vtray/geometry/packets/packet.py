@@ -99,7 +99,6 @@ VALUE = _fields.vector()
 
 # Its shadow rays to one light.
 BLOCKED = _fields.scalar()
-COSINE = _fields.scalar()
 SHADOWS = _fields.scalar()
 """A number for the lights that something blocks, of all so far."""
 

@@ -22,7 +22,7 @@ from vtray.geometry.packets.packet import (
     Sheaf,
     start_apart,
 )
-from vtray.geometry.ray import Footprint, width_at
+from vtray.geometry.ray import Footprint, reach_at
 from vtray.geometry.vector import Vec, add, cross, dot, lower, scale, sub, upper
 
 OCTETS = LANES // OCTET
@@ -153,7 +153,7 @@ def octets_met(
     """
     from_origin = sub(center, sheaf.origin)
     reach = math.sqrt(dot(from_origin, from_origin)) + sheaf.extent
-    radius += width_at(footprint, reach)
+    radius += reach_at(footprint, reach + radius)
     # The mask tells the compiler that no index is negative.
     begin = first & (OCTETS - 1)
     met = 0

@@ -7,6 +7,7 @@ from vtray.geometry.packets.occlusion import (
     Target,
     block_by_few,
     block_by_planes,
+    box_of,
 )
 from vtray.geometry.packets.packet import OCTET, Packet, Sheaf
 from vtray.geometry.packets.ray_bounds import find_cones, find_farthest
@@ -71,14 +72,25 @@ def find_nearest(
 
 @device
 def find_blocked(
-    packet: Packet, hits: int, bounds: Bounds, world: World, target: Target, work: Workspace
-) -> None:
-    """Mark in field ``BLOCKED`` the points that a light does not reach."""
+    packet: Packet,
+    hits: int,
+    bounds: Bounds,
+    own: int,
+    world: World,
+    target: Target,
+    work: Workspace,
+) -> bool:
+    """Mark in field ``BLOCKED`` the points that a light does not reach; tell if any may be left.
+
+    Other shapes are not looked at where planes leave none. `own` is that of `block_by_few`.
+    """
     for row in range(group_count(world)):
         group = load_group(world, row)
         if group.kind == PLANE:
-            block_by_planes(packet, hits, world, group, target, work)
+            if not block_by_planes(packet, hits, bounds, world, group, target, work):
+                return False
         elif group.root == NO_TREE:
-            block_by_few(packet, hits, bounds, world, group, target, work.near)
+            block_by_few(packet, hits, box_of(bounds), own, world, group, target, work.near)
         else:
             block_in_tree(packet, world, group, target, work)
+    return True

@@ -7,7 +7,7 @@ from vtray.geometry.packets.nearest import nearest_slots
 from vtray.geometry.packets.packet import Packet, Sheaf
 from vtray.geometry.packets.ray_bounds import farthest_of, part_directions, part_starts
 from vtray.geometry.packets.workspace import Workspace
-from vtray.geometry.ray import Footprint
+from vtray.geometry.ray import CORNER, Footprint
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import add, scale, sub
 from vtray.geometry.world import Group, ToBoxes, World
@@ -70,8 +70,9 @@ def _part_beam(
     ratio, offset = to_boxes.ratio, to_boxes.offset
     apex = add(scale(ratio, sheaf.origin), offset)
     margin = beam_margin(apex, offset) + MARGIN * sheaf.error_scale * ratio
-    margin += footprint.width * ratio
-    wider = footprint.growth, footprint.growth, footprint.growth
+    margin += CORNER * footprint.width * ratio
+    growth = CORNER * footprint.growth
+    wider = growth, growth, growth
     start, end = add(scale(ratio, near), offset), add(scale(ratio, far), offset)
     return make_beam(start, end, sub(low, wider), add(high, wider), margin)
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import WIDTH, leaf_range
 from vtray.geometry.packets.beam import Beam, beam_margin, children_met, make_beam
-from vtray.geometry.packets.occlusion import Bounds, Target, block_by_slot, in_shaft
+from vtray.geometry.packets.occlusion import PointBox, Target, block_by_slot, in_shaft
 from vtray.geometry.packets.packet import BLOCKED, ERROR_SCALE, POINT, Packet, load
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.rounding import MARGIN
@@ -58,7 +58,7 @@ def _search_cluster(
     """Search the hierarchy until all points of a cluster are blocked."""
     bvh, stack = world.bvh, work.stack
     box = _cluster_box(packet, begin, end, target)
-    bounds = _bounds_of(box, target)
+    points = _point_box(box, target)
     beam = _cluster_beam(box, group.to_boxes, target)
     waiting = 1
     stack[0] = group.root
@@ -76,7 +76,7 @@ def _search_cluster(
                 else:
                     first, after = leaf_range(child)
                     for slot in range(first, after):
-                        if end - begin <= SOONER or in_shaft(world, group, slot, target, bounds):
+                        if end - begin <= SOONER or in_shaft(world, group, slot, target, points):
                             block_by_slot(packet, begin, end, world, group, slot, target)
                     begin = _first_open(packet, begin, end)
                     if begin == end:
@@ -100,10 +100,10 @@ def _cluster_box(packet: Packet, begin: int, end: int, target: Target) -> Box:
 
 
 @device
-def _bounds_of(box: Box, target: Target) -> Bounds:
-    """Return the bounds of a box."""
+def _point_box(box: Box, target: Target) -> PointBox:
+    """Return a box that is relative to a light as it is in space."""
     center = add(target.place, scale(0.5, add(box.low, box.high)))
-    return Bounds(center, scale(0.5, sub(box.high, box.low)), box.error_scale)
+    return PointBox(center, scale(0.5, sub(box.high, box.low)), box.error_scale)
 
 
 @device

@@ -34,7 +34,7 @@ class Workspace(NamedTuple):
     near
         Which shapes without a hierarchy may be met, one per slot.
     above, below
-        Whether any point lies on that side of a plane, clear of rounding, one per plane.
+        How near points come to a plane on that side, clear of rounding; infinite without any.
     cones
         The cones around the octets of rays.
     stack, stack_enter
@@ -54,8 +54,8 @@ class Workspace(NamedTuple):
     """
 
     near: NDArray[np.bool_]
-    above: NDArray[np.bool_]
-    below: NDArray[np.bool_]
+    above: NDArray[np.float64]
+    below: NDArray[np.float64]
     cones: Cones
     stack: NDArray[np.int64]
     stack_enter: NDArray[np.float64]
@@ -93,8 +93,8 @@ def new_workspace(world: World) -> Workspace:
 
     return Workspace(
         near=np.zeros(few, np.bool_),
-        above=np.zeros(planes, np.bool_),
-        below=np.zeros(planes, np.bool_),
+        above=np.zeros(planes),
+        below=np.zeros(planes),
         cones=new_cones(),
         stack=integers(STACK),
         stack_enter=np.zeros(STACK),

@@ -240,20 +240,42 @@ def cylinder_outline(cylinder: CylinderShape, ray: Ray, footprint: Footprint) ->
     were a little smaller, and where it passes the edge of the cap that it looks at.
     """
     line = line_beside(cylinder, ray.origin, ray.direction)
-    reach = dot(sub(cylinder.center, ray.origin), ray.direction)
-    width = width_at(footprint, max(reach, 0.0))
+    passing = _passing_distance(cylinder, line, ray)
+    width = width_at(footprint, max(passing, 0.0))
+    length, side_radius = cylinder.length, cylinder.side_radius
+    caps = cap_span(line, 0.0, length)
+    span = both_spans(side_span(line, side_radius), caps)
     larger = both_spans(
-        side_span(line, cylinder.side_radius + width),
-        cap_span(line, -width, cylinder.length + width),
+        side_span(line, side_radius + width), cap_span(line, -width, length + width)
     )
     smaller = both_spans(
-        side_span(line, max(cylinder.side_radius - width, 0.0)),
-        cap_span(line, width, cylinder.length - width),
+        side_span(line, max(side_radius - width, 0.0)), cap_span(line, width, length - width)
     )
-    caps = cap_span(line, 0.0, cylinder.length)
-    crossing = caps.near if line.rise != 0.0 else 0.0
+    is_hit = span.near < span.far
+    # Where the image plane cuts it open, its far end is seen.
+    is_open = is_hit & (span.near * ray.forward + ray.depth <= 0.0)
+    at_edge = is_hit & _is_at_edge(cylinder, line, footprint, caps.far if is_open else caps.near)
+    is_near = (larger.near < larger.far) & (at_edge | (smaller.near >= smaller.far))
+    beside = min(max(passing, larger.near), larger.far)
+    distance = span.near if is_hit else beside
+    return distance if is_near & (larger.far > -ray.depth) else math.inf
+
+
+@device
+def _passing_distance(cylinder: CylinderShape, line: Line, ray: Ray) -> float:
+    """Return the distance at which a ray passes the axis."""
+    square = dot(line.aside, line.aside)
+    middle = -dot(line.beside, line.aside) / square if square > 0.0 else 0.0
+    height = min(max(line.height + middle * line.rise, 0.0), cylinder.length)
+    foot = add(cylinder.start, scale(height, cylinder.axis))
+    return dot(sub(foot, ray.origin), ray.direction)
+
+
+@device
+def _is_at_edge(cylinder: CylinderShape, line: Line, footprint: Footprint, distance: float) -> bool:
+    """Tell whether a ray is near the edge of a cap whose plane it meets at a distance."""
+    crossing = distance if line.rise != 0.0 else 0.0
     place = add(line.beside, scale(crossing, line.aside))
     from_edge = abs(math.sqrt(dot(place, place)) - cylinder.side_radius)
-    at_edge = from_edge * abs(line.rise) <= width
-    is_near = (larger.near < larger.far) & (at_edge | (smaller.near >= smaller.far))
-    return larger.near if is_near & (larger.far > -ray.depth) else math.inf
+    width = width_at(footprint, max(crossing, 0.0))
+    return (line.rise != 0.0) & (from_edge * abs(line.rise) <= width)

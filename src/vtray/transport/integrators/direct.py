@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
-from vtray.geometry.packets.occlusion import bound_points, find_sides
+from vtray.geometry.packets.occlusion import bound_points, find_sides, own_sphere
 from vtray.geometry.packets.packet import (
     BLOCK,
     COLUMN,
@@ -23,6 +23,7 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.search import find_blocked, find_nearest
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.vector import dot
+from vtray.geometry.world import has_trees
 from vtray.transport.camera_rays import CameraFrame, camera_ray, sheaf_of
 from vtray.transport.film import (
     Film,
@@ -39,7 +40,7 @@ from vtray.transport.lights.light import light_count, light_target
 from vtray.transport.lights.lighting import (
     add_light,
     clear_shadows,
-    find_cosines,
+    find_facing,
     note_shadows,
 )
 from vtray.transport.sampling.pixel_samples import Sampling, list_pixels, place_samples
@@ -160,20 +161,21 @@ def _light_hits(
     rays = 0
     bounds = bound_points(packet, hits)
     find_sides(packet, hits, scene.world, work)
+    own = -1 if has_trees(scene.world) else own_sphere(packet, hits, scene.world)
     if is_wanted(film.shadows):
         clear_shadows(packet, hits)
     for light in range(light_count(scene.lights)):
         if stop[0]:
             break
         target = light_target(scene.lights, light)
-        facing = find_cosines(packet, hits, target)
+        facing = find_facing(packet, hits, bounds, target)
         if facing > 0:
-            find_blocked(packet, hits, bounds, scene.world, target, work)
-            add_light(packet, hits, scene.lights.intensity[light])
+            if find_blocked(packet, hits, bounds, own, scene.world, target, work):
+                add_light(packet, hits, target, scene.lights.intensity[light])
             if is_wanted(film.shadows):
-                note_shadows(packet, hits, light)
+                note_shadows(packet, hits, target, light)
             if is_kept(film.kept):
-                keep_cosines(packet, hits, light, film.kept)
+                keep_cosines(packet, hits, target, light, film.kept)
             rays += facing
     return rays
 

@@ -7,8 +7,8 @@ from vtray.geometry.vector import Vec, dot, scale
 
 
 @device
-def lambert_cosine(normal: Vec, to_light: Vec, error_bound: float) -> float:
-    """Return the cosine of the angle between normal and light, 0 for a light below the horizon.
+def is_above(normal: Vec, to_light: Vec, error_bound: float) -> bool:
+    """Tell whether a light is above the horizon of a surface.
 
     Parameters
     ----------
@@ -20,10 +20,23 @@ def lambert_cosine(normal: Vec, to_light: Vec, error_bound: float) -> float:
         How far rounding may have moved the point or the light: one no higher than that is on the
         horizon.
     """
-    height = dot(normal, to_light)
-    length2 = dot(to_light, to_light)
     # The square is 0 for a light that is nearer than 1e-300 of the scene's size.
-    return height / math.sqrt(length2) if (height > error_bound) & (length2 > 0.0) else 0.0
+    return (dot(normal, to_light) > error_bound) & (dot(to_light, to_light) > 0.0)
+
+
+@device
+def lambert_cosine(normal: Vec, to_light: Vec, error_bound: float) -> float:
+    """Return the cosine of the angle between normal and light, 0 for a light below the horizon.
+
+    The parameters are those of `is_above`.
+    """
+    return cosine_of(normal, to_light) if is_above(normal, to_light, error_bound) else 0.0
+
+
+@device
+def cosine_of(normal: Vec, way: Vec) -> float:
+    """Return the cosine of the angle between a unit normal and a way of any length, not 0."""
+    return dot(normal, way) / math.sqrt(dot(way, way))
 
 
 @device

@@ -1,0 +1,76 @@
+"""Pictures with cylinders beside those of the oracle, as far as rounding allows."""
+
+import json
+from typing import Any
+
+import numpy as np
+import oracle
+from oracle import ROUNDING
+
+import vtray
+
+Scene = dict[str, Any]
+
+
+def load(document: Scene) -> vtray.Scene:
+    """Return a scene; a cylinder may have a `color_end`, as only those of arrays have."""
+    plain = [{k: v for k, v in item.items() if k != "color_end"} for item in document["objects"]]
+    scene = vtray.loads(json.dumps({**document, "objects": plain}))
+    for k, item in enumerate(document["objects"]):
+        if "color_end" in item:
+            start, end = ([list(item[name].values())] for name in ("start", "end"))
+            color, color_end = (list(item[name].values()) for name in ("color", "color_end"))
+            scene.objects[k] = vtray.Cylinders(
+                start, end, item["radius"], color, item["lambert"], color_end
+            )
+    return scene
+
+
+def assert_near_oracle(document: Scene, image: vtray.Image) -> float:
+    """Compare a picture with the oracle's; return the share of pixels that are in doubt.
+
+    What shows no cylinder must be the same to the last bit.
+    """
+    seen, doubt = oracle.look(document), oracle.doubt(document)
+    kinds = np.array([*(item["type"] == "cylinder" for item in document["objects"]), False])
+    places = image.ids[..., 0]
+    is_sure = ~doubt
+    np.testing.assert_array_equal(places[is_sure], seen.ids[is_sure])
+    others = is_sure & ~kinds[seen.ids]
+    np.testing.assert_array_equal(image.linear[others], seen.linear[others])
+    np.testing.assert_array_equal(image.depth[others], seen.depth[others])
+    np.testing.assert_array_equal(image.normals[others], seen.normals[others])
+    for k in np.flatnonzero(kinds):
+        mine = is_sure & (seen.ids == k)
+        if mine.any():
+            _compare(document, image, seen, mine, k)
+    return float(doubt.mean())
+
+
+def _compare(document: Scene, image: vtray.Image, seen: Any, mine: np.ndarray, number: int) -> None:
+    """Compare the pixels that show a cylinder."""
+    item = document["objects"][number]
+    rows, columns = np.nonzero(mine)
+    render = oracle._Render(document, np.float64)
+    starts, rays = render.rays(columns.astype(float), rows.astype(float))
+    depth, normals = seen.depth[mine], seen.normals[mine]
+    error = ROUNDING * (render.magnitude(item) + render.extent + render.focus + depth)
+    # A ray that meets the surface at a small angle carries errors far along it.
+    angle = np.abs(oracle.dot(rays, normals))
+    is_round = seen.parts[mine] % 3 == 0
+    radius = float(item["radius"])
+    angle = np.maximum(angle, np.sqrt(error / radius))
+    along = error / angle
+    assert (np.abs(image.depth[mine] - depth) <= along).all()
+    turn = np.where(is_round, along / radius, 0) + 1e-14
+    off = np.abs(image.normals[mine] - normals).max(axis=-1)
+    assert (off <= turn).all()
+    places = starts + (depth - (render.eye_distance - render.focus))[:, None] * rays
+    margin = np.zeros(len(rows))
+    for light in document["lights"]:
+        way = render.place(light["location"]) - places
+        away = np.maximum(np.sqrt(oracle.dot(way, way)), 1e-300)
+        reach = render.light_reach(render.place(light["location"]), render.magnitude(item))
+        share = np.minimum(2 * turn + 2 * (along + reach + error) / away, 1)
+        margin += share * item["lambert"] * light["intensity"] * 255
+    assert (np.abs(image.linear[mine] - seen.linear[mine]).max(axis=-1) <= margin).all()
