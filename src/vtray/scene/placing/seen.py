@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.base.exact_math import hypotenuse
 from vtray.scene.placing.bounds import Balls, from_middle, some
 from vtray.scene.placing.directions import Vec
 from vtray.scene.placing.pieces import by_pieces
@@ -199,7 +200,7 @@ def _is_usual(slopes: Slopes) -> bool:
     Others might be where the middle of a picture is far from the axis, as in one of few pixels.
     """
     low, high = slopes
-    return abs(low + high) * math.hypot(1, low, high) <= 1
+    return abs(low + high) * hypotenuse(1.0, low, high) <= 1
 
 
 def _least_rooms(
