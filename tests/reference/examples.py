@@ -21,9 +21,7 @@ def plane(center: tuple[float, ...], normal: tuple[float, ...], **more: Any) -> 
     return {"type": "plane", "center": xyz(*center), "normal": xyz(*normal), **_material(), **more}
 
 
-def cylinder(
-    start: tuple[float, ...], end: tuple[float, ...], radius: float, **more: Any
-) -> Scene:
+def cylinder(start: tuple[float, ...], end: tuple[float, ...], radius: float, **more: Any) -> Scene:
     """Return a white cylinder."""
     ends = {"start": xyz(*start), "end": xyz(*end)}
     return {"type": "cylinder", **ends, "radius": radius, **_material(), **more}

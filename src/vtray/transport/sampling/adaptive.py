@@ -2,9 +2,10 @@
 
 A pixel gets samples if what its filter covers may not all look like its middle: if the outline of a
 shape passes through it, seen or just missed by its middle ray, or if near it another surface, the
-other half of one, or the shadow of another thing, begins. None of these questions has a threshold for light, so the
-choice depends neither on colours nor on the strength of lights. The rays by which pixels are chosen
-are not used in those that are: their samples are as unbiased as if all pixels had them.
+other half of one, or the shadow of another thing, begins. None of these questions has a threshold
+for light, so the choice depends neither on colours nor on the strength of lights. The rays by which
+pixels are chosen are not used in those that are: their samples are as unbiased as if all pixels had
+them.
 
 References
 ----------
