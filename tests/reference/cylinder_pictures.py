@@ -55,12 +55,14 @@ def _compare(document: Scene, image: vtray.Image, seen: Any, mine: np.ndarray, n
     starts, rays = render.rays(columns.astype(float), rows.astype(float))
     depth, normals = seen.depth[mine], seen.normals[mine]
     error = ROUNDING * (render.magnitude(item) + render.extent + render.focus + depth)
-    # A ray that meets the surface at a small angle carries errors far along it.
-    angle = np.abs(oracle.dot(rays, normals))
+    # A ray that meets the surface at a small angle carries errors far along it; at an outline, no
+    # farther than half the way through what is that deep inside.
     is_round = seen.parts[mine] % 3 == 0
     radius = float(item["radius"])
-    angle = np.maximum(angle, np.sqrt(error / radius))
-    along = error / angle
+    axis = render.cylinders[render.order.index(number)].frame[2].astype(float)
+    steepness = np.sqrt(np.square(np.cross(rays, axis)).sum(axis=-1))
+    angle = np.abs(oracle.dot(rays, normals))
+    along = error / np.maximum(angle, np.sqrt(error / radius) * steepness)
     assert (np.abs(image.depth[mine] - depth) <= along).all()
     turn = np.where(is_round, along / radius, 0) + 1e-14
     off = np.abs(image.normals[mine] - normals).max(axis=-1)

@@ -282,7 +282,7 @@ class _Render:
         magnitude = self.magnitude(item) + (self.extent + self.focus)
         away = np.abs(dot(cylinder.start - starts, rays))
         larger = self.growth[k] * ROUNDING * (magnitude + away)
-        found = cylinder.cross(starts, rays, larger)
+        found = cylinder.cross(starts, rays, ROUNDING * magnitude, larger)
         depth = found.at * dot(rays, self.forward) - self.focus
         bound = ROUNDING * (np.abs(found.at) + magnitude)
         seen = depth * found.steepness > bound
@@ -292,13 +292,14 @@ class _Render:
         return at.astype(self.dtype).reshape(shape), face.reshape(shape)
 
     def surface_of_cylinder(
-        self, k: int, starts: Array, rays: Array, points: Array
+        self, k: int, starts: Array, rays: Array, distance: Array
     ) -> tuple[Array, Array]:
         """Return the normals at points, and which part of a cylinder is met there."""
         cylinder = self.cylinders[k]
         face = self.meet_cylinder(k, starts, rays)[1]
-        larger = self.growth[k] * ROUNDING * self.magnitude(self.objects[k])
-        second = cylinder.is_second(points, larger)
+        points = starts + distance[:, None] * rays
+        magnitude = self.magnitude(self.objects[k]) + (self.extent + self.focus) + distance
+        second = cylinder.is_second(points, (1 + self.growth[k]) * ROUNDING * magnitude)
         return cylinder.normal(points, face).astype(self.dtype), face + 3 * second
 
     def shade(
@@ -310,7 +311,7 @@ class _Render:
         parts = np.zeros(len(points), int)
         color = self.color(item)
         if item["type"] == "cylinder":
-            normal, parts = self.surface_of_cylinder(number, starts, rays, points)
+            normal, parts = self.surface_of_cylinder(number, starts, rays, distance)
             color = np.where((parts >= 3)[:, None], self.color(item, "color_end"), color)
         elif item["type"] == "sphere":
             normal = points - self.place(item["center"])
@@ -359,7 +360,7 @@ class _Render:
             end_reach = reach + share * end_reach
         start = cylinder.outside(points, larger)
         end = cylinder.outside(ends, self.growth[k] * end_reach)
-        near, far = cylinder.cross(points, ends - points, larger).at
+        near, far = cylinder.cross(points, ends - points, reach, larger).at
         ahead = near + far > 0  # false for NaN
         enters = ahead & ((end < -end_reach) | (near + far < 2))
         leaves = (end > end_reach) & ((start < -reach) | ahead)

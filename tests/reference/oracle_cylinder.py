@@ -73,8 +73,18 @@ class Cylinder:
         away = np.hypot(np.maximum(beside, 0), np.maximum(beyond, 0))
         return np.where(away > 0, away, np.maximum(beside, beyond))
 
-    def cross(self, starts: Array, ways: Array, larger: Any = 0) -> Crossings:
-        """Return where lines cross the surface, if that were a little larger, (n,)."""
+    def cross(self, starts: Array, ways: Array, reach: Any, larger: Any = 0) -> Crossings:
+        """Return where lines cross the surface.
+
+        Parameters
+        ----------
+        starts, ways
+            Points of the lines, and their directions, (n, 3).
+        reach
+            Lines that come no farther inside than this cross nothing, (n,).
+        larger
+            By how much the cylinder is larger on all sides, (n,).
+        """
         ways = ways.astype(np.longdouble)
         middle = self.start + self.frame[2] * (self.length / 2)
         shift = ((middle - starts) * ways).sum(axis=-1) / (ways * ways).sum(axis=-1)
@@ -101,7 +111,9 @@ class Cylinder:
         order = np.argsort(at, axis=0)[:2]
         count = (~np.isnan(at)).sum(axis=0)
         near_and_far = np.take_along_axis(at, order, axis=0) + shift
-        near_and_far[:, (count < 2) | self.is_nothing] = np.nan
+        middle = starts + near_and_far.mean(axis=0)[:, None] * ways
+        crosses = (count >= 2) & (self.outside(middle, larger) < -reach)
+        near_and_far[:, ~crosses | self.is_nothing] = np.nan
         steepness = np.array([np.broadcast_to(s, shift.shape) for _, _, s in candidates])
         faces = np.array([face for _, face, _ in candidates])
         return Crossings(near_and_far, faces[order], np.take_along_axis(steepness, order, axis=0))
@@ -124,9 +136,9 @@ class Cylinder:
         )
         return self.inside_out(local)
 
-    def is_second(self, points: Array, larger: Any = 0) -> Array:
-        """Tell whether points, (n, 3), are in the half at the end."""
-        return self.in_frame(points - self.start)[..., 2] > self.length / 2 + larger
+    def is_second(self, points: Array, reach: Array) -> Array:
+        """Tell whether points, (n, 3), are in the half at the end, and farther than that in it."""
+        return self.in_frame(points - self.start)[..., 2] > self.length / 2 + reach
 
 
 def _cross(a: Array, b: Array) -> Array:

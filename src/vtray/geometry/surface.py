@@ -35,25 +35,38 @@ class Surface(NamedTuple):
 
 
 @device
-def surface_of(world: World, group: Group, slot: int, point: Vec) -> Surface:
-    """Return the surface of a shape of a group at a point."""
+def surface_of(world: World, group: Group, slot: int, point: Vec, error_scale: float) -> Surface:
+    """Return the surface of a shape of a group at a point.
+
+    Parameters
+    ----------
+    world, group, slot
+        The shape.
+    point
+        The point.
+    error_scale
+        What its rounding error is relative to, beside the shape.
+    """
     if group.kind == PLANE:
         plane = load_plane(world.planes, slot, group.place)
         return Surface(plane.normal, False, plane.error_scale, False)
     if group.kind == SPHERE:
         sphere = load_sphere(world.spheres, slot, group.place)
         return Surface(sphere.center, True, sphere.error_scale, False)
-    return _cylinder_surface(world.cylinders, group, slot, point)
+    return _cylinder_surface(world.cylinders, group, slot, point, error_scale)
 
 
 @device
-def _cylinder_surface(cylinders: Columns | None, group: Group, slot: int, point: Vec) -> Surface:
+def _cylinder_surface(
+    cylinders: Columns | None, group: Group, slot: int, point: Vec, error_scale: float
+) -> Surface:
     """Return the surface of a cylinder at a point."""
     if cylinders is None:
         return Surface(point, False, 0.0, False)
     cylinder = load_cylinder(cylinders, slot, group.place)
     pole, is_round = cylinder_pole(cylinder, point)
-    return Surface(pole, is_round, cylinder.error_scale, is_second_half(cylinder, point))
+    is_second = is_second_half(cylinder, point, error_scale)
+    return Surface(pole, is_round, cylinder.error_scale, is_second)
 
 
 @device

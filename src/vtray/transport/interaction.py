@@ -66,7 +66,8 @@ class Interaction(NamedTuple):
 def interact(world: World, ray: Ray, distance: float, row: int, slot: int) -> Interaction:
     """Return the point where a ray hits a shape of the group in a row."""
     point = ray_point(ray, distance)
-    surface = surface_of(world, load_group(world, row), slot, point)
+    group = load_group(world, row)
+    surface = surface_of(world, group, slot, point, ray.error_scale + distance)
     normal = normal_at(surface.pole, surface.is_round, point, ray.direction)
     error_scale = surface.error_scale + ray.error_scale + distance
     return Interaction(point, normal, error_scale, surface.is_second)
@@ -107,7 +108,8 @@ def _fetch(packet: Packet, hit: int, lane: int, sheaf: Sheaf, scene: SceneArrays
     numbers, world = packet.view(np.int64), scene.world
     row, slot = split_met(numbers[MET + lane])
     ray, distance = load_ray(packet, sheaf, lane), packet[DISTANCE + lane]
-    surface = surface_of(world, load_group(world, row), slot, ray_point(ray, distance))
+    point, error_scale = ray_point(ray, distance), ray.error_scale + distance
+    surface = surface_of(world, load_group(world, row), slot, point, error_scale)
     store(packet, NORMAL, hit, surface.pole)
     packet[CURVED + hit] = 1.0 if surface.is_round else 0.0
     packet[ERROR_SCALE + hit] = surface.error_scale

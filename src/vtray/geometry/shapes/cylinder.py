@@ -109,6 +109,17 @@ def line_beside(cylinder: CylinderShape, origin: Vec, way: Vec) -> Line:
 
 
 @device
+def move_along(line: Line, distance: float) -> Line:
+    """Return a line that starts so much later."""
+    return Line(
+        line.height + distance * line.rise,
+        line.rise,
+        add(line.beside, scale(distance, line.aside)),
+        line.aside,
+    )
+
+
+@device
 def side_span(line: Line, side_radius: float) -> Span:
     """Return where a line is within the endless cylinder.
 
@@ -150,6 +161,18 @@ def signed_distance(cylinder: CylinderShape, line: Line) -> float:
 
 
 @device
+def enters_clearly(cylinder: CylinderShape, line: Line, span: Span, error_bound: float) -> bool:
+    """Tell whether a line comes farther into a cylinder than rounding can explain.
+
+    Outlines and caps seen edge-on are straight: rounding would decide pixel by pixel of a whole
+    row of them what is hit.
+    """
+    middle = 0.5 * (span.near + span.far)
+    depth = -signed_distance(cylinder, move_along(line, middle))
+    return (span.near < span.far) & (depth > error_bound)
+
+
+@device
 def cylinder_distance(cylinder: CylinderShape, ray: Ray) -> float:
     """Return the distance to the first point of a cylinder that a ray meets, or infinity.
 
@@ -165,8 +188,8 @@ def cylinder_distance(cylinder: CylinderShape, ray: Ray) -> float:
     near_slope = slope if caps.near >= side.near else steepness
     far_slope = slope if caps.far <= side.far else steepness
     near, far = span.near, span.far
-    meets = near < far
     error_scale = cylinder.error_scale + ray.error_scale
+    meets = enters_clearly(cylinder, line, span, ROUNDING * error_scale)
     if ray.error_bound > 0.0:
         outside = signed_distance(cylinder, line)
         ahead = near + far > 0.0
@@ -197,7 +220,7 @@ def cylinder_hides(cylinder: CylinderShape, segment: Segment) -> bool:
     start_outside = signed_distance(cylinder, line)
     end_outside = signed_distance(cylinder, line_beside(cylinder, end, to_end))
     middle = 0.5 * (span.near + span.far)
-    meets = (span.near < span.far) & (middle > 0.0)
+    meets = enters_clearly(cylinder, line, span, error_bound) & (middle > 0.0)
     enters = meets & ((end_outside < -end_bound) | (middle < 1.0))
     leaves = (end_outside > end_bound) & ((start_outside < -error_bound) | meets)
     return enters if start_outside > error_bound else leaves
@@ -226,10 +249,21 @@ def cylinder_pole(cylinder: CylinderShape, point: Vec) -> tuple[Vec, bool]:
 
 
 @device
-def is_second_half(cylinder: CylinderShape, point: Vec) -> bool:
-    """Tell whether a point is nearer to the end of the axis than to its start."""
+def is_second_half(cylinder: CylinderShape, point: Vec, error_scale: float) -> bool:
+    """Tell whether a point is nearer to the end of the axis, by more than rounding can explain.
+
+    Parameters
+    ----------
+    cylinder
+        The cylinder.
+    point
+        The point.
+    error_scale
+        What its rounding error is relative to, beside the cylinder.
+    """
     height = dot(sub(point, cylinder.start), cylinder.axis)
-    return height + height > cylinder.length
+    error_bound = ROUNDING * (cylinder.error_scale + error_scale)
+    return height - 0.5 * cylinder.length > error_bound
 
 
 @device
