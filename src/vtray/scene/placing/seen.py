@@ -205,16 +205,17 @@ def least_room(seen: Seen, aside: int, slope: float, side: int) -> tuple[float, 
     if seen.normals is None:
         bounds -= seen.radius * length
         k = int(bounds.argmin())
-        turn = slope / length
+        change, width = slope, length
     else:
         across, other, ahead = seen.normals[aside], seen.normals[1 - aside], seen.normals[2]
         lean = slope * across + ahead
         widths = np.sqrt(np.square(length * other) + np.square(lean))
         bounds -= seen.radius * widths
         k = int(bounds.argmin())
-        turn = float(slope * other[k] * other[k] + lean[k] * across[k]) / (float(widths[k]) or 1.0)
+        change = float(slope * other[k] * other[k] + lean[k] * across[k])
+        width = float(widths[k]) or 1.0
     radius = float(np.broadcast_to(seen.radius, bounds.shape)[k])
-    return float(bounds[k]), side * float(seen.z[k]) - radius * turn
+    return float(bounds[k]), side * float(seen.z[k]) - radius * change / width
 
 
 def _find_bounds(balls: Balls, middle: Floats, axes: Axes, edges: Sequence[Slopes]) -> list[Bound]:
