@@ -155,7 +155,7 @@ def test_bounds_change_with_the_slope_as_they_say(slope: float) -> None:
     axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
     for normal in np.random.default_rng(9).normal(size=(9, 3)):
         disc = Balls(np.array([(1.0, 2, 3)]), 2.0, np.array([(1.0, 2, 3)]) + normal)
-        seen_disc = seen.look(disc, np.zeros(3), axes)
+        seen_disc = seen.look(disc, np.zeros(3), axes, [(-2, 2), (-2, 2)])
         for aside, side in ((0, -1), (0, 1), (1, -1), (1, 1)):
             less, more = (
                 seen.least_room(seen_disc, aside, slope + step, side)[0] for step in (-1e-6, 1e-6)
