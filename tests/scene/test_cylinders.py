@@ -130,16 +130,22 @@ def test_scene_looks_again_at_shared_arrays(kind: type[Arrays]) -> None:
         scene.objects[1].check()  # type: ignore[union-attr]
 
 
-def test_balls_hold_the_objects() -> None:
+def test_hulls_of_objects() -> None:
     spheres = Spheres(**columns_of_spheres())
-    ((center, radius),) = spheres.balls()
-    assert (center is spheres.center, radius is spheres.radius) == (True, True)
+    ((center, radius, toward),) = spheres.hull()
+    assert (center is spheres.center, radius is spheres.radius, toward) == (True, True, None)
     cylinders = Cylinders(**columns(radius=2))
-    (start, one), (end, other) = cylinders.balls()
-    assert (start is cylinders.start, end is cylinders.end, one, other) == (True, True, 2, 2)
+    start, end = cylinders.start, cylinders.end
+    for (center, radius, toward), ends in zip(
+        cylinders.hull(), [(start, end), (end, start)], strict=True
+    ):
+        assert (center is ends[0], radius, toward is ends[1]) == (True, 2, True)
     sphere, cylinder = vtray.Sphere((0, 0, 5), 1), Cylinder((0, 0, 0), (0, 0, 1), 3)
-    assert sphere.balls() == [(sphere.center, 1)]
-    assert cylinder.balls() == [(cylinder.start, 3), (cylinder.end, 3)]
+    assert sphere.hull() == [(sphere.center, 1, None)]
+    assert cylinder.hull() == [
+        (cylinder.start, 3, cylinder.end),
+        (cylinder.end, 3, cylinder.start),
+    ]
 
 
 # ---- arrays of cylinders

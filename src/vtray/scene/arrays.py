@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 import msgspec
 
 from vtray.scene.checks.checked import Checked, Frozen, bind, make_unchecked
-from vtray.scene.checks.columns import NO_NAMES, POINT, Columns, check_arrays, read_only
+from vtray.scene.checks.columns import NO_NAMES, Columns, check_arrays, read_only
 from vtray.scene.checks.limits import Byte
 
 if TYPE_CHECKING:
@@ -170,17 +170,17 @@ class Arrays(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=True)
         value = getattr(self, name)
         return getattr(self, self.COLUMNS[name].stand_in) if value is None else value
 
-    def balls(self) -> list[tuple[Floats, Floats | float]]:
-        """Return balls whose hull holds each object: for spheres themselves, for others some more.
+    def hull(self) -> list[tuple[Floats, Floats | float, Floats | None]]:
+        """Return the balls or discs whose convex hull each object is.
 
         Returns
         -------
         list of tuple
-            Centres in world space, (n, 3), and radii, (n,) or one for all; the hull of an object is
-            that of its balls in all the tuples. The arrays are those of the objects, not copied.
+            Centres in world space, (n, 3), radii, (n,) or one for all, and for discs other points
+            of the lines that they are square to, (n, 3); None for balls. An object is the hull of
+            its rows in all the tuples. The arrays are those of the objects, not copied.
         """
-        names = [name for name, column in self.COLUMNS.items() if column is POINT]
-        return [(getattr(self, name), self.given_for("radius")) for name in names]
+        raise NotImplementedError
 
     def check(self, place: str = "") -> None:
         """Check the arrays again, after those that they share may have been changed.

@@ -67,6 +67,10 @@ lambert=1.0, color_end=<uint8 (3,)>)
     EACH = "cylinder"
     _in_code = MappingProxyType({"color": (255, 255, 255), "lambert": 1.0})
 
+    def hull(self) -> list[tuple[Floats, Floats | float, Floats | None]]:
+        """Return the discs whose hulls these are: their caps."""
+        return [(self.start, self.radius, self.end), (self.end, self.radius, self.start)]
+
     if TYPE_CHECKING:  # what code may give, beside what the attributes hold
 
         def __init__(

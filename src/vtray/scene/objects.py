@@ -72,9 +72,9 @@ class Sphere(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
             lambert: float = 1.0,
         ) -> None: ...
 
-    def balls(self) -> list[tuple[Vector, float]]:
-        """Return centre and radius of balls whose hull is the sphere: itself."""
-        return [(self.center, self.radius)]
+    def hull(self) -> list[tuple[Vector, float, Vector | None]]:
+        """Return the ball whose hull this is, as `Spheres.hull` does."""
+        return [(self.center, self.radius, None)]
 
 
 class Cylinder(Frozen, frozen=True, gc=False, tag_field="type", tag="cylinder"):
@@ -115,9 +115,9 @@ class Cylinder(Frozen, frozen=True, gc=False, tag_field="type", tag="cylinder"):
             lambert: float = 1.0,
         ) -> None: ...
 
-    def balls(self) -> list[tuple[Vector, float]]:
-        """Return centre and radius of balls whose hull holds the cylinder: one at each end."""
-        return [(self.start, self.radius), (self.end, self.radius)]
+    def hull(self) -> list[tuple[Vector, float, Vector | None]]:
+        """Return the discs whose hull this is, its caps, as `Cylinders.hull` does."""
+        return [(self.start, self.radius, self.end), (self.end, self.radius, self.start)]
 
 
 class Plane(Frozen, frozen=True, gc=False, tag_field="type", tag="plane"):

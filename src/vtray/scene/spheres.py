@@ -56,6 +56,10 @@ class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="s
     EACH = "position"
     _in_code = MappingProxyType({"color": (255, 255, 255), "lambert": 1.0})
 
+    def hull(self) -> list[tuple[Floats, Floats | float, Floats | None]]:
+        """Return the balls whose hulls these are: themselves."""
+        return [(self.center, self.radius, None)]
+
     if TYPE_CHECKING:  # what code may give, beside what the attributes hold
 
         def __init__(

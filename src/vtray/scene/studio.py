@@ -126,7 +126,7 @@ def studio_of(call: str, scene: HasCamera) -> Studio:
     if _is_none(camera):
         remedy = "set scene.camera first, for instance to vtray.Camera.fit(scene)"
         raise SceneError(f"lights.{call}: there is no camera to place lights around; {remedy}")
-    middle, radius = bounding_sphere(balls_of(scene, f"lights.{call}"))
+    middle, radius = bounding_sphere(*balls_of(scene, f"lights.{call}"))
     forward = unit(camera.normal)
     if camera.up is None:
         right, down = camera_axes(forward)

@@ -1,4 +1,8 @@
-"""The spheres of a scene as two arrays, and a sphere around them all."""
+"""The spheres and cylinders of a scene as balls and discs, and a sphere around them all.
+
+A sphere is a ball, and a cylinder the convex hull of two discs, its caps: what holds these holds
+it, and what touches it from outside touches one of them.
+"""
 
 from collections.abc import Sequence
 from typing import Any, NamedTuple, Protocol
@@ -7,10 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
-from vtray.scene.objects import Object, Plane, Sphere
+from vtray.scene.arrays import Arrays
+from vtray.scene.objects import Object, Plane
 from vtray.scene.placing.directions import Vec, dot, unit
 from vtray.scene.placing.pieces import by_pieces
 from vtray.scene.spheres import Spheres
+from vtray.scene.vectors import Vector
 
 Floats = NDArray[np.float64]
 
@@ -23,7 +29,7 @@ class HasObjects(Protocol):
 
 
 class Balls(NamedTuple):
-    """Spheres as arrays.
+    """Balls as arrays, or the discs that planes through their centres cut out of them.
 
     Attributes
     ----------
@@ -31,22 +37,26 @@ class Balls(NamedTuple):
         Centres in world space, (n, 3), of float64 or float32.
     radius
         Radii, (n,), or one for all.
+    toward
+        For discs, other points of the lines that they are square to, (n, 3); a disc is a point if
+        that is its centre. None for balls.
     """
 
     center: NDArray[Any]
     radius: NDArray[Any] | float
+    toward: NDArray[Any] | None = None
 
 
-def balls_of(subject: object, place: str) -> Balls:
-    """Return the spheres of a scene, of `Spheres`, or of points, which have radius 0.
+def balls_of(subject: object, place: str) -> list[Balls]:
+    """Return what a scene, arrays of objects, or points, which have radius 0, are the hulls of.
 
     Raises
     ------
     SceneError
         If there is none, or `subject` is nothing of all this. Messages begin with `place`.
     """
-    if isinstance(subject, Spheres):
-        found = [Balls(subject.center, subject.radius)]
+    if isinstance(subject, Arrays):
+        found = [Balls(*balls) for balls in subject.hull()]
     elif hasattr(subject, "objects"):
         found = _balls_in(subject.objects)
     else:
@@ -58,20 +68,50 @@ def balls_of(subject: object, place: str) -> Balls:
     if not found:
         words = "there are no spheres; expected at least one, as planes have no edge"
         raise SceneError(f"{place}: {words} (Camera.look_at needs none)")
-    if len(found) == 1:
-        return found[0]
-    radii = [np.broadcast_to(balls.radius, len(balls.center)) for balls in found]
-    return Balls(np.concatenate([balls.center for balls in found]), np.concatenate(radii))
+    return found
 
 
 def _balls_in(objects: list[Object]) -> list[Balls]:
-    """Return the spheres among objects: those of each array, and all single ones together."""
-    found = [Balls(item.center, item.radius) for item in objects if isinstance(item, Spheres)]
-    single = [item for item in objects if isinstance(item, Sphere)]
-    if single:
-        center = np.array([(s.center.x, s.center.y, s.center.z) for s in single], np.float64)
-        found.append(Balls(center, np.array([s.radius for s in single], np.float64)))
-    return found
+    """Return what objects are the hulls of: balls, discs at starts, and discs at ends."""
+    single: dict[tuple[int, bool], list[tuple[Vector, float, Vector | None]]] = {}
+    parts: dict[tuple[int, bool], list[Balls]] = {}
+    for item in objects:
+        if isinstance(item, Arrays):
+            for k, arrays in enumerate(item.hull()):
+                parts.setdefault((k, arrays[2] is None), []).append(Balls(*arrays))
+        elif not isinstance(item, Plane):
+            for k, row in enumerate(item.hull()):
+                single.setdefault((k, row[2] is None), []).append(row)
+    for kind, rows in single.items():
+        parts.setdefault(kind, []).append(_as_arrays(rows))
+    return [_joined([part for part in found if len(part.center)]) for found in parts.values()]
+
+
+def _as_arrays(rows: list[tuple[Vector, float, Vector | None]]) -> Balls:
+    """Return single balls, or single discs, as arrays."""
+    centers, radii, towards = zip(*rows, strict=True)
+    toward = None if towards[0] is None else _points(towards)
+    return Balls(_points(centers), np.array(radii, np.float64), toward)
+
+
+def _points(vectors: Sequence[Vector]) -> Floats:
+    """Return vectors as rows."""
+    return np.array([(v.x, v.y, v.z) for v in vectors], np.float64)
+
+
+def _joined(parts: list[Balls]) -> Balls:
+    """Return balls, or discs, as one."""
+    if len(parts) == 1:
+        return parts[0]
+    if not parts:
+        return Balls(np.zeros((0, 3)), 0.0)
+    radii = [np.broadcast_to(part.radius, len(part.center)) for part in parts]
+    towards = [part.toward for part in parts if part.toward is not None]
+    return Balls(
+        np.concatenate([part.center for part in parts]),
+        np.concatenate(radii),
+        np.concatenate(towards) if towards else None,
+    )
 
 
 def ups_of_planes(subject: object, middle: Sequence[float] | Floats) -> list[Vec]:
@@ -96,26 +136,50 @@ def ups_of_planes(subject: object, middle: Sequence[float] | Floats) -> list[Vec
 
 
 def some(balls: Balls, rows: Any) -> Balls:  # noqa: ANN401 - whatever NumPy takes
-    """Return those of the spheres that an index chooses."""
-    radius = balls.radius
-    return Balls(balls.center[rows], radius if isinstance(radius, float) else radius[rows])
+    """Return those of the balls or discs that an index chooses."""
+    radius, toward = balls.radius, balls.toward
+    return Balls(
+        balls.center[rows],
+        radius if isinstance(radius, float) else radius[rows],
+        None if toward is None else toward[rows],
+    )
 
 
-def box_of(center: NDArray[Any]) -> tuple[Floats, Floats]:
-    """Return the least and the greatest coordinates of points, each (3,)."""
+def normals_of(discs: Balls) -> list[Floats]:
+    """Return the coordinates of unit vectors square to discs, each (n,); 0 where there is none."""
+    assert discs.toward is not None  # noqa: S101
+    columns = [
+        np.subtract(a, b, dtype=float) for a, b in zip(discs.toward.T, discs.center.T, strict=True)
+    ]
+    # In parts of the largest, so that no square overflows.
+    largest = np.maximum(np.maximum(abs(columns[0]), abs(columns[1])), abs(columns[2]))
+    x, y, z = (column / np.where(largest > 0, largest, 1.0) for column in columns)
+    length = np.sqrt(x * x + y * y + z * z)
+    length[length == 0] = 1.0
+    return [x / length, y / length, z / length]
+
+
+def box_of(parts: Sequence[Balls]) -> tuple[Floats, Floats]:
+    """Return the least and the greatest coordinates of all centres, each (3,)."""
+    boxes = [box for part in parts for box in _boxes_of(part.center)]
+    low, high = zip(*boxes, strict=True)
+    return np.min(low, axis=0), np.max(high, axis=0)
+
+
+def _boxes_of(center: NDArray[Any]) -> list[tuple[list[float], list[float]]]:
+    """Return the least and the greatest coordinates of points, piece by piece."""
 
     def ends(rows: slice) -> tuple[list[float], list[float]]:
         # Column by column, which NumPy does forty times as fast as along an axis.
         columns = center[rows].T
         return [float(c.min()) for c in columns], [float(c.max()) for c in columns]
 
-    low, high = zip(*by_pieces(len(center), ends), strict=True)
-    return np.min(low, axis=0), np.max(high, axis=0)
+    return by_pieces(len(center), ends)
 
 
-def middle_of(center: NDArray[Any]) -> Floats:
-    """Return the middle of the box around points, (3,)."""
-    low, high = box_of(center)
+def middle_of(parts: Sequence[Balls]) -> Floats:
+    """Return the middle of the box around all centres, (3,)."""
+    low, high = box_of(parts)
     # Halves, as the sum may be more than a double can be.
     middle: Floats = low / 2 + high / 2
     return middle
@@ -126,20 +190,37 @@ def from_middle(center: NDArray[Any], middle: Floats) -> list[Floats]:
     return [column - offset for column, offset in zip(center.T, middle, strict=True)]
 
 
-def bounding_sphere(balls: Balls) -> tuple[Floats, float]:
-    """Return centre and radius of a sphere around all spheres.
+def bounding_sphere(*parts: Balls) -> tuple[Floats, float]:
+    """Return centre and radius of a sphere around all balls and discs.
 
     Its centre is that of the box around their centres, so it may be larger than need be: its radius
     is at most the square root of 3 times that of the smallest.
     """
-    low, high = box_of(balls.center)
+    low, high = box_of(parts)
     middle = low / 2 + high / 2
     # In a unit in which no square overflows.
     unit = float(max((high - middle).max(), (middle - low).max())) or 1.0
+    return middle, max(_reach_of(part, middle, unit) for part in parts)
+
+
+def _reach_of(balls: Balls, middle: Floats, unit: float) -> float:
+    """Return how far the farthest point of balls or discs is from the middle."""
 
     def reach(rows: slice) -> float:
         part = some(balls, rows)
         squares = sum(np.square(column / unit) for column in from_middle(part.center, middle))
         return float((np.sqrt(squares) * unit + part.radius).max())
 
-    return middle, max(by_pieces(len(balls.center), reach))
+    larger = max(unit, float(np.max(balls.radius)))
+
+    def reach_of_discs(rows: slice) -> float:
+        part = some(balls, rows)
+        normals = normals_of(part)
+        columns = [column / larger for column in from_middle(part.center, middle)]
+        # The farthest of a disc is beyond its centre, as seen from the middle's foot in its plane.
+        height = sum(c * n for c, n in zip(columns, normals, strict=True))
+        aside = sum(np.square(c - height * n) for c, n in zip(columns, normals, strict=True))
+        beyond = np.sqrt(aside) + part.radius / larger
+        return float((np.sqrt(np.square(height) + np.square(beyond)) * larger).max())
+
+    return max(by_pieces(len(balls.center), reach if balls.toward is None else reach_of_discs))

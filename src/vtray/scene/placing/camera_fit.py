@@ -1,9 +1,9 @@
-"""The camera that shows all spheres as large as the picture allows.
+"""The camera that shows all spheres and cylinders as large as the picture allows.
 
-A sphere is in a perspective picture if it is on the inner side of four planes through the eye. For
-a given field of view these planes only move with the eye, so each gives one bound that is linear in
-the eye's position: the least of all spheres' bounds. The farthest eye forward that meets all four
-is the answer.
+A sphere is in a perspective picture if it is on the inner side of four planes through the eye, and
+a cylinder if its caps are, which are discs. For a given field of view these planes only move with
+the eye, so each gives one bound that is linear in the eye's position: the least of all bounds of
+balls and discs. The farthest eye forward that meets all four is the answer.
 """
 
 import math
@@ -19,7 +19,7 @@ from vtray.scene.checks.scene_words import show
 from vtray.scene.placing.bounds import balls_of, middle_of, ups_of_planes
 from vtray.scene.placing.directions import Vec, along, are_parallel, unit, view_axes
 from vtray.scene.placing.look_at import NEAR, argument, orthographic, perspective, pixel_slope
-from vtray.scene.placing.seen import Seen, Slopes, look, rooms
+from vtray.scene.placing.seen import Seen, Slopes, least_room, look
 from vtray.scene.vectors import Direction
 
 Floats = NDArray[np.float64]
@@ -28,12 +28,12 @@ NEARLY_PARALLEL = 1e-3
 """Sine of the angle to the view below which a plane's normal is not taken for up."""
 
 LEAST_GAP = 2.0**-30
-"""Distance that is kept from eye to spheres, relative to their extent. Points alone need it: the
-eye that sees them in the narrowest cone may lie in one of them."""
+"""Distance that is kept from the eye to what it sees, relative to its extent. Points alone need it:
+the eye that sees them in the narrowest cone may lie in one of them."""
 
 CLEARANCE = 16.0
-"""Distance from an orthographic camera to the first sphere, relative to the size of what is seen:
-enough to see a floor before the spheres, if it is looked at from more than 4 degrees above."""
+"""Distance from an orthographic camera to what is nearest, relative to the size of what is seen:
+enough to see a floor before that, if it is looked at from more than 4 degrees above."""
 
 
 Frames = tuple[tuple[float, float], tuple[float, float]]
@@ -62,8 +62,8 @@ def fitting(
     kind = argument(call, "projection", projection, Projection)
     fov = argument(call, "fov_degrees", fov_degrees, FieldOfView)
     width, height = pixels = argument(call, "size", size, SizePair)
-    balls = balls_of(subject, call)
-    middle = middle_of(balls.center)
+    parts = balls_of(subject, call)
+    middle = middle_of(parts)
     upward = _choose_up(subject, up, forward, middle)
     right, down = view_axes(forward, unit(upward))
     axes = (right, down, forward)
@@ -72,11 +72,12 @@ def fitting(
         if kind == "perspective":
             slope = pixel_slope(fov, pixels)
             edges = [(first * slope, last * slope) for first, last in frames]
-            place, focus = _stand(look(balls, middle, axes, edges), edges)
+            place, focus = _stand([look(part, middle, axes, edges) for part in parts], edges)
             eye = _to_world(place, middle, axes)
             fields = perspective(eye, forward, upward, focus, slope, pixels)
         else:
-            place, focus, pixel = _stand_back(look(balls, middle, axes), frames, pixels)
+            seen = [look(part, middle, axes) for part in parts]
+            place, focus, pixel = _stand_back(seen, frames, pixels)
             eye = _to_world(place, middle, axes)
             fields = orthographic(eye, forward, upward, focus, pixel, pixels)
     if not all(map(math.isfinite, fields["center"])):
@@ -117,54 +118,48 @@ def _frame(count: int, margin: float) -> tuple[float, float]:
     return first + margin * length, first + (1 - margin) * length
 
 
-def _stand(seen: Seen, edges: Sequence[Slopes]) -> tuple[Vec, float]:
-    """Return the eye that is as near to the spheres as can be, and the focus."""
-    front = float(seen.surfaces[0, 2])
-    sides = list(zip((seen.x, seen.y), edges, strict=True))
-    depths = [front - _least_gap(seen, front)]
-    for place, (low, high) in sides:
-        room = _room(place, seen, low, -1)[0] + _room(place, seen, high, 1)[0]
+def _stand(seen: Sequence[Seen], edges: Sequence[Slopes]) -> tuple[Vec, float]:
+    """Return the eye that is as near to what it sees as can be, and the focus."""
+    centers = _ends([part.centers for part in seen])
+    front = float(_ends([part.surfaces for part in seen])[0, 2])
+    depths = [front - _least_gap(centers, front)]
+    for aside, (low, high) in enumerate(edges):
+        room = _room(seen, aside, low, -1)[0] + _room(seen, aside, high, 1)[0]
         depths.append(room / (high - low))
     depth = min(depths)
-    x, y = (_middle(place, seen, slopes, depth) for place, slopes in sides)
-    distance = float(seen.centers[0, 2] / 2 + seen.centers[1, 2] / 2) - depth
+    x, y = (_middle(seen, aside, slopes, depth) for aside, slopes in enumerate(edges))
+    distance = float(centers[0, 2] / 2 + centers[1, 2] / 2) - depth
     return (x, y, depth), min(NEAR * distance, (front - depth) / 2)
 
 
-def _least_gap(seen: Seen, front: float) -> float:
-    """Return the least distance from the eye to the spheres."""
-    (left, top, _), (right, bottom, back) = seen.centers.tolist()
+def _ends(parts: Sequence[Floats]) -> Floats:
+    """Return the least and the greatest coordinates of all parts, (2, 3)."""
+    return np.array([np.min([p[0] for p in parts], axis=0), np.max([p[1] for p in parts], axis=0)])
+
+
+def _least_gap(centers: Floats, front: float) -> float:
+    """Return the least distance from the eye to what it sees."""
+    (left, top, _), (right, bottom, back) = centers.tolist()
     extent = max(right - left, bottom - top, back - front)
     return LEAST_GAP * extent if extent > 0 else 1.0
 
 
-def _room(place: Floats, seen: Seen, slope: float, side: int) -> tuple[float, float]:
-    """Return the least bound that the spheres set to the eye on one side, as `rooms` does.
-
-    Returns
-    -------
-    bound, change
-        The bound, and how it changes with the slope.
-    """
-    length = math.sqrt(1.0 + slope * slope)
-    bounds = rooms(place, seen.z, slope, side)
-    bounds -= seen.radius * length
-    k = int(bounds.argmin())
-    radius = float(np.broadcast_to(seen.radius, bounds.shape)[k])
-    return float(bounds[k]), side * float(seen.z[k]) - radius * slope / length
+def _room(seen: Sequence[Seen], aside: int, slope: float, side: int) -> tuple[float, float]:
+    """Return the least bound to the eye on one side, and how it changes, as `least_room` does."""
+    return min((least_room(part, aside, slope, side) for part in seen), key=lambda found: found[0])
 
 
-def _middle(place: Floats, seen: Seen, slopes: Slopes, depth: float) -> float:
+def _middle(seen: Sequence[Seen], aside: int, slopes: Slopes, depth: float) -> float:
     """Return the place across from which the picture has the same free space on both sides.
 
-    The narrowest field of view around the same middle in which all spheres fit is the root of a
+    The narrowest field of view around the same middle in which all fits is the root of a
     concave function, on which Newton's steps come from one side after the first.
     """
     low, high = slopes
     axis, half = (low + high) / 2, (high - low) / 2
     for _ in range(60):
-        left, left_change = _room(place, seen, axis - half, -1)
-        right, right_change = _room(place, seen, axis + half, 1)
+        left, left_change = _room(seen, aside, axis - half, -1)
+        right, right_change = _room(seen, aside, axis + half, 1)
         excess = left + right - 2 * half * depth
         change = right_change - left_change - 2 * depth
         step = excess / change if change > 0 else 0.0
@@ -175,9 +170,11 @@ def _middle(place: Floats, seen: Seen, slopes: Slopes, depth: float) -> float:
     return ((axis + half) * depth - right) / 2 + ((axis - half) * depth + left) / 2
 
 
-def _stand_back(seen: Seen, frames: Frames, size: tuple[int, int]) -> tuple[Vec, float, float]:
+def _stand_back(
+    seen: Sequence[Seen], frames: Frames, size: tuple[int, int]
+) -> tuple[Vec, float, float]:
     """Return the eye, the focus and the width of a pixel of an orthographic picture."""
-    (left, top, front), (right, bottom, end) = seen.surfaces.tolist()
+    (left, top, front), (right, bottom, end) = _ends([part.surfaces for part in seen]).tolist()
     pairs = list(zip(((left, right), (top, bottom)), frames, strict=True))
     pixel = max((high - low) / (last - first) for (low, high), (first, last) in pairs)
     # Points on a line along the view have no extent: any pixel will do.

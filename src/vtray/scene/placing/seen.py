@@ -1,4 +1,4 @@
-"""Spheres as a camera sees them: how far they reach, and which can touch an edge of its picture.
+"""What a camera sees: how far balls and discs reach, and which can touch an edge of its picture.
 
 Of many, only few can be the first to touch a plane through the eye, whatever the field of view up
 to the camera's. One look at each finds them, and the way to the answer leads past few.
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.exact_math import hypotenuse
-from vtray.scene.placing.bounds import Balls, from_middle, some
+from vtray.scene.placing.bounds import Balls, from_middle, normals_of, some
 from vtray.scene.placing.directions import Vec
 from vtray.scene.placing.pieces import by_pieces
 
@@ -25,31 +25,33 @@ Slopes = tuple[float, float]
 """Of two edges of a picture, left and right or upper and lower: how far aside they go ahead."""
 
 MANY = 2**17
-"""So many spheres are worth a choice."""
+"""So many balls or discs are worth a choice."""
 
 SAMPLE = 2**14
-"""Spheres among which those are looked for that reach farthest."""
+"""Among so many those are looked for that reach farthest."""
 
 BEYOND = 2.0**-10
-"""How far beyond the slopes asked for spheres are kept, relative to the picture: for rounding."""
+"""How far beyond the slopes asked for they are kept, relative to the picture: for rounding."""
 
 ROUNDING = 2.0**-46
-"""More than rounding changes lengths, relative to the extent of the spheres: 64 roundings."""
+"""More than rounding changes lengths, relative to the extent of all: 64 roundings."""
 
 SMALLEST = 2.0**-1000
 """Lengths below have products that lose digits."""
 
 
 class Seen(NamedTuple):
-    """Spheres in the space of a camera that is in the middle of them.
+    """Balls or discs in the space of a camera that is in the middle of all.
 
     Attributes
     ----------
     x, y, z
-        Centres to the right, downwards and forward, of all spheres that may be the first to touch
-        an edge, in their order, (m,).
+        Centres to the right, downwards and forward, of all that may be the first to touch an edge,
+        in their order, (m,).
     radius
         Their radii, (m,), or one for all.
+    normals
+        The coordinates of unit normals of discs, each (m,); None for balls.
     centers, surfaces
         The least and the greatest coordinates of all centres, and of all surfaces, (2, 3).
     """
@@ -58,12 +60,13 @@ class Seen(NamedTuple):
     y: Floats
     z: Floats
     radius: Floats | float
+    normals: list[Floats] | None
     centers: Floats
     surfaces: Floats
 
 
 class Bound(NamedTuple):
-    """A bound on the room that spheres leave at a slope on one side of the picture.
+    """A bound on the room that is left at a slope on one side of the picture.
 
     Attributes
     ----------
@@ -84,18 +87,18 @@ class Bound(NamedTuple):
 
 
 UNBOUNDED = Bound(0, 1, 0.0, math.inf)
-"""What no sphere leaves more room than."""
+"""What nothing leaves more room than."""
 
 
 def look(balls: Balls, middle: Floats, axes: Axes, edges: Sequence[Slopes] = ()) -> Seen:
-    """Bring spheres into the space of a camera.
+    """Bring balls or discs into the space of a camera.
 
     Parameters
     ----------
     balls
-        The spheres.
+        What is seen, or a part of it.
     middle
-        The middle of the box around their centres, (3,).
+        The middle of the box around the centres of all, (3,).
     axes
         Those of the camera.
     edges
@@ -110,26 +113,36 @@ def look(balls: Balls, middle: Floats, axes: Axes, edges: Sequence[Slopes] = ())
     radius = balls.radius
     if not isinstance(radius, float):
         radius = np.concatenate([part.radius for part in parts])
+    normals = None
+    if balls.toward is not None:
+        normals = [
+            np.concatenate(columns) for columns in zip(*(p.normals for p in parts), strict=True)
+        ]
     centers, surfaces = (
         np.array([np.min(ends[:, 0], axis=0), np.max(ends[:, 1], axis=0)])
         for ends in (np.array([p.centers for p in parts]), np.array([p.surfaces for p in parts]))
     )
-    return Seen(x, y, z, radius, centers, surfaces)
+    return Seen(x, y, z, radius, normals, centers, surfaces)
 
 
-def _turn(balls: Balls, middle: Floats, axes: Axes) -> list[Floats]:
-    """Return the coordinates of centres along the axes, each (n,)."""
-    columns = from_middle(balls.center, middle)
+def _turn(columns: list[Floats], axes: Axes) -> list[Floats]:
+    """Return the coordinates of vectors along the axes, each (n,)."""
     # Not by a product of matrices: for three rows, BLAS is slower.
     return [columns[0] * a + columns[1] * b + columns[2] * c for a, b, c in axes]
 
 
 def _look_at(balls: Balls, middle: Floats, axes: Axes, bounds: list[Bound]) -> Seen:
-    """Bring a piece into the space of a camera, without spheres that leave more than all bounds."""
-    columns = _turn(balls, middle, axes)
+    """Bring a piece into the space of a camera, without what leaves more than all bounds."""
+    columns = _turn(from_middle(balls.center, middle), axes)
     radius = balls.radius
+    normals = None if balls.toward is None else _turn(normals_of(balls), axes)
     centers = surfaces = np.array([[c.min() for c in columns], [c.max() for c in columns]])
-    if isinstance(radius, float):
+    if normals is not None:
+        x, y, z = normals
+        around = [np.sqrt(a * a + b * b) * radius for a, b in ((y, z), (x, z), (x, y))]
+        ends = [((c - r).min(), (c + r).max()) for c, r in zip(columns, around, strict=True)]
+        surfaces = np.array(ends).T
+    elif isinstance(radius, float):
         surfaces = centers + np.array([[-radius], [radius]])
     else:
         radius = radius.astype(float, copy=False)
@@ -146,15 +159,18 @@ def _look_at(balls: Balls, middle: Floats, axes: Axes, bounds: list[Bound]) -> S
             inside &= left > room
     kept = np.flatnonzero(~inside)
     x, y, z = (column[kept] for column in columns)
-    return Seen(x, y, z, radius if isinstance(radius, float) else radius[kept], centers, surfaces)
+    if normals is not None:
+        normals = [column[kept] for column in normals]
+    radius = radius if isinstance(radius, float) else radius[kept]
+    return Seen(x, y, z, radius, normals, centers, surfaces)
 
 
 def rooms(place: Floats, ahead: Floats, slope: float, side: int) -> Floats:
     """Return the bounds that points set to an eye, (n,).
 
     An eye at depth d and place p sees a point on the inner side of the plane of this slope if
-    ``side * (slope * d - p)`` is at most this bound. Spheres take off their radius, for a plane of
-    this slope ``sqrt(1 + slope**2)`` times.
+    ``side * (slope * d - p)`` is at most this bound. Balls take off their radius, for a plane of
+    this slope ``sqrt(1 + slope**2)`` times, and discs less: see `least_room`.
 
     Parameters
     ----------
@@ -173,8 +189,38 @@ def rooms(place: Floats, ahead: Floats, slope: float, side: int) -> Floats:
     return bounds
 
 
+def least_room(seen: Seen, aside: int, slope: float, side: int) -> tuple[float, float]:
+    """Return the least bound that balls or discs set to the eye on one side, as `rooms` does.
+
+    A vector v is the normal of a plane that touches a ball ``radius * |v|`` from its centre, and a
+    disc of normal n ``radius * |v x n|``.
+
+    Returns
+    -------
+    bound, change
+        The bound, and how it changes with the slope.
+    """
+    place = (seen.x, seen.y)[aside]
+    length = math.sqrt(1.0 + slope * slope)
+    bounds = rooms(place, seen.z, slope, side)
+    if seen.normals is None:
+        bounds -= seen.radius * length
+        k = int(bounds.argmin())
+        change, width = slope, length
+    else:
+        across, other, ahead = seen.normals[aside], seen.normals[1 - aside], seen.normals[2]
+        lean = slope * across + ahead
+        widths = np.sqrt(np.square(length * other) + np.square(lean))
+        bounds -= seen.radius * widths
+        k = int(bounds.argmin())
+        change = float(slope * other[k] * other[k] + lean[k] * across[k])
+        width = float(widths[k]) or 1.0
+    radius = float(np.broadcast_to(seen.radius, bounds.shape)[k])
+    return float(bounds[k]), side * float(seen.z[k]) - radius * change / width
+
+
 def _find_bounds(balls: Balls, middle: Floats, axes: Axes, edges: Sequence[Slopes]) -> list[Bound]:
-    """Return bounds: a sphere that leaves more room than all is not the first to touch an edge."""
+    """Return bounds: what leaves more room than all is not the first to touch an edge."""
     count = len(balls.center)
     if not edges:
         return []
@@ -182,10 +228,11 @@ def _find_bounds(balls: Balls, middle: Floats, axes: Axes, edges: Sequence[Slope
         return [UNBOUNDED]
     # Numbers spread as the golden ratio does, in step with no order of the spheres.
     chosen = np.arange(SAMPLE) * (int(count * 0.6180339887) | 1) % count
-    x, y, z = _turn(some(balls, chosen), middle, axes)
+    x, y, z = _turn(from_middle(some(balls, chosen).center, middle), axes)
     extent = float(balls.center.max()) - float(balls.center.min()) + float(np.max(balls.radius))
-    # What is the same of all radii makes no difference between spheres.
-    less = float(np.min(balls.radius)) - ROUNDING * extent - SMALLEST
+    # What is the same of all radii makes no difference between balls; discs may be edge-on.
+    least = float(np.min(balls.radius)) if balls.toward is None else 0.0
+    less = least - ROUNDING * extent - SMALLEST
     return [
         Bound(aside, side, slope, room - less * math.sqrt(1.0 + slope * slope))
         for aside, (place, (low, high)) in enumerate(zip((x, y), edges, strict=True))
