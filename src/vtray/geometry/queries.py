@@ -11,18 +11,13 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import STACK, WIDTH, leaf_range
+from vtray.geometry.dispatch import Shape, Verbs, with_any
 from vtray.geometry.packets.beam import Beam, beam_margin, children_met, enter_child, make_beam
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import MARGIN
-from vtray.geometry.shapes.columns import Columns
-from vtray.geometry.shapes.cylinder import cylinder_distance, cylinder_hides, load_cylinder
-from vtray.geometry.shapes.plane import load_plane, plane_distance, plane_hides
-from vtray.geometry.shapes.sphere import load_sphere, sphere_distance, sphere_hides
 from vtray.geometry.vector import add, scale, sub
 from vtray.geometry.world import (
     NO_TREE,
-    PLANE,
-    SPHERE,
     Group,
     ToBoxes,
     World,
@@ -82,33 +77,16 @@ def nearest_hit(world: World, ray: Ray, stack: Stack) -> Hit:
 def _nearest_slots(world: World, group: Group, begin: int, end: int, ray: Ray, hit: Hit) -> Hit:
     """Return the nearer of a hit and those of the shapes of a range of slots."""
     for slot in range(begin, end):
-        distance, number = _meet_slot(world, group, slot, ray)
+        distance, number = with_any(world, group, slot, _meet, ray)
         if distance < hit.distance or (distance == hit.distance and number < hit.primitive):
             hit = Hit(distance, number, group.row, slot)
     return hit
 
 
 @device
-def _meet_slot(world: World, group: Group, slot: int, ray: Ray) -> tuple[float, int]:
-    """Return the distance at which a ray meets a shape of a group, and the shape's number."""
-    if group.kind == PLANE:
-        plane = load_plane(world.planes, slot, group.place)
-        return plane_distance(plane, ray), group.number + world.planes.number[slot]
-    if group.kind == SPHERE:
-        sphere = load_sphere(world.spheres, slot, group.place)
-        return sphere_distance(sphere, ray), group.number + world.spheres.number[slot]
-    return _meet_cylinder(world.cylinders, group, slot, ray)
-
-
-@device
-def _meet_cylinder(
-    cylinders: Columns | None, group: Group, slot: int, ray: Ray
-) -> tuple[float, int]:
-    """Return the distance at which a ray meets a cylinder, and the cylinder's number."""
-    if cylinders is None:
-        return math.inf, NOTHING
-    cylinder = load_cylinder(cylinders, slot, group.place)
-    return cylinder_distance(cylinder, ray), group.number + cylinders.number[slot]
+def _meet(shape: Shape, verbs: Verbs, number: int, ray: Ray) -> tuple[float, int]:
+    """Return the distance at which a ray meets a shape, and the shape's number."""
+    return verbs.distance_to(shape, ray), number
 
 
 @device
@@ -186,33 +164,16 @@ def _first_of_slots(
 ) -> int:
     """Return the lower of a number and those of the shapes in a range that stand between."""
     for slot in range(begin, end):
-        hides, number = _hides_slot(world, group, slot, segment)
+        hides, number = with_any(world, group, slot, _hides, segment)
         if hides and (first == NOTHING or number < first):
             first = number
     return first
 
 
 @device
-def _hides_slot(world: World, group: Group, slot: int, segment: Segment) -> tuple[bool, int]:
-    """Tell whether a shape of a group stands between two points; return the shape's number."""
-    if group.kind == PLANE:
-        plane = load_plane(world.planes, slot, group.place)
-        return plane_hides(plane, segment), group.number + world.planes.number[slot]
-    if group.kind == SPHERE:
-        sphere = load_sphere(world.spheres, slot, group.place)
-        return sphere_hides(sphere, segment), group.number + world.spheres.number[slot]
-    return _hides_cylinder(world.cylinders, group, slot, segment)
-
-
-@device
-def _hides_cylinder(
-    cylinders: Columns | None, group: Group, slot: int, segment: Segment
-) -> tuple[bool, int]:
-    """Tell whether a cylinder stands between two points; return the cylinder's number."""
-    if cylinders is None:
-        return False, NOTHING
-    cylinder = load_cylinder(cylinders, slot, group.place)
-    return cylinder_hides(cylinder, segment), group.number + cylinders.number[slot]
+def _hides(shape: Shape, verbs: Verbs, number: int, segment: Segment) -> tuple[bool, int]:
+    """Tell whether a shape stands between two points; return the shape's number."""
+    return verbs.hides(shape, segment), number
 
 
 @device

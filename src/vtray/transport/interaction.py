@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.dispatch import Shape, Verbs, with_any
 from vtray.geometry.packets.coherence import CLUSTER, cluster_hits, list_hits
 from vtray.geometry.packets.packet import (
     COLOR,
@@ -34,9 +35,9 @@ from vtray.geometry.packets.packet import (
 )
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Ray, ray_point
-from vtray.geometry.surface import normal_at, surface_of
+from vtray.geometry.shapes.surface import Surface, normal_at
 from vtray.geometry.vector import Vec, add, dot, scale
-from vtray.geometry.world import World, has_trees, load_group
+from vtray.geometry.world import Group, World, has_trees, load_group
 from vtray.transport.materials.material import load_material
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -63,11 +64,40 @@ class Interaction(NamedTuple):
 
 
 @device
+def surface_at(world: World, group: Group, slot: int, point: Vec, error_scale: float) -> Surface:
+    """Return the surface of a shape of a group at a point.
+
+    Parameters
+    ----------
+    world, group, slot
+        The shape.
+    point
+        The point.
+    error_scale
+        What its rounding error is relative to, beside the shape.
+    """
+    surface: Surface = with_any(world, group, slot, _surface, (point, error_scale))
+    return surface
+
+
+@device
+def _surface(
+    shape: Shape,
+    verbs: Verbs,
+    number: int,  # noqa: ARG001
+    arguments: tuple[Vec, float],
+) -> Surface:
+    """Return the surface of a shape at a point."""
+    point, error_scale = arguments
+    return verbs.surface(shape, point, error_scale)
+
+
+@device
 def interact(world: World, ray: Ray, distance: float, row: int, slot: int) -> Interaction:
     """Return the point where a ray hits a shape of the group in a row."""
     point = ray_point(ray, distance)
     group = load_group(world, row)
-    surface = surface_of(world, group, slot, point, ray.error_scale + distance)
+    surface = surface_at(world, group, slot, point, ray.error_scale + distance)
     normal = normal_at(surface.pole, surface.is_round, point, ray.direction)
     error_scale = surface.error_scale + ray.error_scale + distance
     return Interaction(point, normal, error_scale, surface.is_second)
@@ -109,7 +139,7 @@ def _fetch(packet: Packet, hit: int, lane: int, sheaf: Sheaf, scene: SceneArrays
     row, slot = split_met(numbers[MET + lane])
     ray, distance = load_ray(packet, sheaf, lane), packet[DISTANCE + lane]
     point, error_scale = ray_point(ray, distance), ray.error_scale + distance
-    surface = surface_of(world, load_group(world, row), slot, point, error_scale)
+    surface = surface_at(world, load_group(world, row), slot, point, error_scale)
     store(packet, NORMAL, hit, surface.pole)
     packet[CURVED + hit] = 1.0 if surface.is_round else 0.0
     packet[ERROR_SCALE + hit] = surface.error_scale

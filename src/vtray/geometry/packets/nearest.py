@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.dispatch import Shape, Verbs, with_bounded
 from vtray.geometry.packets.packet import (
     DISTANCE,
     LANES,
@@ -24,11 +24,8 @@ from vtray.geometry.packets.ray_bounds import find_farthest, octets_met
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Footprint, Ray, has_width
 from vtray.geometry.rounding import MARGIN
-from vtray.geometry.shapes.columns import Columns
-from vtray.geometry.shapes.cylinder import cylinder_distance, cylinder_outline, load_cylinder
 from vtray.geometry.shapes.plane import load_plane, plane_distance
-from vtray.geometry.shapes.sphere import load_sphere, sphere_distance, sphere_outline
-from vtray.geometry.world import SPHERE, Group, World
+from vtray.geometry.world import Group, World
 
 
 @device
@@ -47,7 +44,8 @@ def nearest_planes(packet: Packet, lanes: int, sheaf: Sheaf, world: World, group
     for slot in range(group.begin, group.end):
         plane = load_plane(world.planes, slot, group.place)
         number = group.number + world.planes.number[slot]
-        _nearest_lanes(packet, 0, lanes, sheaf, group, slot, number, plane, plane_distance)
+        met = join_met(group.row, slot)
+        _take_lanes(packet, 0, lanes, sheaf, met, number, plane, plane_distance)
 
 
 @device
@@ -78,81 +76,20 @@ def nearest_slots(
     work
         Scratch memory.
     """
-    if group.kind != SPHERE:
-        _nearest_cylinders(
-            packet, first, count, sheaf, footprint, group, begin, end, world.cylinders, work
-        )
-        return
     for slot in range(begin, end):
-        sphere = load_sphere(world.spheres, slot, group.place)
-        number = group.number + world.spheres.number[slot]
-        _nearest_shape(
-            packet,
-            first,
-            count,
-            sheaf,
-            footprint,
-            group,
-            slot,
-            number,
-            sphere,
-            sphere_distance,
-            sphere_outline,
-            work,
-        )
+        rays = packet, first, count, sheaf, footprint, work
+        with_bounded(world, group, slot, _take_octets, (rays, join_met(group.row, slot)))
 
 
 @device
-def _nearest_cylinders(
-    packet: Packet,
-    first: int,
-    count: int,
-    sheaf: Sheaf,
-    footprint: Footprint,
-    group: Group,
-    begin: int,
-    end: int,
-    cylinders: Columns | None,
-    work: Workspace,
-) -> None:
-    """Let cylinders of a group take lanes of some octets in which they are nearer."""
-    if cylinders is None:
-        return
-    for slot in range(begin, end):
-        cylinder = load_cylinder(cylinders, slot, group.place)
-        number = group.number + cylinders.number[slot]
-        _nearest_shape(
-            packet,
-            first,
-            count,
-            sheaf,
-            footprint,
-            group,
-            slot,
-            number,
-            cylinder,
-            cylinder_distance,
-            cylinder_outline,
-            work,
-        )
-
-
-@device
-def _nearest_shape(
-    packet: Packet,
-    first: int,
-    count: int,
-    sheaf: Sheaf,
-    footprint: Footprint,
-    group: Group,
-    slot: int,
+def _take_octets(
+    shape: Shape,
+    verbs: Verbs,
     number: int,
-    shape: Any,  # noqa: ANN401
-    distance_to: Callable[[Any, Ray], float],
-    outline_of: Callable[[Any, Ray, Footprint], float],
-    work: Workspace,
+    arguments: tuple[tuple[Packet, int, int, Sheaf, Footprint, Workspace], int],
 ) -> None:
     """Test a shape for those of some octets that it may meet."""
+    (packet, first, count, sheaf, footprint, work), met_here = arguments
     margin = MARGIN * (shape.error_scale + sheaf.error_scale)
     met = octets_met(
         work.cones, first, count, sheaf, shape.center, shape.radius + margin, footprint
@@ -163,32 +100,30 @@ def _nearest_shape(
             # The mask tells the compiler that no index is negative.
             begin = lane & (LANES - 1)
             end = begin + OCTET
-            _nearest_lanes(packet, begin, end, sheaf, group, slot, number, shape, distance_to)
+            _take_lanes(packet, begin, end, sheaf, met_here, number, shape, verbs.distance_to)
             if has_width(footprint):
-                _note_rims(packet, lane, sheaf, footprint, shape, outline_of)
+                _note_rims(packet, lane, sheaf, footprint, shape, verbs.outline)
             find_farthest(packet, lane // OCTET, 1, work.cones)
         met >>= 1
         lane += OCTET
 
 
 @device
-def _nearest_lanes(
+def _take_lanes(
     packet: Packet,
     begin: int,
     end: int,
     sheaf: Sheaf,
-    group: Group,
-    slot: int,
+    met: int,
     number: int,
-    shape: Any,  # noqa: ANN401
-    distance_to: Callable[[Any, Ray], float],
+    shape: Shape,
+    distance_to: Callable[[Shape, Ray], float],
 ) -> None:
     """Let a shape take those of some lanes in which it is nearer than the hit so far.
 
     Of two at the same distance, that with the lower number is hit.
     """
     numbers = packet.view(np.int64)
-    met = join_met(group.row, slot)
     for lane in range(begin, end):
         distance = distance_to(shape, load_ray(packet, sheaf, lane))
         best = packet[DISTANCE + lane]
@@ -204,8 +139,8 @@ def _note_rims(
     first: int,
     sheaf: Sheaf,
     footprint: Footprint,
-    shape: Any,  # noqa: ANN401
-    outline_of: Callable[[Any, Ray, Footprint], float],
+    shape: Shape,
+    outline_of: Callable[[Shape, Ray, Footprint], float],
 ) -> None:
     """Note the distance of a shape's outline in those of eight lanes that it passes near."""
     begin = first & (LANES - 1)

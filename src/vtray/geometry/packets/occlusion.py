@@ -2,12 +2,13 @@
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.dispatch import Shape, Verbs, with_bounded
 from vtray.geometry.packets.packet import (
     BLOCKED,
     DEPTH,
@@ -26,10 +27,8 @@ from vtray.geometry.packets.shaft import outside_shaft
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Segment
 from vtray.geometry.rounding import MARGIN, ROUNDING
-from vtray.geometry.shapes.columns import Columns
-from vtray.geometry.shapes.cylinder import cylinder_hides, load_cylinder
 from vtray.geometry.shapes.plane import PlaneShape, end_side, hides_side, load_plane, plane_side
-from vtray.geometry.shapes.sphere import load_sphere, sphere_hides
+from vtray.geometry.shapes.sphere import load_sphere
 from vtray.geometry.vector import Vec, add, dot, lower, magnitude, scale, sub, upper
 from vtray.geometry.world import PLANE, SPHERE, Group, World, group_count, load_group
 
@@ -259,58 +258,40 @@ def block_by_slot(
     packet: Packet, begin: int, end: int, world: World, group: Group, slot: int, target: Target
 ) -> None:
     """Mark the points of a range that a shape of a group hides from a light."""
-    if group.kind == SPHERE:
-        sphere = load_sphere(world.spheres, slot, group.place)
-        _block_octets(packet, begin, end, target, sphere, sphere_hides)
-    else:
-        _block_by_cylinder(packet, begin, end, world.cylinders, group, slot, target)
+    with_bounded(world, group, slot, _block_by_shape, (packet, begin, end, target))
 
 
 @device
-def _block_by_cylinder(
-    packet: Packet,
-    begin: int,
-    end: int,
-    cylinders: Columns | None,
-    group: Group,
-    slot: int,
-    target: Target,
+def _block_by_shape(
+    shape: Shape,
+    verbs: Verbs,
+    number: int,  # noqa: ARG001
+    arguments: tuple[Packet, int, int, Target],
 ) -> None:
-    """Mark the points of a range that a cylinder hides from a light."""
-    if cylinders is None:
-        return
-    cylinder = load_cylinder(cylinders, slot, group.place)
-    _block_octets(packet, begin, end, target, cylinder, cylinder_hides)
+    """Mark the points of a range that a shape hides from a light."""
+    packet, begin, end, target = arguments
+    _block_octets(packet, begin, end, target, shape, verbs.hides)
 
 
 @device
 def in_shaft(world: World, group: Group, slot: int, target: Target, box: PointBox) -> bool:
     """Tell whether a shape of a group may stand between any point of a box and a light."""
-    if group.kind != SPHERE:
-        return _cylinder_in_shaft(world.cylinders, group, slot, target, box)
-    sphere = load_sphere(world.spheres, slot, group.place)
-    return _ball_in_shaft(sphere.center, sphere.radius, sphere.error_scale, target, box)
+    in_way: bool = with_bounded(world, group, slot, _is_in_shaft, (target, box))
+    return in_way
 
 
 @device
-def _cylinder_in_shaft(
-    cylinders: Columns | None, group: Group, slot: int, target: Target, box: PointBox
+def _is_in_shaft(
+    shape: Shape,
+    verbs: Verbs,  # noqa: ARG001
+    number: int,  # noqa: ARG001
+    arguments: tuple[Target, PointBox],
 ) -> bool:
-    """Tell whether a cylinder may stand between any point of a box and a light."""
-    if cylinders is None:
-        return False
-    cylinder = load_cylinder(cylinders, slot, group.place)
-    return _ball_in_shaft(cylinder.center, cylinder.radius, cylinder.error_scale, target, box)
-
-
-@device
-def _ball_in_shaft(
-    center: Vec, radius: float, error_scale: float, target: Target, box: PointBox
-) -> bool:
-    """Tell whether a ball may stand between any point of a box and a light."""
-    margin = error_scale + box.error_scale + magnitude(target.place)
-    wider = radius + MARGIN * margin
-    return not outside_shaft(center, wider, target.place, box.center, box.half)
+    """Tell whether the ball around a shape may stand between any point of a box and a light."""
+    target, box = arguments
+    margin = shape.error_scale + box.error_scale + magnitude(target.place)
+    radius = shape.radius + MARGIN * margin
+    return not outside_shaft(shape.center, radius, target.place, box.center, box.half)
 
 
 @device
@@ -319,8 +300,8 @@ def _block_octets(
     begin: int,
     end: int,
     target: Target,
-    shape: Any,  # noqa: ANN401
-    hides: Callable[[Any, Segment], bool],
+    shape: Shape,
+    hides: Callable[[Shape, Segment], bool],
 ) -> None:
     """Mark the points of a range that a shape hides from a light.
 
@@ -338,8 +319,8 @@ def _block_lanes(
     begin: int,
     end: int,
     target: Target,
-    shape: Any,  # noqa: ANN401
-    hides: Callable[[Any, Segment], bool],
+    shape: Shape,
+    hides: Callable[[Shape, Segment], bool],
 ) -> None:
     """Mark those points of some lanes that a shape hides from a light."""
     for lane in range(begin, end):

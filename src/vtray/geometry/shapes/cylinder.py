@@ -12,6 +12,7 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.ray import Footprint, Ray, Segment, width_at
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
+from vtray.geometry.shapes.surface import Surface
 from vtray.geometry.vector import Vec, add, dot, magnitude, scale, sub
 
 SIZE = 7
@@ -246,6 +247,14 @@ def cylinder_pole(cylinder: CylinderShape, point: Vec) -> tuple[Vec, bool]:
         foot[1] if is_round else axis[1],
         foot[2] if is_round else axis[2],
     ), is_round
+
+
+@device
+def cylinder_surface(cylinder: CylinderShape, point: Vec, error_scale: float) -> Surface:
+    """Return the surface of a cylinder at a point."""
+    pole, is_round = cylinder_pole(cylinder, point)
+    is_second = is_second_half(cylinder, point, error_scale)
+    return Surface(pole, is_round, cylinder.error_scale, is_second)
 
 
 @device

@@ -4,9 +4,10 @@ import math
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.ray import Ray, Segment
+from vtray.geometry.ray import Footprint, Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
+from vtray.geometry.shapes.surface import Surface
 from vtray.geometry.vector import Vec, dot, magnitude, sub
 
 SIZE = 6
@@ -124,3 +125,15 @@ def plane_blocks(
     # The crossing's depth is (|start| end_depth + |end| start_depth) / (|start| + |end|).
     crossing = abs(start) * end_depth + abs(end) * start_depth
     return opposite & (crossing > error_bound * (abs(start) + abs(end)))
+
+
+@device
+def plane_outline(plane: PlaneShape, ray: Ray, footprint: Footprint) -> float:  # noqa: ARG001
+    """Return infinity: a plane has no outline."""
+    return math.inf
+
+
+@device
+def plane_surface(plane: PlaneShape, point: Vec, error_scale: float) -> Surface:  # noqa: ARG001
+    """Return the surface of a plane, which is the same everywhere."""
+    return Surface(plane.normal, False, plane.error_scale, False)

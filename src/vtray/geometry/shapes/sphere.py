@@ -7,6 +7,7 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.ray import Footprint, Ray, Segment, width_at
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
+from vtray.geometry.shapes.surface import Surface
 from vtray.geometry.vector import Vec, add, cross, dot, magnitude, scale, sub
 
 SIZE = 4
@@ -170,3 +171,9 @@ def sphere_outline(sphere: SphereShape, ray: Ray, footprint: Footprint) -> float
     near = (gap2 < outer * outer) & (gap2 >= inner * inner) & (middle > -ray.depth)
     entry = middle - math.sqrt(max(sphere.radius * sphere.radius - gap2, 0.0))
     return entry if near else math.inf
+
+
+@device
+def sphere_surface(sphere: SphereShape, point: Vec, error_scale: float) -> Surface:  # noqa: ARG001
+    """Return the surface of a sphere, which is the same everywhere."""
+    return Surface(sphere.center, True, sphere.error_scale, False)
