@@ -55,15 +55,16 @@ def find_cones(packet: Packet, lanes: int, sheaf: Sheaf, cones: Cones) -> None:
         if start_apart(sheaf):
             _bound_octets(packet, ORIGIN + axis * LANES, lanes, cones, FIRST + axis * OCTETS)
     for octet in range(lanes // OCTET):
-        if not start_apart(sheaf):
-            _store(cones, FIRST, octet, sheaf.origin)
-            _store(cones, LAST, octet, sheaf.origin)
         low, high = _load(cones, LOW, octet), _load(cones, HIGH, octet)
-        first, last = _load(cones, FIRST, octet), _load(cones, LAST, octet)
+        directions = sub(high, low)
         _store(cones, AXIS, octet, scale(0.5, add(low, high)))
-        _store(cones, START, octet, scale(0.5, add(first, last)))
-        directions, starts = sub(high, low), sub(last, first)
         cones[SPREAD + octet] = 0.5 * math.sqrt(dot(directions, directions))
+    for octet in range(lanes // OCTET):
+        first, last = sheaf.origin, sheaf.origin
+        if start_apart(sheaf):
+            first, last = _load(cones, FIRST, octet), _load(cones, LAST, octet)
+        starts = sub(last, first)
+        _store(cones, START, octet, scale(0.5, add(first, last)))
         cones[WIDTH + octet] = 0.5 * math.sqrt(dot(starts, starts))
 
 
@@ -87,8 +88,10 @@ def part_directions(cones: Cones, first: int, count: int) -> tuple[Vec, Vec]:
 
 
 @device
-def part_starts(cones: Cones, first: int, count: int) -> tuple[Vec, Vec]:
+def part_starts(cones: Cones, first: int, count: int, sheaf: Sheaf) -> tuple[Vec, Vec]:
     """Return the least and the greatest coordinates of the starts of some octets."""
+    if not start_apart(sheaf):
+        return sheaf.origin, sheaf.origin
     return _bound_part(cones, FIRST, LAST, first, count)
 
 

@@ -66,7 +66,7 @@ def _part_beam(
 ) -> Beam:
     """Return the beam of a part's rays and their footprints."""
     low, high = part_directions(work.cones, first, count)
-    near, far = part_starts(work.cones, first, count)
+    near, far = part_starts(work.cones, first, count, sheaf)
     ratio, offset = to_boxes.ratio, to_boxes.offset
     apex = add(scale(ratio, sheaf.origin), offset)
     margin = beam_margin(apex, offset) + MARGIN * sheaf.error_scale * ratio
