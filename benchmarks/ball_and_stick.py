@@ -50,7 +50,9 @@ def make_crystal(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def make_scenes(count: int, side: int = SIDE) -> dict[str, vtray.Scene]:
     """Return a scene of the atoms alone, and one with bonds, seen alike."""
     atoms, (start, end) = make_crystal(count)
-    colors = np.repeat(np.array([CARBON, OTHER], np.uint8), [count // 2, count - count // 2], axis=0)
+    colors = np.repeat(
+        np.array([CARBON, OTHER], np.uint8), [count // 2, count - count // 2], axis=0
+    )
     scenes = {}
     for name in ("atoms", "bonds"):
         scene = scenes[name] = vtray.Scene()
