@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import vtray
 from vtray.figures.flat import CONTRAST, DARKEST, lightness_range, lit_colors
 from vtray.figures.oklab import oklab_to_linear, oklab_to_srgb, srgb_to_oklab
 
@@ -106,3 +107,28 @@ def test_gray_cannot_be_read_back() -> None:
     colors = table("gray")
     found = read_back(colors, lit_colors(colors, np.full(256, 0.3)))
     assert np.abs(found - np.arange(256)).max() > 50
+
+
+@pytest.mark.parametrize("one_for_all", [True, False])
+def test_halves_of_cylinders_have_their_colors(one_for_all: bool) -> None:
+    first, second = (150, 90, 60), (60, 120, 140)
+    more = {"color": first, "color_end": second}
+    if not one_for_all:
+        more = {"color": [first, (1, 2, 3)], "color_end": [second, (1, 2, 3)]}
+    scene = vtray.Scene()
+    scene.add_sphere((-9, 0, 0), 1)
+    scene.add_cylinders([(-1, 0, 0), (0, 30, 0)], [(3, 0, 0), (0, 40, 0)], 1, **more)  # type: ignore[arg-type]
+    scene.add_cylinder((0, 0, -5), (0, 1, -5), 0.1, color=first)
+    scene.add_light((0, 0, 9))
+    scene.camera = vtray.Camera.orthographic((0, 0, 9), (1, 0, 0), 3, size=(40, 9))
+    image = vtray.render(scene, background="white")
+    seen = (image.ids == (1, 0)).all(axis=2)
+    columns = np.nonzero(seen)[1]
+    middle = int(columns.mean().round())
+    lab = srgb_to_oklab(image.flat()[seen])
+    own = srgb_to_oklab(np.array([first, second], np.uint8))
+    halves = (columns > middle).astype(int)
+    sure = columns != middle
+    np.testing.assert_array_equal(image.halves[seen][sure], halves[sure])
+    np.testing.assert_allclose(lab[sure, 1:], own[halves[sure], 1:], atol=0.0025)
+    assert not image.halves[~seen].any()

@@ -43,7 +43,7 @@ def hand_made(
 
     def look() -> Surfaces:
         assert covered, "this picture must do without"
-        return Surfaces(depth, normals, ids)
+        return Surfaces(depth, normals, ids, np.zeros((height, width), np.int8))
 
     how = RenderSettings(**settings)
     white = float(linear.max()) if how.exposure == "max" else 255 / how.exposure

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from vtray.figures.oklab import oklab_to_linear, oklab_to_srgb, srgb_to_oklab
 from vtray.figures.subject import Floats, Pixels, Subject
-from vtray.scene.objects import Object, Plane, Sphere
+from vtray.scene.arrays import Arrays
+from vtray.scene.objects import Object
 from vtray.scene.vectors import Color
 
 CONTRAST = 0.3
@@ -33,7 +34,7 @@ def flat_pixels(image: Subject) -> Pixels:
         picture[:] = (background.r, background.g, background.b)
     seen = places >= 0
     if seen.any():
-        colors = _own_colors(image.scene.objects, image.ids[seen])
+        colors = _own_colors(image.scene.objects, image.ids[seen], image.halves[seen])
         picture[seen] = lit_colors(colors, _lightness(image, seen, colors))
     return picture
 
@@ -76,17 +77,25 @@ def _edge(lab: Floats, goal: float) -> Floats:
     return inside
 
 
-def _own_colors(objects: list[Object], ids: NDArray[np.int32]) -> Pixels:
-    """Return the colours of the surfaces with these ids, (n, 2), as (n, 3)."""
+def _own_colors(objects: list[Object], ids: NDArray[np.int32], halves: NDArray[np.int8]) -> Pixels:
+    """Return the colours of the surfaces with these ids, (n, 2), and halves, (n,), as (n, 3)."""
     colors = np.zeros((len(ids), 3), np.uint8)
     for place in np.unique(ids[:, 0]):
         item = objects[place]
         mine = ids[:, 0] == place
-        if isinstance(item, (Sphere, Plane)):
+        if not isinstance(item, Arrays):
             colors[mine] = (item.color.r, item.color.g, item.color.b)
-        else:
-            colors[mine] = item.color if item.color.ndim == 1 else item.color[ids[mine, 1]]
+            continue
+        colors[mine] = _rows(item.given_for("color"), ids[mine, 1])
+        if "color_end" in item.COLUMNS:
+            mine &= halves == 1
+            colors[mine] = _rows(item.given_for("color_end"), ids[mine, 1])
     return colors
+
+
+def _rows(colors: Pixels, index: NDArray[np.int32]) -> Pixels:
+    """Return the colours of rows, of which one may stand for all."""
+    return colors if colors.ndim == 1 else colors[index]
 
 
 def _lightness(image: Subject, seen: NDArray[np.bool_], colors: Pixels) -> Floats:

@@ -9,20 +9,19 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import RenderError
 from vtray.base.extras import need
+from vtray.figures.drawn.objects import (
+    colored_parts,
+    cut_shapes,
+    shape_of,
+    shapes_in,
+    where_met,
+)
 from vtray.figures.pen import BLOCKED, FAINT, INK, LIT, RAY, Pen
 from vtray.figures.scale_bar import is_orthographic, round_length
-from vtray.figures.section import (
-    Section,
-    choose_section,
-    cut_spheres,
-    spheres_of,
-    where_blocked,
-    widen,
-)
+from vtray.figures.section import Section, choose_section, widen
 from vtray.figures.traced_rays import ShadowRay, Surface, TracedRays
 from vtray.geometry.vector import Vec
-from vtray.scene.scene import Plane, Sphere
-from vtray.scene.spheres import Spheres
+from vtray.scene.scene import Plane
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,6 +33,9 @@ MOST_LABELS = 4
 
 NEAR = 0.02
 """An image plane nearer to the eye than this share of the drawing is not drawn."""
+
+WHOLE = 0.97
+"""Outlines are not drawn of what the drawing cuts through in so much of their width."""
 
 FAR = 1.3
 """Lights farther away than this many camera rays are not drawn, only the way to them."""
@@ -104,9 +106,9 @@ class _Drawing(Pen):
         steep = float(np.dot(tree.direction, tree.view.forward))
         reach = 3 * tree.view.focus
         for item in tree.scene.objects:
-            if isinstance(item, Sphere) or (isinstance(item, Spheres) and len(item)):
-                center, _ = spheres_of(item)
-                ahead = (center - np.array(tree.origin)) @ np.array(tree.view.forward)
+            shapes = shapes_in(item)
+            if shapes is not None:
+                ahead = (shapes.middle - np.array(tree.origin)) @ np.array(tree.view.forward)
                 reach = max(reach, 1.15 * float(np.median(ahead)))
         return reach / steep
 
@@ -116,13 +118,12 @@ class _Drawing(Pen):
         length = float(np.hypot(*(self.end - self.origin)))
         hit = self.tree.hit
         if hit is not None:
-            radius = hit.surface.radius
-            if radius is not None:
-                reach = min(radius, 0.5 * length)
-                middle = self.section(hit.surface.center)
-                if radius > reach:
-                    middle = self.end
-                points += [middle - reach, middle + reach]
+            shape = shape_of(self.tree.scene, hit.surface)
+            if shape is not None:
+                low, high = shape.bounds(self.section)
+                if (high - low).max() > length:
+                    low, high = self.end - 0.5 * length, self.end + 0.5 * length
+                points += [low, high]
             for ray in self.tree.lights:
                 way = self.section(ray.location) - self.end
                 points.append(self.end + way * min(1.0, 0.6 * length / max(np.hypot(*way), 1e-300)))
@@ -179,23 +180,17 @@ class _Drawing(Pen):
 
     def surroundings(self) -> None:
         """Draw what the plane of the drawing cuts, apart from what rays meet."""
-        scene = self.tree.scene
-        from matplotlib.collections import EllipseCollection
+        from matplotlib.collections import PatchCollection
 
-        centers, radii = cut_spheres(scene, self.section, self.box)
-        circles = EllipseCollection(
-            2 * radii,
-            2 * radii,
-            np.zeros(len(radii)),
-            units="xy",
-            offsets=centers,
-            transOffset=self.ax.transData,
-            facecolors="#eef0f2",
-            edgecolors="#c3c8ce",
-            linewidths=0.8,
-            zorder=1,
-        )
-        self.front(self.ax.add_collection(circles, autolim=False))
+        scene = self.tree.scene
+        style: dict[str, Any] = {
+            "facecolors": "#eef0f2",
+            "edgecolors": "#c3c8ce",
+            "linewidths": 0.8,
+            "zorder": 1,
+        }
+        cuts = PatchCollection(cut_shapes(scene, self.section, self.box), **style)
+        self.front(self.ax.add_collection(cuts, autolim=False))
         for item in scene.objects:
             if isinstance(item, Plane):
                 normal = np.array([item.normal.x, item.normal.y, item.normal.z], float)
@@ -255,35 +250,22 @@ class _Drawing(Pen):
         self.note("hits nothing", self.end, (-6, 9), ha="right", va="bottom", color=RAY)
 
     def surface(self, surface: Surface, *, filled: bool) -> None:
-        """Draw a sphere or a plane that a ray meets."""
+        """Draw what a ray meets."""
         self.drawn.add(surface)
-        red, green, blue = surface.color
-        color = (red / 255, green / 255, blue / 255)
-        center = np.array(surface.center)
-        if surface.radius is None:
-            assert surface.normal is not None  # noqa: S101
-            self.draw_plane(center, np.array(surface.normal), color, INK, 2)
+        scene, section = self.tree.scene, self.section
+        shape = shape_of(scene, surface)
+        if shape is None:
+            center, normal = np.array(surface.center), np.array(surface.normal)
+            self.draw_plane(center, normal, _shade(surface.color), INK, 2)
             return
-        from matplotlib.patches import Circle
-
-        cut = float(self.section.cut(center, surface.radius))
-        middle = self.section(center)
-        if not cut > 0.97 * surface.radius:
-            outline = Circle(
-                tuple(middle),
-                surface.radius,
-                fill=False,
-                ec=FAINT,
-                lw=0.8,
-                ls=(0, (2, 2)),
-                zorder=2,
-            )
-            self.front(self.ax.add_patch(outline))
-        if cut > 0:
-            body = Circle(
-                tuple(middle), cut, fc=(*color, 0.85 if filled else 0.35), ec=INK, lw=1.2, zorder=2
-            )
-            self.front(self.ax.add_patch(body))
+        if not shape.share(section) > WHOLE:
+            style = {"fill": False, "ec": FAINT, "lw": 0.8, "ls": (0, (2, 2)), "zorder": 2}
+            self.front(self.ax.add_patch(shape.outline(section, **style)))
+        for part, color in colored_parts(scene, surface, shape):
+            if part.cut(section).reach[0] > 0:
+                face = (*_shade(color), 0.85 if filled else 0.35)
+                (body,) = part.sections(section, fc=face, ec=INK, lw=1.2, zorder=2)
+                self.front(self.ax.add_patch(body))
 
     def shadow_ray(self, ray: ShadowRay, *, thin: bool) -> None:
         """Draw the ray to a light: solid if it arrives, dashed up to what blocks it."""
@@ -298,8 +280,10 @@ class _Drawing(Pen):
             self.line(self.end, goal, BLOCKED, lw=1.1, ls=(0, (1, 2.5)), alpha=strength)
             text = "behind the surface"
         else:
+            assert self.tree.hit is not None  # noqa: S101
             assert ray.blocker is not None  # noqa: S101
-            stop = self.section(where_blocked(self.tree, ray))
+            start = self.tree.hit.point
+            stop = self.section(where_met(self.tree.scene, ray.blocker, start, ray.direction))
             if ray.blocker not in self.drawn:
                 self.surface(ray.blocker, filled=False)
             if not thin:
@@ -353,22 +337,27 @@ class _Drawing(Pen):
             "normal", tip, _points(7 * away), ha=_side(away[0]), va=_level(away[1]), color=INK
         )
         self.ax.plot(*self.end, "o", ms=5, color=INK, zorder=9)
-        if hit.surface.radius is None:
+        self.name(hit.surface, away)
+
+    def name(self, surface: Surface, away: Floats) -> None:
+        """Write what is hit, on the side that the normal leaves free."""
+        shape, text = shape_of(self.tree.scene, surface), str(surface)
+        low, high = self.box if shape is None else shape.bounds(self.section)
+        middle, half = (low + high) / 2, (high - low) / 2
+        if shape is None or not ((self.box[0] < middle) & (middle < self.box[1])).all():
             side, level = _side(-away[0]), _level(-away[1])
-            self.note(str(hit.surface), self.end, _points(-14 * away), ha=side, va=level)
+            self.note(text, self.end, _points(-14 * away), ha=side, va=level)
+            return
+        room = 0.18 * (self.box[1, 0] - self.box[0, 0])
+        if 2 * half[0] > room:
+            self.note(text, middle, (0, 0), ha="center", va="center")
+        elif middle[0] + half[0] + room < self.box[1, 0]:
+            self.note(text, middle + half * (1, 0), (6, 0), ha="left", va="center")
         else:
-            middle, radius = self.section(hit.surface.center), hit.surface.radius
-            room = 0.18 * (self.box[1, 0] - self.box[0, 0])
-            if 2 * radius > room:
-                self.note(str(hit.surface), middle, (0, 0), ha="center", va="center")
-            elif middle[0] + radius + room < self.box[1, 0]:
-                place = middle + np.array([radius, 0.0])
-                self.note(str(hit.surface), place, (6, 0), ha="left", va="center")
-            else:
-                above = away[1] < 0  # on the side that the normal leaves free
-                place = middle + np.array([radius, radius if above else -radius])
-                level = "bottom" if above else "top"
-                self.note(str(hit.surface), place, (0, 3 if above else -3), ha="right", va=level)
+            above = away[1] < 0
+            place = middle + half * (1, 1 if above else -1)
+            level = "bottom" if above else "top"
+            self.note(text, place, (0, 3 if above else -3), ha="right", va=level)
 
     def captions(self, ray: ShadowRay | None) -> None:
         """Write what is shown, and how long a unit is."""
@@ -394,6 +383,12 @@ class _Drawing(Pen):
         self.ax.text(1, -0.03, text, ha="right", va="top", **style)
         length = round_length(0.2 * float(self.box[1, 0] - self.box[0, 0]))
         self.scale(float(self.box[0, 0]), length)
+
+
+def _shade(color: Vec) -> Vec:
+    """Return a colour as Matplotlib takes it, from 0 to 1."""
+    red, green, blue = color
+    return red / 255, green / 255, blue / 255
 
 
 def _numbers(values: Iterable[float]) -> str:

@@ -51,5 +51,9 @@ class Subject(HasPixels, Protocol):
     def ids(self) -> NDArray[np.int32]:
         """Places in the scene and in the object's arrays, -1 where nothing is, (h, w, 2)."""
 
+    @property
+    def halves(self) -> NDArray[np.int8]:
+        """Which half of a cylinder is seen, 1 for that at its end, else 0, (height, width)."""
+
     def flat(self) -> Pixels:
         """Return the picture with light that changes lightness only, (height, width, 3)."""

@@ -119,6 +119,11 @@ class Rendered:
         """
         return self._surfaces.ids
 
+    @property
+    def halves(self) -> NDArray[np.int8]:
+        """Which half of a cylinder is seen, (height, width): 1 for that at its end, else 0."""
+        return self._surfaces.halves
+
     @cached_property
     def alpha(self) -> Floats:
         """How much of each pixel is covered, from 0 to 1, (height, width)."""

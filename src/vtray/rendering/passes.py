@@ -77,8 +77,8 @@ class Tracer:
         self._done = 0
 
     def surfaces(self) -> Film:
-        """Return distance, normal and primitive of the middle rays."""
-        wanted = new_film(*self._size, "distance", "normal", "primitive")
+        """Return distance, normal, primitive and half of the middle rays."""
+        wanted = new_film(*self._size, "distance", "normal", "primitive", "half")
         return self._trace(middle_rays(), wanted).film
 
     def light(self, settings: RenderSettings, *, keep: bool = False) -> Traced:

@@ -1,5 +1,6 @@
 """Tracing the rays of one pixel, to be looked at."""
 
+import math
 import operator
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
@@ -8,6 +9,7 @@ import numpy as np
 from vtray.base.compiler.compiled import uncompiled
 from vtray.base.errors import RenderError
 from vtray.base.exact_math import hypotenuse
+from vtray.figures.drawn.objects import where_met
 from vtray.figures.ray_tree import Exposed, Hit, RayTree, ShadowRay, Surface, View
 from vtray.geometry.queries import NOTHING, new_stack
 from vtray.geometry.vector import Vec, add, scale
@@ -81,7 +83,8 @@ def trace_rays(
     traced = trace_one(packed.arrays, column, row, new_stack(), cosines, blockers)
     start, direction = _world(scene, packed, traced.ray.origin), traced.ray.direction
     eye = uncompiled(add)(start, uncompiled(scale)(-packed.before, direction))
-    hit, lights = None, []
+    hit = None
+    lights: list[ShadowRay] = []
     if traced.primitive != NOTHING:
         hit = Hit(
             _surface(scene, traced.primitive, is_second=traced.interaction.is_second),
@@ -89,10 +92,10 @@ def trace_rays(
             _world(scene, packed, traced.interaction.point),
             traced.interaction.normal,
         )
-        for k in range(len(scene.lights)):
-            number = int(blockers[k])
-            blocker = None if number == NOTHING else _surface(scene, number)
-            lights.append(_shadow_ray(scene, hit, k, float(cosines[k]), blocker))
+        lights = [
+            _shadow_ray(scene, hit, k, float(cosines[k]), int(blockers[k]))
+            for k in range(len(scene.lights))
+        ]
     return RayTree(
         (column, row),
         eye,
@@ -106,21 +109,30 @@ def trace_rays(
     )
 
 
-def _shadow_ray(
-    scene: Scene, hit: Hit, number: int, cosine: float, blocker: Surface | None
-) -> ShadowRay:
-    """Return the ray from a hit to a light."""
+def _shadow_ray(scene: Scene, hit: Hit, number: int, cosine: float, primitive: int) -> ShadowRay:
+    """Return the ray from a hit to a light; `primitive` is the number of what blocks it."""
     light, point = scene.lights[number], hit.point
     place = (light.location.x, light.location.y, light.location.z)
     way = (place[0] - point[0], place[1] - point[1], place[2] - point[2])
     distance = hypotenuse(*way)
     if distance:
         way = (way[0] / distance, way[1] / distance, way[2] / distance)
+    blocker = None if primitive == NOTHING else _blocker(scene, primitive, point, way)
     # In the order of the kernels, so that the sum has the same bits.
     strength = cosine * hit.surface.lambert * light.intensity if blocker is None else 0.0
     red, green, blue = hit.surface.color
     adds = (strength * red, strength * green, strength * blue)
     return ShadowRay(number, place, light.intensity, way, distance, cosine, blocker, adds)
+
+
+def _blocker(scene: Scene, primitive: int, start: Vec, way: Vec) -> Surface:
+    """Return what blocks a ray, its colour as where the ray meets it."""
+    surface = _surface(scene, primitive)
+    if surface.end is None:
+        return surface
+    place = where_met(scene, surface, start, way)
+    is_second = math.dist(place, surface.end) < math.dist(place, surface.center)
+    return _surface(scene, primitive, is_second=is_second)
 
 
 def _surface(scene: Scene, primitive: int, *, is_second: bool = False) -> Surface:

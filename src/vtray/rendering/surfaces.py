@@ -40,4 +40,5 @@ class Look:
             depth,
             film.normal,
             locate_all(self._scene.objects, film.primitive),
+            film.half,
         )

@@ -14,8 +14,8 @@ from vtray.scene.vectors import Direction, Vector
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
+    from vtray.scene.arrays import Arrays
     from vtray.scene.placing.bounds import HasObjects
-    from vtray.scene.spheres import Spheres
     from vtray.scene.vectors import Triple
 
 
@@ -149,7 +149,7 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
     @explain_unknown
     def fit(
         cls,
-        subject: "HasObjects | Spheres | ArrayLike",
+        subject: "HasObjects | Arrays | ArrayLike",
         direction: "Direction | Vector | Triple" = (0, 0, -1),
         up: "Direction | Vector | Triple | None" = None,
         margin: float = 0.05,
@@ -157,22 +157,22 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         fov_degrees: float = 40.0,
         size: tuple[int, int] = (800, 600),
     ) -> "Camera":
-        """Return the camera that shows all spheres as large as the picture allows.
+        """Return the camera that shows all objects as large as the picture allows.
 
         In perspective, it stands as near as can be; orthographic, its pixels are as small as can
-        be. The silhouettes of all spheres, not only their centres, are in the picture, which touch
-        the margin on two opposite sides and are in the middle between the other two. Planes have
-        no edge, and count only for `up`.
+        be. The silhouettes of all spheres and cylinders, not only their centres, are in the
+        picture, touch the margin on two opposite sides, and are in the middle between the other
+        two. Planes have no edge, and count only for `up`.
 
         Parameters
         ----------
         subject
-            A scene, `Spheres`, or points of shape (n, 3).
+            A scene, `Spheres`, `Cylinders`, or points of shape (n, 3).
         direction
             Where the camera looks, in world space.
         up
             What points up in the picture. By default the normal of the scene's first plane, on the
-            side of the spheres, or (0, 1, 0) without one; where that is parallel to `direction`
+            side of the objects, or (0, 1, 0) without one; where that is parallel to `direction`
             within 0.06 degrees, (0, 1, 0), and where that is too, (0, 0, 1).
         margin
             What stays free at each side, as a share of the picture's width and height, from 0 to
@@ -187,14 +187,14 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         Returns
         -------
         Camera
-            Its image plane is in front of all spheres. In perspective, it is so near the eye that
+            Its image plane is in front of all objects. In perspective, it is so near the eye that
             of planes too nothing in view is lost; orthographic, it is 16 times the size of what is
             seen in front of them.
 
         Raises
         ------
         SceneError
-            If there is no sphere, or an argument is not right.
+            If there is no sphere or cylinder, or an argument is not right.
         """
         from vtray.scene.placing.camera_fit import fitting
 

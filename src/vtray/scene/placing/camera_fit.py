@@ -54,7 +54,7 @@ def fitting(
     Raises
     ------
     SceneError
-        If there is no sphere, or an argument is not right.
+        If there is no sphere or cylinder, or an argument is not right.
     """
     call = "Camera.fit"
     forward = unit(argument(call, "direction", direction, Direction))
