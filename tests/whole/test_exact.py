@@ -41,16 +41,27 @@ def kernels() -> Iterator[Kernel]:
 def test_machine_code_of_all_kernels() -> None:
     scene = vtray.Scene()
     scene.objects = [cloud("uniform", 200, 1)]
-    scene.camera = vtray.Camera.fit(scene, size=(8, 6))
-    scene.lights = [vtray.Light((2, 3, 4), 1), vtray.Light((-5, 3, 4), 2)]
-    vtray.render(scene, samples=2, keep_lights=True).relight([1, 2])
-    vtray.trace_pixel(scene, 4, 3)
+    for count in (0, 200):  # without cylinders, and with them, kernels are not the same
+        if count:
+            start, end = np.random.default_rng(1).uniform(-1, 1, (2, count, 3))
+            scene.add_cylinders(start, end, 0.05)
+        render_all_ways(scene)
     for item in kernels():
         files = [file for types in item._native if (file := item._file(types))]
         codes = [compiled.code for file in files if (compiled := read_object_code(file))]
         assert codes, f"{item.__name__}: render above what it is for"
         for code in codes:
             assert inexact_in(code) == set(), item.__name__
+    variants = [len(item._native) for item in kernels() if item.__name__ == "trace_tile"]
+    assert variants[0] >= 2
+
+
+def render_all_ways(scene: vtray.Scene) -> None:
+    """Use all kernels."""
+    scene.camera = vtray.Camera.fit(scene, size=(8, 6))
+    scene.lights = [vtray.Light((2, 3, 4), 1), vtray.Light((-5, 3, 4), 2)]
+    vtray.render(scene, samples=2, keep_lights=True).relight([1, 2])
+    vtray.trace_pixel(scene, 4, 3)
 
 
 MULTIPLY_ADD = "declare double @llvm.fma.f64(double, double, double)\n" + (

@@ -99,6 +99,7 @@ class Image(Rendered):
         index: int,
         color: "AnyColor | ArrayLike | Sequence[AnyColor]",
         *,
+        color_end: "AnyColor | ArrayLike | Sequence[AnyColor] | None" = None,
         cmap: "ColorMap | None" = None,
         clim: tuple[float, float] | None = None,
         nan_color: "AnyColor" = "gray",
@@ -112,6 +113,8 @@ class Image(Rendered):
             The place of the object in ``scene.objects``.
         color
             The colour or colours, in all ways of `Scene.add_spheres`.
+        color_end
+            Those of the second halves of cylinders, as for `Scene.add_cylinders`.
         cmap, clim, nan_color
             How values become colours, as for `Scene.add_spheres`.
         lock
@@ -124,7 +127,15 @@ class Image(Rendered):
         SceneError
             There is no such object, or a colour is wrong.
         """
-        scene = recolored(self.scene, index, color, cmap=cmap, clim=clim, nan_color=nan_color)
+        scene = recolored(
+            self.scene,
+            index,
+            color,
+            color_end=color_end,
+            cmap=cmap,
+            clim=clim,
+            nan_color=nan_color,
+        )
         return self._relit(scene, lock)
 
     def save(
