@@ -264,7 +264,7 @@ def test_footprints_grow_along_the_ray() -> None:
     shape = cylinder((1.5, 0, -5), (1.5, 0, 15), 0.5)
     way = 0.0, 0.6, 0.8
     ray = Ray((0.0, -3.0, 1.0), way, 1.0, 1.0, 0.0, 0.0)
-    assert cylinder_outline(shape, ray, Footprint(0.0, 0.184)) == INF
+    assert cylinder_outline(shape, ray, Footprint(0.0, 0.16)) == INF
     assert 5 < cylinder_outline(shape, ray, Footprint(0.0, 0.188)) < 6
 
 

@@ -22,6 +22,7 @@ import vtray
 from conftest import compiled_only
 from vtray.base.compiler.compiled import Device, Kernel
 from vtray.base.compiler.object_code import compile_object, read_object_code
+from vtray.geometry.bvh import key_sort
 
 SOURCES = Path(vtray.__file__).parent
 
@@ -38,7 +39,8 @@ def kernels() -> Iterator[Kernel]:
 
 
 @compiled_only
-def test_machine_code_of_all_kernels() -> None:
+def test_machine_code_of_all_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(key_sort, "SMALL", 16)  # so many keys are worth a thread
     scene = vtray.Scene()
     scene.objects = [cloud("uniform", 200, 1)]
     for count in (0, 200):  # without cylinders, and with them, kernels are not the same
@@ -60,7 +62,7 @@ def render_all_ways(scene: vtray.Scene) -> None:
     """Use all kernels."""
     scene.camera = vtray.Camera.fit(scene, size=(8, 6))
     scene.lights = [vtray.Light((2, 3, 4), 1), vtray.Light((-5, 3, 4), 2)]
-    vtray.render(scene, samples=2, keep_lights=True).relight([1, 2])
+    vtray.render(scene, threads=2, samples=2, keep_lights=True).relight([1, 2])
     vtray.trace_pixel(scene, 4, 3)
 
 
@@ -137,7 +139,7 @@ INEXACT = set(
     interp mean average std var median quantile percentile nansum nanmean trapezoid polyval polyfit
     """.split()  # noqa: SIM905
 )
-INTEGERS = {"build", "fingerprint"}
+INTEGERS = {"build", "fingerprint", "join"}
 """Modules whose sums over arrays are of integers, which have no order."""
 
 

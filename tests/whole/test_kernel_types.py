@@ -19,9 +19,6 @@ HIERARCHY = {
     *("bound_spheres", "find_extent", "set_keys", "sort_range", "take_numbers", "gather_spheres"),
     *("split_ranges", "finish_subtrees", "finish_top"),
 }
-JOINED = {"copy_nodes"}
-"""What brings the hierarchies of several kinds into one pair of arrays."""
-
 WHITE = (255, 255, 255)
 BALL = vtray.Sphere((0, 0, 5), 1, WHITE, 1)
 FLOOR = vtray.Plane((0, 5, 5), (0, -1, 0), WHITE, 0.5)
@@ -145,7 +142,7 @@ def test_cylinders_need_what_the_first_needed(used: Callable[[], set[str]]) -> N
         render(BALL, many, FLOOR)
     render(many, vtray.Spheres(np.random.default_rng(1).random((200, 3)), 0.1))
     of_cylinders = {"bound_cylinders", "gather_cylinders"}
-    assert used() == needed | HIERARCHY | of_cylinders | JOINED
+    assert used() == needed | HIERARCHY | of_cylinders
 
 
 def test_samples_other_lights_and_single_rays_need_a_kernel_each(
