@@ -17,7 +17,7 @@ import pytest
 
 import vtray
 from conftest import compiled_only
-from vtray.base.compiler import canary, compiled, kernel_folder, native_call
+from vtray.base.compiler import canary, compiled, kernel_folder, native_call, object_code
 from vtray.base.compiler.canary import Cage, Song, new_arguments, sing
 from vtray.base.compiler.compiled import Device, Kernel
 from vtray.base.compiler.native_call import Layout, NativeCall, TupleLayout, unpack
@@ -133,6 +133,12 @@ def fail(error: Exception) -> Callable[..., Any]:
     return failing
 
 
+def without_linker(patch: pytest.MonkeyPatch) -> None:
+    """Leave nothing that could load machine code."""
+    patch.setattr(object_code, "load", lambda *_: None)
+    patch.delattr(llvmlite.binding, "JITLibraryBuilder")
+
+
 ADDRESS = 4
 ECHO = at("bytes_", 7)
 WEIGHT, STEP, IS_ON = range(2 * ECHO, 2 * ECHO + 3)
@@ -162,10 +168,7 @@ FAULTS: dict[str, tuple[Callable[[pytest.MonkeyPatch], object], str]] = {
         lambda patch: patch.setattr(compiled, "link", fail(RuntimeError("no symbol\n_f"))),
         "RuntimeError: no symbol)",
     ),
-    "llvmlite": (
-        lambda patch: patch.delattr(llvmlite.binding, "JITLibraryBuilder"),
-        "ImportError: cannot import name 'JITLibraryBuilder'",
-    ),
+    "llvmlite": (without_linker, "ImportError: cannot import name 'JITLibraryBuilder'"),
 }
 
 

@@ -140,7 +140,7 @@ RENDER = """
 import sys
 from vtray.commands.cli import run
 status = run(sys.argv[1:])
-heavy = ["numba", "llvmlite.binding", "PIL", "hashlib", "tempfile", "zipfile", "logging"]
+heavy = ["numba", "llvmlite.binding", "hashlib", "tempfile", "zipfile"]
 print(status, [name for name in heavy if name in sys.modules])
 """
 

@@ -18,8 +18,8 @@ def load(document: Scene) -> vtray.Scene:
     scene = vtray.loads(json.dumps({**document, "objects": plain}))
     for k, item in enumerate(document["objects"]):
         if "color_end" in item:
-            start, end = ([list(item[name].values())] for name in ("start", "end"))
-            color, color_end = (list(item[name].values()) for name in ("color", "color_end"))
+            start, end = ([[item[name][c] for c in "xyz"]] for name in ("start", "end"))
+            color, color_end = ([item[name][c] for c in "rgb"] for name in ("color", "color_end"))
             scene.objects[k] = vtray.Cylinders(
                 start, end, item["radius"], color, item["lambert"], color_end
             )

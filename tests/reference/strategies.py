@@ -161,3 +161,44 @@ def crowd(seed: int, spheres: int = 200, **camera: Any) -> Scene:
             for _ in range(random.randint(0, 4))
         ],
     }
+
+
+def thicket(seed: int, cylinders: int = 30, by: float = 0.0, **camera: Any) -> Scene:
+    """Return a scene of cylinders of two colours, spheres and a plane, moved as a whole."""
+    random = Random(seed)
+
+    def place(size: float) -> list[float]:
+        return [random.uniform(-size, size) for _ in range(3)]
+
+    def material(*names: str) -> dict[str, Any]:
+        colors = {name: {c: random.randrange(256) for c in "rgb"} for name in names}
+        return {**colors, "lambert": random.uniform(0.2, 1)}
+
+    def moved(point: list[float]) -> dict[str, float]:
+        return _xyz(*(p + by for p in point))
+
+    objects: list[Scene] = []
+    for _ in range(cylinders):
+        start, way = place(3), place(random.choice([0.1, 1.0, 4.0]))
+        end = [p + w for p, w in zip(start, way, strict=True)]
+        radius = random.choice([0.02, 0.2, 0.6])
+        objects.append(
+            {"type": "cylinder", "start": moved(start), "end": moved(end), "radius": radius}
+            | material("color", *random.choice([[], ["color_end"]]))
+        )
+        if random.random() < 0.3:  # a ball at its end
+            objects.append({"type": "sphere", "center": moved(end), "radius": radius * 1.5})
+            objects[-1] |= material("color")
+    wall = {"type": "plane", "center": moved([0, 4, 0]), "normal": _xyz(*place(1.0))}
+    return {
+        "camera": {
+            "center": moved([0, 0, -2]),
+            "normal": _xyz(0.1 * random.random(), 0.05, 1),
+            "focus": 4.0,
+            "size": [28, 21],
+            "resolution": [0.18, 0.18],
+            **camera,
+        },
+        "lights": [{"location": moved(place(8)), "intensity": random.random()} for _ in range(3)],
+        "objects": [*objects, wall | material("color")],
+    }

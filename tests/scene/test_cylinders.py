@@ -386,21 +386,25 @@ def test_unknown_arguments(name: str, keyword: str, message: str) -> None:
 def test_recolored() -> None:
     cylinders, sphere = Cylinders(**columns()), vtray.Sphere((0, 0, 5), 1)
     objects = [cylinders, Cylinder((0, 0, 0), (0, 0, 1), 1), sphere]
-    both, *_ = recolored(objects, 0, "red", color_end="blue")
+
+    def recolor(index: int, color: Any, **options: Any) -> list[Any]:
+        return recolored(vtray.Scene(None, [], objects), index, color, **options).objects
+
+    both, *_ = recolor(0, "red", color_end="blue")
     assert both == Cylinders(**columns(color=RED, color_end=BLUE))
-    one, *_ = recolored(objects, 0, VALUES, cmap="viridis")
+    one, *_ = recolor(0, VALUES, cmap="viridis")
     assert isinstance(one, Cylinders)
     assert one.color_end is None
     assert one.color_scale == vtray.ColorScale("viridis", 0, 1)
     assert np.shares_memory(one.start, cylinders.start)
-    assert recolored(objects, 1, "red")[1] == objects[1].replace(color=RED)
+    assert recolor(1, "red")[1] == objects[1].replace(color=RED)
     for index in (1, 2):
         with pytest.raises(SceneError) as caught:
-            recolored(objects, index, "red", color_end="blue")
+            recolor(index, "red", color_end="blue")
         words = "expected None, as only Cylinders have two colours, got 'blue'"
         assert str(caught.value) == f"recolor: color_end: {words}"
     with pytest.raises(SceneError, match="recolor: color_end: expected one colour, or 5, one for"):
-        recolored(objects, 0, "red", color_end=["blue"])
+        recolor(0, "red", color_end=["blue"])
 
 
 # ---- the hash of a scene

@@ -19,7 +19,6 @@ HIERARCHY = {
     *("bound_spheres", "find_extent", "set_keys", "sort_range", "take_numbers", "gather_spheres"),
     *("split_ranges", "finish_subtrees", "finish_top"),
 }
-
 WHITE = (255, 255, 255)
 BALL = vtray.Sphere((0, 0, 5), 1, WHITE, 1)
 FLOOR = vtray.Plane((0, 5, 5), (0, -1, 0), WHITE, 0.5)
@@ -81,6 +80,18 @@ def clouds(count: int) -> Iterator[vtray.Spheres]:
         yield vtray.Spheres(kind(center), 0.1, WHITE, 1)
 
 
+def bonds(count: int) -> Iterator[vtray.Cylinders]:
+    """Return the same cylinders, given in all kinds of arrays."""
+    random = np.random.default_rng(0)
+    start, end = random.random((2, count, 3))
+    radius = random.random(count)
+    color = random.integers(0, 255, (count, 3)).astype(np.uint8)
+    for kind in KINDS:
+        arrays = (kind(start), kind(end), kind(radius), kind(color))
+        yield vtray.Cylinders(*arrays, color_end=kind(color))
+        yield vtray.Cylinders(kind(start), kind(end), 0.1, WHITE, 1)
+
+
 def render(
     *objects: object, lights: int = 1, projection: str = "perspective", **settings: object
 ) -> vtray.Image:
@@ -113,6 +124,25 @@ def test_scenes_with_a_hierarchy_need_one_more_set(used: Callable[[], set[str]])
         render(many)
         render(BALL, many, FLOOR)
     assert used() == ONE_RAY | HIERARCHY
+
+
+def test_cylinders_need_what_the_first_needed(used: Callable[[], set[str]]) -> None:
+    post = vtray.Cylinder((0, 0, 5), (1, 0, 5), 1)
+    image = render(post, samples=2, keep_lights=True)
+    image.relight([2.0]).depth  # noqa: B018 - traces
+    vtray.trace_pixel(image, 0, 0)
+    needed = ONE_RAY | {"mark_rows", "add_up_rows", "trace_pixel"}
+    assert used() == needed
+    for few in bonds(3):
+        render(few)
+        render(BALL, few, FLOOR, post, projection="orthographic")
+    assert used() == needed
+    for many in bonds(200):
+        render(many)
+        render(BALL, many, FLOOR)
+    render(many, vtray.Spheres(np.random.default_rng(1).random((200, 3)), 0.1))
+    of_cylinders = {"bound_cylinders", "gather_cylinders"}
+    assert used() == needed | HIERARCHY | of_cylinders
 
 
 def test_samples_other_lights_and_single_rays_need_a_kernel_each(

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import oracle
 import pytest
-from examples import light, plane, scene, sphere, xyz
+from examples import cylinder, light, plane, scene, sphere, xyz
+from oracle_cylinder import Cylinder
 from plain import NOTHING, trace_pixel
 
 import vtray
@@ -73,6 +74,50 @@ HARD = {
         [sphere((0, 0, 5), 1), plane((0, 1, 0), (0, -1, 0))],
         [light(0, -1, 5), light(3, 1, 4), light(0, -6, 3)],
     ),
+    "cylinders that cross, on a floor": scene(
+        [
+            cylinder((-2, 1, 4), (2, -1, 7), 0.7),
+            cylinder((-1, -2, 6), (1, 1.5, 5), 0.5),
+            plane((0, 1.5, 0), (0, -1, 0.1)),
+        ],
+        [light(5, -5, 0), light(-4, -8, -2)],
+    ),
+    "a long thin cylinder to the horizon": scene(
+        [cylinder((-1, 1, 1), (30, -2, 1e4), 0.3), cylinder((1, 1, 1), (-3e5, 2e5, 1e6), 0.5)],
+        [light(5, -5, 0)],
+    ),
+    "huge cylinders as ground and wall": scene(
+        [
+            cylinder((-1e9, 1e8 + 3.3, 20.1), (1e9, 1e8 + 3.3, 20.1), 1e8),
+            cylinder((0.2, 0, 60), (1.3, 0.4, 1e7), 1e6),
+        ],
+        [light(5, -5, 0)],
+    ),
+    "tiny cylinders": scene(
+        [cylinder((1e-6 * k, -1e-6, 5e-6), (1e-6 * k, 1e-6, 6e-6), 0.3e-6) for k in range(-3, 4)],
+        [light(5e-6, -5e-6, 0)],
+        focus=1e-5,
+        resolution=[1.3e-7, 1.3e-7],
+    ),
+    "eye and light inside a cylinder": scene(
+        [cylinder((-3, 0.2, -30), (4, 0.5, 40), 9), cylinder((1, 0, 5), (1.5, 1, 6), 1)],
+        [light(2, -3, -4), light(0, 5, 8)],
+    ),
+    "cylinders cut by the image plane": scene(
+        [cylinder((0, 0, -1), (0.4, 0.3, 2), 1.5), cylinder((2, 1, -3), (1.5, -1, 3), 0.5)],
+        [light(3, -4, -6), light(0.5, 0, 0.5)],
+    ),
+    "thin discs, and coincident cylinders": scene(
+        [
+            cylinder((0, 0.3, 5), (0.001, 0.301, 5.003), 2),
+            *[cylinder((-2, -1.3, 6), (2, -1, 5), 0.4)] * 2,
+        ],
+        [light(5, -5, 0), light(-4, -3, 2)],
+    ),
+    "light on a cylinder": scene(
+        [cylinder((-1, 0.5, 5), (1, 0.5, 5), 0.5)],
+        [light(0.25, 0, 5), light(1, 0.6, 5.1), light(0, -6, 3)],
+    ),
 }
 # Seen edge-on, or from the side that no light reaches.
 BLACK = {
@@ -99,7 +144,9 @@ def render(document: dict[str, Any]) -> vtray.Image:
 def shifted(document: dict[str, Any], by: float) -> dict[str, Any]:
     """Return a scene moved as a whole."""
     moved = json.loads(json.dumps(document))
-    places = [moved["camera"]["center"], *(item["center"] for item in moved["objects"])]
+    names = {"center", "start", "end"}
+    places = [moved["camera"]["center"]]
+    places += [item[name] for item in moved["objects"] for name in names & item.keys()]
     for place in [*places, *(item["location"] for item in moved["lights"])]:
         for axis in "xyz":
             place[axis] += by
@@ -136,7 +183,7 @@ def test_stays_the_same_when_the_scene_is_scaled(name: str, exponent: int) -> No
     for item in [document["camera"], *document["objects"], *document["lights"]]:
         for key in {"focus", "radius"} & item.keys():
             item[key] *= factor
-        for key in {"center", "location"} & item.keys():
+        for key in {"center", "location", "start", "end"} & item.keys():
             item[key] = {axis: value * factor for axis, value in item[key].items()}
     camera = document["camera"]
     camera["resolution"] = [length * factor for length in camera["resolution"]]
@@ -210,7 +257,8 @@ def test_rounding_stays_within_its_bound(name: str) -> None:
     document = HARD[name]
     loaded = vtray.loads(json.dumps(document))
     packed = pack(loaded, accelerate(loaded))
-    primitives = sorted(document["objects"], key=lambda item: item["type"] == "plane")
+    kinds = ["sphere", "cylinder", "plane"]
+    primitives = sorted(document["objects"], key=lambda item: kinds.index(item["type"]))
     camera = packed.arrays.camera
     cosines = np.zeros(len(loaded.lights))
     blockers = np.zeros(len(loaded.lights), np.int64)
@@ -234,10 +282,13 @@ def distance_from_surface(
     item: dict[str, Any], point: list[np.longdouble], origin: dict[str, float]
 ) -> np.longdouble:
     """Return how far a point, relative to the origin, is from an object's surface."""
-    center = item["center"]
+    center = item["start" if item["type"] == "cylinder" else "center"]
     arm = [
         p + np.longdouble(origin[axis]) - center[axis] for p, axis in zip(point, "xyz", strict=True)
     ]
+    if item["type"] == "cylinder":
+        way = [np.longdouble(item["end"][axis]) - center[axis] for axis in "xyz"]
+        return abs(Cylinder(np.zeros(3), np.array(way), item["radius"]).outside(np.array([arm]))[0])
     if item["type"] == "sphere":
         return abs(np.sqrt(sum(a * a for a in arm)) - item["radius"])
     normal = [np.longdouble(item["normal"][axis]) for axis in "xyz"]

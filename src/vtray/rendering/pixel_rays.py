@@ -1,6 +1,5 @@
 """Tracing the rays of one pixel, to be looked at."""
 
-import math
 import operator
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
@@ -131,7 +130,11 @@ def _blocker(scene: Scene, primitive: int, start: Vec, way: Vec) -> Surface:
     if surface.end is None:
         return surface
     place = where_met(scene, surface, start, way)
-    is_second = math.dist(place, surface.end) < math.dist(place, surface.center)
+    to_end, to_start = (
+        (place[0] - end[0], place[1] - end[1], place[2] - end[2])
+        for end in (surface.end, surface.center)
+    )
+    is_second = hypotenuse(*to_end) < hypotenuse(*to_start)
     return _surface(scene, primitive, is_second=is_second)
 
 

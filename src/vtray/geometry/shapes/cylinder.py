@@ -18,6 +18,9 @@ from vtray.geometry.vector import Vec, add, dot, magnitude, scale, sub
 SIZE = 7
 """Numbers of a cylinder in its columns: the two ends of its axis, and the radius."""
 
+SLIGHT = 2.0**-60
+"""So small a share of a slope that the end of any cylinder comes first."""
+
 
 class CylinderShape(NamedTuple):
     """A cylinder in the kernels' space.
@@ -280,36 +283,50 @@ def cylinder_outline(cylinder: CylinderShape, ray: Ray, footprint: Footprint) ->
     """Return the distance at which a ray passes an outline or an edge, or infinity if none is near.
 
     That is the case where it would meet the cylinder if that were a little larger, but not if it
-    were a little smaller, and where it passes the edge of the cap that it looks at.
+    were a little smaller; where it passes the edge of the cap that it looks at; and where it passes
+    that at which the image plane cuts the cylinder open.
     """
     line = line_beside(cylinder, ray.origin, ray.direction)
-    passing = _passing_distance(cylinder, line, ray)
+    passing = _passing_distance(cylinder, line, ray, footprint)
     width = width_at(footprint, max(passing, 0.0))
-    length, side_radius = cylinder.length, cylinder.side_radius
-    caps = cap_span(line, 0.0, length)
-    span = both_spans(side_span(line, side_radius), caps)
-    larger = both_spans(
-        side_span(line, side_radius + width), cap_span(line, -width, length + width)
-    )
-    smaller = both_spans(
-        side_span(line, max(side_radius - width, 0.0)), cap_span(line, width, length - width)
-    )
+    larger, smaller = _larger_span(cylinder, line, width), _larger_span(cylinder, line, -width)
+    caps = cap_span(line, 0.0, cylinder.length)
+    span = both_spans(side_span(line, cylinder.side_radius), caps)
     is_hit = span.near < span.far
-    # Where the image plane cuts it open, its far end is seen.
+    # Within a cylinder that is cut open, its far end is seen.
     is_open = is_hit & (span.near * ray.forward + ray.depth <= 0.0)
     at_edge = is_hit & _is_at_edge(cylinder, line, footprint, caps.far if is_open else caps.near)
-    is_near = (larger.near < larger.far) & (at_edge | (smaller.near >= smaller.far))
+    plane = -ray.depth / ray.forward
+    from_cut = abs(signed_distance(cylinder, move_along(line, plane)))
+    at_cut = from_cut <= width_at(footprint, max(plane, 0.0))
+    is_near = (larger.near < larger.far) & (at_edge | at_cut | (smaller.near >= smaller.far))
+    # No nearer than the pixel is wide enough for it.
+    nearer = _larger_span(cylinder, line, width_at(footprint, max(larger.near, 0.0)))
     beside = min(max(passing, larger.near), larger.far)
-    distance = span.near if is_hit else beside
+    entry = nearer.near if nearer.near < nearer.far else beside
+    distance = span.near if is_hit else entry
     return distance if is_near & (larger.far > -ray.depth) else math.inf
 
 
 @device
-def _passing_distance(cylinder: CylinderShape, line: Line, ray: Ray) -> float:
-    """Return the distance at which a ray passes the axis."""
+def _larger_span(cylinder: CylinderShape, line: Line, width: float) -> Span:
+    """Return where a line would be within a cylinder that is larger to all sides."""
+    side_radius = max(cylinder.side_radius + width, 0.0)
+    caps = cap_span(line, -width, cylinder.length + width)
+    return both_spans(side_span(line, side_radius), caps)
+
+
+@device
+def _passing_distance(cylinder: CylinderShape, line: Line, ray: Ray, footprint: Footprint) -> float:
+    """Return the distance at which the fewest widths of a pixel are between a ray and the axis."""
     square = dot(line.aside, line.aside)
     middle = -dot(line.beside, line.aside) / square if square > 0.0 else 0.0
-    height = min(max(line.height + middle * line.rise, 0.0), cylinder.length)
+    # Farther away the axis may be farther from the ray, but pixels are wider, too.
+    approach = add(line.beside, scale(middle, line.aside))
+    slope2 = max(square - footprint.growth * footprint.growth, SLIGHT * square)
+    shift = footprint.growth * math.sqrt(dot(approach, approach))
+    shift = shift / math.sqrt(square * slope2) if square > 0.0 else 0.0
+    height = min(max(line.height + (middle + shift) * line.rise, 0.0), cylinder.length)
     foot = add(cylinder.start, scale(height, cylinder.axis))
     return dot(sub(foot, ray.origin), ray.direction)
 
