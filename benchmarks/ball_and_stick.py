@@ -83,7 +83,7 @@ def write_scenes(count: int, folder: Path, side: int = SIDE) -> dict[str, Path]:
 def time_bonds(count: int, threads: Sequence[int], folder: Path, repeats: int) -> dict[str, Timing]:
     """Time vtray on both scenes with numbers of threads, by `job_name`."""
     # What is compiled for the first picture is on disk afterwards.
-    for scene in make_scenes(2, 8).values():
+    for scene in make_scenes(1000, 8).values():
         vtray.render(scene)
     scenes = write_scenes(count, folder)
     jobs = [
