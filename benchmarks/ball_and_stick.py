@@ -1,26 +1,35 @@
-"""A ball-and-stick model: the atoms of a diamond crystal, and the bonds between them.
+"""A ball-and-stick model: the atoms of a diamond crystal, and what their bonds cost.
 
-python benchmarks/ball_and_stick.py FOLDER ATOMS
+    python benchmarks/ball_and_stick.py FOLDER ATOMS
 
 Writes two scenes, atoms.json and bonds.json: the atoms alone, and with two bonds for each.
 """
 
 import sys
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+import vtray_process
+from measure import Job, Timing, run_interleaved
 from numpy.typing import NDArray
+from tables import ratio, table
 
 import vtray
 
 SIDE = 1024
 ATOM, BOND = 0.28, 0.1
 """Radii of atoms and bonds, for bonds of length 1."""
-CARBON, OTHER = (70, 110, 190), (240, 170, 60)
+ONE, OTHER = (70, 110, 190), (240, 170, 60)
+"""Colours of the halves of the atoms, and of each bond."""
+
+NOTE = """\
+Each atom has two bonds, in the colours of both their ends, under one light and over a floor, at
+1024 x 1024. ÷ says how many times as long as the atoms alone."""
 
 
 def make_crystal(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return atoms and bonds of a ball of crystal, its edges 1.
+    """Return atoms and bonds of a ball of crystal, its bonds of length 1.
 
     Parameters
     ----------
@@ -50,9 +59,7 @@ def make_crystal(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def make_scenes(count: int, side: int = SIDE) -> dict[str, vtray.Scene]:
     """Return a scene of the atoms alone, and one with bonds, seen alike."""
     atoms, (start, end) = make_crystal(count)
-    colors = np.repeat(
-        np.array([CARBON, OTHER], np.uint8), [count // 2, count - count // 2], axis=0
-    )
+    colors = np.repeat(np.array([ONE, OTHER], np.uint8), [count // 2, count - count // 2], axis=0)
     scenes = {}
     for name in ("atoms", "bonds"):
         scene = scenes[name] = vtray.Scene()
@@ -60,7 +67,7 @@ def make_scenes(count: int, side: int = SIDE) -> dict[str, vtray.Scene]:
         scene.add_plane((0, 1.1 * float(atoms[:, 1].min()), 0), (0, 1, 0), color=(230, 230, 230))
         scene.camera = vtray.Camera.fit(scene, (-0.5, -0.4, -1), size=(side, side))
         scene.lights = vtray.lights.rembrandt(scene)[:1]
-    scenes["bonds"].add_cylinders(start, end, BOND, color=CARBON, color_end=OTHER)
+    scenes["bonds"].add_cylinders(start, end, BOND, color=ONE, color_end=OTHER)
     return scenes
 
 
@@ -71,6 +78,50 @@ def write_scenes(count: int, folder: Path, side: int = SIDE) -> dict[str, Path]:
         paths[name] = folder / f"{name}.json"
         scene.save(paths[name])
     return paths
+
+
+def time_bonds(count: int, threads: Sequence[int], folder: Path, repeats: int) -> dict[str, Timing]:
+    """Time vtray on both scenes with numbers of threads, by `job_name`."""
+    # What is compiled for the first picture is on disk afterwards.
+    for scene in make_scenes(1000, 8).values():
+        vtray.render(scene)
+    scenes = write_scenes(count, folder)
+    jobs = [
+        Job(
+            job_name(name, number),
+            vtray_process.command(path, path.with_suffix(".png"), number),
+            inner_seconds=vtray_process.trace_seconds,
+            phases=vtray_process.phases,
+        )
+        for number in threads
+        for name, path in scenes.items()
+    ]
+    return run_interleaved(jobs, repeats)
+
+
+def job_name(scene: str, threads: int) -> str:
+    """Return what a scene on a number of threads is called."""
+    return f"{scene}, {threads} threads"
+
+
+def bonds_table(timings: Mapping[str, Timing], threads: Iterable[int]) -> str:
+    """Write what atoms and bonds took."""
+    rows = []
+    for number in threads:
+        alone = timings[job_name("atoms", number)]
+        for name, shown in (("atoms", "atoms alone"), ("bonds", "atoms and bonds")):
+            found = timings[job_name(name, number)]
+            cells = str(found.inner), str(found.whole)
+            rows.append(
+                (
+                    shown,
+                    str(number),
+                    *cells,
+                    ratio(found.inner.median, alone.inner.median),
+                    ratio(found.whole.median, alone.whole.median),
+                )
+            )
+    return table(("scene", "threads", "tracing", "whole process", "tracing ÷", "whole ÷"), rows)
 
 
 if __name__ == "__main__":

@@ -4,10 +4,12 @@ from collections.abc import Mapping, Sequence
 
 import antialiasing
 import arrays_report
+import ball_and_stick
 import same_picture
 import vtray_process
 from antialiasing import samples_table
 from arrays_report import arrays_table
+from ball_and_stick import bonds_table
 from cube_report import (
     cube_table,
     cube_threads_table,
@@ -42,21 +44,32 @@ def full_report(results: Results) -> str:
         parts += ["## Start-up", _startup_table(results.startup)]
     if results.scenes:
         parts += ["## Scenes", _scene_table(results.scenes), _conditions()]
-    if results.threads:
-        parts += ["## Threads", "The room, with vtray.", _thread_table(results.threads)]
-    if results.cube_threads:
-        parts += ["The cube, with vtray.", cube_threads_table(results.cube_threads)]
+    parts += _threads(results)
     if results.cube:
         parts += ["## A cube of many spheres", cube_table(results.cube), _cube_conditions()]
     if results.samples:
         rows = samples_table(results.samples, THREADS)
         parts += ["## Antialiasing", "The cube, with vtray.", rows, antialiasing.NOTE]
+    if results.bonds:
+        rows = bonds_table(results.bonds, THREADS)
+        parts += ["## Bonds", "100,000 atoms and 200,000 bonds, with vtray.", rows]
+        parts += [ball_and_stick.NOTE]
     if results.arrays:
         parts += ["## From arrays to a PNG", arrays_table(results.arrays), arrays_report.NOTE]
     if results.scaling:
         parts += ["## More and more spheres", _SCALING_NOTE, growth_table(results.scaling)]
         parts += [_PROGRAMS_NOTE, programs_table(results.scaling)]
     return "\n\n".join(parts)
+
+
+def _threads(results: Results) -> list[str]:
+    """Write what more threads bring."""
+    parts = []
+    if results.threads:
+        parts += ["## Threads", "The room, with vtray.", _thread_table(results.threads)]
+    if results.cube_threads:
+        parts += ["The cube, with vtray.", cube_threads_table(results.cube_threads)]
+    return parts
 
 
 def summary(results: Results) -> str:

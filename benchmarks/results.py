@@ -37,6 +37,8 @@ class Results:
         For numbers of samples and of threads, vtray's times for this cube.
     arrays
         As `cube`, from arrays in memory to a PNG.
+    bonds
+        For a ball-and-stick model without and with bonds, and numbers of threads, vtray's times.
     """
 
     machine: dict[str, str]
@@ -49,6 +51,7 @@ class Results:
     scaling: dict[int, list[Row]] = field(default_factory=dict)
     samples: dict[str, Timing] = field(default_factory=dict)
     arrays: dict[str, list[ArraysRow]] = field(default_factory=dict)
+    bonds: dict[str, Timing] = field(default_factory=dict)
 
 
 def save_results(results: Results, path: Path) -> None:

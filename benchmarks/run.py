@@ -17,9 +17,11 @@ from pathlib import Path
 
 import startup
 from antialiasing import time_samples
+from ball_and_stick import time_bonds
 from cube import SIDE, write_cube
 from from_arrays import time_arrays
 from machine import cores, machine
+from measure import Timing
 from peers import CUBE_PEERS
 from plot import draw_scaling
 from report import full_report, readme_table, replace_between_markers
@@ -34,10 +36,11 @@ RESULTS = HERE / "results.json"
 PLOT = ROOT / "docs" / "images" / "scaling.png"
 WRITTEN = {ROOT / "docs" / "benchmarks.md": full_report, ROOT / "README.md": readme_table}
 """The pages with tables, and what writes them."""
-PARTS = ("startup", *SCENES, "threads", "cube", "samples", "arrays", "scaling")
+PARTS = ("startup", *SCENES, "threads", "cube", "samples", "bonds", "arrays", "scaling")
 REPEATS, QUICK_REPEATS = 5, 2
 QUICK_SIDE = 256
 CUBE, QUICK_CUBE = 1_000_000, 10_000
+ATOMS, QUICK_ATOMS = 100_000, 1_000
 COUNTS, QUICK_COUNTS = (10_000, 100_000, 1_000_000, 10_000_000), (1_000, 10_000)
 SCALING_REPEATS = 3
 
@@ -80,22 +83,20 @@ def measure(folder: Path, parts: list[str], *, quick: bool) -> Results:
     if "startup" in parts:
         _say("start-up")
         results.startup = startup.time_startup(folder, repeats)
-    for name, (description, make, full_side) in SCENES.items():
-        if name in parts:
-            _say(description)
-            side = min(full_side, QUICK_SIDE) if quick else full_side
-            title = f"{description}, {side} x {side}"
-            results.scenes[title] = time_scene(make(side), folder, repeats)
+    for name in filter(parts.__contains__, SCENES):
+        description, make, full_side = SCENES[name]
+        _say(description)
+        side = min(full_side, QUICK_SIDE) if quick else full_side
+        title = f"{description}, {side} x {side}"
+        results.scenes[title] = time_scene(make(side), folder, repeats)
     side = QUICK_SIDE if quick else SIDE
     spheres = QUICK_CUBE if quick else CUBE
     if "threads" in parts:
         _say("threads")
-        counts = [count for count in (1, 2, 4, 8, 16) if count <= max(cores(), 2)]
-        scene = folder / "room.json"
-        scene.write_text(json.dumps(SCENES["room"][1](side)))
-        results.threads = dict(zip(counts, time_threads(scene, counts, repeats), strict=True))
-        scene = write_cube(spheres, folder, side)
-        results.cube_threads = dict(zip(counts, time_threads(scene, counts, repeats), strict=True))
+        room = folder / "room.json"
+        room.write_text(json.dumps(SCENES["room"][1](side)))
+        results.threads = _time_threads(room, repeats)
+        results.cube_threads = _time_threads(write_cube(spheres, folder, side), repeats)
     if "cube" in parts:
         title = f"{spheres:,} spheres in a cube over a floor, 1 light, {side} x {side}"
         _say(title)
@@ -104,6 +105,9 @@ def measure(folder: Path, parts: list[str], *, quick: bool) -> Results:
         _say("samples")
         scene = write_cube(spheres, folder, side)
         results.samples = time_samples(scene, THREADS, repeats)
+    if "bonds" in parts:
+        _say("atoms and bonds")
+        results.bonds = time_bonds(QUICK_ATOMS if quick else ATOMS, THREADS, folder, repeats)
     if "arrays" in parts:
         title = f"{spheres:,} spheres in a cube, 1 light, {side} x {side}"
         _say(f"from arrays: {title}")
@@ -115,6 +119,12 @@ def measure(folder: Path, parts: list[str], *, quick: bool) -> Results:
             times = min(repeats, SCALING_REPEATS)
             results.scaling[count] = time_cube(count, side, peers, (1,), folder, times)
     return results
+
+
+def _time_threads(scene: Path, repeats: int) -> dict[int, Timing]:
+    """Time vtray on a scene with more and more threads."""
+    counts = [count for count in (1, 2, 4, 8, 16) if count <= max(cores(), 2)]
+    return dict(zip(counts, time_threads(scene, counts, repeats), strict=True))
 
 
 def _draw(results: Results) -> None:

@@ -514,6 +514,36 @@ def test_report_has_the_times_of_samples() -> None:
     assert "| 16 | 2 | 0.800 | 1.00 | 16 | 4.00 |" in report
 
 
+def test_report_has_the_times_of_bonds() -> None:
+    found, ball = results(), module("ball_and_stick")
+    found.bonds = {
+        ball.job_name(name, threads): timing(2 * seconds, seconds)
+        for name, seconds in (("atoms", 0.2), ("bonds", 0.5))
+        for threads in module("report").THREADS
+    }
+    report = module("report").full_report(found)
+    assert "| atoms alone | 1 | 0.200 | 0.400 | 1.00 | 1.00 |" in report
+    assert "| atoms and bonds | 2 | 0.500 | 1.00 | 2.50 | 2.50 |" in report
+
+
+def test_ball_and_stick_model_is_what_it_is_said_to_be(tmp_path: Path) -> None:
+    ball = module("ball_and_stick")
+    atoms, (start, end) = ball.make_crystal(1000)
+    assert (atoms.shape, start.shape) == ((1000, 3), (2000, 3))
+    np.testing.assert_allclose(np.linalg.norm(end - start, axis=1), 1)
+    apart = np.linalg.norm(atoms[:, None] - atoms, axis=2)
+    assert apart[~np.eye(1000, dtype=bool)].min() == pytest.approx(1)
+    # Each atom within has four bonds.
+    from_middle = np.linalg.norm(atoms, axis=1)
+    ends = np.concatenate([start, end])
+    for atom in atoms[from_middle < 0.7 * from_middle.max()][::20]:
+        assert (np.linalg.norm(ends - atom, axis=1) < 1e-9).sum() == 4
+    alone, both = (vtray.load(path) for path in ball.write_scenes(1000, tmp_path, SMALL).values())
+    assert both.objects[: len(alone.objects)] == alone.objects
+    assert (both.camera, both.lights) == (alone.camera, alone.lights)
+    assert len(both.objects[-1]) == 2000  # type: ignore[arg-type]
+
+
 def test_report_has_the_times_from_arrays() -> None:
     arrays, measure = module("from_arrays"), module("measure")
 

@@ -120,7 +120,8 @@ def test_sums_and_products_keep_their_order(options: dict[str, Any]) -> None:
 FIGURES = set(
     """
     commands/diff figures/color_bar figures/comparison figures/drawn/cylinders figures/drawn/objects
-    figures/drawn/shapes figures/drawn/spheres figures/figure figures/flat figures/flip figures/oklab figures/pen
+    figures/drawn/shapes figures/drawn/spheres figures/figure figures/flat figures/flip
+    figures/oklab figures/pen
     figures/ray_drawing figures/ray_text figures/ray_tree figures/scale_bar figures/section
     figures/sheet
     """.split()  # noqa: SIM905

@@ -243,7 +243,7 @@ class Image(Rendered):
             The size of all text in points; None for those of ``rcParams``.
         at
             For perspective, a point in world space at whose distance the scale bar is right; None
-            for the median of the spheres that are seen (without any: of the planes).
+            for the median of the spheres and cylinders that are seen (without any: of the planes).
         ax
             Axes of Matplotlib to draw in, for instance of ``pyplot.subplots()``; `width` and `dpi`
             are those of their figure then. Picture, title and bars are kept within the place that
