@@ -20,19 +20,41 @@ from vtray.scene.placing.bounds import Balls, balls_of, bounding_sphere
 TURN = np.linspace(0, 2 * np.pi, 720, endpoint=False)
 
 
-def edges(cylinders: Cylinders) -> Any:
-    """Return points on the edges of all caps, (1440 n, 3)."""
+def caps(cylinders: Cylinders) -> list[Any]:
+    """Return functions that give points on the edge of a cap at angles, (n, 3)."""
     start, end = cylinders.start.astype(float), cylinders.end.astype(float)
     radii = np.broadcast_to(cylinders.radius, len(cylinders)).astype(float)
-    points = []
+    found = []
     for ends, radius in zip(np.stack([start, end], axis=1), radii, strict=True):
         axis = ends[1] - ends[0]
         side = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
         side /= np.linalg.norm(side)
-        other = np.cross(axis / np.linalg.norm(axis), side)
-        circle = np.cos(TURN)[:, None] * side + np.sin(TURN)[:, None] * other
-        points += [center + radius * circle for center in ends]
-    return np.concatenate(points)
+        axes = np.array([side, np.cross(axis / np.linalg.norm(axis), side)]) * radius
+        found += [
+            lambda turn, center=center, axes=axes: (
+                center + np.stack([np.cos(turn), np.sin(turn)], axis=1) @ axes
+            )
+            for center in ends
+        ]
+    return found
+
+
+def edges(cylinders: Cylinders) -> Any:
+    """Return points on the edges of all caps, (1440 n, 3)."""
+    return np.concatenate([cap(TURN) for cap in caps(cylinders)])
+
+
+def seen_range(camera: Camera, cylinders: Cylinders) -> tuple[Any, Any]:
+    """Return the least and the greatest column, row and depth of all edges of caps."""
+    ends = []
+    for cap in caps(cylinders):
+        places = project(camera, cap(TURN))
+        for extreme in (places.argmin(axis=0), places.argmax(axis=0)):
+            # Between two of the points it is a little more.
+            near = [TURN[k] + TURN[1] * np.linspace(-1, 1, 721) for k in extreme]
+            ends += [project(camera, cap(turn)) for turn in near]
+    points = np.concatenate(ends)
+    return points.min(axis=0), points.max(axis=0)
 
 
 @settings(max_examples=100)
@@ -41,7 +63,7 @@ def edges(cylinders: Cylinders) -> Any:
     count=st.integers(1, 8),
     scale=st.sampled_from([1.0, 1e-9, 1e6]),
     far=st.sampled_from([0.0, 1.0, 1e4]),
-    largest=st.sampled_from([0.0, 0.05, 1.0, 5.0]),
+    largest=st.sampled_from([0.05, 1.0, 5.0]),
     squeeze=st.sampled_from([(1, 1, 1), (1, 1, 1e-6), (1, 0, 0), (0, 0, 1)]),
     direction=directions(),
     up=directions(),
@@ -73,20 +95,17 @@ def test_fit_is_inside_tight_and_in_the_middle(
     cylinders = Cylinders(start, end, radius)
     assume(bool((cylinders.start != cylinders.end).any(axis=1).all()))
     camera = Camera.fit(cylinders, direction, up, margin, projection, fov, size)
-    places = project(camera, edges(cylinders))
-    low, high = places.min(axis=0), places.max(axis=0)
+    low, high = seen_range(camera, cylinders)
     lattice = np.array(size) - 1.0
     first, last = margin * lattice, (1 - margin) * lattice
     extent = np.array([*(high - low)[:2], 1])
-    loose = 2e-5 * extent[:2] + 1e-8 * (1 + far) * max(size)
+    loose = 1e-7 * extent[:2] + 1e-8 * (1 + far) * max(size)
     assert np.all(low[:2] >= first - loose)
     assert np.all(high[:2] <= last + loose)
     assert low[2] > 0, "behind the image plane"
     free = np.array([low[:2] - first, last - high[:2]])
     assert np.all(np.abs(free[0] - free[1]) < 2 * loose), "not in the middle"
-    # What is seen from its narrowest side may leave the eye no place to come nearer.
-    if largest > 0 or projection == "orthographic":
-        assert np.any(np.all(np.abs(free) < loose, axis=0)), "not tight"
+    assert np.any(np.all(np.abs(free) < loose, axis=0)), "not tight"
 
 
 def test_cylinders_are_fitted_more_closely_than_balls_at_their_ends() -> None:
