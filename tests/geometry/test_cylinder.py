@@ -150,6 +150,9 @@ LYING = (-1, 0, 0), (1, 0, 0), 1
         ((0, 1 + 1e-15, 0), (3, 2, 0), False),  # rounding off the surface
         ((0, 1 - 1e-15, 0), (3, 2, 0), False),
         ((1 - 1e-15, 0.5, 0), (3, 2, 0), False),
+        ((0, 1 + 1e-15, 0), (0, -0.5, 0), False),
+        ((0.5, 0, 0), (1 + 1e-15, 0, 0), False),
+        ((0.5, 0, 0), (0, 1 + 1e-15, 0), False),
         ((-3, 0, 0), (-1, 0, 0), False),  # a light on the near cap
         ((-3, 0, 0), (1, 0, 0), True),  # on the far cap
         ((0, -3, 0), (0, -1, 0), False),  # on the near side
@@ -183,6 +186,24 @@ def test_hides_nothing_behind_the_image_plane(
     ends = tuple(map(float, start)), tuple(map(float, end))
     segment = Segment(*ends, 1.0, float(end_depth), 2.0, 2.0)
     assert bool(cylinder_hides(cylinder(*LYING), segment)) is hides
+
+
+def test_a_light_far_away_does_not_blur_where_it_passes_the_image_plane() -> None:
+    # It does so within, a thousandth beyond the near cap.
+    share = 2.001 / (1e12 + 3)
+    segment = Segment((-3.0, 0.0, 0.0), (1e12, 0.0, 0.0), 1.0, 1 - 1 / share, 2.0, 1e12)
+    assert cylinder_hides(cylinder(*LYING), segment)
+
+
+def test_what_is_met_at_a_small_angle_is_in_the_image_plane_sooner() -> None:
+    # A thousandth off the axis, the error of the distance is a thousand times that of the place.
+    rise = 1e-3
+    way = 0.0, rise, math.sqrt(1 - rise * rise)
+    for depth, expected in ((1e-6, 1.0), (1e-9, 1 + 2 / rise)):
+        origin = 0.0, -1 - rise, 5 - way[2]
+        ray = Ray(origin, way, depth - 1.0, 1.0, 0.0, 0.0)
+        shape = cylinder((0, 0, 4), (0, 0, 9e3), 1)
+        assert cylinder_distance(shape, ray) == pytest.approx(expected)
 
 
 @pytest.mark.parametrize(
