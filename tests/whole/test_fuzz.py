@@ -45,8 +45,8 @@ def test_a_wrong_picture_is_found_and_saved_as_a_small_scene(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(oracle, "ROUNDING", 1e-3)  # of another bound, hits and shadows are others
-    number = next(k for k in range(20) if not try_once("truth", 4, k, tmp_path))
-    folder = tmp_path / f"truth-4-{number}"
+    number = next(k for k in range(20) if not try_once("truth", 5, k, tmp_path))
+    folder = tmp_path / f"truth-5-{number}"
     scene, small = (json.loads((folder / f"{n}.json").read_text()) for n in ("scene", "smaller"))
     assert truth.fault_of(small) is not None
     assert len(small["objects"]) <= len(scene["objects"])

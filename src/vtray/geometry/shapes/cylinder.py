@@ -171,9 +171,11 @@ def enters_clearly(cylinder: CylinderShape, line: Line, span: Span, error_bound:
     Outlines and caps seen edge-on are straight: rounding would decide pixel by pixel of a whole
     row of them what is hit.
     """
-    middle = 0.5 * (span.near + span.far)
-    depth = -signed_distance(cylinder, move_along(line, middle))
-    return (span.near < span.far) & (depth > error_bound)
+    middle = move_along(line, 0.5 * (span.near + span.far))
+    inner = max(cylinder.side_radius - error_bound, 0.0)
+    within = dot(middle.beside, middle.beside) < inner * inner
+    above, below = middle.height > error_bound, middle.height < cylinder.length - error_bound
+    return (span.near < span.far) & within & above & below
 
 
 @device
