@@ -1,8 +1,7 @@
 """Numba's compiler, without the work that is of no use to kernels.
 
 Numba makes machine code of each function by itself, so that Python could call it. Here that is of
-use for a kernel alone, into which LLVM has put all device functions by then: without that of the
-others, a sixth less time.
+use for a kernel alone, into which LLVM has put all device functions by then.
 """
 
 # mypy: allow-untyped-calls
