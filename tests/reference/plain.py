@@ -3,7 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.geometry.queries import NOTHING, new_stack
+from vtray.geometry.packets.stack import new_stack
+from vtray.geometry.queries import NOTHING
 from vtray.geometry.world import NO_TREE
 from vtray.transport.integrators import reference
 from vtray.transport.scene_arrays import SceneArrays

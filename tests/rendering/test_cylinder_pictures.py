@@ -17,7 +17,7 @@ from strategies import cylinder_scenes, may_be_dark, thicket
 
 import vtray
 from conftest import JIT, compiled_only
-from vtray.geometry.queries import new_stack
+from vtray.geometry.packets.stack import new_stack
 from vtray.rendering import hierarchy
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack

@@ -17,7 +17,7 @@ from vtray.geometry.bvh import build as bvh_build
 from vtray.rendering import hierarchy as acceleration
 from vtray.rendering import renderer
 from vtray.rendering.hierarchy import accelerate
-from vtray.rendering.shape_kinds import locate
+from vtray.rendering.shape_kinds import locate, number_objects
 
 CAMERA = vtray.Camera((0, 0, -3), (0, 0, 1), 2, (8, 6), (0.2, 0.2))
 LIGHTS = [vtray.Light((1, -3, -5), 1)]
@@ -194,7 +194,7 @@ def test_scenes_are_copied_with_and_without_what_is_kept(duplicate: Callable) ->
 def test_numbers_lead_back_to_the_objects() -> None:
     several = [vtray.Spheres(**arrays(n)) for n in (0, 3, 0, 2)]
     scene = scene_of(several[0], BALL, WALL, several[1], several[2], WALL, BALL, several[3])
-    found = [locate(scene.objects, number) for number in range(7)]
+    found = [locate(number_objects(scene.objects), number) for number in range(7)]
     assert found == [(1, 0), (3, 0), (3, 1), (3, 2), (6, 0), (7, 0), (7, 1)]
 
 

@@ -17,7 +17,7 @@ from strategies import crowd, may_be_dark, scenes
 import vtray
 from conftest import JIT, compiled_only
 from vtray.commands.explain import explain_pixel
-from vtray.geometry.queries import new_stack
+from vtray.geometry.packets.stack import new_stack
 from vtray.rendering import hierarchy as acceleration
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack

@@ -80,7 +80,7 @@ def check_memory(width: int, height: int, samples: int = 1, least: int = 0) -> N
 def check_memory_of_lights(rays: int, lights: int) -> None:
     """Raise RenderError if the lights of so many rays cannot be kept in memory."""
     what = f"keep_lights: {lights} lights for {rays} rays need"
-    _check(rays * (8 * lights + 5), what, "a smaller size, fewer samples or fewer lights")
+    _check(rays * (8 * lights + 6), what, "a smaller size, fewer samples or fewer lights")
 
 
 def check_memory_of_spheres(count: int) -> None:

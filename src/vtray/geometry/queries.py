@@ -6,13 +6,11 @@ What is found is what a loop over all shapes would find; the hierarchies only le
 import math
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from vtray.base.compiler.compiled import device
-from vtray.geometry.bvh.tree import STACK, WIDTH, leaf_range
+from vtray.geometry.bvh.tree import WIDTH, leaf_range
 from vtray.geometry.dispatch import Shape, Verbs, with_any
-from vtray.geometry.packets.beam import Beam, beam_margin, children_met, enter_child, make_beam
+from vtray.geometry.packets.beam import Beam, beam_margin, children_met, make_beam
+from vtray.geometry.packets.stack import Stack, push_met
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import add, scale, sub
@@ -46,18 +44,6 @@ class Hit(NamedTuple):
     primitive: int
     group: int
     slot: int
-
-
-class Stack(NamedTuple):
-    """The nodes that wait on a way through a hierarchy, and where the ray enters them."""
-
-    node: NDArray[np.int64]
-    enter: NDArray[np.float64]
-
-
-def new_stack() -> Stack:
-    """Return the scratch memory of one thread."""
-    return Stack(np.zeros(STACK, np.int64), np.zeros(STACK))
 
 
 @device
@@ -105,35 +91,11 @@ def _nearest_in_tree(world: World, group: Group, ray: Ray, hit: Hit, stack: Stac
             continue
         child = stack.node[waiting]
         if child >= 0:
-            waiting = _push_met(world, child, beam, start, far, stack, waiting)
+            waiting = push_met(world.bvh, child, beam, start, far, stack, waiting)
         else:
             begin, end = leaf_range(child)
             hit = _nearest_slots(world, group, begin, end, ray, hit)
     return hit
-
-
-@device
-def _push_met(
-    world: World, node: int, beam: Beam, start: float, far: float, stack: Stack, base: int
-) -> int:
-    """Push the children that a ray may meet, the nearest last; return the stack's new height."""
-    met = children_met(world.bvh, node, beam, start, far)
-    child = node * WIDTH
-    top = base
-    while met > 0:
-        if met & 1:
-            enter = enter_child(world.bvh, child, beam)
-            place = top
-            while place > base and stack.enter[place - 1] < enter:
-                stack.enter[place] = stack.enter[place - 1]
-                stack.node[place] = stack.node[place - 1]
-                place -= 1
-            stack.enter[place] = enter
-            stack.node[place] = world.bvh.child[child]
-            top += 1
-        met >>= 1
-        child += 1
-    return top
 
 
 @device

@@ -132,12 +132,13 @@ def accelerate(scene: Scene, threads: int = 1, progress: Progress | None = None)
     RenderError
         There are more than a hierarchy or the memory can hold.
     """
-    items = [item for kind in KINDS for item in kind.items_of(scene.objects)]
+    sorted_items = [kind.items_of(scene.objects) for kind in KINDS]
+    items = [item for of_kind in sorted_items for item in of_kind]
     fingerprint = _fingerprint(items, threads)
     kept: Acceleration | None = scene.__dict__.get(_KEPT)
     if kept and kept.fingerprint == fingerprint and _are_same(kept.items, items):
         return kept
-    made = _make(items, fingerprint, threads, progress)
+    made = _make(sorted_items, fingerprint, threads, progress)
     scene.__dict__[_KEPT] = made
     return made
 
@@ -151,17 +152,20 @@ def _are_same(these: list[Any], those: list[Any]) -> bool:
 
 
 def _make(
-    items: list[Any], fingerprint: bytes, threads: int, progress: Progress | None
+    sorted_items: list[list[Any]], fingerprint: bytes, threads: int, progress: Progress | None
 ) -> Acceleration:
-    """Give numbers to the shapes, and build their hierarchies."""
-    for kind in KINDS:
-        count = sum(map(count_of, kind.items_of(items)))
+    """Give numbers to the shapes of each kind of objects, and build their hierarchies."""
+    counts = [sum(map(count_of, items)) for items in sorted_items]
+    for kind, count in zip(KINDS, counts, strict=True):
         if count > MAX_SPHERES:
             message = f"objects: expected at most {MAX_SPHERES} {kind.name}, got {count}"
             raise RenderError(message)
-    check_memory_of_spheres(sum(map(count_of, items)))
+    check_memory_of_spheres(sum(counts))
     trees: list[Bvh] = []
-    shapes = [_prepare(kind, kind.items_of(items), trees, threads, progress) for kind in KINDS]
+    shapes = [
+        _prepare(kind, items, trees, threads, progress)
+        for kind, items in zip(KINDS, sorted_items, strict=True)
+    ]
     if len(trees) > 1:
         bvh, roots = join_trees(trees, threads)
         shapes = [
@@ -170,6 +174,7 @@ def _make(
         ]
     else:
         bvh = trees[0] if trees else no_bvh()
+    items = [item for of_kind in sorted_items for item in of_kind]
     return Acceleration(tuple(shapes), bvh, items, fingerprint)
 
 

@@ -10,11 +10,12 @@ from vtray.base.errors import RenderError
 from vtray.base.exact_math import hypotenuse
 from vtray.figures.drawn.objects import where_met
 from vtray.figures.ray_tree import Exposed, Hit, RayTree, ShadowRay, Surface, View
-from vtray.geometry.queries import NOTHING, new_stack
+from vtray.geometry.packets.stack import new_stack
+from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, scale
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import Packed, pack
-from vtray.rendering.shape_kinds import KINDS, locate
+from vtray.rendering.shape_kinds import KINDS, Numbering, locate, number_objects
 from vtray.scene.arrays import Arrays
 from vtray.scene.objects import Plane
 from vtray.scene.placing.directions import unit
@@ -76,7 +77,7 @@ def trace_rays(
         raise RenderError(message)
     kept = accelerate(scene)  # which the given scene may have already
     scene = Scene(camera, list(scene.lights), list(scene.objects))
-    packed = pack(scene, kept)
+    packed, numbering = pack(scene, kept), number_objects(scene.objects)
     cosines = np.zeros(len(scene.lights))
     blockers = np.full(len(scene.lights), NOTHING)
     traced = trace_one(packed.arrays, column, row, new_stack(), cosines, blockers)
@@ -86,13 +87,13 @@ def trace_rays(
     lights: list[ShadowRay] = []
     if traced.primitive != NOTHING:
         hit = Hit(
-            _surface(scene, traced.primitive, is_second=traced.interaction.is_second),
+            _surface(scene, numbering, traced.primitive, is_second=traced.interaction.is_second),
             traced.distance * packed.unit + packed.before,
             _world(scene, packed, traced.interaction.point),
             traced.interaction.normal,
         )
         lights = [
-            _shadow_ray(scene, hit, k, float(cosines[k]), int(blockers[k]))
+            _shadow_ray(scene, numbering, hit, k, float(cosines[k]), int(blockers[k]))
             for k in range(len(scene.lights))
         ]
     return RayTree(
@@ -108,7 +109,9 @@ def trace_rays(
     )
 
 
-def _shadow_ray(scene: Scene, hit: Hit, number: int, cosine: float, primitive: int) -> ShadowRay:
+def _shadow_ray(
+    scene: Scene, numbering: Numbering, hit: Hit, number: int, cosine: float, primitive: int
+) -> ShadowRay:
     """Return the ray from a hit to a light; `primitive` is the number of what blocks it."""
     light, point = scene.lights[number], hit.point
     place = (light.location.x, light.location.y, light.location.z)
@@ -116,7 +119,7 @@ def _shadow_ray(scene: Scene, hit: Hit, number: int, cosine: float, primitive: i
     distance = hypotenuse(*way)
     if distance:
         way = (way[0] / distance, way[1] / distance, way[2] / distance)
-    blocker = None if primitive == NOTHING else _blocker(scene, primitive, point, way)
+    blocker = None if primitive == NOTHING else _blocker(scene, numbering, primitive, point, way)
     # In the order of the kernels, so that the sum has the same bits.
     strength = cosine * hit.surface.lambert * light.intensity if blocker is None else 0.0
     red, green, blue = hit.surface.color
@@ -124,9 +127,9 @@ def _shadow_ray(scene: Scene, hit: Hit, number: int, cosine: float, primitive: i
     return ShadowRay(number, place, light.intensity, way, distance, cosine, blocker, adds)
 
 
-def _blocker(scene: Scene, primitive: int, start: Vec, way: Vec) -> Surface:
+def _blocker(scene: Scene, numbering: Numbering, primitive: int, start: Vec, way: Vec) -> Surface:
     """Return what blocks a ray, its colour as where the ray meets it."""
-    surface = _surface(scene, primitive)
+    surface = _surface(scene, numbering, primitive)
     if surface.end is None:
         return surface
     place = where_met(scene, surface, start, way)
@@ -135,12 +138,14 @@ def _blocker(scene: Scene, primitive: int, start: Vec, way: Vec) -> Surface:
         for end in (surface.end, surface.center)
     )
     is_second = hypotenuse(*to_end) < hypotenuse(*to_start)
-    return _surface(scene, primitive, is_second=is_second)
+    return _surface(scene, numbering, primitive, is_second=is_second)
 
 
-def _surface(scene: Scene, primitive: int, *, is_second: bool = False) -> Surface:
+def _surface(
+    scene: Scene, numbering: Numbering, primitive: int, *, is_second: bool = False
+) -> Surface:
     """Return the primitive of a number, its colour as on its first or its second half."""
-    place, index = locate(scene.objects, primitive)
+    place, index = locate(numbering, primitive)
     item: Any = scene.objects[place]
     if isinstance(item, Plane):
         center, normal = _vec(item.center), unit(item.normal)

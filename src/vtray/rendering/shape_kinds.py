@@ -112,9 +112,8 @@ def count_of(item: Object) -> int:
     return len(item) if isinstance(item, Arrays) else 1
 
 
-def locate(objects: Sequence[Object], number: int) -> tuple[int, int]:
+def locate(numbering: Numbering, number: int) -> tuple[int, int]:
     """Return the place of the object that a primitive belongs to, and its index there."""
-    numbering = number_objects(objects)
     row = int(np.searchsorted(numbering.first, number, side="right")) - 1
     return int(numbering.place[row]), number - int(numbering.first[row])
 
@@ -194,16 +193,13 @@ def _join(parts: list[Source]) -> Source:
     ends = [part.color if part.color_end is None else part.color_end for part in parts]
     return Source(
         tuple(
-            _in_one(column, counts, np.float64) for column in zip(*_geometries(parts), strict=True)
+            _in_one(columns, counts, np.float64)
+            for columns in zip(*(part.geometry for part in parts), strict=True)
         ),
         _in_one([part.color for part in parts], counts, np.uint8),
         None if all(part.color_end is None for part in parts) else _in_one(ends, counts, np.uint8),
         _in_one([part.lambert for part in parts], counts, np.float64),
     )
-
-
-def _geometries(parts: list[Source]) -> list[tuple[NDArray[Any], ...]]:
-    return [part.geometry for part in parts]
 
 
 def _in_one(

@@ -45,7 +45,7 @@ class KeptLight(NamedTuple):
     """
 
     first: NDArray[np.int64]
-    primitive: NDArray[np.int64]
+    primitive: NDArray[np.int32]
     half: NDArray[np.int8]
     weight: NDArray[np.int8]
     cosines: NDArray[np.float64]
@@ -60,7 +60,7 @@ def new_kept_light(first: NDArray[np.int64], places: int, lights: int) -> KeptLi
     """Return what will be kept of a pass with so many rays."""
     return KeptLight(
         first,
-        np.empty(places, np.int64),
+        np.empty(places, np.int32),
         np.empty(places, np.int8),
         np.empty(places, np.int8),
         np.zeros((lights, places)),

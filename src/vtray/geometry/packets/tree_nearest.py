@@ -1,11 +1,12 @@
 """Through a hierarchy with the rays of a part of a packet, as one beam."""
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.bvh.tree import WIDTH, Bvh, leaf_range
-from vtray.geometry.packets.beam import Beam, beam_margin, children_met, enter_child, make_beam
+from vtray.geometry.bvh.tree import leaf_range
+from vtray.geometry.packets.beam import Beam, beam_margin, make_beam
 from vtray.geometry.packets.nearest import nearest_slots
 from vtray.geometry.packets.packet import Packet, Sheaf
 from vtray.geometry.packets.ray_bounds import farthest_of, part_directions, part_starts
+from vtray.geometry.packets.stack import push_met
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import CORNER, Footprint
 from vtray.geometry.rounding import MARGIN
@@ -41,14 +42,14 @@ def nearest_in_tree(
     beam = _part_beam(first, count, sheaf, footprint, group.to_boxes, work)
     start = -sheaf.depth * ratio * (1.0 - MARGIN)
     far = farthest_of(work.cones, first, count) * ratio
-    waiting = _push_met(bvh, group.root, beam, start, far, work, 0)
+    waiting = push_met(bvh, group.root, beam, start, far, work.stack, 0)
     while waiting > 0:
         waiting -= 1
-        if work.stack_enter[waiting] > far:
+        if work.stack.enter[waiting] > far:
             continue
-        child = work.stack[waiting]
+        child = work.stack.node[waiting]
         if child >= 0:
-            waiting = _push_met(bvh, child, beam, start, far, work, waiting)
+            waiting = push_met(bvh, child, beam, start, far, work.stack, waiting)
         else:
             begin, end = leaf_range(child)
             nearest_slots(packet, first, count, sheaf, footprint, world, group, begin, end, work)
@@ -75,28 +76,3 @@ def _part_beam(
     wider = growth, growth, growth
     start, end = add(scale(ratio, near), offset), add(scale(ratio, far), offset)
     return make_beam(start, end, sub(low, wider), add(high, wider), margin)
-
-
-@device
-def _push_met(
-    bvh: Bvh, node: int, beam: Beam, start: float, end: float, work: Workspace, base: int
-) -> int:
-    """Push the children that a beam may meet, the nearest last; return the stack's new height."""
-    met = children_met(bvh, node, beam, start, end)
-    stack, enters = work.stack, work.stack_enter
-    child = node * WIDTH
-    top = base
-    while met > 0:
-        if met & 1:
-            enter = enter_child(bvh, child, beam)
-            place = top
-            while place > base and enters[place - 1] < enter:
-                enters[place] = enters[place - 1]
-                stack[place] = stack[place - 1]
-                place -= 1
-            enters[place] = enter
-            stack[place] = bvh.child[child]
-            top += 1
-        met >>= 1
-        child += 1
-    return top

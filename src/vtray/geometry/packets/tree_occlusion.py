@@ -56,7 +56,7 @@ def _search_cluster(
     work: Workspace,
 ) -> None:
     """Search the hierarchy until all points of a cluster are blocked."""
-    bvh, stack = world.bvh, work.stack
+    bvh, stack = world.bvh, work.stack.node
     box = _cluster_box(packet, begin, end, target)
     points = _point_box(box, target)
     beam = _cluster_beam(box, group.to_boxes, target)

@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.geometry.bvh.tree import STACK
 from vtray.geometry.packets.packet import BLOCK, LANES
 from vtray.geometry.packets.ray_bounds import Cones, new_cones
+from vtray.geometry.packets.stack import Stack, new_stack
 from vtray.geometry.world import NO_TREE, PLANE, World
 
 TABLE = 2 * LANES
@@ -37,8 +37,8 @@ class Workspace(NamedTuple):
         How near points come to a plane on that side, clear of rounding; infinite without any.
     cones
         The cones around the octets of rays.
-    stack, stack_enter
-        Nodes that wait on a way through the hierarchy, and where the beam enters them.
+    stack
+        What waits on a way through a hierarchy.
     order
         The lanes with a hit in the order of their clusters.
     cluster
@@ -57,8 +57,7 @@ class Workspace(NamedTuple):
     above: NDArray[np.float64]
     below: NDArray[np.float64]
     cones: Cones
-    stack: NDArray[np.int64]
-    stack_enter: NDArray[np.float64]
+    stack: Stack
     order: NDArray[np.int64]
     cluster: NDArray[np.int64]
     curve: Pixels
@@ -96,8 +95,7 @@ def new_workspace(world: World) -> Workspace:
         above=np.zeros(planes),
         below=np.zeros(planes),
         cones=new_cones(),
-        stack=integers(STACK),
-        stack_enter=np.zeros(STACK),
+        stack=new_stack(),
         order=integers(LANES),
         cluster=integers(LANES + 2),
         curve=curve_of_block(),

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import kernel
-from vtray.geometry.queries import NOTHING, Stack, first_between, nearest_hit
+from vtray.geometry.packets.stack import Stack
+from vtray.geometry.queries import NOTHING, first_between, nearest_hit
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, add, dot, sub
