@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from vtray.rendering.pixel_rays import trace_pixel
     from vtray.rendering.renderer import render
     from vtray.scene.colors.color_scale import ColorScale
+    from vtray.scene.copies import Copies
     from vtray.scene.cylinders import Cylinders
     from vtray.scene.files.scene_dict import load_dict
     from vtray.scene.files.scene_file import load, loads
@@ -39,6 +40,7 @@ __all__ = [
     "Camera",
     "Color",
     "ColorScale",
+    "Copies",
     "Cylinder",
     "Cylinders",
     "Direction",
@@ -74,6 +76,7 @@ _MODULES = {
     "Camera": "scene.camera",
     "Color": "scene.vectors",
     "ColorScale": "scene.colors.color_scale",
+    "Copies": "scene.copies",
     "Cylinder": "scene.objects",
     "Cylinders": "scene.cylinders",
     "Direction": "scene.vectors",

@@ -79,7 +79,7 @@ def test_scene_changed_in_code_is_checked() -> None:
     document.objects.append("cube")
     with pytest.raises(
         vtray.SceneError,
-        match=r"Scene.objects\[1\]: expected Sphere, Cylinder, Plane, Spheres or Cylinders",
+        match=r"Scene.objects\[1\]: expected Sphere, Cylinder, Plane, Spheres, Cylinders or Copies",
     ):
         vtray.render(document)
 

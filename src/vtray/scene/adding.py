@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.colors.names import to_rgb
+from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
 from vtray.scene.objects import Cylinder, Light, Object, Plane, Sphere
 from vtray.scene.spheres import Spheres
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
 
     from vtray.scene.colors.color_scale import ColorMap
     from vtray.scene.colors.names import AnyColor
+    from vtray.scene.copies import Part
     from vtray.scene.vectors import Triple
 
 
@@ -209,6 +211,52 @@ class Adding:
         )
         self.objects.append(cylinders)
         return cylinders
+
+    @explain_unknown
+    def add_copies(self, objects: "Part | Sequence[Part]", at: "ArrayLike") -> Copies:
+        """Add the same spheres and cylinders many times, each time at another place.
+
+        A copy takes no memory but its row of `at`: spheres by the hundred thousand at thousands of
+        places are as light as those spheres alone. The arrays of the objects, and `at` where it is
+        of float32 or float64, are not copied.
+
+        Parameters
+        ----------
+        objects
+            What is placed, at least one: `Sphere`, `Cylinder`, `Spheres` or `Cylinders`, alone or
+            in a sequence, in world space. They need not be among the objects of the scene: where
+            they are, they are seen as they stand too.
+        at
+            Translations in world space, (n, 3), in scene units. One of (0, 0, 0) leaves the objects
+            where they stand.
+
+        Returns
+        -------
+        Copies
+            What was added.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right. The message names the place, for instance
+            ``add_copies: at[5, 1]``.
+
+        Examples
+        --------
+        A molecule in the eight corners of a cube:
+
+        >>> import vtray
+        >>> oxygen = vtray.Sphere((0, 0, 0), 0.6, (255, 0, 0))
+        >>> hydrogen = vtray.Spheres([(0.8, 0.6, 0), (-0.8, 0.6, 0)], 0.4)
+        >>> corners = [(x, y, z) for x in (0, 3) for y in (0, 3) for z in (0, 3)]
+        >>> scene = vtray.Scene()
+        >>> copies = scene.add_copies([oxygen, hydrogen], at=corners)
+        >>> len(copies)
+        8
+        """
+        copies = Copies.from_arrays({"objects": objects, "at": at}, "add_copies: ")
+        self.objects.append(copies)
+        return copies
 
     @explain_unknown
     def add_plane(

@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import msgspec
 
-from vtray.scene.checks.checked import Checked, Frozen, bind, make_unchecked
+from vtray.scene.array_holder import ArrayHolder
+from vtray.scene.checks.checked import make_unchecked
 from vtray.scene.checks.columns import NO_NAMES, Columns, check_arrays, read_only
 from vtray.scene.checks.limits import Byte
 
@@ -29,21 +30,13 @@ def check_spares_data(path: "Path", objects: "Iterable[object]") -> None:
     """Raise OutputError if writing a file would destroy arrays that objects were read from."""
     from vtray.base.atomic_file import check_spares
 
-    found = [item.source for item in objects if isinstance(item, Arrays)]
+    holders = (item for item in objects if isinstance(item, ArrayHolder))
+    found = [source for item in holders for source in item.sources()]
     what = "holds arrays of the scene itself"
-    check_spares(path, filter(None, found), what, "choose another name for the image")
+    check_spares(path, found, what, "choose another name for the image")
 
 
-class _CheckedArrays(Checked):
-    """Makes construction in code check and convert arrays."""
-
-    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
-        """Bind the arguments, check and convert them, and make the object."""
-        values = bind(cls, args, kwargs)
-        return cls.from_arrays(values, f"{cls.__name__}.")  # type: ignore[attr-defined]
-
-
-class Arrays(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=True):
+class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
     """Many objects of one kind, as arrays.
 
     A kind is a class that says its arrays twice: as `COLUMNS`, and as fields of the same names in
@@ -54,8 +47,6 @@ class Arrays(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=True)
 
     EACH: ClassVar[str]
     """What one of them is called in messages about colours."""
-
-    __hash__ = None  # type: ignore[assignment]  # arrays are compared, and may change
 
     @classmethod
     def from_arrays(
@@ -122,16 +113,6 @@ class Arrays(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=True)
         """
         return self.__dict__.get("color_scale_")
 
-    @property
-    def source(self) -> "Path | None":
-        """The file that the arrays were read from; None if they come from code."""
-        return self.__dict__.get("source_")
-
-    def read_from(self, source: "Path") -> Self:
-        """Return these objects, which from now on remember the file that they were read from."""
-        self.__dict__["source_"] = source.absolute()  # the folder may be changed
-        return self
-
     def with_scale(self, scale: "ColorScale | None") -> Self:
         """Return the same objects, which remember how values became their colours."""
         same: Self = make_unchecked(type(self), **msgspec.structs.asdict(self))
@@ -147,6 +128,8 @@ class Arrays(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=True)
     def __len__(self) -> int:
         return len(getattr(self, self.__struct_fields__[0]))
 
+    __hash__ = None  # type: ignore[assignment]  # arrays are compared, and may change
+
     def __eq__(self, other: object) -> bool:
         """Tell whether the same objects stand in the same order, whatever the dtypes."""
         if type(other) is not type(self):
@@ -157,9 +140,6 @@ class Arrays(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=True)
 
         pairs = ((self.given_for(name), other.given_for(name)) for name in self.COLUMNS)
         return len(self) == 0 or all(bool(np.all(one == two)) for one, two in pairs)
-
-    def __ne__(self, other: object) -> bool:
-        return NotImplemented if type(other) is not type(self) else not self == other
 
     def __repr__(self) -> str:
         shown = [f"{name}={_show(getattr(self, name))}" for name in self.COLUMNS]
@@ -182,21 +162,15 @@ class Arrays(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=True)
         """
         raise NotImplementedError
 
-    def check(self, place: str = "") -> None:
-        """Check the arrays again, after those that they share may have been changed.
+    def arrays(self) -> "list[NDArray[Any]]":
+        """Return what the attributes hold, as arrays, but for what was left out."""
+        import numpy as np
 
-        Parameters
-        ----------
-        place
-            Where the objects belong, for messages; the name of the type by default.
+        values = (getattr(self, name) for name in self.COLUMNS)
+        return [np.asarray(value) for value in values if value is not None]
 
-        Raises
-        ------
-        SceneError
-            If a number is not right any more.
-        """
-        values = msgspec.structs.asdict(self)
-        check_arrays(self.COLUMNS, values, f"{place or type(self).__name__}.")
+    def _check_again(self, place: str) -> None:
+        check_arrays(self.COLUMNS, msgspec.structs.asdict(self), f"{place}.")
 
 
 def _rebuild(kind: type[Arrays], values: tuple[Any, ...], scale: "ColorScale | None") -> Arrays:

@@ -12,7 +12,8 @@ from blake3 import blake3
 from numpy.typing import NDArray
 
 from vtray.base.pool import run_tasks
-from vtray.scene.arrays import Arrays
+from vtray.scene.array_holder import ArrayHolder
+from vtray.scene.copies import Copies
 from vtray.scene.scene import Scene
 
 PIECE = 1 << 20
@@ -52,10 +53,9 @@ def _pieces_of(values: NDArray[Any]) -> Iterable[NDArray[Any]]:
     return [values[begin : begin + step] for begin in range(0, len(values), step)]
 
 
-def arrays_of(item: Arrays) -> list[NDArray[Any]]:
-    """Return what the attributes of many objects hold, as arrays, but for what was left out."""
-    values = (getattr(item, name) for name in item.COLUMNS)
-    return [np.asarray(value) for value in values if value is not None]
+def arrays_of(item: ArrayHolder) -> list[NDArray[Any]]:
+    """Return all arrays of an object, those of objects within too."""
+    return item.arrays()
 
 
 def scene_hash(scene: Scene, threads: int = THREADS) -> str:
@@ -74,11 +74,19 @@ def scene_hash(scene: Scene, threads: int = THREADS) -> str:
     threads
         How many threads look at its arrays.
     """
-    parts: list[object] = [scene.camera, scene.lights]
-    for item in scene.objects:
-        if isinstance(item, Arrays):
-            tag = item.__struct_config__.tag
-            parts += [tag, hash_arrays(arrays_of(item), threads).hex()]
+    parts = [scene.camera, scene.lights, *_parts_of(scene.objects, threads)]
+    return blake3(msgspec.json.encode(parts)).hexdigest(DIGITS // 2)
+
+
+def _parts_of(objects: Iterable[object], threads: int) -> list[object]:
+    """Return what stands for objects in the hash of a scene."""
+    parts: list[object] = []
+    for item in objects:
+        if isinstance(item, Copies):
+            own = hash_arrays([item.at], threads).hex()
+            parts += [item.__struct_config__.tag, _parts_of(item.objects, threads), own]
+        elif isinstance(item, ArrayHolder):
+            parts += [item.__struct_config__.tag, hash_arrays(arrays_of(item), threads).hex()]
         else:
             parts.append(item)
-    return blake3(msgspec.json.encode(parts)).hexdigest(DIGITS // 2)
+    return parts

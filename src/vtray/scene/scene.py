@@ -12,10 +12,11 @@ import msgspec
 
 from vtray.base.errors import SceneError
 from vtray.scene.adding import Adding
-from vtray.scene.arrays import Arrays
+from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.camera import Camera
 from vtray.scene.checks.checked import Checked
 from vtray.scene.checks.unknown_names import unknown_attribute
+from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
 from vtray.scene.objects import Cylinder, Light, Object, Plane, Sphere
 from vtray.scene.settings import RenderSettings
@@ -25,6 +26,7 @@ from vtray.scene.vectors import Color, Direction, Vector
 __all__ = [
     "Camera",
     "Color",
+    "Copies",
     "Cylinder",
     "Cylinders",
     "Direction",
@@ -41,8 +43,8 @@ __all__ = [
 class Scene(msgspec.Struct, Adding, metaclass=Checked, dict=True):
     """All that a picture is made from.
 
-    Its attributes may be replaced, its lists changed, and so may arrays that `Spheres` and
-    `Cylinders` share; `check` looks at them again.
+    Its attributes may be replaced, its lists changed, and so may arrays that `Spheres`,
+    `Cylinders` and `Copies` share; `check` looks at them again.
 
     Attributes
     ----------
@@ -50,7 +52,7 @@ class Scene(msgspec.Struct, Adding, metaclass=Checked, dict=True):
         Where the picture is taken from; None until it is set.
     lights : list of Light
         The lights; may be empty.
-    objects : list of Sphere, Cylinder, Plane, Spheres or Cylinders
+    objects : list of Sphere, Cylinder, Plane, Spheres, Cylinders or Copies
         The objects; may be empty.
     render : RenderSettings
         How the picture is taken, unless `vtray.render` is told otherwise.
@@ -100,9 +102,9 @@ class Scene(msgspec.Struct, Adding, metaclass=Checked, dict=True):
         if _is_none(self.camera):
             remedy = "set one, for instance vtray.Camera.fit(scene)"
             raise SceneError(f"Scene.camera: there is none; {remedy}")
-        if any(issubclass(kind, Arrays) for kind in set(map(type, self.objects))):
+        if any(issubclass(kind, ArrayHolder) for kind in set(map(type, self.objects))):
             for index, item in enumerate(self.objects):
-                if isinstance(item, Arrays):
+                if isinstance(item, ArrayHolder):
                     item.check(f"Scene.objects[{index}]")
 
     def to_dict(self) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
 from vtray.scene.arrays import Arrays
-from vtray.scene.objects import Object, Plane
+from vtray.scene.objects import Cylinder, Object, Plane, Sphere
 from vtray.scene.placing.directions import Vec, dot, unit
 from vtray.scene.placing.pieces import by_pieces
 from vtray.scene.spheres import Spheres
@@ -79,7 +79,7 @@ def _balls_in(objects: list[Object]) -> list[Balls]:
         if isinstance(item, Arrays):
             for k, arrays in enumerate(item.hull()):
                 parts.setdefault((k, arrays[2] is None), []).append(Balls(*arrays))
-        elif not isinstance(item, Plane):
+        elif isinstance(item, (Sphere, Cylinder)):
             for k, row in enumerate(item.hull()):
                 single.setdefault((k, row[2] is None), []).append(row)
     for kind, rows in single.items():

@@ -1,0 +1,153 @@
+"""Lights and single objects, as the scene file defines them."""
+
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from vtray.scene.checks.checked import Frozen
+from vtray.scene.checks.limits import Fraction, NonNegative
+from vtray.scene.vectors import Color, Direction, Vector
+
+if TYPE_CHECKING:
+    from vtray.scene.vectors import Triple
+
+_SURFACE = MappingProxyType({"color": Color(255, 255, 255), "lambert": 1.0})
+
+
+class Light(Frozen, frozen=True, gc=False):
+    """A point light; its light does not fall off with distance.
+
+    In code, the intensity is 1 unless it is given.
+
+    Attributes
+    ----------
+    location : Vector
+        Position in world space.
+    intensity : float
+        Strength, relative to the other lights, ≥ 0.
+    """
+
+    location: Vector
+    intensity: NonNegative
+
+    _in_code = MappingProxyType({"intensity": 1.0})
+
+    if TYPE_CHECKING:
+
+        def __init__(self, location: "Vector | Triple", intensity: float = 1.0) -> None: ...
+
+
+class Sphere(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
+    """A sphere with a matt surface, which can also be seen from inside.
+
+    In code, the colour is white and `lambert` 1 unless they are given.
+
+    Attributes
+    ----------
+    center : Vector
+        Centre in world space.
+    radius : float
+        Radius in scene units, ≥ 0; a sphere of radius 0 is never hit.
+    color : Color
+        Colour of the surface.
+    lambert : float
+        Share of the light that the surface scatters, from 0 to 1.
+    """
+
+    center: Vector
+    radius: NonNegative
+    color: Color
+    lambert: Fraction
+
+    _in_code = _SURFACE
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            center: "Vector | Triple",
+            radius: float,
+            color: "Color | Triple" = ...,
+            lambert: float = 1.0,
+        ) -> None: ...
+
+    def hull(self) -> list[tuple[Vector, float, Vector | None]]:
+        """Return the ball whose hull this is, as `Spheres.hull` does."""
+        return [(self.center, self.radius, None)]
+
+
+class Cylinder(Frozen, frozen=True, gc=False, tag_field="type", tag="cylinder"):
+    """A solid cylinder with flat caps and a matt surface, which can also be seen from inside.
+
+    In code, the colour is white and `lambert` 1 unless they are given.
+
+    Attributes
+    ----------
+    start : Vector
+        Middle of one cap in world space.
+    end : Vector
+        Middle of the other; a cylinder of length 0 is never hit.
+    radius : float
+        Radius in scene units, ≥ 0; a cylinder of radius 0 is never hit.
+    color : Color
+        Colour of the surface.
+    lambert : float
+        Share of the light that the surface scatters, from 0 to 1.
+    """
+
+    start: Vector
+    end: Vector
+    radius: NonNegative
+    color: Color
+    lambert: Fraction
+
+    _in_code = _SURFACE
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            start: "Vector | Triple",
+            end: "Vector | Triple",
+            radius: float,
+            color: "Color | Triple" = ...,
+            lambert: float = 1.0,
+        ) -> None: ...
+
+    def hull(self) -> list[tuple[Vector, float, Vector | None]]:
+        """Return the discs whose hull this is, its caps, as `Cylinders.hull` does."""
+        return [(self.start, self.radius, self.end), (self.end, self.radius, self.start)]
+
+
+class Plane(Frozen, frozen=True, gc=False, tag_field="type", tag="plane"):
+    """A plane without edges and with two matt sides.
+
+    In code, the colour is white and `lambert` 1 unless they are given.
+
+    Attributes
+    ----------
+    center : Vector
+        Any point of the plane, in world space.
+    normal : Direction
+        Direction square to the plane, in world space.
+    color : Color
+        Colour of the surface.
+    lambert : float
+        Share of the light that the surface scatters, from 0 to 1.
+    """
+
+    center: Vector
+    normal: Direction
+    color: Color
+    lambert: Fraction
+
+    _in_code = _SURFACE
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            center: "Vector | Triple",
+            normal: "Direction | Vector | Triple",
+            color: "Color | Triple" = ...,
+            lambert: float = 1.0,
+        ) -> None: ...
