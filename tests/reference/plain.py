@@ -22,5 +22,6 @@ def trace_pixel(
     """Trace one pixel of a scene as if nothing had a hierarchy."""
     world = scene.world
     groups = world.groups._replace(root=np.full_like(world.groups.root, NO_TREE))
-    plain = scene._replace(world=world._replace(groups=groups))
+    places = world.places and world.places._replace(root=NO_TREE)
+    plain = scene._replace(world=world._replace(groups=groups, places=places))
     return reference.trace_pixel(plain, column, row, new_stack(), cosines, blockers)

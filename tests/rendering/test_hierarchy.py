@@ -17,7 +17,7 @@ from vtray.geometry.bvh import build as bvh_build
 from vtray.rendering import hierarchy as acceleration
 from vtray.rendering import renderer
 from vtray.rendering.hierarchy import accelerate
-from vtray.rendering.shape_kinds import locate, number_objects
+from vtray.rendering.numbering import locate, number_objects
 
 CAMERA = vtray.Camera((0, 0, -3), (0, 0, 1), 2, (8, 6), (0.2, 0.2))
 LIGHTS = [vtray.Light((1, -3, -5), 1)]

@@ -28,6 +28,10 @@ class Surface:
         Share of the light that it scatters, from 0 to 1.
     end
         End of the cylinder in world space; None for others.
+    copy
+        Which copy it is of what `Copies` place; None if it is none.
+    part
+        The place, among the objects that are copied, of that which it belongs to.
     """
 
     object: int
@@ -38,11 +42,14 @@ class Surface:
     color: Vec
     lambert: float
     end: Vec | None = None
+    copy: int | None = None
+    part: int | None = None
 
     def __str__(self) -> str:
         name = "plane" if self.radius is None else "sphere" if self.end is None else "cylinder"
         which = f"a {name}" if self.index is None else f"{name} {self.index}"
-        return f"objects[{self.object}], {which}"
+        copied = "" if self.copy is None else f".objects[{self.part}], copy {self.copy}"
+        return f"objects[{self.object}]{copied}, {which}"
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,8 @@ What is found is what a loop over all shapes would find; the hierarchies only le
 """
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import WIDTH, leaf_range
@@ -17,10 +18,12 @@ from vtray.geometry.vector import add, scale, sub
 from vtray.geometry.world import (
     NO_TREE,
     Group,
+    Places,
     ToBoxes,
     World,
     group_count,
     load_group,
+    placed_row,
 )
 
 NOTHING = -1
@@ -51,16 +54,68 @@ def nearest_hit(world: World, ray: Ray, stack: Stack) -> Hit:
     """Return what a ray meets first."""
     hit = Hit(math.inf, NOTHING, 0, 0)
     for row in range(group_count(world)):
-        group = load_group(world, row)
-        if group.root == NO_TREE:
-            hit = _nearest_slots(world, group, group.begin, group.end, ray, hit)
-        else:
-            hit = _nearest_in_tree(world, group, ray, hit, stack)
+        hit = _nearest_of_group(world, load_group(world, row), ray, hit, stack, 0)
+    return _nearest_placed(world, world.places, ray, hit, stack)
+
+
+@device
+def _nearest_of_group(
+    world: World, group: Group, ray: Ray, hit: Hit, stack: Stack, base: int
+) -> Hit:
+    """Return the nearer of a hit and those of the shapes of a group."""
+    if group.root == NO_TREE:
+        return _nearest_slots(world, group, group.begin, group.end, ray, hit, stack, base)
+    to_boxes = group.to_boxes
+    return _nearest_in_shapes(
+        world, group.root, to_boxes, ray, hit, stack, base, _nearest_slots, group
+    )
+
+
+@device
+def _nearest_placed(world: World, places: Places | None, ray: Ray, hit: Hit, stack: Stack) -> Hit:
+    """Return the nearer of a hit and those of all that is placed."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if places is not None:
+        if places.root == NO_TREE:
+            return _nearest_places(world, places, 0, places.item.shape[0], ray, hit, stack, 0)
+        root, to_boxes = places.root, places.to_boxes
+        return _nearest_in_places(
+            world, root, to_boxes, ray, hit, stack, 0, _nearest_places, places
+        )
     return hit
 
 
 @device
-def _nearest_slots(world: World, group: Group, begin: int, end: int, ray: Ray, hit: Hit) -> Hit:
+def _nearest_places(
+    world: World,
+    places: Places,
+    begin: int,
+    end: int,
+    ray: Ray,
+    hit: Hit,
+    stack: Stack,
+    base: int,
+) -> Hit:
+    """Return the nearer of a hit and those of the groups of a range of places."""
+    for at in range(begin, end):
+        item = places.item[at]
+        for row in range(places.rows[item], places.rows[item + 1]):
+            group = load_group(world, placed_row(world, at, row))
+            hit = _nearest_of_group(world, group, ray, hit, stack, base)
+    return hit
+
+
+@device
+def _nearest_slots(
+    world: World,
+    group: Group,
+    begin: int,
+    end: int,
+    ray: Ray,
+    hit: Hit,
+    stack: Stack,  # noqa: ARG001
+    base: int,  # noqa: ARG001
+) -> Hit:
     """Return the nearer of a hit and those of the shapes of a range of slots."""
     for slot in range(begin, end):
         distance, number = with_any(world, group, slot, _meet, ray)
@@ -75,16 +130,37 @@ def _meet(shape: Shape, verbs: Verbs, number: int, ray: Ray) -> tuple[float, int
     return verbs.distance_to(shape, ray), number
 
 
-@device
-def _nearest_in_tree(world: World, group: Group, ray: Ray, hit: Hit, stack: Stack) -> Hit:
-    """Return the nearer of a hit and those of the shapes of a hierarchy."""
-    ratio = group.to_boxes.ratio
-    beam = _ray_beam(group.to_boxes, ray)
+def _nearest_in_tree(
+    world: World,
+    root: int,
+    to_boxes: ToBoxes,
+    ray: Ray,
+    hit: Hit,
+    stack: Stack,
+    base: int,
+    nearest_of: Callable[[World, Any, int, int, Ray, Hit, Stack, int], Hit],
+    subject: Any,  # noqa: ANN401
+) -> Hit:
+    """Return the nearer of a hit and those in the leaves of a hierarchy.
+
+    Parameters
+    ----------
+    world, root, to_boxes
+        The hierarchy.
+    ray, hit
+        The ray, and what it meets so far.
+    stack, base
+        Scratch memory, and what waits there already, which stays.
+    nearest_of, subject
+        What is asked for each leaf, and what it is given, beside the range that the leaf names.
+    """
+    ratio = to_boxes.ratio
+    beam = _ray_beam(to_boxes, ray)
     start = max(-ray.depth, 0.0) * ratio * (1.0 - MARGIN)
-    stack.node[0] = group.root
-    stack.enter[0] = 0.0
-    waiting = 1
-    while waiting > 0:
+    stack.node[base] = root
+    stack.enter[base] = 0.0
+    waiting = base + 1
+    while waiting > base:
         waiting -= 1
         far = hit.distance * ratio * (1.0 + MARGIN)
         if stack.enter[waiting] > far:
@@ -94,8 +170,13 @@ def _nearest_in_tree(world: World, group: Group, ray: Ray, hit: Hit, stack: Stac
             waiting = push_met(world.bvh, child, beam, start, far, stack, waiting)
         else:
             begin, end = leaf_range(child)
-            hit = _nearest_slots(world, group, begin, end, ray, hit)
+            hit = nearest_of(world, subject, begin, end, ray, hit, stack, waiting)
     return hit
+
+
+_nearest_in_places, _nearest_in_shapes = device(_nearest_in_tree), device(_nearest_in_tree)
+"""Two ways: one through what is placed, one through what stands at a place. They are
+two, as the compiler takes what calls itself for recursion, whatever it is given."""
 
 
 @device
@@ -103,7 +184,8 @@ def _ray_beam(to_boxes: ToBoxes, ray: Ray) -> Beam:
     """Return a ray as a beam in the boxes' space."""
     ratio, offset = to_boxes.ratio, to_boxes.offset
     start = add(scale(ratio, ray.origin), offset)
-    margin = beam_margin(start, offset) + MARGIN * ray.error_scale * ratio
+    margin = beam_margin(start, offset) + MARGIN * to_boxes.moved
+    margin += MARGIN * ray.error_scale * ratio
     return make_beam(start, start, ray.direction, ray.direction, margin)
 
 
@@ -112,17 +194,69 @@ def first_between(world: World, segment: Segment, stack: Stack) -> int:
     """Return the lowest number of what stands between two points, or ``NOTHING``."""
     first = NOTHING
     for row in range(group_count(world)):
-        group = load_group(world, row)
-        if group.root == NO_TREE:
-            first = _first_of_slots(world, group, group.begin, group.end, segment, first)
-        else:
-            first = _first_in_tree(world, group, segment, first, stack)
+        first = _first_of_group(world, load_group(world, row), segment, first, stack, 0)
+    return _first_placed(world, world.places, segment, first, stack)
+
+
+@device
+def _first_of_group(
+    world: World, group: Group, segment: Segment, first: int, stack: Stack, base: int
+) -> int:
+    """Return the lower of a number and those of the shapes of a group that stand between."""
+    if group.root == NO_TREE:
+        return _first_of_slots(world, group, group.begin, group.end, segment, first, stack, base)
+    to_boxes = group.to_boxes
+    return _first_in_shapes(
+        world, group.root, to_boxes, segment, first, stack, base, _first_of_slots, group
+    )
+
+
+@device
+def _first_placed(
+    world: World, places: Places | None, segment: Segment, first: int, stack: Stack
+) -> int:
+    """Return the lower of a number and those of what is placed and stands between."""
+    if places is not None:
+        if places.root == NO_TREE:
+            count = places.item.shape[0]
+            return _first_of_places(world, places, 0, count, segment, first, stack, 0)
+        root, to_boxes = places.root, places.to_boxes
+        return _first_in_places(
+            world, root, to_boxes, segment, first, stack, 0, _first_of_places, places
+        )
+    return first
+
+
+@device
+def _first_of_places(
+    world: World,
+    places: Places,
+    begin: int,
+    end: int,
+    segment: Segment,
+    first: int,
+    stack: Stack,
+    base: int,
+) -> int:
+    """Return the lower of a number and those of the groups of a range of places."""
+    for at in range(begin, end):
+        item = places.item[at]
+        for row in range(places.rows[item], places.rows[item + 1]):
+            group = load_group(world, placed_row(world, at, row))
+            first = _first_of_group(world, group, segment, first, stack, base)
     return first
 
 
 @device
 def _first_of_slots(
-    world: World, group: Group, begin: int, end: int, segment: Segment, first: int
+    world: World,
+    group: Group,
+    begin: int,
+    end: int,
+    segment: Segment,
+    first: int,
+    stack: Stack,  # noqa: ARG001
+    base: int,  # noqa: ARG001
 ) -> int:
     """Return the lower of a number and those of the shapes in a range that stand between."""
     for slot in range(begin, end):
@@ -138,18 +272,28 @@ def _hides(shape: Shape, verbs: Verbs, number: int, segment: Segment) -> tuple[b
     return verbs.hides(shape, segment), number
 
 
-@device
-def _first_in_tree(world: World, group: Group, segment: Segment, first: int, stack: Stack) -> int:
-    """Return the lower of a number and those of the shapes of a hierarchy that stand between."""
-    bvh, (ratio, offset) = world.bvh, group.to_boxes
+def _first_in_tree(
+    world: World,
+    root: int,
+    to_boxes: ToBoxes,
+    segment: Segment,
+    first: int,
+    stack: Stack,
+    base: int,
+    first_of: Callable[[World, Any, int, int, Segment, int, Stack, int], int],
+    subject: Any,  # noqa: ANN401
+) -> int:
+    """Return the lower of a number and those in the leaves of a hierarchy."""
+    bvh, ratio, offset = world.bvh, to_boxes.ratio, to_boxes.offset
     # From the light: its place is the more exact of the two.
     end = add(scale(ratio, segment.end), offset)
     way = scale(ratio, sub(segment.start, segment.end))
-    margin = beam_margin(end, offset) + MARGIN * segment.start_scale * ratio
+    margin = beam_margin(end, offset) + MARGIN * to_boxes.moved
+    margin += MARGIN * segment.start_scale * ratio
     beam = make_beam(end, end, way, way, margin)
-    stack.node[0] = group.root
-    waiting = 1
-    while waiting > 0:
+    stack.node[base] = root
+    waiting = base + 1
+    while waiting > base:
         waiting -= 1
         node = stack.node[waiting]
         met = children_met(bvh, node, beam, 0.0, 1.0 + MARGIN)
@@ -162,7 +306,12 @@ def _first_in_tree(world: World, group: Group, segment: Segment, first: int, sta
                     waiting += 1
                 else:
                     begin, after = leaf_range(child)
-                    first = _first_of_slots(world, group, begin, after, segment, first)
+                    first = first_of(world, subject, begin, after, segment, first, stack, waiting)
             met >>= 1
             place += 1
     return first
+
+
+_first_in_places, _first_in_shapes = device(_first_in_tree), device(_first_in_tree)
+"""Two ways: one through what is placed, one through what stands at a place. They are
+two, as the compiler takes what calls itself for recursion, whatever it is given."""

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import Bvh
 from vtray.geometry.shapes.columns import Columns, Place
-from vtray.geometry.vector import Vec
+from vtray.geometry.vector import Vec, magnitude, scale, sub
 
 PLANE, SPHERE, CYLINDER = 0, 1, 2
 """The kinds of shape."""
@@ -25,7 +25,10 @@ NO_TREE = -1
 
 
 class Groups(NamedTuple):
-    """Groups of shapes of one kind, all (n,) but for the last; those of planes come first.
+    """Groups of shapes of one kind, all (n,) but for the last.
+
+    First come those of planes, then the others that stand where they are given, and last those that
+    are placed, as `Places` says.
 
     Attributes
     ----------
@@ -38,8 +41,8 @@ class Groups(NamedTuple):
     number
         What their numbers in the columns are counted from.
     frame
-        Where they stand: by how much they are moved, in world space, along x, y and z; then what
-        leads from the kernels' space to that of their boxes, as in `ToBoxes`, (n, 7).
+        What leads from the kernels' space to that of their boxes where they are given: ratio and
+        offset, as in `ToBoxes`, (n, 4).
     """
 
     kind: NDArray[np.int64]
@@ -51,17 +54,57 @@ class Groups(NamedTuple):
 
 
 class ToBoxes(NamedTuple):
-    """What leads from the kernels' space to that of the boxes: ``point * ratio + offset``."""
+    """What leads from the kernels' space to that of the boxes: ``point * ratio + offset``.
+
+    Attributes
+    ----------
+    ratio, offset
+        These.
+    moved
+        How far what is in the boxes is moved, in their space: what the rounding of its places is
+        relative to, beside what they are.
+    """
 
     ratio: float
     offset: Vec
+    moved: float
+
+
+class Places(NamedTuple):
+    """Where groups stand that are placed many times, in the order of the leaves of a hierarchy.
+
+    At each place stand the groups of one object, all moved by the same.
+
+    Attributes
+    ----------
+    shift
+        By how much they are moved, in world space, side by side, (3 * n,).
+    item
+        Whose groups these are: a place in `rows`, (n,).
+    copy
+        Which of the places of that object this is, counted from 0, (n,).
+    rows
+        The first row of the groups of each object, and after all of them the end, (objects + 1,).
+    root
+        The root of the hierarchy over the places, or ``NO_TREE``.
+    to_boxes
+        What leads to the space of its boxes.
+    """
+
+    shift: NDArray[np.float64]
+    item: NDArray[np.int32]
+    copy: NDArray[np.int32]
+    rows: NDArray[np.int64]
+    root: int
+    to_boxes: ToBoxes
 
 
 class World(NamedTuple):
     """What rays can meet.
 
     Primitives are numbered: spheres, then cylinders, then planes, and each of these in the order of
-    the scene. At exactly the same distance the lower number is hit.
+    the scene, where copies stand one after the other. At exactly the same distance the lower number
+    is hit.
 
     Attributes
     ----------
@@ -72,6 +115,8 @@ class World(NamedTuple):
         compiled for them.
     bvh
         The nodes of all hierarchies.
+    places
+        Where those groups stand that are placed; None where there are none, likewise.
     scale, origin
         What leads from world space to the kernels', as in `Place`.
     """
@@ -81,12 +126,23 @@ class World(NamedTuple):
     spheres: Columns
     cylinders: Columns | None
     bvh: Bvh
+    places: Places | None
     scale: float
     origin: Vec
 
 
 class Group(NamedTuple):
-    """One of the groups: its row, and what that says; see `Groups`."""
+    """One of the groups, where it stands; see `Groups`.
+
+    Attributes
+    ----------
+    row
+        What `load_group` finds it by: its row, or for one that is placed what `placed_row` gives.
+    kind, begin, end, root, number
+        As in `Groups`; the numbers are those of this copy.
+    place, to_boxes
+        What leads to where it stands.
+    """
 
     row: int
     kind: int
@@ -101,25 +157,60 @@ class Group(NamedTuple):
 @device
 def load_group(world: World, row: int) -> Group:
     """Return one of the groups."""
-    groups, frame = world.groups, world.groups.frame
-    shift = frame[row, 0], frame[row, 1], frame[row, 2]
-    offset = frame[row, 4], frame[row, 5], frame[row, 6]
+    return _load_group(world, world.places, row)
+
+
+@device
+def _load_group(world: World, places: Places | None, row: int) -> Group:
+    groups, number, shift, moved = world.groups, 0, (0.0, 0.0, 0.0), 0.0
+    own = row
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if places is not None:  # noqa: SIM102
+        if row >= groups.kind.shape[0]:
+            own, at = row % groups.kind.shape[0], row // groups.kind.shape[0] - 1
+            shift = load_shift(places, at)
+            number = places.copy[at] * (groups.end[own] - groups.begin[own])
+    ratio = groups.frame[own, 0]
+    offset = groups.frame[own, 1], groups.frame[own, 2], groups.frame[own, 3]
+    if places is not None:
+        in_boxes = scale(ratio * world.scale, shift)
+        offset, moved = sub(offset, in_boxes), magnitude(in_boxes)
     return Group(
         row,
-        groups.kind[row],
-        groups.begin[row],
-        groups.end[row],
-        groups.root[row],
-        groups.number[row],
+        groups.kind[own],
+        groups.begin[own],
+        groups.end[own],
+        groups.root[own],
+        groups.number[own] + number,
         Place(shift, world.scale, world.origin),
-        ToBoxes(frame[row, 3], offset),
+        ToBoxes(ratio, offset, moved),
     )
 
 
 @device
-def group_count(world: World) -> int:
-    """Return how many groups there are."""
+def load_shift(places: Places, at: int) -> Vec:
+    """Return by how much the groups at a place are moved."""
+    return places.shift[3 * at], places.shift[3 * at + 1], places.shift[3 * at + 2]
+
+
+@device
+def placed_row(world: World, at: int, row: int) -> int:
+    """Return what `load_group` finds the group of a row at a place by."""
     count: int = world.groups.kind.shape[0]
+    return (at + 1) * count + row
+
+
+@device
+def group_count(world: World) -> int:
+    """Return how many groups stand where they are given: the first ones."""
+    return _group_count(world.groups, world.places)
+
+
+@device
+def _group_count(groups: Groups, places: Places | None) -> int:
+    count: int = groups.kind.shape[0]
+    if places is not None:
+        count = places.rows[0]
     return count
 
 

@@ -115,9 +115,15 @@ class Rendered:
     def ids(self) -> NDArray[np.int32]:
         """What is seen, (height, width, 2): the place in ``scene.objects``, and that in its arrays.
 
-        Both are -1 where nothing is; the second is 0 for a single sphere and for a plane.
+        Both are -1 where nothing is; the second is 0 for a single sphere and for a plane. What
+        `Copies` place is counted through all their objects; `copies` tells which copy it is.
         """
         return self._surfaces.ids
+
+    @property
+    def copies(self) -> NDArray[np.int32]:
+        """Which copy of what `Copies` place is seen, (height, width); -1 where there is none."""
+        return self._surfaces.copies
 
     @property
     def halves(self) -> NDArray[np.int8]:

@@ -7,23 +7,31 @@ hierarchy, and kept until they change. A new camera, light or plane costs no new
 import operator
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import chain, islice
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.capacity import MAX_SPHERES
+from vtray.base.capacity import MAX_NUMBERS, MAX_SPHERES
+from vtray.base.compiler.compiled import uncompiled
 from vtray.base.errors import RenderError
 from vtray.base.memory import check_memory_of_spheres
 from vtray.base.pool import Progress
-from vtray.geometry.bvh.build import build
+from vtray.geometry.bvh.build import Tree, bounds_of, build
 from vtray.geometry.bvh.join import join_trees
-from vtray.geometry.bvh.tree import Bvh, Frame, no_bvh, node_count
+from vtray.geometry.bvh.tree import LEAF, Bvh, Frame, no_bvh
 from vtray.geometry.shapes.columns import Columns
+from vtray.geometry.vector import Vec, lower, upper
 from vtray.geometry.world import NO_TREE
-from vtray.rendering.shape_kinds import KINDS, Kind, Source, collect, count_of
-from vtray.scene.arrays import Arrays
-from vtray.scene.fingerprint import arrays_of, hash_arrays
+from vtray.rendering.acceleration import Acceleration, Shapes
+from vtray.rendering.numbering import Numbering, copied_rows, number_objects
+from vtray.rendering.placed import Placed, place_copies
+from vtray.rendering.shape_kinds import KINDS, Kind, Source, collect
+from vtray.scene.array_holder import ArrayHolder
+from vtray.scene.copies import Copies
+from vtray.scene.fingerprint import hash_arrays
+from vtray.scene.objects import Plane
 from vtray.scene.scene import Scene
 
 FEW = 128
@@ -31,97 +39,6 @@ FEW = 128
 
 The crossing was measured at 115 spheres with one light and at 200 with 64.
 """
-
-
-@dataclass(frozen=True)
-class Shapes:
-    """All shapes of a kind, ready for tracing.
-
-    Attributes
-    ----------
-    kind
-        Their kind.
-    source
-        The shapes by their numbers.
-    columns
-        In the order of the leaves, or, if there are few, of their numbers.
-    root
-        The root of their hierarchy, or ``NO_TREE`` if there are few.
-    frame
-        The space of its boxes.
-    depth
-        How many nodes lie one below the other at the most.
-    largest
-        A length that no coordinate or radius is far above.
-    """
-
-    kind: Kind
-    source: Source
-    columns: Columns
-    root: int
-    frame: Frame
-    depth: int
-    largest: float
-
-    @property
-    def count(self) -> int:
-        """How many there are."""
-        return len(self.columns.number)
-
-
-@dataclass(frozen=True)
-class Acceleration:
-    """The bounded shapes of a scene, ready for tracing.
-
-    Attributes
-    ----------
-    shapes
-        Those of each kind, in the order of their numbers.
-    bvh
-        The hierarchies of all kinds.
-    items
-        The objects that have them.
-    fingerprint
-        What the contents of their arrays came to.
-    """
-
-    shapes: tuple[Shapes, ...]
-    bvh: Bvh
-    items: list[Any]
-    fingerprint: bytes
-
-    @property
-    def nodes(self) -> int:
-        """How many nodes the hierarchies have."""
-        return node_count(self.bvh)
-
-    @property
-    def depth(self) -> int:
-        """How many nodes lie one below the other at the most."""
-        return max(shapes.depth for shapes in self.shapes)
-
-    @property
-    def largest(self) -> float:
-        """A length that no coordinate or radius is far above."""
-        return max(shapes.largest for shapes in self.shapes)
-
-    @property
-    def count(self) -> int:
-        """How many shapes there are."""
-        return sum(shapes.count for shapes in self.shapes)
-
-    @property
-    def memory(self) -> int:
-        """Bytes that are used beside the arrays that were given."""
-        arrays: list[NDArray[Any]] = [*self.bvh]
-        for shapes in self.shapes:
-            geometry, *rest = shapes.source
-            arrays += [
-                *shapes.columns,
-                *geometry,
-                *(column for column in rest if column is not None),
-            ]
-        return sum(array.nbytes for array in arrays if array.base is None)
 
 
 def accelerate(scene: Scene, threads: int = 1, progress: Progress | None = None) -> Acceleration:
@@ -132,13 +49,12 @@ def accelerate(scene: Scene, threads: int = 1, progress: Progress | None = None)
     RenderError
         There are more than a hierarchy or the memory can hold.
     """
-    sorted_items = [kind.items_of(scene.objects) for kind in KINDS]
-    items = [item for of_kind in sorted_items for item in of_kind]
+    items = [item for item in scene.objects if not isinstance(item, Plane)]
     fingerprint = _fingerprint(items, threads)
     kept: Acceleration | None = scene.__dict__.get(_KEPT)
     if kept and kept.fingerprint == fingerprint and _are_same(kept.items, items):
         return kept
-    made = _make(sorted_items, fingerprint, threads, progress)
+    made = _make(items, fingerprint, threads, progress)
     scene.__dict__[_KEPT] = made
     return made
 
@@ -151,52 +67,178 @@ def _are_same(these: list[Any], those: list[Any]) -> bool:
     return len(these) == len(those) and all(map(operator.is_, these, those))
 
 
+@dataclass(frozen=True)
+class _Part:
+    """Shapes of a kind that stand together, before they are built.
+
+    Attributes
+    ----------
+    kind, source
+        The shapes.
+    few
+        Up to so many get no hierarchy.
+    """
+
+    kind: Kind
+    source: Source
+    few: int
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        return len(self.source.geometry[0])
+
+
+@dataclass(frozen=True)
+class _Built:
+    """Shapes ready for tracing, on their own.
+
+    Attributes
+    ----------
+    columns
+        In the order of the leaves, or, where there are few, as given.
+    tree
+        The hierarchy, if there is one.
+    """
+
+    columns: Columns
+    tree: Tree | None
+
+
 def _make(
-    sorted_items: list[list[Any]], fingerprint: bytes, threads: int, progress: Progress | None
+    items: list[Any], fingerprint: bytes, threads: int, progress: Progress | None
 ) -> Acceleration:
-    """Give numbers to the shapes of each kind of objects, and build their hierarchies."""
-    counts = [sum(map(count_of, items)) for items in sorted_items]
-    for kind, count in zip(KINDS, counts, strict=True):
+    """Give numbers to shapes, build their hierarchies, and join all."""
+    numbering = number_objects(items)
+    copies = [item for item in items if isinstance(item, Copies)]
+    given = [_part(kind, items, FEW) for kind in KINDS]
+    copied = [
+        [part for kind in KINDS if len(item) and (part := _part(kind, item.objects, LEAF)).count]
+        for item in copies
+    ]
+    parts = [*given, *chain.from_iterable(copied)]
+    _check_counts(parts, numbering)
+    built = [_build(part, threads, progress) for part in parts]
+    placed, places = _place(copies, copied, threads)
+    columns, begins = _join_columns(parts, built, numbering)
+    trees = [*(one.tree for one in built), places]
+    bvh, roots = _join_trees(trees, [*begins, 0], threads)
+    firsts = [*_first_of_kinds(numbering), *numbering.first[copied_rows(numbering)].tolist()]
+    shapes = map(_shapes, parts, built, firsts, begins, roots)
+    return Acceleration(
+        tuple(islice(shapes, len(given))),
+        tuple(tuple(islice(shapes, len(of_one))) for of_one in copied),
+        columns,
+        bvh,
+        placed and replace(placed, root=roots[-1]),
+        numbering,
+        items,
+        fingerprint,
+    )
+
+
+def _part(kind: Kind, items: Sequence[Any], few: int) -> _Part:
+    """Return those shapes of a kind that objects have and that are not copied."""
+    return _Part(kind, collect(kind, kind.items_of(items)), few)
+
+
+def _check_counts(parts: Sequence[_Part], numbering: Numbering) -> None:
+    """Raise RenderError if there are more shapes than can be held, or numbered."""
+    for kind in KINDS:
+        count = sum(part.count for part in parts if part.kind is kind)
         if count > MAX_SPHERES:
             message = f"objects: expected at most {MAX_SPHERES} {kind.name}, got {count}"
             raise RenderError(message)
-    check_memory_of_spheres(sum(counts))
-    trees: list[Bvh] = []
-    shapes = [
-        _prepare(kind, items, trees, threads, progress)
-        for kind, items in zip(KINDS, sorted_items, strict=True)
-    ]
-    if len(trees) > 1:
-        bvh, roots = join_trees(trees, threads)
-        shapes = [
-            one if one.root == NO_TREE else replace(one, root=int(roots[one.root]))
-            for one in shapes
-        ]
-    else:
-        bvh = trees[0] if trees else no_bvh()
-    items = [item for of_kind in sorted_items for item in of_kind]
-    return Acceleration(tuple(shapes), bvh, items, fingerprint)
+    check_memory_of_spheres(sum(part.count for part in parts))
+    numbers = sum(map(int, numbering.size))
+    if numbers > MAX_NUMBERS:
+        words = f"expected at most {MAX_NUMBERS} spheres and cylinders, copies counted"
+        message = f"objects: {words}, got {numbers}"
+        raise RenderError(message)
 
 
-def _prepare(
-    kind: Kind,
-    items: Sequence[Any],
-    trees: list[Bvh],
-    threads: int,
-    progress: Progress | None,
-) -> Shapes:
-    """Return the shapes of a kind; their tree is added to others, and their root says where."""
-    source = collect(kind, items)
-    count = len(source.geometry[0])
-    if count <= FEW:
-        columns = Columns(_in_order(source), np.arange(count, dtype=np.int32))
-        frame = Frame(1.0, (0.0, 0.0, 0.0))
-        return Shapes(kind, source, columns, NO_TREE, frame, 0, _largest(source))
-    given = kind.given(*source.geometry)
+def _build(part: _Part, threads: int, progress: Progress | None) -> _Built:
+    """Build the hierarchy of shapes, if there are enough."""
+    source = part.source
+    if part.count <= part.few:
+        return _Built(Columns(_in_order(source), np.arange(part.count, dtype=np.int32)), None)
+    given = part.kind.given(*source.geometry)
     tree = build(given, threads, progress)
-    trees.append(tree.bvh)
-    columns = Columns(given.data, tree.numbers)
-    return Shapes(kind, source, columns, len(trees) - 1, tree.frame, tree.depth, tree.largest)
+    return _Built(Columns(given.data, tree.numbers), tree)
+
+
+def _first_of_kinds(numbering: Numbering) -> list[int]:
+    """Return the number of the first shape of each kind."""
+    return [int(numbering.size[numbering.kind < k].sum()) for k in range(len(KINDS))]
+
+
+def _shapes(part: _Part, built: _Built, first: int, begin: int, root: int) -> Shapes:
+    """Return shapes with what their hierarchy says, if they have one."""
+    tree = built.tree
+    frame = tree.frame if tree else Frame(1.0, (0.0, 0.0, 0.0))
+    depth, largest = (tree.depth, tree.largest) if tree else (0, _largest(part.source))
+    return Shapes(part.kind, part.source, first, begin, part.count, root, frame, depth, largest)
+
+
+def _place(
+    copies: Sequence[Copies], copied: Sequence[Sequence[_Part]], threads: int
+) -> tuple[Placed | None, Tree | None]:
+    """Return where copies stand, and the hierarchy over them, if there are any."""
+    used = [k for k, parts in enumerate(copied) if parts]
+    if not used:
+        return None, None
+    boxes = [_box_around(copied[k], threads) for k in used]
+    return place_copies([copies[k] for k in used], boxes, threads)
+
+
+def _box_around(parts: Sequence[_Part], threads: int) -> tuple[Vec, Vec]:
+    """Return the corners of a box that holds shapes of several kinds."""
+    boxes = [bounds_of(part.kind.given(*part.source.geometry), threads) for part in parts]
+    low, high = boxes[0]
+    for corners in boxes[1:]:
+        low, high = uncompiled(lower)(low, corners[0]), uncompiled(upper)(high, corners[1])
+    return low, high
+
+
+def _join_columns(
+    parts: Sequence[_Part], built: Sequence[_Built], numbering: Numbering
+) -> tuple[tuple[Columns, ...], list[int]]:
+    """Return all shapes of each kind, and at which slot each part of them begins."""
+    begins = [0] * len(parts)
+    joined = []
+    for k, kind in enumerate(KINDS):
+        mine = [row for row, part in enumerate(parts) if part.kind is kind]
+        own = [built[row].columns for row in mine]
+        own[0] = own[0]._replace(number=numbering.among_kind(k, own[0].number))
+        slots = np.cumsum([0] + [len(columns.number) for columns in own])
+        for row, slot in zip(mine, slots.tolist(), strict=False):
+            begins[row] = slot
+        filled = [columns for columns in own if len(columns.number)] or own[:1]
+        joined.append(
+            filled[0]
+            if len(filled) == 1
+            else Columns(*(np.concatenate(arrays) for arrays in zip(*filled, strict=True)))
+        )
+    return tuple(joined), begins
+
+
+def _join_trees(
+    trees: Sequence[Tree | None], slots: Sequence[int], threads: int
+) -> tuple[Bvh, list[int]]:
+    """Return all nodes, and the root of each hierarchy, ``NO_TREE`` where there is none."""
+    rows = [row for row, tree in enumerate(trees) if tree]
+    bvhs = [tree.bvh for tree in trees if tree]
+    begins = [slots[row] for row in rows]
+    roots = [NO_TREE] * len(trees)
+    if not rows:
+        return no_bvh(), roots
+    if len(rows) == 1 and not begins[0]:
+        roots[rows[0]] = 0
+        return bvhs[0], roots
+    bvh, firsts = join_trees(bvhs, threads, begins)
+    for row, first in zip(rows, firsts.tolist(), strict=True):
+        roots[row] = first
+    return bvh, roots
 
 
 def _in_order(source: Source) -> NDArray[np.float64]:
@@ -217,5 +259,5 @@ def _largest(source: Source) -> float:
 
 def _fingerprint(items: list[Any], threads: int) -> bytes:
     """Return what changes if a number in the arrays does, which may be written to."""
-    arrays = [array for item in items if isinstance(item, Arrays) for array in arrays_of(item)]
-    return hash_arrays(arrays, threads)
+    found = [item for item in items if isinstance(item, ArrayHolder)]
+    return hash_arrays((array for item in found for array in item.arrays()), threads)

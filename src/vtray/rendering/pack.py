@@ -3,17 +3,21 @@
 import math
 import sys
 from collections.abc import Sequence
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.base.capacity import MAX_NUMBERS
 from vtray.base.compiler.compiled import input_array
 from vtray.geometry.bvh.tree import Frame, no_bvh
 from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.vector import Vec
-from vtray.geometry.world import CYLINDER, NO_TREE, PLANE, SPHERE, Groups, ToBoxes, World
-from vtray.rendering.hierarchy import Acceleration
+from vtray.geometry.world import NO_TREE, PLANE, Groups, Places, ToBoxes, World
+from vtray.rendering.acceleration import Acceleration, Shapes
+from vtray.rendering.numbering import find_ranges
+from vtray.rendering.placed import Placed
 from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.scene import Camera, Plane, Scene, Vector
@@ -31,6 +35,10 @@ An eye that is farther away sees the scene along rays that differ by less than 1
 by side, where they pass a plane nearby. Started at the eye, rounding would move what they meet, and
 lose what is near the image plane: from 1e15 times the size of the scene on, all of it.
 """
+
+LARGEST_SHIFT = 2.0**300
+"""Copies so tiny beside how far they are moved that this is exceeded, as lengths in the space of
+their boxes, are traced without their hierarchy."""
 
 LARGEST_RATIO = 2.0**100
 """Spheres so tiny beside all else that this is exceeded are traced without their hierarchy."""
@@ -72,34 +80,67 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
 
 def _pack_world(planes: list[Plane], kept: Acceleration, unit: float, origin: Vec) -> World:
     """Return what rays can meet."""
-    rows: list[tuple[tuple[int, ...], tuple[float, ...]]] = []
-    columns: dict[int, Columns] = {}
-    number = 0
-    for shapes in kept.shapes:
-        to_boxes = _pack_to_boxes(shapes.frame, origin, unit)
-        root = shapes.root if to_boxes.ratio < LARGEST_RATIO else NO_TREE
-        frame = 0.0, 0.0, 0.0, to_boxes.ratio, *to_boxes.offset
-        rows.append(((shapes.kind.shape, 0, shapes.count, root, number), frame))
-        columns[shapes.kind.shape] = shapes.columns
-        number += shapes.count
-    rows.insert(0, ((PLANE, 0, len(planes), NO_TREE, number), (0.0,) * 7))
+    reach = float(np.abs(kept.placed.shift).max()) if kept.placed else 0.0
+    rows = [_Row(PLANE, 0, len(planes), NO_TREE, kept.count, _IN_KERNELS)]
+    rows += [_pack_group(shapes, origin, unit) for shapes in kept.shapes]
+    rows = [row for row in rows if row.begin < row.end]
+    ends = [len(rows)]
+    for of_one in filter(None, kept.copied):
+        rows += [_pack_group(shapes, origin, unit, reach) for shapes in of_one]
+        ends.append(len(rows))
+    places = _pack_places(kept.placed, ends, origin, unit) if kept.placed else None
+    spheres, cylinders = (kept.columns[k] for k in range(2))
+    has_trees = any(row.root != NO_TREE for row in rows) or (places and places.root != NO_TREE)
     return World(
-        _pack_groups([row for row in rows if row[0][2]]),
+        _pack_groups(rows),
         _pack_planes(planes),
-        columns[SPHERE],
-        columns[CYLINDER] if columns[CYLINDER].number.size else None,
-        kept.bvh if any(row[3] != NO_TREE for row, _ in rows) else no_bvh(),
+        spheres,
+        cylinders if cylinders.number.size else None,
+        kept.bvh if has_trees else no_bvh(),
+        places,
         1.0 / unit,
         origin,
     )
 
 
-def _pack_groups(rows: list[tuple[tuple[int, ...], tuple[float, ...]]]) -> Groups:
-    """Return groups, a row for each: its integers, and where it stands."""
-    columns = np.array([integers for integers, _ in rows], np.int64).reshape(-1, 5).T
+class _Row(NamedTuple):
+    """A group of shapes, as in `Groups`."""
+
+    kind: int
+    begin: int
+    end: int
+    root: int
+    number: int
+    frame: ToBoxes
+
+
+_IN_KERNELS = ToBoxes(0.0, (0.0, 0.0, 0.0), 0.0)
+"""That of a group without boxes."""
+
+
+def _pack_group(shapes: Shapes, origin: Vec, unit: float, reach: float = 0.0) -> _Row:
+    """Return a group; `reach` is how far its shapes are moved at the most, in world space."""
+    to_boxes = _pack_to_boxes(shapes.frame, origin, unit)
+    is_far = reach > LARGEST_SHIFT / shapes.frame.scale
+    root = NO_TREE if to_boxes.ratio >= LARGEST_RATIO or is_far else shapes.root
+    end = shapes.begin + shapes.count
+    return _Row(shapes.kind.shape, shapes.begin, end, root, shapes.first, to_boxes)
+
+
+def _pack_groups(rows: list[_Row]) -> Groups:
+    """Return groups, a row for each."""
+    columns = np.array([row[:5] for row in rows], np.int64).reshape(-1, 5).T
     kind, begin, end, root, number = np.ascontiguousarray(columns)
-    frames = np.array([frame for _, frame in rows]).reshape(-1, 7)
+    frames = np.array([(row.frame.ratio, *row.frame.offset) for row in rows]).reshape(-1, 4)
     return Groups(kind, begin, end, root, number, frames)
+
+
+def _pack_places(placed: Placed, rows: list[int], origin: Vec, unit: float) -> Places:
+    """Return where copies stand, whose groups are in these rows."""
+    to_boxes = _pack_to_boxes(placed.frame, origin, unit)
+    root = NO_TREE if to_boxes.ratio >= LARGEST_RATIO else placed.root
+    shift = placed.shift.reshape(-1)
+    return Places(shift, placed.item, placed.copy, np.array(rows, np.int64), root, to_boxes)
 
 
 def start_distance(camera: Camera) -> float:
@@ -189,34 +230,36 @@ def _pack_to_boxes(frame: Frame, origin: Vec, unit: float) -> ToBoxes:
     """Return what leads to the space of the boxes."""
     ratio = frame.scale * unit
     (x, y, z), (a, b, c) = origin, frame.origin
-    return ToBoxes(ratio, (x * ratio - a, y * ratio - b, z * ratio - c))
+    return ToBoxes(ratio, (x * ratio - a, y * ratio - b, z * ratio - c), 0.0)
 
 
 def _pack_materials(kept: Acceleration, planes: list[Plane]) -> Materials:
-    """Return the materials of all primitives, a range for each kind of shape."""
-    plane_color = [(plane.color.r, plane.color.g, plane.color.b) for plane in planes]
-    plane_lambert = [plane.lambert for plane in planes]
-    sources = [shapes.source for shapes in kept.shapes]
+    """Return the materials of all primitives, by ranges of their numbers."""
+    sources = [shapes.source for shapes in (*kept.shapes, *chain.from_iterable(kept.copied))]
     colors = [source.color for source in sources]
-    colors.append(np.array(plane_color, np.uint8).reshape(-1, 3))
+    of_planes = [(plane.color.r, plane.color.g, plane.color.b) for plane in planes]
+    colors.append(np.array(of_planes, np.uint8).reshape(-1, 3))
     ends = [source.color_end for source in sources if source.color_end is not None]
     lamberts = [source.lambert for source in sources]
-    lamberts.append(np.array(plane_lambert, np.float64))
-    counts = np.array([*(shapes.count for shapes in kept.shapes), len(planes)])
+    lamberts.append(np.array([plane.lambert for plane in planes], np.float64))
     row, step = _rows([*colors, *ends])
     color_row, color_step = row[: len(colors)], step[: len(colors)]
     end_row, end_step = color_row.copy(), color_step.copy()
     halved = [k for k, source in enumerate(sources) if source.color_end is not None]
     end_row[halved], end_step[halved] = row[len(colors) :], step[len(colors) :]
     lambert_row, lambert_step = _rows(lamberts)
+    ranges = find_ranges(kept.numbering)
+    k = np.where(ranges.copied < 0, ranges.kind, len(kept.shapes) + ranges.copied)
+    k, begin = np.append(k, len(sources)), np.append(ranges.begin, 0)
     return Materials(
-        np.cumsum(counts) - counts,
-        color_row,
-        color_step,
-        end_row,
-        end_step,
-        lambert_row,
-        lambert_step,
+        np.append(ranges.first, kept.count),
+        np.append(ranges.each, MAX_NUMBERS),
+        color_row[k] + begin * color_step[k],
+        color_step[k],
+        end_row[k] + begin * end_step[k],
+        end_step[k],
+        lambert_row[k] + begin * lambert_step[k],
+        lambert_step[k],
         _joined([*colors, *ends], np.uint8),
         _joined(lamberts, np.float64),
     )

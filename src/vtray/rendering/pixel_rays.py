@@ -14,9 +14,12 @@ from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, scale
 from vtray.rendering.hierarchy import accelerate
+from vtray.rendering.numbering import Numbering, find, number_objects
 from vtray.rendering.pack import Packed, pack
-from vtray.rendering.shape_kinds import KINDS, Numbering, locate, number_objects
+from vtray.rendering.shape_kinds import KINDS
+from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import Arrays
+from vtray.scene.copies import Copies
 from vtray.scene.objects import Plane
 from vtray.scene.placing.directions import unit
 from vtray.scene.scene import Scene
@@ -145,24 +148,32 @@ def _surface(
     scene: Scene, numbering: Numbering, primitive: int, *, is_second: bool = False
 ) -> Surface:
     """Return the primitive of a number, its colour as on its first or its second half."""
-    place, index = locate(numbering, primitive)
-    item: Any = scene.objects[place]
+    found = find(scene.objects, numbering, primitive)
+    item: Any = scene.objects[found.place]
+    copy = part = None
+    shift, inner = (0.0, 0.0, 0.0), found.inner
+    if isinstance(item, Copies):
+        copy, shift = found.copy, _row(item, "at", found.copy)
+        part, inner = item.locate(inner)
+        item = item.objects[part]
     if isinstance(item, Plane):
         center, normal = _vec(item.center), unit(item.normal)
-        return Surface(place, None, center, None, normal, _rgb(item.color), item.lambert)
+        return Surface(found.place, None, center, None, normal, _rgb(item.color), item.lambert)
     (kind,) = (kind for kind in KINDS if isinstance(item, (kind.single, kind.arrays)))
     single = isinstance(item, kind.single)
     if single:
         points = [_vec(getattr(item, name)) for name in kind.points]
         color, radius, lambert, number = _rgb(item.color), item.radius, item.lambert, None
     else:
-        points = [_row(item, name, index) for name in kind.points]
+        points = [_row(item, name, inner) for name in kind.points]
         halves = is_second and getattr(item, "color_end", None) is not None
-        color = _row(item, "color_end" if halves else "color", index)
-        radius, lambert = _number(item, "radius", index), _number(item, "lambert", index)
-        number = index
+        color = _row(item, "color_end" if halves else "color", inner)
+        radius, lambert = _number(item, "radius", inner), _number(item, "lambert", inner)
+        number = inner
+    if copy is not None:
+        points = [uncompiled(add)(point, shift) for point in points]
     end = points[1] if len(points) > 1 else None
-    return Surface(place, number, points[0], radius, None, color, lambert, end)
+    return Surface(found.place, number, points[0], radius, None, color, lambert, end, copy, part)
 
 
 def _vec(point: Vector) -> Vec:
@@ -175,7 +186,7 @@ def _rgb(color: Color) -> Vec:
     return float(color.r), float(color.g), float(color.b)
 
 
-def _row(item: Arrays, name: str, index: int) -> Vec:
+def _row(item: ArrayHolder, name: str, index: int) -> Vec:
     """Return a row of an array, in which one may stand for all."""
     column = getattr(item, name)
     x, y, z = map(float, column if column.ndim == 1 else column[index])

@@ -1,15 +1,12 @@
 """Other lights and colours for a picture, without tracing it again."""
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.pool import run_tasks
 from vtray.base.tiles import TILE
-from vtray.rendering.hierarchy import Acceleration
+from vtray.rendering.acceleration import Acceleration
 from vtray.rendering.pack import pack
-from vtray.rendering.shape_kinds import collect
 from vtray.scene.scene import Scene
 from vtray.transport.light_buffer import KeptLight, add_up_rows
 
@@ -46,11 +43,7 @@ class Relighting:
             The scene that was traced, but for the intensities of its lights and the colours of its
             objects.
         """
-        shapes = (
-            replace(one, source=collect(one.kind, one.kind.items_of(scene.objects)))
-            for one in self._kept.shapes
-        )
-        arrays = pack(scene, replace(self._kept, shapes=tuple(shapes))).arrays
+        arrays = pack(scene, self._kept.with_colors_of(scene.objects)).arrays
         linear = np.zeros((arrays.camera.height, arrays.camera.width, 3))
         for kept, samples in zip(self._passes, (1, self._samples), strict=False):
 

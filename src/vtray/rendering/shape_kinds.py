@@ -15,7 +15,7 @@ from vtray.geometry.shapes.sphere_columns import GivenSpheres
 from vtray.geometry.world import CYLINDER, SPHERE
 from vtray.scene.arrays import Arrays
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.objects import Cylinder, Object, Plane, Sphere
+from vtray.scene.objects import Cylinder, Object, Sphere
 from vtray.scene.spheres import Spheres
 
 
@@ -84,62 +84,9 @@ KINDS = (
 """In the order in which primitives are numbered; planes come last."""
 
 
-class Numbering(NamedTuple):
-    """Which numbers the primitives of the objects of a scene have.
-
-    Attributes
-    ----------
-    place
-        The places of objects in ``scene.objects``, in the order of their numbers.
-    first
-        The number of the first primitive of each.
-    """
-
-    place: NDArray[np.int64]
-    first: NDArray[np.int64]
-
-
-def number_objects(objects: Sequence[Object]) -> Numbering:
-    """Return the numbers of objects: kind by kind, and in the order of the scene."""
-    kinds = [*((kind.single, kind.arrays) for kind in KINDS), (Plane,)]
-    place = [k for types in kinds for k, item in enumerate(objects) if isinstance(item, types)]
-    sizes = np.array([count_of(objects[k]) for k in place], np.int64)
-    return Numbering(np.array(place, np.int64), np.cumsum(sizes) - sizes)
-
-
 def count_of(item: Object) -> int:
     """Return how many primitives an object has."""
     return len(item) if isinstance(item, Arrays) else 1
-
-
-def locate(numbering: Numbering, number: int) -> tuple[int, int]:
-    """Return the place of the object that a primitive belongs to, and its index there."""
-    row = int(np.searchsorted(numbering.first, number, side="right")) - 1
-    return int(numbering.place[row]), number - int(numbering.first[row])
-
-
-def locate_all(objects: Sequence[Object], primitives: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Return place and index, as `locate` does, of many primitives.
-
-    Parameters
-    ----------
-    objects
-        The objects of the scene.
-    primitives
-        Numbers of primitives, -1 for none, of any shape.
-
-    Returns
-    -------
-    array
-        int32, of the same shape with two numbers for each: place and index; -1 for none.
-    """
-    numbering = number_objects(objects)
-    places = np.append(numbering.place, -1).astype(np.int32)
-    which = np.searchsorted(numbering.first, primitives, side="right") - 1
-    ids = np.empty((*primitives.shape, 2), np.int32)
-    ids[..., 0] = places[which]
-    ids[..., 1] = np.where(which < 0, -1, primitives - np.append(numbering.first, 0)[which])
-    return ids
 
 
 def collect(kind: Kind, items: Sequence[Any]) -> Source:

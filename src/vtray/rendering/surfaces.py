@@ -5,9 +5,9 @@ import sys
 import numpy as np
 
 from vtray.image.surfaces import Surfaces
+from vtray.rendering.numbering import find_all
 from vtray.rendering.pack import Packed
 from vtray.rendering.passes import Tracer
-from vtray.rendering.shape_kinds import locate_all
 from vtray.scene.scene import Scene
 
 
@@ -36,9 +36,5 @@ class Look:
             depth = film.distance * self._packed.unit + self._packed.before
         # What is farther away than a double can say is there all the same.
         np.minimum(depth, sys.float_info.max, out=depth, where=film.primitive >= 0)
-        return Surfaces(
-            depth,
-            film.normal,
-            locate_all(self._scene.objects, film.primitive),
-            film.half,
-        )
+        ids, copies = find_all(self._scene.objects, film.primitive)
+        return Surfaces(depth, film.normal, ids, copies, film.half)

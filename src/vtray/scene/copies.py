@@ -93,6 +93,33 @@ lambert=1.0),), at=<float64 (2, 3)>)
         check_arrays(self.COLUMNS, {"at": self.at}, f"{place}.")
         _check_sums(self.objects, self.at, f"{place}.at")
 
+    def locate(self, index: int) -> tuple[int, int]:
+        """Return what an index leads to that `Image.ids` gives for a copy.
+
+        Parameters
+        ----------
+        index
+            Counts the spheres and cylinders of a copy through all its objects, from 0.
+
+        Returns
+        -------
+        place, index
+            The place of one of `objects`, and the place in its arrays; 0 for a single object.
+
+        Raises
+        ------
+        IndexError
+            There is no such sphere or cylinder.
+        """
+        left = index
+        for place, item in enumerate(self.objects):
+            count = len(item) if isinstance(item, Arrays) else 1
+            if 0 <= left < count:
+                return place, left
+            left -= count
+        message = f"index: expected at least 0 and fewer than a copy has, got {index}"
+        raise IndexError(message)
+
     def __copy__(self) -> Self:
         same: Self = make_unchecked(type(self), objects=self.objects, at=self.at)
         return same

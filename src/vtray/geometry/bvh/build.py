@@ -94,6 +94,17 @@ def build(primitives: Primitives, threads: int, progress: Progress | None = None
     return Tree(numbers, bvh, frame, depth, largest)
 
 
+def bounds_of(primitives: Primitives, threads: int) -> tuple[Vec, Vec]:
+    """Return the corners of a box that holds primitives, in world space; they may be infinite."""
+
+    def bound(chunk: Range, boxes: Boxes) -> None:
+        primitives.bound(*chunk, boxes)
+
+    low, high, half = _find_extent((0, primitives.count), bound, threads)
+    with np.errstate(over="ignore"):
+        return _vec(np.subtract(low, half)), _vec(np.add(high, half))
+
+
 def _find_extent(whole: Range, bound: Bound, threads: int) -> Extent:
     """Return the extent of a range of primitives."""
     found: dict[Range, Extent] = {}

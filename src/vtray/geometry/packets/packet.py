@@ -107,8 +107,8 @@ SIZE = _fields.size
 NO_PRIMITIVE = -1
 """In field ``PRIMITIVE``: the ray hits nothing."""
 
-SLOT_BITS = 32
-"""The low bits of an integer in field ``MET``, which say the slot."""
+SLOT_BITS = 27
+"""The low bits of an integer in field ``MET``, which say the slot; see `MAX_SPHERES`."""
 
 Packet = NDArray[np.float64]
 

@@ -1,7 +1,7 @@
 """What the rays of a packet meet, and what hides a light from its points, group by group."""
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.nearest import clear_hits, nearest_planes, nearest_slots
+from vtray.geometry.packets.nearest import clear_hits, nearest_planes
 from vtray.geometry.packets.occlusion import (
     Bounds,
     Target,
@@ -11,11 +11,11 @@ from vtray.geometry.packets.occlusion import (
 )
 from vtray.geometry.packets.packet import OCTET, Packet, Sheaf
 from vtray.geometry.packets.ray_bounds import find_cones, find_farthest
-from vtray.geometry.packets.tree_nearest import nearest_in_tree
-from vtray.geometry.packets.tree_occlusion import block_in_tree
+from vtray.geometry.packets.tree_nearest import nearest_in_group, nearest_placed
+from vtray.geometry.packets.tree_occlusion import block_by_placed, block_in_group
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Footprint
-from vtray.geometry.world import NO_TREE, PLANE, World, group_count, load_group
+from vtray.geometry.world import NO_TREE, PLANE, Places, World, group_count, load_group
 
 
 @device
@@ -52,22 +52,29 @@ def find_nearest(
             continue
         find_farthest(packet, 0, lanes // OCTET, work.cones)
         for first in range(0, lanes, part):
-            count = min(part, lanes - first) // OCTET
-            if group.root == NO_TREE:
-                nearest_slots(
-                    packet,
-                    first // OCTET,
-                    count,
-                    sheaf,
-                    footprint,
-                    world,
-                    group,
-                    group.begin,
-                    group.end,
-                    work,
-                )
-            else:
-                nearest_in_tree(packet, first // OCTET, count, sheaf, footprint, world, group, work)
+            octets = first // OCTET, min(part, lanes - first) // OCTET
+            nearest_in_group(packet, *octets, sheaf, footprint, world, group, work, 0)
+    _find_nearest_placed(packet, lanes, part, sheaf, footprint, world, world.places, work)
+
+
+@device
+def _find_nearest_placed(
+    packet: Packet,
+    lanes: int,
+    part: int,
+    sheaf: Sheaf,
+    footprint: Footprint,
+    world: World,
+    places: Places | None,
+    work: Workspace,
+) -> None:
+    """Find what is nearer among what is placed, if anything is."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if places is not None:
+        find_farthest(packet, 0, lanes // OCTET, work.cones)
+        for first in range(0, lanes, part):
+            octets = first // OCTET, min(part, lanes - first) // OCTET
+            nearest_placed(packet, *octets, sheaf, footprint, world, places, work)
 
 
 @device
@@ -92,5 +99,15 @@ def find_blocked(
         elif group.root == NO_TREE:
             block_by_few(packet, hits, box_of(bounds), own, world, group, target, work.near)
         else:
-            block_in_tree(packet, world, group, target, work)
+            block_in_group(packet, world, group, target, work)
+    _find_blocked_by_placed(packet, world, world.places, target, work)
     return True
+
+
+@device
+def _find_blocked_by_placed(
+    packet: Packet, world: World, places: Places | None, target: Target, work: Workspace
+) -> None:
+    """Mark the points that something that is placed hides from a light."""
+    if places is not None:
+        block_by_placed(packet, world, places, target, work)

@@ -1,4 +1,7 @@
-"""What waits on a way through a hierarchy, nearest first."""
+"""What waits on a way through a hierarchy, nearest first.
+
+A way through the hierarchy of what stands at a place begins above what waits on that over places.
+"""
 
 from typing import NamedTuple
 
@@ -8,6 +11,9 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import STACK, WIDTH, Bvh
 from vtray.geometry.packets.beam import Beam, children_met, enter_child
+
+LEVELS = 2
+"""Hierarchies that lie one in the other at the most: that over places, and that at a place."""
 
 
 class Stack(NamedTuple):
@@ -19,7 +25,7 @@ class Stack(NamedTuple):
 
 def new_stack() -> Stack:
     """Return the scratch memory of one thread."""
-    return Stack(np.zeros(STACK, np.int64), np.zeros(STACK))
+    return Stack(np.zeros(LEVELS * STACK, np.int64), np.zeros(LEVELS * STACK))
 
 
 @device

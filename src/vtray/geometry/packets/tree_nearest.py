@@ -1,5 +1,8 @@
 """Through a hierarchy with the rays of a part of a packet, as one beam."""
 
+from collections.abc import Callable
+from typing import Any
+
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import leaf_range
 from vtray.geometry.packets.beam import Beam, beam_margin, make_beam
@@ -11,11 +14,23 @@ from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import CORNER, Footprint
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import add, scale, sub
-from vtray.geometry.world import Group, ToBoxes, World
+from vtray.geometry.world import (
+    NO_TREE,
+    Group,
+    Places,
+    ToBoxes,
+    World,
+    load_group,
+    placed_row,
+)
+
+Rays = tuple[Packet, int, int, Sheaf, Footprint]
+"""A packet, the first of the octets that form the beam and how many there are, and what their rays
+have in common."""
 
 
 @device
-def nearest_in_tree(
+def nearest_in_group(
     packet: Packet,
     first: int,
     count: int,
@@ -24,8 +39,9 @@ def nearest_in_tree(
     world: World,
     group: Group,
     work: Workspace,
+    base: int,
 ) -> None:
-    """Let the shapes of a hierarchy take lanes in which they are nearer, nearest boxes first.
+    """Let the shapes of a group take lanes in which they are nearer.
 
     Parameters
     ----------
@@ -37,13 +53,96 @@ def nearest_in_tree(
         The shapes.
     work
         Scratch memory.
+    base
+        What waits on the stack already.
     """
-    bvh, ratio = world.bvh, group.to_boxes.ratio
-    beam = _part_beam(first, count, sheaf, footprint, group.to_boxes, work)
+    rays = packet, first, count, sheaf, footprint
+    if group.root == NO_TREE:
+        _nearest_of_leaf(rays, world, group, group.begin, group.end, work, base)
+    else:
+        to_boxes = group.to_boxes
+        _search_shapes(rays, world, group.root, to_boxes, work, base, _nearest_of_leaf, group)
+
+
+@device
+def _nearest_of_leaf(
+    rays: Rays,
+    world: World,
+    group: Group,
+    begin: int,
+    end: int,
+    work: Workspace,
+    base: int,  # noqa: ARG001
+) -> None:
+    """Let the shapes of a range of slots take lanes in which they are nearer."""
+    packet, first, count, sheaf, footprint = rays
+    nearest_slots(packet, first, count, sheaf, footprint, world, group, begin, end, work)
+
+
+@device
+def nearest_placed(
+    packet: Packet,
+    first: int,
+    count: int,
+    sheaf: Sheaf,
+    footprint: Footprint,
+    world: World,
+    places: Places,
+    work: Workspace,
+) -> None:
+    """Let what is placed take lanes in which it is nearer; the parameters are those of a group."""
+    rays = packet, first, count, sheaf, footprint
+    if places.root == NO_TREE:
+        _nearest_of_places(rays, world, places, 0, places.item.shape[0], work, 0)
+    else:
+        _search_places(
+            rays, world, places.root, places.to_boxes, work, 0, _nearest_of_places, places
+        )
+
+
+@device
+def _nearest_of_places(
+    rays: Rays, world: World, places: Places, begin: int, end: int, work: Workspace, base: int
+) -> None:
+    """Let the groups of a range of places take lanes in which they are nearer."""
+    packet, first, count, sheaf, footprint = rays
+    for at in range(begin, end):
+        item = places.item[at]
+        for row in range(places.rows[item], places.rows[item + 1]):
+            group = load_group(world, placed_row(world, at, row))
+            nearest_in_group(packet, first, count, sheaf, footprint, world, group, work, base)
+
+
+def _search(
+    rays: Rays,
+    world: World,
+    root: int,
+    to_boxes: ToBoxes,
+    work: Workspace,
+    base: int,
+    visit: Callable[[Rays, World, Any, int, int, Workspace, int], None],
+    subject: Any,  # noqa: ANN401
+) -> None:
+    """Visit the leaves of a hierarchy that a beam may meet, the nearest boxes first.
+
+    Parameters
+    ----------
+    rays, world, work
+        As in `nearest_in_group`.
+    root, to_boxes
+        The hierarchy.
+    base
+        What waits on the stack already, which stays there.
+    visit, subject
+        What is called for each leaf, and what it is given, beside the range that the leaf names.
+    """
+    _, first, count, sheaf, footprint = rays
+    bvh, ratio = world.bvh, to_boxes.ratio
+    beam = _part_beam(first, count, sheaf, footprint, to_boxes, work)
     start = -sheaf.depth * ratio * (1.0 - MARGIN)
     far = farthest_of(work.cones, first, count) * ratio
-    waiting = push_met(bvh, group.root, beam, start, far, work.stack, 0)
-    while waiting > 0:
+    waiting = push_met(bvh, root, beam, start, far, work.stack, base)
+    while waiting > base:
         waiting -= 1
         if work.stack.enter[waiting] > far:
             continue
@@ -52,8 +151,13 @@ def nearest_in_tree(
             waiting = push_met(bvh, child, beam, start, far, work.stack, waiting)
         else:
             begin, end = leaf_range(child)
-            nearest_slots(packet, first, count, sheaf, footprint, world, group, begin, end, work)
+            visit(rays, world, subject, begin, end, work, waiting)
             far = farthest_of(work.cones, first, count) * ratio
+
+
+_search_places, _search_shapes = device(_search), device(_search)
+"""Two searches: one through what is placed, one through what stands at a place. They are
+two, as the compiler takes what calls itself for recursion, whatever it is given."""
 
 
 @device
@@ -70,7 +174,8 @@ def _part_beam(
     near, far = part_starts(work.cones, first, count, sheaf)
     ratio, offset = to_boxes.ratio, to_boxes.offset
     apex = add(scale(ratio, sheaf.origin), offset)
-    margin = beam_margin(apex, offset) + MARGIN * sheaf.error_scale * ratio
+    margin = beam_margin(apex, offset) + MARGIN * to_boxes.moved
+    margin += MARGIN * sheaf.error_scale * ratio
     margin += CORNER * footprint.width * ratio
     growth = CORNER * footprint.growth
     wider = growth, growth, growth

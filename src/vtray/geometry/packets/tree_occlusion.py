@@ -1,17 +1,27 @@
 """Through a hierarchy with shadow rays: those of a cluster of points, one beam from the light."""
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import WIDTH, leaf_range
 from vtray.geometry.packets.beam import Beam, beam_margin, children_met, make_beam
 from vtray.geometry.packets.occlusion import PointBox, Target, block_by_slot, in_shaft
 from vtray.geometry.packets.packet import BLOCKED, ERROR_SCALE, POINT, Packet, load
+from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import Vec, add, lower, scale, sub, upper
-from vtray.geometry.world import Group, ToBoxes, World
+from vtray.geometry.world import (
+    NO_TREE,
+    Group,
+    Places,
+    ToBoxes,
+    World,
+    load_group,
+    placed_row,
+)
 
 SOONER = 16
 """So few points are tested sooner than a shape is found to be outside their shaft."""
@@ -25,16 +35,61 @@ class Box(NamedTuple):
     error_scale: float
 
 
+class Cluster(NamedTuple):
+    """A cluster of points whose shadow rays go to a light together.
+
+    Attributes
+    ----------
+    packet, end
+        The packet, and the first of its points that no longer belongs to it.
+    box
+        The box of its points, relative to the light.
+    points
+        The same in space.
+    target
+        The light.
+    """
+
+    packet: Packet
+    end: int
+    box: Box
+    points: PointBox
+    target: Target
+
+
 @device
-def block_in_tree(
+def block_in_group(
     packet: Packet, world: World, group: Group, target: Target, work: Workspace
 ) -> None:
-    """Mark the points that shapes of a hierarchy hide from a light, cluster by cluster."""
+    """Mark the points that shapes of a group with a hierarchy hide from a light."""
+    _search_all(packet, world, target, work, _block_by_group, group)
+
+
+@device
+def block_by_placed(
+    packet: Packet, world: World, places: Places, target: Target, work: Workspace
+) -> None:
+    """Mark the points that something that is placed hides from a light."""
+    _search_all(packet, world, target, work, _block_by_all, places)
+
+
+@device
+def _search_all(
+    packet: Packet,
+    world: World,
+    target: Target,
+    work: Workspace,
+    block: Callable[[int, Cluster, World, Any, Stack, int], int],
+    subject: Any,  # noqa: ANN401
+) -> None:
+    """Mark what something hides from a light, cluster by cluster."""
     for k in range(1, work.cluster[0] + 1):
         begin, end = work.cluster[k], work.cluster[k + 1]
         begin = _first_open(packet, begin, end)
         if begin < end:
-            _search_cluster(packet, begin, end, world, group, target, work)
+            box = _cluster_box(packet, begin, end, target)
+            cluster = Cluster(packet, end, box, _point_box(box, target), target)
+            block(begin, cluster, world, subject, work.stack, 0)
 
 
 @device
@@ -46,43 +101,130 @@ def _first_open(packet: Packet, begin: int, end: int) -> int:
 
 
 @device
-def _search_cluster(
-    packet: Packet,
+def _block_by_group(
+    begin: int, cluster: Cluster, world: World, group: Group, stack: Stack, base: int
+) -> int:
+    """Mark the points of a cluster that a group hides; return the first that is left."""
+    if group.root == NO_TREE:
+        return _block_by_leaf(begin, cluster, world, group, group.begin, group.end, stack, base)
+    to_boxes = group.to_boxes
+    return _search_shapes(
+        begin, cluster, world, group.root, to_boxes, stack, base, _block_by_leaf, group
+    )
+
+
+@device
+def _block_by_leaf(
     begin: int,
-    end: int,
+    cluster: Cluster,
     world: World,
     group: Group,
-    target: Target,
-    work: Workspace,
-) -> None:
-    """Search the hierarchy until all points of a cluster are blocked."""
-    bvh, stack = world.bvh, work.stack.node
-    box = _cluster_box(packet, begin, end, target)
-    points = _point_box(box, target)
-    beam = _cluster_beam(box, group.to_boxes, target)
-    waiting = 1
-    stack[0] = group.root
-    while waiting > 0:
+    first: int,
+    after: int,
+    stack: Stack,  # noqa: ARG001
+    base: int,  # noqa: ARG001
+) -> int:
+    """Mark the points of a cluster that shapes of a range of slots hide."""
+    packet, end, target = cluster.packet, cluster.end, cluster.target
+    for slot in range(first, after):
+        if end - begin <= SOONER or in_shaft(world, group, slot, target, cluster.points):
+            block_by_slot(packet, begin, end, world, group, slot, target)
+    return _first_open(packet, begin, end)
+
+
+@device
+def _block_by_all(
+    begin: int, cluster: Cluster, world: World, places: Places, stack: Stack, base: int
+) -> int:
+    """Mark the points of a cluster that something placed hides; return the first that is left."""
+    if places.root == NO_TREE:
+        count = places.item.shape[0]
+        return _block_by_places(begin, cluster, world, places, 0, count, stack, base)
+    root, to_boxes = places.root, places.to_boxes
+    return _search_places(
+        begin, cluster, world, root, to_boxes, stack, base, _block_by_places, places
+    )
+
+
+@device
+def _block_by_places(
+    begin: int,
+    cluster: Cluster,
+    world: World,
+    places: Places,
+    first: int,
+    after: int,
+    stack: Stack,
+    base: int,
+) -> int:
+    """Mark the points of a cluster that the groups of a range of places hide."""
+    for at in range(first, after):
+        item = places.item[at]
+        for row in range(places.rows[item], places.rows[item + 1]):
+            group = load_group(world, placed_row(world, at, row))
+            begin = _block_by_group(begin, cluster, world, group, stack, base)
+            if begin == cluster.end:
+                return begin
+    return begin
+
+
+def _search(
+    begin: int,
+    cluster: Cluster,
+    world: World,
+    root: int,
+    to_boxes: ToBoxes,
+    stack: Stack,
+    base: int,
+    visit: Callable[[int, Cluster, World, Any, int, int, Stack, int], int],
+    subject: Any,  # noqa: ANN401
+) -> int:
+    """Visit the leaves of a hierarchy that may hide points of a cluster, until none is left.
+
+    Parameters
+    ----------
+    begin, cluster
+        The points, and the first of them that nothing blocks so far.
+    world, root, to_boxes
+        The hierarchy.
+    stack, base
+        Scratch memory, and what waits there already, which stays.
+    visit, subject
+        What is called for each leaf, and what it is given, beside the range that the leaf names.
+
+    Returns
+    -------
+    int
+        The first point that nothing blocks, the end of the cluster if there is none.
+    """
+    bvh, nodes = world.bvh, stack.node
+    beam = _cluster_beam(cluster.box, to_boxes, cluster.target)
+    waiting = base + 1
+    nodes[base] = root
+    while waiting > base:
         waiting -= 1
-        node = stack[waiting]
+        node = nodes[waiting]
         met = children_met(bvh, node, beam, 0.0, 1.0 + MARGIN)
         place = node * WIDTH
         while met > 0:
             if met & 1:
                 child = bvh.child[place]
                 if child >= 0:
-                    stack[waiting] = child
+                    nodes[waiting] = child
                     waiting += 1
                 else:
                     first, after = leaf_range(child)
-                    for slot in range(first, after):
-                        if end - begin <= SOONER or in_shaft(world, group, slot, target, points):
-                            block_by_slot(packet, begin, end, world, group, slot, target)
-                    begin = _first_open(packet, begin, end)
-                    if begin == end:
-                        return
+                    begin = visit(begin, cluster, world, subject, first, after, stack, waiting)
+                    if begin == cluster.end:
+                        return begin
             met >>= 1
             place += 1
+    return begin
+
+
+_search_places, _search_shapes = device(_search), device(_search)
+"""Two searches: one through what is placed, one through what stands at a place. They are
+two, as the compiler takes what calls itself for recursion, whatever it is given."""
 
 
 @device
@@ -111,5 +253,6 @@ def _cluster_beam(box: Box, to_boxes: ToBoxes, target: Target) -> Beam:
     """Return the beam from a light to a box of points."""
     ratio, offset = to_boxes.ratio, to_boxes.offset
     apex = add(scale(ratio, target.place), offset)
-    margin = beam_margin(apex, offset) + MARGIN * box.error_scale * ratio
+    margin = beam_margin(apex, offset) + MARGIN * to_boxes.moved
+    margin += MARGIN * box.error_scale * ratio
     return make_beam(apex, apex, scale(ratio, box.low), scale(ratio, box.high), margin)

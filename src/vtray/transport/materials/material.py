@@ -16,12 +16,15 @@ class Materials(NamedTuple):
     """What primitives are made of, by ranges of their numbers.
 
     The colour of the k-th primitive of a range stands in row ``color_row + k * color_step``: the
-    step is 0 where one row stands for all. Likewise for the others.
+    step is 0 where one row stands for all. Likewise for the others. Copies of the same primitives
+    are one range, in which those of each copy begin anew with k = 0.
 
     Attributes
     ----------
     first
         The number of the first primitive of each range, from 0 on, (ranges,).
+    each
+        How many primitives one copy has, or more than there are in the range, (ranges,).
     color_row, color_step
         The rows of their colours, (ranges,).
     end_row, end_step
@@ -35,6 +38,7 @@ class Materials(NamedTuple):
     """
 
     first: Integers
+    each: Integers
     color_row: Integers
     color_step: Integers
     end_row: Integers
@@ -59,6 +63,8 @@ def load_material(materials: Materials, primitive: int, is_second: bool) -> Mate
     while primitive < materials.first[k]:
         k -= 1
     place = primitive - materials.first[k]
+    if place >= materials.each[k]:
+        place %= materials.each[k]
     row = materials.color_row[k] + place * materials.color_step[k]
     if is_second:
         row = materials.end_row[k] + place * materials.end_step[k]
