@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.bvh.tree import WIDTH, leaf_range
+from vtray.geometry.bvh.tree import WIDTH
 from vtray.geometry.dispatch import Shape, Verbs, with_any
 from vtray.geometry.packets.beam import Beam, beam_margin, children_met, make_beam
 from vtray.geometry.packets.stack import Stack, push_met
@@ -16,14 +16,17 @@ from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import add, scale, sub
 from vtray.geometry.world import (
-    NO_TREE,
     Group,
+    Hierarchy,
     Places,
     ToBoxes,
     World,
     group_count,
+    hierarchy_of,
+    hierarchy_of_places,
     load_group,
     placed_row,
+    range_of,
 )
 
 NOTHING = -1
@@ -63,12 +66,8 @@ def _nearest_of_group(
     world: World, group: Group, ray: Ray, hit: Hit, stack: Stack, base: int
 ) -> Hit:
     """Return the nearer of a hit and those of the shapes of a group."""
-    if group.root == NO_TREE:
-        return _nearest_slots(world, group, group.begin, group.end, ray, hit, stack, base)
-    to_boxes = group.to_boxes
-    return _nearest_in_shapes(
-        world, group.root, to_boxes, ray, hit, stack, base, _nearest_slots, group
-    )
+    hierarchy = hierarchy_of(group)
+    return _nearest_in_shapes(world, hierarchy, ray, hit, stack, base, _nearest_slots, group)
 
 
 @device
@@ -76,12 +75,8 @@ def _nearest_placed(world: World, places: Places | None, ray: Ray, hit: Hit, sta
     """Return the nearer of a hit and those of all that is placed."""
     # An argument that is None is known to the compiler, which drops what depends on that alone.
     if places is not None:
-        if places.root == NO_TREE:
-            return _nearest_places(world, places, 0, places.item.shape[0], ray, hit, stack, 0)
-        root, to_boxes = places.root, places.to_boxes
-        return _nearest_in_places(
-            world, root, to_boxes, ray, hit, stack, 0, _nearest_places, places
-        )
+        hierarchy = hierarchy_of_places(places)
+        return _nearest_in_places(world, hierarchy, ray, hit, stack, 0, _nearest_places, places)
     return hit
 
 
@@ -132,8 +127,7 @@ def _meet(shape: Shape, verbs: Verbs, number: int, ray: Ray) -> tuple[float, int
 
 def _nearest_in_tree(
     world: World,
-    root: int,
-    to_boxes: ToBoxes,
+    hierarchy: Hierarchy,
     ray: Ray,
     hit: Hit,
     stack: Stack,
@@ -145,7 +139,7 @@ def _nearest_in_tree(
 
     Parameters
     ----------
-    world, root, to_boxes
+    world, hierarchy
         The hierarchy.
     ray, hit
         The ray, and what it meets so far.
@@ -154,10 +148,10 @@ def _nearest_in_tree(
     nearest_of, subject
         What is asked for each leaf, and what it is given, beside the range that the leaf names.
     """
-    ratio = to_boxes.ratio
-    beam = _ray_beam(to_boxes, ray)
+    ratio = hierarchy.to_boxes.ratio
+    beam = _ray_beam(hierarchy.to_boxes, ray)
     start = max(-ray.depth, 0.0) * ratio * (1.0 - MARGIN)
-    stack.node[base] = root
+    stack.node[base] = hierarchy.root
     stack.enter[base] = 0.0
     waiting = base + 1
     while waiting > base:
@@ -169,7 +163,7 @@ def _nearest_in_tree(
         if child >= 0:
             waiting = push_met(world.bvh, child, beam, start, far, stack, waiting)
         else:
-            begin, end = leaf_range(child)
+            begin, end = range_of(hierarchy, child)
             hit = nearest_of(world, subject, begin, end, ray, hit, stack, waiting)
     return hit
 
@@ -203,12 +197,8 @@ def _first_of_group(
     world: World, group: Group, segment: Segment, first: int, stack: Stack, base: int
 ) -> int:
     """Return the lower of a number and those of the shapes of a group that stand between."""
-    if group.root == NO_TREE:
-        return _first_of_slots(world, group, group.begin, group.end, segment, first, stack, base)
-    to_boxes = group.to_boxes
-    return _first_in_shapes(
-        world, group.root, to_boxes, segment, first, stack, base, _first_of_slots, group
-    )
+    hierarchy = hierarchy_of(group)
+    return _first_in_shapes(world, hierarchy, segment, first, stack, base, _first_of_slots, group)
 
 
 @device
@@ -217,12 +207,9 @@ def _first_placed(
 ) -> int:
     """Return the lower of a number and those of what is placed and stands between."""
     if places is not None:
-        if places.root == NO_TREE:
-            count = places.item.shape[0]
-            return _first_of_places(world, places, 0, count, segment, first, stack, 0)
-        root, to_boxes = places.root, places.to_boxes
+        hierarchy = hierarchy_of_places(places)
         return _first_in_places(
-            world, root, to_boxes, segment, first, stack, 0, _first_of_places, places
+            world, hierarchy, segment, first, stack, 0, _first_of_places, places
         )
     return first
 
@@ -274,8 +261,7 @@ def _hides(shape: Shape, verbs: Verbs, number: int, segment: Segment) -> tuple[b
 
 def _first_in_tree(
     world: World,
-    root: int,
-    to_boxes: ToBoxes,
+    hierarchy: Hierarchy,
     segment: Segment,
     first: int,
     stack: Stack,
@@ -284,29 +270,29 @@ def _first_in_tree(
     subject: Any,  # noqa: ANN401
 ) -> int:
     """Return the lower of a number and those in the leaves of a hierarchy."""
-    bvh, ratio, offset = world.bvh, to_boxes.ratio, to_boxes.offset
+    bvh, to_boxes = world.bvh, hierarchy.to_boxes
+    ratio, offset = to_boxes.ratio, to_boxes.offset
     # From the light: its place is the more exact of the two.
     end = add(scale(ratio, segment.end), offset)
     way = scale(ratio, sub(segment.start, segment.end))
     margin = beam_margin(end, offset) + MARGIN * to_boxes.moved
     margin += MARGIN * segment.start_scale * ratio
     beam = make_beam(end, end, way, way, margin)
-    stack.node[base] = root
+    stack.node[base] = hierarchy.root
     waiting = base + 1
     while waiting > base:
         waiting -= 1
         node = stack.node[waiting]
+        if node < 0:
+            begin, after = range_of(hierarchy, node)
+            first = first_of(world, subject, begin, after, segment, first, stack, waiting)
+            continue
         met = children_met(bvh, node, beam, 0.0, 1.0 + MARGIN)
         place = node * WIDTH
         while met > 0:
             if met & 1:
-                child = bvh.child[place]
-                if child >= 0:
-                    stack.node[waiting] = child
-                    waiting += 1
-                else:
-                    begin, after = leaf_range(child)
-                    first = first_of(world, subject, begin, after, segment, first, stack, waiting)
+                stack.node[waiting] = bvh.child[place]
+                waiting += 1
             met >>= 1
             place += 1
     return first

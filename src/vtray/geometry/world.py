@@ -13,14 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.bvh.tree import Bvh
+from vtray.geometry.bvh.tree import EMPTY, Bvh, leaf_range
 from vtray.geometry.shapes.columns import Columns, Place
 from vtray.geometry.vector import Vec, magnitude, scale, sub
 
 PLANE, SPHERE, CYLINDER = 0, 1, 2
 """The kinds of shape."""
 
-NO_TREE = -1
+NO_TREE = EMPTY
 """In place of the root of a group's hierarchy: it has none, as planes and few shapes do not."""
 
 
@@ -154,6 +154,25 @@ class Group(NamedTuple):
     to_boxes: ToBoxes
 
 
+class Hierarchy(NamedTuple):
+    """What leads to the shapes of a group, or to places.
+
+    Attributes
+    ----------
+    root
+        The root, or ``NO_TREE``: then all are visited as one leaf.
+    begin, end
+        The slots of all.
+    to_boxes
+        What leads to the space of the boxes.
+    """
+
+    root: int
+    begin: int
+    end: int
+    to_boxes: ToBoxes
+
+
 @device
 def load_group(world: World, row: int) -> Group:
     """Return one of the groups."""
@@ -185,6 +204,27 @@ def _load_group(world: World, places: Places | None, row: int) -> Group:
         Place(shift, world.scale, world.origin),
         ToBoxes(ratio, offset, moved),
     )
+
+
+@device
+def hierarchy_of(group: Group) -> Hierarchy:
+    """Return what leads to the shapes of a group."""
+    return Hierarchy(group.root, group.begin, group.end, group.to_boxes)
+
+
+@device
+def hierarchy_of_places(places: Places) -> Hierarchy:
+    """Return what leads to the places."""
+    return Hierarchy(places.root, 0, places.item.shape[0], places.to_boxes)
+
+
+@device
+def range_of(hierarchy: Hierarchy, child: int) -> tuple[int, int]:
+    """Return the slots of a leaf, from the first to before the last; of all for ``NO_TREE``."""
+    begin, end = leaf_range(child)
+    if child == NO_TREE:
+        begin, end = hierarchy.begin, hierarchy.end
+    return begin, end
 
 
 @device

@@ -1,7 +1,7 @@
 """What the rays of a packet meet, and what hides a light from its points, group by group."""
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.nearest import clear_hits, nearest_planes
+from vtray.geometry.packets.nearest import clear_hits, nearest_planes, nearest_slots
 from vtray.geometry.packets.occlusion import (
     Bounds,
     Target,
@@ -52,8 +52,14 @@ def find_nearest(
             continue
         find_farthest(packet, 0, lanes // OCTET, work.cones)
         for first in range(0, lanes, part):
-            octets = first // OCTET, min(part, lanes - first) // OCTET
-            nearest_in_group(packet, *octets, sheaf, footprint, world, group, work, 0)
+            octet, count = first // OCTET, min(part, lanes - first) // OCTET
+            if group.root == NO_TREE:
+                begin, end = group.begin, group.end
+                nearest_slots(
+                    packet, octet, count, sheaf, footprint, world, group, begin, end, work
+                )
+            else:
+                nearest_in_group(packet, octet, count, sheaf, footprint, world, group, work, 0)
     _find_nearest_placed(packet, lanes, part, sheaf, footprint, world, world.places, work)
 
 
@@ -73,8 +79,8 @@ def _find_nearest_placed(
     if places is not None:
         find_farthest(packet, 0, lanes // OCTET, work.cones)
         for first in range(0, lanes, part):
-            octets = first // OCTET, min(part, lanes - first) // OCTET
-            nearest_placed(packet, *octets, sheaf, footprint, world, places, work)
+            octet, count = first // OCTET, min(part, lanes - first) // OCTET
+            nearest_placed(packet, octet, count, sheaf, footprint, world, places, work)
 
 
 @device

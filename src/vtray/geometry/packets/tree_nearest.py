@@ -4,7 +4,6 @@ from collections.abc import Callable
 from typing import Any
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.bvh.tree import leaf_range
 from vtray.geometry.packets.beam import Beam, beam_margin, make_beam
 from vtray.geometry.packets.nearest import nearest_slots
 from vtray.geometry.packets.packet import Packet, Sheaf
@@ -15,13 +14,16 @@ from vtray.geometry.ray import CORNER, Footprint
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import add, scale, sub
 from vtray.geometry.world import (
-    NO_TREE,
     Group,
+    Hierarchy,
     Places,
     ToBoxes,
     World,
+    hierarchy_of,
+    hierarchy_of_places,
     load_group,
     placed_row,
+    range_of,
 )
 
 Rays = tuple[Packet, int, int, Sheaf, Footprint]
@@ -57,11 +59,7 @@ def nearest_in_group(
         What waits on the stack already.
     """
     rays = packet, first, count, sheaf, footprint
-    if group.root == NO_TREE:
-        _nearest_of_leaf(rays, world, group, group.begin, group.end, work, base)
-    else:
-        to_boxes = group.to_boxes
-        _search_shapes(rays, world, group.root, to_boxes, work, base, _nearest_of_leaf, group)
+    _search_shapes(rays, world, hierarchy_of(group), work, base, _nearest_of_leaf, group)
 
 
 @device
@@ -92,12 +90,8 @@ def nearest_placed(
 ) -> None:
     """Let what is placed take lanes in which it is nearer; the parameters are those of a group."""
     rays = packet, first, count, sheaf, footprint
-    if places.root == NO_TREE:
-        _nearest_of_places(rays, world, places, 0, places.item.shape[0], work, 0)
-    else:
-        _search_places(
-            rays, world, places.root, places.to_boxes, work, 0, _nearest_of_places, places
-        )
+    hierarchy = hierarchy_of_places(places)
+    _search_places(rays, world, hierarchy, work, 0, _nearest_of_places, places)
 
 
 @device
@@ -116,8 +110,7 @@ def _nearest_of_places(
 def _search(
     rays: Rays,
     world: World,
-    root: int,
-    to_boxes: ToBoxes,
+    hierarchy: Hierarchy,
     work: Workspace,
     base: int,
     visit: Callable[[Rays, World, Any, int, int, Workspace, int], None],
@@ -127,30 +120,30 @@ def _search(
 
     Parameters
     ----------
-    rays, world, work
+    rays, world, hierarchy, work
         As in `nearest_in_group`.
-    root, to_boxes
-        The hierarchy.
     base
         What waits on the stack already, which stays there.
     visit, subject
         What is called for each leaf, and what it is given, beside the range that the leaf names.
     """
     _, first, count, sheaf, footprint = rays
-    bvh, ratio = world.bvh, to_boxes.ratio
-    beam = _part_beam(first, count, sheaf, footprint, to_boxes, work)
+    bvh, ratio, stack = world.bvh, hierarchy.to_boxes.ratio, work.stack
+    beam = _part_beam(first, count, sheaf, footprint, hierarchy.to_boxes, work)
     start = -sheaf.depth * ratio * (1.0 - MARGIN)
     far = farthest_of(work.cones, first, count) * ratio
-    waiting = push_met(bvh, root, beam, start, far, work.stack, base)
+    stack.node[base] = hierarchy.root
+    stack.enter[base] = 0.0
+    waiting = base + 1
     while waiting > base:
         waiting -= 1
-        if work.stack.enter[waiting] > far:
+        if stack.enter[waiting] > far:
             continue
-        child = work.stack.node[waiting]
+        child = stack.node[waiting]
         if child >= 0:
-            waiting = push_met(bvh, child, beam, start, far, work.stack, waiting)
+            waiting = push_met(bvh, child, beam, start, far, stack, waiting)
         else:
-            begin, end = leaf_range(child)
+            begin, end = range_of(hierarchy, child)
             visit(rays, world, subject, begin, end, work, waiting)
             far = farthest_of(work.cones, first, count) * ratio
 

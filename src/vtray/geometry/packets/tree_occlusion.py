@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.bvh.tree import WIDTH, leaf_range
+from vtray.geometry.bvh.tree import WIDTH
 from vtray.geometry.packets.beam import Beam, beam_margin, children_met, make_beam
 from vtray.geometry.packets.occlusion import PointBox, Target, block_by_slot, in_shaft
 from vtray.geometry.packets.packet import BLOCKED, ERROR_SCALE, POINT, Packet, load
@@ -14,13 +14,16 @@ from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import Vec, add, lower, scale, sub, upper
 from vtray.geometry.world import (
-    NO_TREE,
     Group,
+    Hierarchy,
     Places,
     ToBoxes,
     World,
+    hierarchy_of,
+    hierarchy_of_places,
     load_group,
     placed_row,
+    range_of,
 )
 
 SOONER = 16
@@ -105,12 +108,8 @@ def _block_by_group(
     begin: int, cluster: Cluster, world: World, group: Group, stack: Stack, base: int
 ) -> int:
     """Mark the points of a cluster that a group hides; return the first that is left."""
-    if group.root == NO_TREE:
-        return _block_by_leaf(begin, cluster, world, group, group.begin, group.end, stack, base)
-    to_boxes = group.to_boxes
-    return _search_shapes(
-        begin, cluster, world, group.root, to_boxes, stack, base, _block_by_leaf, group
-    )
+    hierarchy = hierarchy_of(group)
+    return _search_shapes(begin, cluster, world, hierarchy, stack, base, _block_by_leaf, group)
 
 
 @device
@@ -137,13 +136,8 @@ def _block_by_all(
     begin: int, cluster: Cluster, world: World, places: Places, stack: Stack, base: int
 ) -> int:
     """Mark the points of a cluster that something placed hides; return the first that is left."""
-    if places.root == NO_TREE:
-        count = places.item.shape[0]
-        return _block_by_places(begin, cluster, world, places, 0, count, stack, base)
-    root, to_boxes = places.root, places.to_boxes
-    return _search_places(
-        begin, cluster, world, root, to_boxes, stack, base, _block_by_places, places
-    )
+    hierarchy = hierarchy_of_places(places)
+    return _search_places(begin, cluster, world, hierarchy, stack, base, _block_by_places, places)
 
 
 @device
@@ -172,8 +166,7 @@ def _search(
     begin: int,
     cluster: Cluster,
     world: World,
-    root: int,
-    to_boxes: ToBoxes,
+    hierarchy: Hierarchy,
     stack: Stack,
     base: int,
     visit: Callable[[int, Cluster, World, Any, int, int, Stack, int], int],
@@ -185,7 +178,7 @@ def _search(
     ----------
     begin, cluster
         The points, and the first of them that nothing blocks so far.
-    world, root, to_boxes
+    world, hierarchy
         The hierarchy.
     stack, base
         Scratch memory, and what waits there already, which stays.
@@ -198,25 +191,24 @@ def _search(
         The first point that nothing blocks, the end of the cluster if there is none.
     """
     bvh, nodes = world.bvh, stack.node
-    beam = _cluster_beam(cluster.box, to_boxes, cluster.target)
+    beam = _cluster_beam(cluster.box, hierarchy.to_boxes, cluster.target)
+    nodes[base] = hierarchy.root
     waiting = base + 1
-    nodes[base] = root
     while waiting > base:
         waiting -= 1
         node = nodes[waiting]
+        if node < 0:
+            first, after = range_of(hierarchy, node)
+            begin = visit(begin, cluster, world, subject, first, after, stack, waiting)
+            if begin == cluster.end:
+                return begin
+            continue
         met = children_met(bvh, node, beam, 0.0, 1.0 + MARGIN)
         place = node * WIDTH
         while met > 0:
             if met & 1:
-                child = bvh.child[place]
-                if child >= 0:
-                    nodes[waiting] = child
-                    waiting += 1
-                else:
-                    first, after = leaf_range(child)
-                    begin = visit(begin, cluster, world, subject, first, after, stack, waiting)
-                    if begin == cluster.end:
-                        return begin
+                nodes[waiting] = bvh.child[place]
+                waiting += 1
             met >>= 1
             place += 1
     return begin
