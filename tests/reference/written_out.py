@@ -1,5 +1,6 @@
 """Copies written out: each copy of each object as an object of its own, where it stands."""
 
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -55,3 +56,8 @@ def moved_points(points: Any, way: Any) -> Any:
     if isinstance(points, vtray.Vector):
         return points.x + x, points.y + y, points.z + z
     return np.asarray(points, np.float64) + np.array([x, y, z])
+
+
+def written_out(objects: Iterable[Any]) -> list[Any]:
+    """Return objects with those of copies in their place, copy by copy."""
+    return write_out(vtray.Scene(None, [], list(objects)))[0].objects

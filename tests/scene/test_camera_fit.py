@@ -17,7 +17,8 @@ import vtray
 from conftest import compiled_only
 from vtray import Camera, Scene, SceneError, Spheres
 from vtray.scene.placing import camera_fit, pieces, seen
-from vtray.scene.placing.bounds import Balls, bounding_sphere
+from vtray.scene.placing.bounding_sphere import bounding_sphere
+from vtray.scene.placing.bounds import Balls
 
 TURN = np.linspace(0, 2 * np.pi, 720, endpoint=False)
 

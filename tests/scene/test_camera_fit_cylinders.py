@@ -15,7 +15,8 @@ from test_camera_fit import directions, project
 import vtray
 from vtray import Camera, Cylinders, Scene, Spheres
 from vtray.scene.placing import pieces, seen
-from vtray.scene.placing.bounds import Balls, balls_of, bounding_sphere
+from vtray.scene.placing.bounding_sphere import bounding_sphere
+from vtray.scene.placing.bounds import Balls, balls_of
 
 TURN = np.linspace(0, 2 * np.pi, 720, endpoint=False)
 

@@ -19,6 +19,7 @@ from vtray import Copies, Cylinder, Cylinders, Plane, Scene, SceneError, Sphere,
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import check_spares_data
 from vtray.scene.copies import PARTS
+from vtray.scene.edits import recolored
 from vtray.scene.fingerprint import arrays_of as arrays_in
 from vtray.scene.fingerprint import scene_hash
 
@@ -257,3 +258,104 @@ def test_files_of_all_arrays_are_spared(tmp_path: Path) -> None:
         with pytest.raises(vtray.OutputError, match=f"{path.name}: holds arrays of the scene"):
             check_spares_data(path, [BALL, copies])
     check_spares_data(tmp_path / "other.npz", [BALL, copies])
+
+
+# ---- other colours
+
+RED, BLUE, GREEN = (255, 0, 0), (0, 0, 255), (0, 128, 0)
+VALUES = np.linspace(0, 1, COUNT)
+SPHERES, CYLINDERS = Spheres(**columns()), Cylinders(**columns_of_cylinders(color_end=None))
+
+
+def recolor(objects: Any, color: Any, **options: Any) -> tuple[Any, ...]:
+    """Return the objects of copies in other colours."""
+    scene = Scene(None, [], [BALL, Copies(objects, AT)])
+    ball, copies = recolored(scene, 1, color, **options).objects
+    assert ball == BALL
+    assert isinstance(copies, Copies)
+    assert np.shares_memory(copies.at, AT)
+    return copies.objects
+
+
+def test_a_single_object_is_recolored_as_if_it_stood_alone() -> None:
+    (found,) = recolor(SPHERES, VALUES, cmap="viridis")
+    assert found.color_scale == vtray.ColorScale("viridis", 0, 1)
+    assert np.shares_memory(found.center, SPHERES.center)
+    (found,) = recolor(CYLINDERS, "red", color_end=["blue"] * COUNT)
+    assert found == CYLINDERS.replace(color=RED, color_end=BLUE)
+    assert recolor(BALL, "red") == (BALL.replace(color=RED),)
+
+
+@pytest.mark.parametrize("color", ["red", RED, np.array(RED), [1.0, 0.0, 0.0], vtray.Color(*RED)])
+def test_one_color_is_that_of_all_objects(color: Any) -> None:
+    objects = (SPHERES, BALL, STICK)
+    expected = tuple(item.replace(color=RED) for item in objects)  # type: ignore[attr-defined]
+    assert recolor(objects, color) == expected
+
+
+def test_each_object_has_its_color() -> None:
+    objects = (SPHERES, BALL, CYLINDERS)
+    each = recolor(objects, ["red", "blue", "green"])
+    assert each == (
+        SPHERES.replace(color=RED),
+        BALL.replace(color=BLUE),
+        CYLINDERS.replace(color=GREEN),
+    )
+    assert recolor(objects, np.array([RED, BLUE, GREEN])) == each
+    assert recolor(objects, [["red"] * COUNT, BLUE, "green"]) == each
+    two = CYLINDERS.replace(color=GREEN, color_end=RED)
+    for color_end in ("red", [None, None, "red"], RED):
+        assert recolor(objects, ["red", "blue", "green"], color_end=color_end) == (*each[:2], two)
+    spheres, bonds = recolor([SPHERES, CYLINDERS], [VALUES, -VALUES], cmap="viridis", clim=(-1, 1))
+    scale = vtray.ColorScale("viridis", -1, 1)
+    assert spheres.color_scale == bonds.color_scale == scale
+    assert bonds.color.tolist() == scale.colors(-VALUES).tolist()
+
+
+@pytest.mark.parametrize(
+    ("objects", "color", "options", "message"),
+    [
+        (
+            [BALL, STICK],
+            ["red"],
+            {},
+            "color: expected one colour, or a list of 2, one for each object of the copies, got 1",
+        ),
+        (
+            [BALL, STICK],
+            5,
+            {},
+            "color: expected one colour, or a list of 2, one for each object of the copies, got 5",
+        ),
+        ([BALL, STICK], ["red", "rde"], {}, "objects[1]: color: expected a name such as"),
+        (
+            [BALL, SPHERES],
+            ["red", ["red"]],
+            {},
+            "objects[1]: color: expected one colour, or 5, one",
+        ),
+        (
+            [BALL, STICK],
+            "red",
+            {"color_end": "red"},
+            "color_end: expected None, as only Cylinders have two colours, got 'red'",
+        ),
+        (
+            [CYLINDERS, STICK],
+            "red",
+            {"color_end": ["red", "blue"]},
+            "objects[1]: color_end: expected None, as only Cylinders have two colours, got 'blue'",
+        ),
+        (
+            [SPHERES, CYLINDERS],
+            [VALUES, VALUES],
+            {"cmap": "viridis"},
+            "clim: expected the limits (low, high) that all objects of the copies share, got None",
+        ),
+        (SPHERES, ["red"], {}, "color: expected one colour, or 5, one for each position, got 1"),
+    ],
+)
+def test_bad_colors(objects: Any, color: Any, options: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        recolor(objects, color, **options)
+    assert str(caught.value).startswith(f"recolor: {message}")

@@ -112,7 +112,8 @@ class Image(Rendered):
         index
             The place of the object in ``scene.objects``.
         color
-            The colour or colours, in all ways of `Scene.add_spheres`.
+            The colour or colours, in all ways of `Scene.add_spheres`. Of `Copies` of several
+            objects, one colour for all, or a list with an entry for each object.
         color_end
             Those of the second halves of cylinders, as for `Scene.add_cylinders`; None for the same
             as the first.

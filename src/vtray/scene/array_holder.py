@@ -1,9 +1,10 @@
 """What holds arrays that others may change: `Spheres` and their like, and `Copies` of these."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from vtray.scene.checks.checked import Checked, Frozen, bind
+from vtray.scene.checks.columns import Columns
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,6 +23,8 @@ class _CheckedArrays(Checked):
 
 class ArrayHolder(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=True):
     """What holds arrays, which may change, and may have been read from a file."""
+
+    COLUMNS: ClassVar[Columns]
 
     @classmethod
     def from_arrays(cls, values: Mapping[str, object], place: str) -> Self:

@@ -7,7 +7,7 @@ import msgspec
 
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.checks.checked import make_unchecked
-from vtray.scene.checks.columns import NO_NAMES, Columns, check_arrays, read_only
+from vtray.scene.checks.columns import NO_NAMES, check_arrays, read_only
 from vtray.scene.checks.limits import Byte
 
 if TYPE_CHECKING:
@@ -42,8 +42,6 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
     A kind is a class that says its arrays twice: as `COLUMNS`, and as fields of the same names in
     the same order.
     """
-
-    COLUMNS: ClassVar[Columns]
 
     EACH: ClassVar[str]
     """What one of them is called in messages about colours."""

@@ -14,7 +14,7 @@ from vtray.scene.vectors import Direction, Vector
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from vtray.scene.arrays import Arrays
+    from vtray.scene.array_holder import ArrayHolder
     from vtray.scene.placing.bounds import HasObjects
     from vtray.scene.vectors import Triple
 
@@ -149,7 +149,7 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
     @explain_unknown
     def fit(
         cls,
-        subject: "HasObjects | Arrays | ArrayLike",
+        subject: "HasObjects | ArrayHolder | ArrayLike",
         direction: "Direction | Vector | Triple" = (0, 0, -1),
         up: "Direction | Vector | Triple | None" = None,
         margin: float = 0.05,
@@ -167,7 +167,7 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         Parameters
         ----------
         subject
-            A scene, `Spheres`, `Cylinders`, or points of shape (n, 3).
+            A scene, `Spheres`, `Cylinders`, `Copies`, or points of shape (n, 3).
         direction
             Where the camera looks, in world space.
         up

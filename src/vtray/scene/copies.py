@@ -17,6 +17,8 @@ from vtray.scene.spheres import Spheres
 from vtray.scene.vectors import Vector
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from numpy.typing import ArrayLike, NDArray
 
 Part: TypeAlias = Sphere | Cylinder | Spheres | Cylinders
@@ -76,7 +78,7 @@ lambert=1.0),), at=<float64 (2, 3)>)
         made: Self = make_unchecked(cls, objects=objects, **arrays)
         return made
 
-    def sources(self) -> "list[typing.Any]":
+    def sources(self) -> "list[Path]":
         """Return the files that arrays were read from, those of the objects too."""
         within = (item for item in self.objects if isinstance(item, Arrays))
         return [*super().sources(), *(source for item in within for source in item.sources())]

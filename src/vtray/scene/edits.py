@@ -1,6 +1,7 @@
 """Scenes with other colours of an object, and with other intensities of the lights."""
 
 from collections.abc import Sequence
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -9,6 +10,7 @@ from vtray.base.errors import SceneError
 from vtray.scene.arrays import Arrays
 from vtray.scene.checks.scene_words import show
 from vtray.scene.colors.color_arrays import color_arrays
+from vtray.scene.copies import Copies
 from vtray.scene.objects import Light
 from vtray.scene.scene import Scene
 from vtray.scene.vectors import Color
@@ -39,7 +41,9 @@ def recolored(
     index
         The place of the one that changes; a negative one counts from the end.
     color, color_end, cmap, clim, nan_color
-        The colours, as for `Scene.add_cylinders`; without `color_end`, objects have one each.
+        The colours, as for `Scene.add_cylinders`; without `color_end`, objects have one each. Of
+        `Copies`, one colour is that of all their objects, and a list has one entry for each object,
+        of what would be given for it alone; what a single object has is given as if it stood alone.
 
     Raises
     ------
@@ -48,19 +52,77 @@ def recolored(
     """
     changed = list(scene.objects)
     _check_index(index, len(changed))
-    item = changed[index]
-    if color_end is not None and "color_end" not in item.__struct_fields__:
-        words = f"expected None, as only Cylinders have two colours, got {show(color_end)}"
-        message = f"recolor: color_end: {words}"
-        raise SceneError(message)
     scale: dict[str, Any] = {"cmap": cmap, "clim": clim, "nan_color": nan_color}
-    if isinstance(item, Arrays):
-        colors = {"color": color, "color_end": color_end}
-        changed[index] = item.colored(msgspec.structs.asdict(item), colors, "recolor: ", **scale)
+    item = changed[index]
+    colors = {"color": color, "color_end": color_end}
+    if isinstance(item, Copies):
+        changed[index] = _recolored_copies(item, colors, "recolor: ", scale)
     else:
-        found, _ = color_arrays({"color": color}, 1, "recolor: ", **scale)
-        changed[index] = item.replace(color=Color(*found["color"].reshape(3).tolist()))
+        changed[index] = _recolored(item, colors, "recolor: ", scale)
     return Scene(scene.camera, scene.lights, changed, scene.render)
+
+
+def _recolored(item: Any, colors: dict[str, Any], place: str, scale: dict[str, Any]) -> Any:  # noqa: ANN401
+    """Return one object, or arrays, with other colours."""
+    _check_end(colors["color_end"], [item], place)
+    if isinstance(item, Arrays):
+        return item.colored(msgspec.structs.asdict(item), colors, place, **scale)
+    found, _ = color_arrays({"color": colors["color"]}, 1, place, **scale)
+    return item.replace(color=Color(*found["color"].reshape(3).tolist()))
+
+
+def _recolored_copies(
+    item: Copies, colors: dict[str, Any], place: str, scale: dict[str, Any]
+) -> Copies:
+    """Return copies whose objects have other colours."""
+    objects = item.objects
+    if len(objects) == 1:
+        return item.replace(objects=[_recolored(objects[0], colors, place, scale)])
+    if scale["cmap"] is not None and scale["clim"] is None:
+        words = "expected the limits (low, high) that all objects of the copies share, got None"
+        raise SceneError(f"{place}clim: {words}")
+    color, color_end = colors["color"], colors["color_end"]
+    _check_end(color_end, objects, place)
+    ends = _for_each(objects, color_end, f"{place}color_end")
+    if _is_one_color(color_end):
+        ends = [color_end if _has_two(part) else None for part in objects]
+    each = zip(objects, _for_each(objects, color, f"{place}color"), ends, strict=True)
+    changed = [
+        _recolored(part, {"color": one, "color_end": end}, f"{place}objects[{k}]: ", scale)
+        for k, (part, one, end) in enumerate(each)
+    ]
+    return item.replace(objects=changed)
+
+
+def _for_each(objects: Sequence[Any], value: Any, place: str) -> list[Any]:  # noqa: ANN401
+    """Return what is given for each object of copies."""
+    if value is None or _is_one_color(value):
+        return [value] * len(objects)
+    count = len(value) if hasattr(value, "__len__") else show(value)
+    if count != len(objects):
+        words = f"one colour, or a list of {len(objects)}, one for each object of the copies"
+        raise SceneError(f"{place}: expected {words}, got {count}")
+    return list(value)
+
+
+def _is_one_color(value: Any) -> bool:  # noqa: ANN401
+    """Tell whether a value is one colour, not one for each of several objects."""
+    if isinstance(value, (str, Color)):
+        return True
+    is_row = isinstance(value, (list, tuple)) or getattr(value, "ndim", 0) == 1
+    return is_row and len(value) in (3, 4) and all(isinstance(part, Real) for part in value)
+
+
+def _check_end(color_end: object, objects: Sequence[Any], place: str) -> None:
+    """Raise SceneError if there are colours for second halves, and none to have them."""
+    if color_end is not None and not any(map(_has_two, objects)):
+        words = f"expected None, as only Cylinders have two colours, got {show(color_end)}"
+        raise SceneError(f"{place}color_end: {words}")
+
+
+def _has_two(item: object) -> bool:
+    """Tell whether objects may have two colours each."""
+    return isinstance(item, Arrays) and "color_end" in item.COLUMNS
 
 
 def relit(scene: Scene, intensities: Sequence[float]) -> Scene:

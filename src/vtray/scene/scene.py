@@ -115,7 +115,8 @@ class Scene(msgspec.Struct, Adding, metaclass=Checked, dict=True):
         dict
             What a scene file says, in Python's own types; `Spheres` are
             ``{"type": "spheres", "center": array, ...}`` with their read-only arrays, not copied,
-            and `Cylinders` likewise.
+            and `Cylinders` likewise; `Copies` are
+            ``{"type": "copies", "objects": [...], "at": array}``.
 
         Raises
         ------
@@ -130,9 +131,9 @@ class Scene(msgspec.Struct, Adding, metaclass=Checked, dict=True):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the scene as indented JSON that `vtray.load` reads back as an equal scene.
 
-        The arrays of `Spheres` and `Cylinders` go to files beside it: for scene.json to scene.npz,
-        those of further ones to scene-2.npz and so on. A file of such a name is replaced if it
-        belongs to the scene file that is replaced, or if these objects were read from it.
+        The arrays of `Spheres`, `Cylinders` and `Copies` go to files beside it: for scene.json to
+        scene.npz, those of further ones to scene-2.npz and so on. A file of such a name is replaced
+        if it belongs to the scene file that is replaced, or if these objects were read from it.
 
         Parameters
         ----------

@@ -76,7 +76,7 @@ class FileChecker:
         cls = structs[0] if not tags(structs) else _by_tag(found, structs, place)
         hints = hints_of(cls)
         known = [*hints, *tag_field(cls)]
-        values = {}
+        values: dict[str, Any] = dict(zip(tag_field(cls), tags([cls]), strict=True))
         for key, _, value in found:
             where = join(place, key)
             if key in hints:
@@ -94,7 +94,7 @@ class FileChecker:
         kinds = typing.get_args(plain_kind(kind))
         if origin_of(kind) is list:
             kinds *= len(found)
-        elif len(found) != len(kinds):
+        if len(found) != len(kinds) or len(found) < _least_length(kind):
             raise wrong(place, kind, show(found))
         pairs = enumerate(zip(found, kinds, strict=True))
         return [self.check(item, item_kind, f"{place}[{i}]") for i, (item, item_kind) in pairs]
@@ -228,6 +228,12 @@ def origin_of(kind: Kind) -> Kind:
     return typing.get_origin(plain_kind(kind))
 
 
+def _least_length(kind: Kind) -> int:
+    """Give the least length of an array of a kind."""
+    limits = getattr(kind, "__metadata__", ())
+    return max((limit.min_length or 0 for limit in limits), default=0)
+
+
 def wrong(place: str, kind: Kind, got: str, *, in_code: bool = False) -> SceneError:
     """Give the error for a value that is not of its kind."""
     message = f"expected {expected(kind, in_code=in_code)}, got {got}"
@@ -281,6 +287,8 @@ def _make(cls: Struct, values: dict[str, Any], place: str, found: object) -> Any
         cause = error.__cause__
         if isinstance(cause, FieldError):
             place = join(place, cause.field)
+            if isinstance(found, Members) and cause.field not in values:
+                raise SceneError(f"{place}: missing; expected {cause}") from None
             found = _field_of(found, cause.field, values)
             raise SceneError(f"{place}: expected {cause}, got {show(found)}") from None
         raise SceneError(f"{place}: expected {error}, got {show(found)}") from None

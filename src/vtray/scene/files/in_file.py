@@ -1,35 +1,43 @@
 """What a scene file holds where it differs from a scene: objects whose arrays stand elsewhere."""
 
 import typing
-from typing import ClassVar, TypeAlias
+from typing import Annotated, ClassVar, TypeAlias
 
 import msgspec
-from msgspec import UNSET, UnsetType
+from msgspec import UNSET, Meta, UnsetType
 
+from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import Arrays
 from vtray.scene.camera import Camera
-from vtray.scene.checks.limits import DataPath, Fraction, NonNegative, NpzPath
+from vtray.scene.checks.limits import DataPath, FieldError, Fraction, NonNegative, NpzPath
+from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
 from vtray.scene.objects import Cylinder, Light, Plane, Sphere
 from vtray.scene.settings import RenderSettings
 from vtray.scene.spheres import Spheres
-from vtray.scene.vectors import Color
+from vtray.scene.vectors import Color, Vector
 
 
-class ArraysInFile(msgspec.Struct, frozen=True, omit_defaults=True):
+class HolderInFile(msgspec.Struct, frozen=True, omit_defaults=True):
+    """What holds arrays, and may name a file of NumPy arrays, by its key `data`."""
+
+    MADE: ClassVar[type[ArrayHolder]]
+    """What this is in a scene."""
+
+    ALONE: ClassVar[str] = ""
+    """What the array of a .npy file is; "" if the kind needs more than one."""
+
+
+class ArraysInFile(HolderInFile, frozen=True, omit_defaults=True):
     """Many objects of one kind, whose numbers stand in a file of NumPy arrays.
 
     Its keys are `data`, and those arrays for which one value may stand.
     """
 
     MADE: ClassVar[type[Arrays]]
-    """What these are in a scene."""
 
     ONE: ClassVar[type[msgspec.Struct]]
     """What one of them is in a scene."""
-
-    ALONE: ClassVar[str] = ""
-    """What the array of a .npy file is; "" if the kind needs more than one."""
 
     data: str
 
@@ -93,12 +101,52 @@ class CylindersInFile(
     ONE = Cylinder
 
 
-ObjectInFile: TypeAlias = Sphere | Cylinder | Plane | SpheresInFile | CylindersInFile
+PartInFile: TypeAlias = Sphere | Cylinder | SpheresInFile | CylindersInFile
+
+
+class CopiesInFile(HolderInFile, frozen=True, omit_defaults=True, tag_field="type", tag="copies"):
+    """The same spheres and cylinders at many places.
+
+    Attributes
+    ----------
+    objects : list of Sphere, Cylinder, SpheresInFile or CylindersInFile
+        What is placed, at least one.
+    at : list of Vector, optional
+        Translations of the copies, in scene units; they stand here or in the file of data.
+    data : str, optional
+        Path of the translations, relative to the scene file: a .npz file with the array at,
+        or a .npy file.
+    """
+
+    objects: Annotated[
+        list[PartInFile], Meta(min_length=1, description="an array of at least one object")
+    ]
+    at: list[Vector] | UnsetType = UNSET
+    data: DataPath | UnsetType = UNSET
+
+    MADE = Copies
+    ALONE = "at"
+
+    def __post_init__(self) -> None:
+        """Refuse places that are given twice, or not at all."""
+        if self.at is not UNSET and self.data is not UNSET:
+            field, message = "data", "the places here or in at, not both"
+        elif self.at is self.data is UNSET:
+            field = "at"
+            message = "an array of places, or the key data with the path of a .npz or .npy file"
+        else:
+            return
+        raise FieldError(field, message)
+
+
+ObjectInFile: TypeAlias = Sphere | Cylinder | Plane | SpheresInFile | CylindersInFile | CopiesInFile
 
 KINDS: tuple[type[msgspec.Struct], ...] = typing.get_args(ObjectInFile)
 """The types of objects, in the order of messages."""
 
 ARRAYS_IN_FILE = [kind for kind in KINDS if issubclass(kind, ArraysInFile)]
+
+HOLDERS_IN_FILE = [kind for kind in KINDS if issubclass(kind, HolderInFile)]
 
 
 class SceneInFile(msgspec.Struct, omit_defaults=True):
@@ -110,7 +158,7 @@ class SceneInFile(msgspec.Struct, omit_defaults=True):
         Where the picture is taken from.
     lights : list of Light
         The lights; may be empty.
-    objects : list of Sphere, Cylinder, Plane, SpheresInFile or CylindersInFile
+    objects : list of Sphere, Cylinder, Plane, SpheresInFile, CylindersInFile or CopiesInFile
         The objects; may be empty.
     render : RenderSettings, optional
         How the picture is taken.

@@ -10,9 +10,10 @@ import msgspec
 
 from vtray.base.atomic_file import write_whole
 from vtray.base.errors import OutputError
-from vtray.scene.arrays import Arrays
+from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.checks.limits import Byte
-from vtray.scene.files.in_file import ARRAYS_IN_FILE, ArraysInFile, SceneInFile
+from vtray.scene.copies import Copies
+from vtray.scene.files.in_file import HOLDERS_IN_FILE, HolderInFile, SceneInFile
 from vtray.scene.settings import RenderSettings
 from vtray.scene.vectors import Color
 
@@ -23,16 +24,21 @@ if TYPE_CHECKING:
 def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
     """Write a valid scene as `Scene.save` does."""
     target = Path(path)
-    objects: list[Any] = []
     arrays: dict[str, dict[str, object]] = {}
-    for item in scene.objects:
-        if isinstance(item, Arrays):
-            name = _unused_name(target, arrays)
-            _check_own(target, name, item)
-            entry, arrays[name] = _split(item, name)
-            objects.append(entry)
-        else:
-            objects.append(item)
+
+    def in_file(item: Any) -> Any:  # noqa: ANN401
+        """Return what stands of an object in the scene file; keep the arrays for other files."""
+        if not isinstance(item, ArrayHolder):
+            return item
+        shared: dict[str, Any] = {}
+        if isinstance(item, Copies):
+            shared["objects"] = [in_file(part) for part in item.objects]
+        name = _unused_name(target, arrays)
+        _check_own(target, name, item)
+        entry, arrays[name] = _split(item, name, shared)
+        return entry
+
+    objects = [in_file(item) for item in scene.objects]
     found = SceneInFile(scene.camera, scene.lights, objects)
     if scene.render != RenderSettings():
         found.render = scene.render
@@ -55,7 +61,7 @@ def _unused_name(scene: Path, used: Container[str]) -> str:
     return next(name for name in names if name not in used and name != scene.name)
 
 
-def _check_own(scene: Path, name: str, arrays: Arrays) -> None:
+def _check_own(scene: Path, name: str, arrays: ArrayHolder) -> None:
     """Raise OutputError if a file in the place of a scene's arrays is not its own."""
     file = scene.with_name(name)
     if not file.exists():
@@ -71,28 +77,28 @@ def _arrays_of(scene: Path) -> list[str]:
     from vtray.base.input_file import read_input
 
     try:
-        found = msgspec.json.decode(read_input(scene), type=_Objects)
+        return _named_in(msgspec.json.decode(read_input(scene), type=_Naming))
     except (OSError, msgspec.DecodeError, RecursionError):
         return []
-    return [item.data for item in found.objects]
 
 
-class _Data(msgspec.Struct):
-    """An object of a scene file, as far as it names a file."""
+class _Naming(msgspec.Struct):
+    """A scene file, or an object in it, as far as it names files."""
 
     data: str = ""
+    objects: "list[_Naming]" = []
 
 
-class _Objects(msgspec.Struct):
-    """A scene file, as far as it names files."""
+def _named_in(found: _Naming) -> list[str]:
+    """Return the names of files, "" where none is named."""
+    return [found.data, *(name for item in found.objects for name in _named_in(item))]
 
-    objects: list[_Data]
 
-
-def _split(item: Arrays, name: str) -> tuple[ArraysInFile, dict[str, object]]:
-    """Split objects into what stands in a scene file, and the arrays of a file of this name."""
-    (kind,) = (kind for kind in ARRAYS_IN_FILE if kind.MADE is type(item))
-    shared: dict[str, Any] = {}
+def _split(
+    item: ArrayHolder, name: str, shared: dict[str, Any]
+) -> tuple[HolderInFile, dict[str, object]]:
+    """Split an object into what stands in a scene file, and the arrays of a file of this name."""
+    (kind,) = (kind for kind in HOLDERS_IN_FILE if kind.MADE is type(item))
     arrays: dict[str, object] = {}
     for key, column in item.COLUMNS.items():
         value = getattr(item, key)
@@ -102,7 +108,7 @@ def _split(item: Arrays, name: str) -> tuple[ArraysInFile, dict[str, object]]:
             shared[key] = Color(*value.tolist())
         elif value is not None:
             arrays[key] = value
-    return kind(name, **shared), arrays
+    return kind(data=name, **shared), arrays
 
 
 def _encode(scene: SceneInFile, target: Path) -> bytes:

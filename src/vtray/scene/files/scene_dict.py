@@ -11,6 +11,7 @@ from vtray.scene.arrays import Arrays
 from vtray.scene.checks.columns import array_words
 from vtray.scene.checks.limits import Byte
 from vtray.scene.checks.scene_words import Unknown, join, nearest, show
+from vtray.scene.copies import Copies
 from vtray.scene.files.scene_file import Warn, loads
 from vtray.scene.objects import ARRAY_KINDS, Object
 from vtray.scene.scene import Scene
@@ -30,8 +31,8 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
         What a scene file says. Numbers may also be NumPy's; in place of an array of the file, there
         may be a tuple or an array of NumPy. Many spheres or cylinders may hold their arrays
         themselves: ``{"type": "spheres", "center": array, "radius": 0.5, "color": array,
-        "lambert": 1}``, which are not copied where `Spheres` does not. Paths are relative to the
-        current folder.
+        "lambert": 1}``, which are not copied where `Spheres` does not; so may copies hold ``"at":
+        array``. Paths are relative to the current folder.
     name : str
         What messages call the dictionary.
     warn : callable, optional
@@ -51,15 +52,8 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
     """
     warnings: list[str] = []
     given = dict(data) if isinstance(data, Mapping) else data
-    arrays: dict[int, type[Arrays]] = {}
     if isinstance(given, dict) and isinstance(given.get("objects"), (list, tuple)):
-        objects = given["objects"]
-        kinds = enumerate(map(_kind_of_arrays, objects))
-        arrays = {index: kind for index, kind in kinds if kind is not None}
-        if arrays:
-            given["objects"] = [
-                _PLACEHOLDER if index in arrays else item for index, item in enumerate(objects)
-            ]
+        given["objects"] = [_without_arrays(item) for item in given["objects"]]
     try:
         text = msgspec.json.encode(given, enc_hook=_as_json)
     except (TypeError, ValueError, OverflowError, RecursionError, UnicodeEncodeError) as error:
@@ -72,10 +66,10 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
         _check(given, "", name)
         raise
     unknown = Unknown("key")
-    for index, kind in arrays.items():
-        place = f"objects[{index}]"
-        made = _from_dict(kind, data["objects"][index], place, name, unknown)
-        scene.objects[index] = cast("Object", made)
+    for index, item in enumerate(data["objects"]):
+        if _kind_of_arrays(item) is not None or _are_copies(item):
+            place = f"objects[{index}]"
+            scene.objects[index] = _with_arrays(scene.objects[index], item, place, name, unknown)
     for line in [*warnings, *(f"{name}: {line}" for line in unknown.lines())]:
         if warn is None:
             _warn(line)
@@ -97,6 +91,9 @@ def to_dict(scene: Scene) -> dict[str, Any]:
 
 def _object_to_dict(item: Object) -> dict[str, Any]:
     """Return an object as what a scene file says of it, or with its arrays."""
+    if isinstance(item, Copies):
+        objects = [_object_to_dict(part) for part in item.objects]
+        return {"type": item.__struct_config__.tag, "objects": objects, "at": item.at}
     if not isinstance(item, Arrays):
         plain: dict[str, Any] = msgspec.to_builtins(item)
         return plain
@@ -116,6 +113,54 @@ def _kind_of_arrays(item: object) -> type[Arrays] | None:
         return None
     tag = item.get("type")
     return ARRAY_KINDS.get(tag) if isinstance(tag, str) else None
+
+
+def _are_copies(item: object) -> bool:
+    """Tell whether an object says that it is copies."""
+    return isinstance(item, Mapping) and item.get("type") == Copies.__struct_config__.tag
+
+
+def _is_array(at: object) -> bool:
+    """Tell whether places are rows of numbers, not what a scene file says of each."""
+    if isinstance(at, (list, tuple)):
+        return len(at) > 0 and not isinstance(at[0], Mapping)
+    return hasattr(at, "__array__") or hasattr(at, "__dlpack__")
+
+
+def _without_arrays(item: Any) -> Any:  # noqa: ANN401
+    """Return an object with something that a file may hold in the place of its arrays."""
+    if _kind_of_arrays(item) is not None:
+        return _PLACEHOLDER
+    if not _are_copies(item):
+        return item
+    plain = dict(item)
+    if isinstance(plain.get("objects"), (list, tuple)):
+        plain["objects"] = [_without_arrays(part) for part in plain["objects"]]
+    if _is_array(plain.get("at")):
+        plain["at"] = []
+    return plain
+
+
+def _with_arrays(
+    read: Object, item: Mapping[str, Any], place: str, name: str, unknown: Unknown
+) -> Object:
+    """Return an object that was read without its arrays with those of a dictionary."""
+    kind = _kind_of_arrays(item)
+    if kind is not None:
+        return cast("Object", _from_dict(kind, item, place, name, unknown))
+    if not isinstance(read, Copies):
+        return read
+    pairs = enumerate(zip(read.objects, item["objects"], strict=True))
+    objects = [
+        _with_arrays(part, given, f"{place}.objects[{k}]", name, unknown)
+        for k, (part, given) in pairs
+    ]
+    at = item["at"] if _is_array(item.get("at")) else read.at
+    try:
+        made = Copies.from_arrays({"objects": objects, "at": at}, f"{place}.")
+    except SceneError as problem:
+        raise SceneError(f"{name}: {problem}") from None
+    return made if read.source is None else made.read_from(read.source)
 
 
 def _from_dict(

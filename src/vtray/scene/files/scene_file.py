@@ -6,7 +6,7 @@ problem is slow, lives in `vtray.scene.checks`, and is imported only then.
 
 import os
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from typing import Any
 
@@ -16,7 +16,7 @@ from msgspec import UNSET
 from vtray.base.errors import SceneError, why_unreadable
 from vtray.base.input_file import is_given, read_input
 from vtray.scene.checks.checked import make_unchecked
-from vtray.scene.files.in_file import ARRAYS_IN_FILE, KINDS, ArraysInFile, ObjectInFile, SceneInFile
+from vtray.scene.files.in_file import KINDS, HolderInFile, ObjectInFile, SceneInFile
 from vtray.scene.objects import Light, Object
 from vtray.scene.scene import Scene
 from vtray.scene.vectors import Color, Direction, Vector
@@ -108,11 +108,13 @@ def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
         _explain(raw, name, warn)
         # The slow look should have raised; if it saw nothing, msgspec's own words have to do.
         raise SceneError(f"{name}: {error}") from None
-    kinds = Counter(map(type, found.objects))
-    if not _has_only_known_keys(raw, found, kinds):
+    keys, in_files = _count_keys(found.objects)
+    # A colon of a path that is written as an escape is not in the file, and one inside any other
+    # string is that of an unknown key or its value.
+    if raw.count(b":") != _count_others(found) + keys or (in_files and b"\\u003" in raw):
         _explain(raw, name, warn)
     objects: list[Any] = found.objects
-    if not kinds.keys().isdisjoint(ARRAYS_IN_FILE):
+    if in_files:
         objects = _read_arrays(found, name, folder, warn)
     parts: dict[str, object] = {} if found.render is UNSET else {"render": found.render}
     scene: Scene = make_unchecked(
@@ -147,45 +149,51 @@ def _keys_within(cls: type[msgspec.Struct]) -> int:
     return _keys(cls, *parts)
 
 
+# Those of other kinds are counted one by one, as most are optional.
 _PARTS: tuple[type[msgspec.Struct], ...] = (Light, *KINDS)
-_KEYS_OF = {kind: _keys_within(kind) for kind in _PARTS}
-# Counted one by one, as most of their keys are optional.
-_KEYS_OF |= dict.fromkeys(ARRAYS_IN_FILE, 0)
+_KEYS_OF = {kind: _keys_within(kind) for kind in _PARTS if not issubclass(kind, HolderInFile)}
 
 
-def _has_only_known_keys(raw: bytes, found: SceneInFile, kinds: Counter[Any]) -> bool:
-    """Tell whether a file has as many colons as what was read of it, so no unknown keys."""
-    keys = _KEYS_ONCE + _count_optional(found) + _KEYS_OF[Light] * len(found.lights)
-    keys += sum(_KEYS_OF[kind] * count for kind, count in kinds.items())
-    if not kinds.keys().isdisjoint(ARRAYS_IN_FILE):
-        arrays = [item for item in found.objects if isinstance(item, ArraysInFile)]
-        keys += sum(map(_count_colons, arrays))
-        # A colon of a path that is written as an escape is not in the file.
-        if any(":" in item.data for item in arrays) and b"\\u003" in raw:
-            return False
-    # A colon inside any other string is that of an unknown key or its value.
-    return raw.count(b":") == keys
+def _count_keys(objects: Sequence[Any]) -> tuple[int, bool]:
+    """Count the colons of lights or objects of a file, and tell whether any may name a file."""
+    kinds = Counter(map(type, objects))
+    keys = sum(_KEYS_OF.get(kind, 0) * count for kind, count in kinds.items())
+    in_files = any(issubclass(kind, HolderInFile) for kind in kinds)
+    if in_files:
+        keys += sum(_count_colons(item) for item in objects if isinstance(item, HolderInFile))
+    return keys, in_files
 
 
-def _count_optional(found: SceneInFile) -> int:
-    """Count the optional keys of a file, but for those that are given with their default.
+def _count_others(found: SceneInFile) -> int:
+    """Count the colons of a file but for those of its objects.
 
-    With such a key there are more colons, which costs a slow look, but misses nothing.
+    Of the optional keys those that are given with their default are not counted. With such a key
+    there are more colons, which costs a slow look, but misses nothing.
     """
     camera = found.camera
     keys = (camera.projection != "perspective") + (camera.up is not None) * (1 + _keys(Direction))
     if found.render is not UNSET:
         keys += 1 + _colons_in(msgspec.to_builtins(found.render))
-    return keys
+    return _KEYS_ONCE + keys + _count_keys(found.lights)[0]
 
 
-def _count_colons(item: ArraysInFile) -> int:
-    """Count the colons of such an object in a file: one for each key, and those of the path."""
+def _count_colons(item: msgspec.Struct) -> int:
+    """Count the colons of a light or an object of a file: those of its keys, and of a path."""
+    if type(item) in _KEYS_OF:
+        return _KEYS_OF[type(item)]
     values = [getattr(item, key) for key in item.__struct_fields__]
-    given = [value for value in values if value is not UNSET]
-    colors = sum(isinstance(value, Color) for value in given)
     tag = 1
-    return tag + len(given) + colors * _keys(Color) + item.data.count(":")
+    return tag + sum(1 + _count_within(value) for value in values if value is not UNSET)
+
+
+def _count_within(value: object) -> int:
+    """Count the colons of the value of a key of an object that may name a file."""
+    if isinstance(value, list):
+        is_place = bool(value) and isinstance(value[0], Vector)
+        return len(value) * _keys(Vector) if is_place else _count_keys(value)[0]
+    if isinstance(value, Color):
+        return _keys(Color)
+    return value.count(":") if isinstance(value, str) else 0
 
 
 class _Split(msgspec.Struct):
@@ -271,13 +279,13 @@ def _clean_parts(raw: bytes) -> tuple[dict[int, int] | None, int]:
             end = start + len(part)
             if not is_wrong:
                 try:
-                    value = decoder.decode(part)
+                    value: msgspec.Struct = decoder.decode(part)
                 except (msgspec.MsgspecError, RecursionError):
                     is_wrong = True
                     continue
-                keys = _KEYS_OF[type(value)]
-                if part.count(b":") != keys:
-                    is_shown = not keys or shown < SHOWN_UNKNOWN
+                keys, in_files = _count_colons(value), isinstance(value, HolderInFile)
+                if part.count(b":") != keys or (in_files and b"\\u003" in part):
+                    is_shown = in_files or shown < SHOWN_UNKNOWN
                     unknown = 0 if is_shown else _count_unknown(part, value)
                     if not unknown:
                         shown += 1

@@ -12,7 +12,7 @@ from typing import Any
 import msgspec
 
 from vtray.scene.camera import Camera
-from vtray.scene.files.in_file import ARRAYS_IN_FILE, KINDS, SceneInFile
+from vtray.scene.files.in_file import ARRAYS_IN_FILE, KINDS, CopiesInFile, SceneInFile
 from vtray.scene.objects import Light
 from vtray.scene.settings import RenderSettings
 from vtray.scene.vectors import Color, Direction, Vector
@@ -45,6 +45,9 @@ def scene_schema() -> dict[str, Any]:
                 "if": {"properties": {"data": {"pattern": r"\.npy$"}}},
                 "then": {"required": keys},
             }
+    # What CopiesInFile.__post_init__ checks.
+    places = [key for key in CopiesInFile.__struct_fields__ if key != "objects"]
+    parts[CopiesInFile.__name__]["oneOf"] = [{"required": [key]} for key in places]
     scene = parts.pop("SceneInFile")
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

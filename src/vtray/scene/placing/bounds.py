@@ -1,4 +1,4 @@
-"""The spheres and cylinders of a scene as balls and discs, and a sphere around them all.
+"""The spheres and cylinders of a scene as balls and discs, and the box around their centres.
 
 A sphere is a ball, and a cylinder the convex hull of two discs, its caps: what holds these holds
 it, and what touches it from outside touches one of them.
@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
 from vtray.scene.arrays import Arrays
-from vtray.scene.objects import Cylinder, Object, Plane, Sphere
+from vtray.scene.copies import Copies
+from vtray.scene.cylinders import Cylinders
+from vtray.scene.objects import Object, Plane
 from vtray.scene.placing.directions import Vec, dot, unit
 from vtray.scene.placing.pieces import by_pieces
 from vtray.scene.spheres import Spheres
@@ -40,11 +42,15 @@ class Balls(NamedTuple):
     toward
         For discs, other points of the lines that they are square to, (n, 3); a disc is a point if
         that is its centre. None for balls.
+    at
+        Translations, (m, 3), if all of these stand at m places, each with sums rounded to doubles.
+        None if they stand where they are.
     """
 
     center: NDArray[Any]
     radius: NDArray[Any] | float
     toward: NDArray[Any] | None = None
+    at: NDArray[Any] | None = None
 
 
 def balls_of(subject: object, place: str) -> list[Balls]:
@@ -55,8 +61,8 @@ def balls_of(subject: object, place: str) -> list[Balls]:
     SceneError
         If there is none, or `subject` is nothing of all this. Messages begin with `place`.
     """
-    if isinstance(subject, Arrays):
-        found = [Balls(*balls) for balls in subject.hull()]
+    if isinstance(subject, (Spheres, Cylinders, Copies)):
+        found = _balls_in([subject])
     elif hasattr(subject, "objects"):
         found = _balls_in(subject.objects)
     else:
@@ -64,27 +70,31 @@ def balls_of(subject: object, place: str) -> list[Balls]:
         called = {"center": "positions"}
         points = Spheres.from_arrays({"center": subject, **zeros}, f"{place}: ", called)
         found = [Balls(points.center, 0.0)]
-    found = [balls for balls in found if len(balls.center)]
+    found = [balls for balls in found if len(balls.center) and (balls.at is None or len(balls.at))]
     if not found:
         words = "there are no spheres; expected at least one, as planes have no edge"
         raise SceneError(f"{place}: {words} (Camera.look_at needs none)")
     return found
 
 
-def _balls_in(objects: list[Object]) -> list[Balls]:
-    """Return what objects are the hulls of: balls, discs at starts, and discs at ends."""
+def _balls_in(objects: Sequence[Object]) -> list[Balls]:
+    """Return what objects are the hulls of: balls, discs at starts, discs at ends, and copies."""
     single: dict[tuple[int, bool], list[tuple[Vector, float, Vector | None]]] = {}
     parts: dict[tuple[int, bool], list[Balls]] = {}
+    placed: list[Balls] = []
     for item in objects:
         if isinstance(item, Arrays):
             for k, arrays in enumerate(item.hull()):
                 parts.setdefault((k, arrays[2] is None), []).append(Balls(*arrays))
-        elif isinstance(item, (Sphere, Cylinder)):
+        elif isinstance(item, Copies):
+            placed += [balls._replace(at=item.at) for balls in _balls_in(item.objects)]
+        elif not isinstance(item, Plane):
             for k, row in enumerate(item.hull()):
                 single.setdefault((k, row[2] is None), []).append(row)
     for kind, rows in single.items():
         parts.setdefault(kind, []).append(_as_arrays(rows))
-    return [_joined([part for part in found if len(part.center)]) for found in parts.values()]
+    own = [_joined([part for part in found if len(part.center)]) for found in parts.values()]
+    return own + placed
 
 
 def _as_arrays(rows: list[tuple[Vector, float, Vector | None]]) -> Balls:
@@ -161,20 +171,30 @@ def normals_of(discs: Balls) -> list[Floats]:
 
 def box_of(parts: Sequence[Balls]) -> tuple[Floats, Floats]:
     """Return the least and the greatest coordinates of all centres, each (3,)."""
-    boxes = [box for part in parts for box in _boxes_of(part.center)]
-    low, high = zip(*boxes, strict=True)
+    low, high = zip(*map(_box_of_part, parts), strict=True)
     return np.min(low, axis=0), np.max(high, axis=0)
 
 
-def _boxes_of(center: NDArray[Any]) -> list[tuple[list[float], list[float]]]:
-    """Return the least and the greatest coordinates of points, piece by piece."""
+def _box_of_part(balls: Balls) -> tuple[Floats, Floats]:
+    """Return the least and the greatest coordinates of the centres of some balls or discs."""
+    low, high = box_of_points(balls.center)
+    if balls.at is None:
+        return low, high
+    least, greatest = box_of_points(balls.at)
+    # As rounding keeps order, those of the sums.
+    return low + least, high + greatest
+
+
+def box_of_points(points: NDArray[Any]) -> tuple[Floats, Floats]:
+    """Return the least and the greatest coordinates of points, each (3,)."""
 
     def ends(rows: slice) -> tuple[list[float], list[float]]:
         # Column by column, which NumPy does forty times as fast as along an axis.
-        columns = center[rows].T
+        columns = points[rows].T
         return [float(c.min()) for c in columns], [float(c.max()) for c in columns]
 
-    return by_pieces(len(center), ends)
+    low, high = zip(*by_pieces(len(points), ends), strict=True)
+    return np.min(low, axis=0), np.max(high, axis=0)
 
 
 def middle_of(parts: Sequence[Balls]) -> Floats:
@@ -188,39 +208,3 @@ def middle_of(parts: Sequence[Balls]) -> Floats:
 def from_middle(center: NDArray[Any], middle: Floats) -> list[Floats]:
     """Return the coordinates of points relative to the middle, each (n,)."""
     return [column - offset for column, offset in zip(center.T, middle, strict=True)]
-
-
-def bounding_sphere(*parts: Balls) -> tuple[Floats, float]:
-    """Return centre and radius of a sphere around all balls and discs.
-
-    Its centre is that of the box around their centres, so it may be larger than need be: its radius
-    is at most the square root of 3 times that of the smallest.
-    """
-    low, high = box_of(parts)
-    middle = low / 2 + high / 2
-    # In a unit in which no square overflows.
-    unit = float(max((high - middle).max(), (middle - low).max())) or 1.0
-    return middle, max(_reach_of(part, middle, unit) for part in parts)
-
-
-def _reach_of(balls: Balls, middle: Floats, unit: float) -> float:
-    """Return how far the farthest point of balls or discs is from the middle."""
-
-    def reach(rows: slice) -> float:
-        part = some(balls, rows)
-        squares = sum(np.square(column / unit) for column in from_middle(part.center, middle))
-        return float((np.sqrt(squares) * unit + part.radius).max())
-
-    larger = max(unit, float(np.max(balls.radius)))
-
-    def reach_of_discs(rows: slice) -> float:
-        part = some(balls, rows)
-        normals = normals_of(part)
-        columns = [column / larger for column in from_middle(part.center, middle)]
-        # The farthest of a disc is beyond its centre, as seen from the middle's foot in its plane.
-        height = sum(c * n for c, n in zip(columns, normals, strict=True))
-        aside = sum(np.square(c - height * n) for c, n in zip(columns, normals, strict=True))
-        beyond = np.sqrt(aside) + part.radius / larger
-        return float((np.sqrt(np.square(height) + np.square(beyond)) * larger).max())
-
-    return max(by_pieces(len(balls.center), reach if balls.toward is None else reach_of_discs))

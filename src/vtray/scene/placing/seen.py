@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.exact_math import hypotenuse
-from vtray.scene.placing.bounds import Balls, from_middle, normals_of, some
+from vtray.scene.placing.bounds import Balls, from_middle, middle_of, normals_of, some
 from vtray.scene.placing.directions import Vec
 from vtray.scene.placing.pieces import by_pieces
 
@@ -54,6 +54,9 @@ class Seen(NamedTuple):
         The coordinates of unit normals of discs, each (m,); None for balls.
     centers, surfaces
         The least and the greatest coordinates of all centres, and of all surfaces, (2, 3).
+    there
+        Translations, as points, if all of these stand at several places; x, y and z are then
+        relative to the middle of the translations. None if they stand where they are.
     """
 
     x: Floats
@@ -63,6 +66,7 @@ class Seen(NamedTuple):
     normals: list[Floats] | None
     centers: Floats
     surfaces: Floats
+    there: "Seen | None" = None
 
 
 class Bound(NamedTuple):
@@ -105,6 +109,14 @@ def look(balls: Balls, middle: Floats, axes: Axes, edges: Sequence[Slopes] = ())
         The slopes of the picture's edges, across and down: all from the middle of a pair to its
         ends count. By default none does.
     """
+    if balls.at is not None:
+        # What is first to touch a plane are those that are first at those places that are.
+        places = Balls(balls.at, 0.0)
+        away = middle_of([places])
+        own = look(balls._replace(at=None), middle - away, axes, edges)
+        there = look(places, away, axes, edges)
+        ends = own.centers + there.centers, own.surfaces + there.centers
+        return own._replace(centers=ends[0], surfaces=ends[1], there=there)
     bounds = _find_bounds(balls, middle, axes, edges)
     parts = by_pieces(
         len(balls.center), lambda rows: _look_at(some(balls, rows), middle, axes, bounds)
@@ -192,8 +204,9 @@ def rooms(place: Floats, ahead: Floats, slope: float, side: int) -> Floats:
 def least_room(seen: Seen, aside: int, slope: float, side: int) -> tuple[float, float]:
     """Return the least bound that balls or discs set to the eye on one side, as `rooms` does.
 
-    A vector v is the normal of a plane that touches a ball ``radius * |v|`` from its centre, and a
-    disc of normal n ``radius * |v x n|``.
+    That of copies is the sum of those of the objects and of the translations. A vector v is the
+    normal of a plane that touches a ball ``radius * |v|`` from its centre, and a disc of normal n
+    ``radius * |v x n|``.
 
     Returns
     -------
@@ -216,7 +229,11 @@ def least_room(seen: Seen, aside: int, slope: float, side: int) -> tuple[float, 
         change = float(slope * other[k] * other[k] + lean[k] * across[k])
         width = float(widths[k]) or 1.0
     radius = float(np.broadcast_to(seen.radius, bounds.shape)[k])
-    return float(bounds[k]), side * float(seen.z[k]) - radius * change / width
+    bound, changing = float(bounds[k]), side * float(seen.z[k]) - radius * change / width
+    if seen.there is None:
+        return bound, changing
+    more = least_room(seen.there, aside, slope, side)
+    return bound + more[0], changing + more[1]
 
 
 def _find_bounds(balls: Balls, middle: Floats, axes: Axes, edges: Sequence[Slopes]) -> list[Bound]:
