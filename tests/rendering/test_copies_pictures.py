@@ -145,6 +145,18 @@ def test_many_as_written_out(shapes: int, copies: int, by: float, projection: st
 
 
 @compiled_only
+@pytest.mark.parametrize("seed", range(4))
+def test_boxes_hold_what_rounding_moves_far_from_the_origin(seed: int) -> None:
+    by = 2.0**47  # where doubles are 1/32 apart
+    scene = vtray.Scene()
+    centers = np.random.default_rng(seed).uniform(-1, 1, (300, 3))
+    scene.add_copies(vtray.Spheres(centers, 0.05), [(by, by, by)])
+    scene.add_light((by, by - 9, by - 9))
+    scene.camera = vtray.Camera((by, by, by - 8), (0, 0, 1), 6.0, (300, 300), (0.01, 0.01))
+    assert_as_written_out(scene, render(scene))
+
+
+@compiled_only
 @pytest.mark.parametrize("options", [{"samples": 4}, {"threads": 3, "tile": 7}])
 def test_however_it_is_made(options: dict[str, Any]) -> None:
     scene = many(2, 30, 25)
