@@ -26,6 +26,7 @@ AOVS = {
     "depth": Aov("float64", ("Z",)),
     "normals": Aov("float64", ("N.X", "N.Y", "N.Z")),
     "ids": Aov("int32", ("objectid", "particleid")),
+    "copies": Aov("int32", ("copyid",)),
 }
 """The AOVs by their names, in their usual order."""
 
