@@ -32,3 +32,20 @@ def moved(part: Part, place: np.ndarray) -> Part:
         if given is not None:
             points[name] = given.astype(np.float64) + place
     return part.replace(**points)
+
+
+def written_out_file(scene: dict[str, Any]) -> dict[str, Any]:
+    """Return a scene, as a file says it, with copies written out."""
+    objects = []
+    for item in scene["objects"]:
+        if item["type"] == "copies":
+            objects += [_moved(part, place) for place in item["at"] for part in item["objects"]]
+        else:
+            objects.append(item)
+    return {**scene, "objects": objects}
+
+
+def _moved(part: dict[str, Any], place: dict[str, float]) -> dict[str, Any]:
+    """Return an object, as a file says it, that is moved."""
+    names = [name for name in POINTS if name in part]
+    return part | {name: {a: part[name][a] + place[a] for a in "xyz"} for name in names}
