@@ -8,6 +8,7 @@ from random import Random
 import numpy as np
 from examples import light, scene
 
+from fuzz import copies
 from fuzz.damage import damaged_bytes
 from fuzz.promises import run_quietly
 
@@ -30,7 +31,11 @@ def attempt(random: Random, folder: Path) -> None:
     spheres = {"type": "spheres", "data": name}
     if random.random() < 0.5:
         spheres |= {"radius": 0.3, "color": {"r": 9, "g": 99, "b": 255}, "lambert": 1}
-    document = scene([spheres], [light(5, -5, 0)], size=[12, 9], resolution=[0.4, 0.4])
+    objects = [spheres]
+    if copies.SHARE and random.random() < copies.SHARE:
+        np.savez(folder / "b.npz", at=_array(random, "center"))
+        objects = [{"type": "copies", "objects": [spheres], "data": "b.npz"}]
+    document = scene(objects, [light(5, -5, 0)], size=[12, 9], resolution=[0.4, 0.4])
     (folder / "scene.json").write_text(json.dumps(document))
     run_quietly([str(folder / "scene.json"), str(folder / "picture.png")])
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from examples import light, plane, scene, sphere, xyz
 
+from fuzz import copies
 from fuzz.damage import damaged_json
 from fuzz.promises import run_quietly
 
@@ -29,6 +30,10 @@ def _document(random: Random, folder: Path) -> dict[str, Any]:
     np.savez(folder / "a.npz", center=[(0, 0, 4), (1, 0, 4)], radius=[0.3, 0.4])
     many = {"type": "spheres", "data": "a.npz", "color": {"r": 9, "g": 99, "b": 255}, "lambert": 1}
     objects = [sphere((0, 0, 5), 1), plane((0, 1, 0), (0, -1, 0)), many]
+    if copies.SHARE and random.random() < copies.SHARE:
+        np.save(folder / "b.npy", [(0, 0, 1), (0, -1, 1)])
+        places = random.choice([{"at": [xyz(0, 0, 1), xyz(1, 0, 2)]}, {"data": "b.npy"}])
+        objects.append({"type": "copies", "objects": [objects[0], many], **places})
     found = scene(
         [item for item in objects if random.random() < 0.8],
         [light(5, -5, 0), light(0, -1, 5)],

@@ -17,8 +17,10 @@ from typing import Any
 import numpy as np
 import oracle
 from cylinder_pictures import assert_near_oracle, load
+from written_out import written_out_file
 
 import vtray
+from fuzz import copies
 from vtray.rendering import hierarchy as acceleration
 
 Scene = dict[str, Any]
@@ -35,6 +37,8 @@ def attempt(random: python_random.Random, folder: Path) -> None:
     scene = random_scene(np.random.default_rng(random.randrange(2**63)))
     if random.random() < 0.3:
         scene = with_cylinders(np.random.default_rng(random.randrange(2**63)), scene)
+    if copies.SHARE and random.random() < copies.SHARE:
+        scene = copies.with_copies(np.random.default_rng(random.randrange(2**63)), scene)
     (folder / "scene.json").write_text(json.dumps(scene))
     fault = fault_of(scene)
     if fault is not None:
@@ -44,6 +48,8 @@ def attempt(random: python_random.Random, folder: Path) -> None:
 
 def fault_of(scene: Scene) -> str | None:
     """Return what is wrong with the picture of a scene."""
+    if any(item["type"] == "copies" for item in scene["objects"]):
+        return _fault_of_copies(scene)
     if any(item["type"] == "cylinder" for item in scene["objects"]):
         return _fault_of_cylinders(scene)
     exact = oracle.look(scene)
@@ -55,6 +61,17 @@ def fault_of(scene: Scene) -> str | None:
             how = "hierarchy" if few == ALL else "few spheres"
             return f"{how}: {len(wrong)} pixels are not the oracle's, first {column},{row}"
     return _off_the_truth(scene, exact)
+
+
+def _fault_of_copies(scene: Scene) -> str | None:
+    """Return what is wrong with the picture of a scene with copies."""
+    plain = written_out_file(scene)
+    for few, samples in itertools.product((FEW, ALL), (1, 2)):
+        one, other = (_render(item, few, samples=samples) for item in (scene, plain))
+        for name in ("linear", "depth", "normals"):
+            if not np.array_equal(getattr(one, name), getattr(other, name), equal_nan=True):
+                return f"{name} of copies are not those of the objects written out"
+    return fault_of(plain)
 
 
 def _fault_of_cylinders(scene: Scene) -> str | None:

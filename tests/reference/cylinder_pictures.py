@@ -14,16 +14,31 @@ Scene = dict[str, Any]
 
 def load(document: Scene) -> vtray.Scene:
     """Return a scene; a cylinder may have a `color_end`, as only those of arrays have."""
-    plain = [{k: v for k, v in item.items() if k != "color_end"} for item in document["objects"]]
+    plain = [_without_ends(item) for item in document["objects"]]
     scene = vtray.loads(json.dumps({**document, "objects": plain}))
-    for k, item in enumerate(document["objects"]):
-        if "color_end" in item:
-            start, end = ([[item[name][c] for c in "xyz"]] for name in ("start", "end"))
-            color, color_end = ([item[name][c] for c in "rgb"] for name in ("color", "color_end"))
-            scene.objects[k] = vtray.Cylinders(
-                start, end, item["radius"], color, item["lambert"], color_end
-            )
+    pairs = zip(scene.objects, document["objects"], strict=True)
+    scene.objects = [_with_ends(found, item) for found, item in pairs]
     return scene
+
+
+def _without_ends(item: Scene) -> Scene:
+    """Return an object as a file may hold it."""
+    plain = {key: value for key, value in item.items() if key != "color_end"}
+    if item["type"] == "copies":
+        plain["objects"] = [_without_ends(part) for part in item["objects"]]
+    return plain
+
+
+def _with_ends(found: Any, item: Scene) -> Any:
+    """Return an object that was read, with two colours where it has."""
+    if item["type"] == "copies":
+        pairs = zip(found.objects, item["objects"], strict=True)
+        return found.replace(objects=[_with_ends(part, inner) for part, inner in pairs])
+    if "color_end" not in item:
+        return found
+    start, end = ([[item[name][c] for c in "xyz"]] for name in ("start", "end"))
+    color, color_end = ([item[name][c] for c in "rgb"] for name in ("color", "color_end"))
+    return vtray.Cylinders(start, end, item["radius"], color, item["lambert"], color_end)
 
 
 def assert_near_oracle(document: Scene, image: vtray.Image) -> float:

@@ -43,7 +43,8 @@ def hand_made(
 
     def look() -> Surfaces:
         assert covered, "this picture must do without"
-        return Surfaces(depth, normals, ids, np.zeros((height, width), np.int8))
+        halves, copies = np.zeros((height, width), np.int8), np.full((height, width), -1, np.int32)
+        return Surfaces(depth, normals, ids, halves, copies)
 
     how = RenderSettings(**settings)
     white = float(linear.max()) if how.exposure == "max" else 255 / how.exposure

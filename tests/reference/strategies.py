@@ -111,6 +111,21 @@ def cylinder_scenes(draw: st.DrawFn) -> Scene:
     return {**scene, "objects": draw(st.permutations([*objects, *found]))}
 
 
+@st.composite
+def copied_scenes(draw: st.DrawFn) -> Scene:
+    """Scenes as those of the others, in which copies take the place of some objects."""
+    scene = draw(scenes(most_objects=4) | cylinder_scenes())
+    size = max(abs(n) for n in (*scene["camera"]["center"].values(), 1e-6))
+    parts = [item for item in scene["objects"] if item["type"] != "plane"]
+    chosen = [item for item in parts if draw(st.booleans())] or parts[:1]
+    if not chosen:
+        return scene
+    others = [item for item in scene["objects"] if not any(item is part for part in chosen)]
+    at = draw(st.lists(places(draw(st.sampled_from([0.1, 1.0, 4.0])) * size), max_size=4))
+    copies = {"type": "copies", "objects": chosen, "at": at}
+    return {**scene, "objects": draw(st.permutations([*others, copies]))}
+
+
 def views(camera: dict[str, Any]) -> st.SearchStrategy[dict[str, Any]]:
     """Return optional keys of a camera, often none."""
     ways = {"up": directions().filter(lambda up: not _near_parallel(up, camera["normal"]))}

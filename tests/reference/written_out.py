@@ -7,6 +7,9 @@ import numpy as np
 
 import vtray
 
+POINTS = ("center", "start", "end")
+"""What is moved of an object."""
+
 
 class Origin(NamedTuple):
     """Where an object that is written out comes from.
@@ -43,7 +46,7 @@ def write_out(scene: vtray.Scene) -> tuple[vtray.Scene, list[Origin]]:
 def moved(item: Any, way: Any) -> Any:
     """Return an object moved by a translation, (3,): each coordinate is a sum of two doubles."""
     columns = {name: getattr(item, name) for name in item.__struct_fields__}
-    for name in {"center", "start", "end"} & set(columns):
+    for name in set(POINTS) & set(columns):
         columns[name] = moved_points(columns[name], way)
     made = type(item)(**columns)
     # Its colours stand for the same values, in a colour bar.
@@ -61,3 +64,20 @@ def moved_points(points: Any, way: Any) -> Any:
 def written_out(objects: Iterable[Any]) -> list[Any]:
     """Return objects with those of copies in their place, copy by copy."""
     return write_out(vtray.Scene(None, [], list(objects)))[0].objects
+
+
+def written_out_file(scene: dict[str, Any]) -> dict[str, Any]:
+    """Return a scene, as a file says it, with copies written out."""
+    objects = []
+    for item in scene["objects"]:
+        if item["type"] == "copies":
+            objects += [_moved(part, place) for place in item["at"] for part in item["objects"]]
+        else:
+            objects.append(item)
+    return {**scene, "objects": objects}
+
+
+def _moved(part: dict[str, Any], place: dict[str, float]) -> dict[str, Any]:
+    """Return an object, as a file says it, that is moved."""
+    names = [name for name in POINTS if name in part]
+    return part | {name: {a: part[name][a] + place[a] for a in "xyz"} for name in names}

@@ -20,14 +20,14 @@ class Surfaces(NamedTuple):
     ids
         Place in ``scene.objects``, and place in the arrays of that object, 0 if it has none; both
         -1 where nothing is; int32, (height, width, 2).
-    copies
-        Which copy of what `Copies` place, -1 where there is none; int32, (height, width).
     halves
         1 for the half at the end of a cylinder, else 0; int8, (height, width).
+    copies
+        Which copy of what `Copies` place, -1 where there is none; int32, (height, width).
     """
 
     depth: Floats
     normals: Floats
     ids: NDArray[np.int32]
-    copies: NDArray[np.int32]
     halves: NDArray[np.int8]
+    copies: NDArray[np.int32]

@@ -37,4 +37,4 @@ class Look:
         # What is farther away than a double can say is there all the same.
         np.minimum(depth, sys.float_info.max, out=depth, where=film.primitive >= 0)
         ids, copies = find_all(self._scene.objects, film.primitive)
-        return Surfaces(depth, film.normal, ids, copies, film.half)
+        return Surfaces(depth, film.normal, ids, film.half, copies)
