@@ -90,7 +90,7 @@ WRONG = [
     ),
     *(("--bits", bad, "8 or 16") for bad in ("7", "0", "", "16.0")),
     *(
-        ("--aov", bad, "names of depth, normals, ids with commas between")
+        ("--aov", bad, "names of depth, normals, ids, copies with commas between")
         for bad in ("", "dept", "depth,", "depth;ids")
     ),
 ]

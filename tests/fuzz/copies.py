@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-SHARE = 0.0
+SHARE = 0.3
 """How many of the random scenes hold copies, from 0 to 1."""
 
 

@@ -184,9 +184,19 @@ BAD = [
     ("a.jpg", {"bits": 16}, {}, "expected 8 for this format, got 16; .png, .tif, .tiff, .npz can"),
     ("a.webp", {"bits": 16}, {}, "expected 8 for this format, got 16; .png, .tif, .tiff, .npz can"),
     ("a.exr", {"bits": 16}, {}, "bits: expected 32 for this format, got 16"),
-    ("a.exr", {"aov": ["dept"]}, {}, "aov: expected names of depth, normals, ids, got 'dept'"),
-    ("a.exr", {"aov": "depth,ids"}, {}, "aov: expected names of depth, normals, ids, got 'depth,"),
-    ("a.exr", {"aov": [1]}, {}, "aov: expected names of depth, normals, ids, got 1"),
+    (
+        "a.exr",
+        {"aov": ["dept"]},
+        {},
+        "aov: expected names of depth, normals, ids, copies, got 'dept'",
+    ),
+    (
+        "a.exr",
+        {"aov": "depth,ids"},
+        {},
+        "aov: expected names of depth, normals, ids, copies, got 'depth,",
+    ),
+    ("a.exr", {"aov": [1]}, {}, "aov: expected names of depth, normals, ids, copies, got 1"),
     *(
         (f"a{ending}", {"aov": ["ids", "depth"]}, {}, "cannot hold depth, ids; .exr, .npz can")
         for ending in (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".webp", "")
