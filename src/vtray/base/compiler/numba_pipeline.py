@@ -2,14 +2,24 @@
 
 Numba makes machine code of each function by itself, so that Python could call it. Here that is of
 use for a kernel alone, into which LLVM has put all device functions by then.
+
+A kernel takes its arguments as hundreds of machine words, and handing over so many takes 15
+microseconds. So machine code begins with an entry point that takes them from memory.
 """
 
 # mypy: allow-untyped-calls
 
 from typing import Any
 
+from llvmlite import binding, ir
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
+
+ENTRY = "entry"
+"""The name of the entry point: ``int entry(result *, exception **, const char *words)``."""
+
+WORD_BITS = 64
+"""What lies in memory for each argument, which begins where its word does."""
 
 
 class Pipeline(Compiler):
@@ -41,9 +51,19 @@ class Library(JITCodeLibrary):
 
     codegen = _NoEnvironments()
 
-    def object_code(self) -> bytes:
-        """Return an object file of this machine."""
+    def object_code(self, name: str, kind: ir.FunctionType) -> bytes:
+        """Return an object file of this machine.
+
+        Parameters
+        ----------
+        name, kind
+            The function that the entry point calls, ``int name(result *, exception **, ...)``.
+        """
         self._ensure_finalized()
+        # Not before: the function would be put into its entry, and LLVM forget what arguments are.
+        module = self._codegen._create_empty_module(ENTRY)  # noqa: SLF001
+        _write_entry(module, ir.Function(module, kind, name))
+        self._final_module.link_in(binding.parse_assembly(str(module)))
         code: bytes = self._codegen._tm.emit_object(self._final_module)  # noqa: SLF001
         return code
 
@@ -55,3 +75,18 @@ class Library(JITCodeLibrary):
     def _finalize_final_module(self) -> None:
         """Leave the module, which has been optimized, as it is."""
         self._finalized = True
+
+
+def _write_entry(module: ir.Module, function: ir.Function) -> None:
+    """Write the entry point of a function."""
+    kind, word = function.function_type, ir.IntType(WORD_BITS)
+    entry_kind = ir.FunctionType(kind.return_type, [*kind.args[:2], word.as_pointer()])
+    entry = ir.Function(module, entry_kind, ENTRY)
+    entry.attributes.add("nounwind")
+    builder = ir.IRBuilder(entry.append_basic_block())
+    result, exception, words = entry.args
+    arguments = []
+    for number, argument in enumerate(kind.args[2:]):
+        place = builder.gep(words, [word(number)])
+        arguments.append(builder.load(builder.bitcast(place, argument.as_pointer()), align=1))
+    builder.ret(builder.call(function, [result, exception, *arguments]))

@@ -49,7 +49,7 @@ class ObjectCode(msgspec.Struct, frozen=True):
     Attributes
     ----------
     symbol
-        The name of its function in the code.
+        The name of its entry point in the code.
     layout
         What it returns.
     code
@@ -105,7 +105,7 @@ def compile_object(
     check_memory_of_compiler()
     import numba
 
-    from vtray.base.compiler.numba_pipeline import Pipeline
+    from vtray.base.compiler.numba_pipeline import ENTRY, Pipeline
 
     # The wrappers through which Python would call it need Numba in memory.
     unwrapped: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
@@ -114,8 +114,10 @@ def compile_object(
     types = tuple(map(typeof, arguments))
     compiler.compile(types)
     result = compiler.overloads[types]
-    code = result.library.object_code()
-    return ObjectCode(result.fndesc.llvm_func_name, _layout(result.signature.return_type), code)
+    described, convention = result.fndesc, result.target_context.call_conv
+    kind = convention.get_function_type(described.restype, described.argtypes)
+    code = result.library.object_code(described.llvm_func_name, kind)
+    return ObjectCode(ENTRY, _layout(result.signature.return_type), code)
 
 
 def link(compiled: ObjectCode) -> int:
