@@ -1,7 +1,8 @@
 """Numba's compiler, without the work that is of no use to kernels.
 
-Numba makes machine code of each function by itself, so that Python could call it. Here that is of
-use for a kernel alone, into which LLVM has put all device functions by then.
+Numba optimizes each function together with all that it calls, and makes machine code of it, so that
+Python could call it. Here that is of use for a kernel alone, into which LLVM puts all device
+functions. They are only simplified, each by itself: without that, loops are not vectorised.
 
 A kernel takes its arguments as hundreds of machine words, and handing over so many takes 15
 microseconds. So machine code begins with an entry point that takes them from memory.
@@ -22,23 +23,6 @@ WORD_BITS = 64
 """What lies in memory for each argument, which begins where its word does."""
 
 
-class Pipeline(Compiler):
-    """Numba's usual way from a function in Python to one in LLVM's language."""
-
-    def __init__(
-        self,
-        typingctx: Any,  # noqa: ANN401
-        targetctx: Any,  # noqa: ANN401
-        library: None,  # noqa: ARG002 - it is made here
-        args: Any,  # noqa: ANN401
-        return_type: Any,  # noqa: ANN401
-        flags: Any,  # noqa: ANN401
-        locals: Any,  # noqa: A002, ANN401
-    ) -> None:
-        made = Library(targetctx.codegen(), "function")
-        super().__init__(typingctx, targetctx, made, args, return_type, flags, locals)
-
-
 class _NoEnvironments:
     """Passes over what Numba keeps for those functions that Python calls."""
 
@@ -46,10 +30,26 @@ class _NoEnvironments:
         """Do nothing."""
 
 
-class Library(JITCodeLibrary):
-    """A function and all that it calls, in LLVM's language."""
+class DeviceLibrary(JITCodeLibrary):
+    """A function and all that it calls, in LLVM's language, to be put into others."""
 
     codegen = _NoEnvironments()
+
+    def get_pointer_to_function(self, name: str) -> int:  # noqa: ARG002
+        """Return 0: the function is nowhere in memory."""
+        self._ensure_finalized()
+        return 0
+
+    def _optimize_final_module(self) -> None:
+        """Leave what is optimized in the kernel as it is."""
+
+    def _finalize_final_module(self) -> None:
+        """Make no machine code of it."""
+        self._finalized = True
+
+
+class KernelLibrary(DeviceLibrary):
+    """A kernel and all that it calls, optimized."""
 
     def object_code(self, name: str, kind: ir.FunctionType) -> bytes:
         """Return an object file of this machine.
@@ -67,14 +67,33 @@ class Library(JITCodeLibrary):
         code: bytes = self._codegen._tm.emit_object(self._final_module)  # noqa: SLF001
         return code
 
-    def get_pointer_to_function(self, name: str) -> int:  # noqa: ARG002
-        """Return 0: the function is nowhere in memory."""
-        self._ensure_finalized()
-        return 0
+    def _optimize_final_module(self) -> None:
+        JITCodeLibrary._optimize_final_module(self)  # noqa: SLF001
 
-    def _finalize_final_module(self) -> None:
-        """Leave the module, which has been optimized, as it is."""
-        self._finalized = True
+
+class DevicePipeline(Compiler):
+    """Numba's usual way from a function in Python to one in LLVM's language."""
+
+    library: type[DeviceLibrary] = DeviceLibrary
+
+    def __init__(
+        self,
+        typingctx: Any,  # noqa: ANN401
+        targetctx: Any,  # noqa: ANN401
+        library: None,  # noqa: ARG002 - it is made here
+        args: Any,  # noqa: ANN401
+        return_type: Any,  # noqa: ANN401
+        flags: Any,  # noqa: ANN401
+        locals: Any,  # noqa: A002, ANN401
+    ) -> None:
+        made = self.library(targetctx.codegen(), "function")
+        super().__init__(typingctx, targetctx, made, args, return_type, flags, locals)
+
+
+class KernelPipeline(DevicePipeline):
+    """The same for a kernel."""
+
+    library = KernelLibrary
 
 
 def _write_entry(module: ir.Module, function: ir.Function) -> None:

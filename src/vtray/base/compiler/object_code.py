@@ -105,11 +105,11 @@ def compile_object(
     check_memory_of_compiler()
     import numba
 
-    from vtray.base.compiler.numba_pipeline import ENTRY, Pipeline
+    from vtray.base.compiler.numba_pipeline import ENTRY, KernelPipeline
 
     # The wrappers through which Python would call it need Numba in memory.
     unwrapped: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-    compiler: Any = numba.njit(function, pipeline_class=Pipeline, **options, **unwrapped)
+    compiler: Any = numba.njit(function, pipeline_class=KernelPipeline, **options, **unwrapped)
     typeof: Any = numba.typeof
     types = tuple(map(typeof, arguments))
     compiler.compile(types)
