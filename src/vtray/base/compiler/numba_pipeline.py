@@ -13,11 +13,26 @@ microseconds. So machine code begins with an entry point that takes them from me
 from typing import Any
 
 from llvmlite import binding, ir
+from numba.core import typed_passes, untyped_passes
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
+from numba.core.compiler_machinery import PassManager
 
 ENTRY = "entry"
 """The name of the entry point: ``int entry(result *, exception **, const char *words)``."""
+
+UNUSED = (
+    untyped_passes.WithLifting,
+    untyped_passes.InlineClosureLikes,
+    untyped_passes.MakeFunctionToJitFunction,
+    untyped_passes.InlineInlinables,
+    untyped_passes.FindLiterallyCalls,
+    untyped_passes.LiteralUnroll,
+    untyped_passes.LiteralPropagationSubPipelinePass,
+    typed_passes.InlineOverloads,
+    typed_passes.NopythonRewrites,
+)
+"""Passes over what kernels do without: closures, contexts, literals, expressions of arrays."""
 
 WORD_BITS = 64
 """What lies in memory for each argument, which begins where its word does."""
@@ -88,6 +103,14 @@ class DevicePipeline(Compiler):
     ) -> None:
         made = self.library(targetctx.codegen(), "function")
         super().__init__(typingctx, targetctx, made, args, return_type, flags, locals)
+
+    def define_pipelines(self) -> list[PassManager]:
+        """Return Numba's passes but those for which kernels have nothing."""
+        managers: list[PassManager] = super().define_pipelines()
+        for manager in managers:
+            manager.passes = [step for step in manager.passes if step[0] not in UNUSED]
+            manager.finalize()
+        return managers
 
 
 class KernelPipeline(DevicePipeline):
