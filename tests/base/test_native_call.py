@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from vtray.base.compiler.compiled import Device, Kernel, pinned
-from vtray.base.compiler.native_call import MAX_WORDS, UnsupportedError, unpack
+from vtray.base.compiler.native_call import UnsupportedError, unpack
 
 pytestmark = pytest.mark.usefixtures("compiler")
 
@@ -170,11 +170,23 @@ def test_other_values_are_left_to_numba(value: object) -> None:
         unpack([value])
 
 
-def test_more_words_than_ctypes_allows_are_left_to_numba() -> None:
-    many = (1,) * (MAX_WORDS + 1)
-    with pytest.raises(UnsupportedError):
-        unpack([many])
-    unpack([many[1:]])
+def test_more_words_than_ctypes_allows() -> None:
+    def last(numbers: Any, weights: Any) -> Any:
+        return numbers[-1], weights[-1], numbers[0] + weights[0]
+
+    kernel = Kernel(last)
+    numbers, weights = tuple(range(1, 700)), (0.5,) * 698 + (-2.5,)
+    assert kernel(numbers, pinned(weights)) == (699, -2.5, 1.5)
+    assert native(kernel)
+
+
+@pytest.mark.parametrize("dtype", ["b1", "i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "f4"])
+def test_words_beside_a_small_one_are_left_alone(dtype: str) -> None:
+    one = np.ones(1, dtype)[0]
+    arguments = (-1, one, -0.1, True, 2**63 - 1, False, -np.inf)
+    kernel = Kernel(return_same)
+    assert kernel(arguments) == arguments
+    assert native(kernel)
 
 
 def test_unsupported_arguments_are_still_computed() -> None:

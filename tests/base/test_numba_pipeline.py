@@ -42,3 +42,18 @@ def test_device_functions_have_no_machine_code(monkeypatch: pytest.MonkeyPatch) 
     assert kernel(np.array([4.0, 8.0])) == 3.0
     assert set(made) <= {"nrt"}  # Numba's own
     assert None not in kernel._native.values()
+
+
+def test_device_functions_are_optimized_in_kernels_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    optimized: list[str] = []
+    optimize = JITCodeLibrary._optimize_final_module
+
+    def spy(library: JITCodeLibrary) -> None:
+        optimized.append(type(library).__name__)
+        optimize(library)
+
+    monkeypatch.setattr(JITCodeLibrary, "_optimize_final_module", spy)
+    doubled = Device(lambda x: 2.0 * x)
+    assert Kernel(lambda x: doubled(doubled(x)))(0.5) == 2.0
+    assert "DeviceLibrary" not in optimized
+    assert optimized.count("KernelLibrary") == 1

@@ -1,12 +1,15 @@
 """Object code on disk is used where it fits, and only there."""
 
+import contextlib
+import gc
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import llvmlite
+import numba
 import numpy as np
 import pytest
 from examples import one_sphere
@@ -189,3 +192,34 @@ def test_second_run_does_without_numba(options: list[str], tmp_path: Path) -> No
 
     run(*options, "--pixel", "5,5")
     assert run(*options, "--pixel", "5,5") == "0 False"
+
+
+def spied(context: Callable[[], Any], during: list[tuple[int, int, int]]) -> Callable[[], Any]:
+    """Return a context that notes how often Python collects in it."""
+
+    @contextlib.contextmanager
+    def noting() -> Iterator[None]:
+        with context():
+            during.append(gc.get_threshold())
+            yield
+
+    return noting
+
+
+def test_python_collects_as_before_after_compiling(monkeypatch: pytest.MonkeyPatch) -> None:
+    usual = gc.get_threshold()
+    during: list[tuple[int, int, int]] = []
+    monkeypatch.setattr(
+        object_code, "_fewer_collections", spied(object_code._fewer_collections, during)
+    )
+    compile_object(total, (np.ones(1),), {})
+    with pytest.raises(numba.TypingError):
+        compile_object(total, ("text",), {})
+    assert during == [(object_code._OBJECTS_TO_COLLECT, *usual[1:])] * 2
+    assert gc.get_threshold() == usual
+    gc.set_threshold(0)  # by somebody who wants no collections
+    try:
+        compile_object(total, (np.ones(1),), {})
+        assert gc.get_threshold()[0] == during[-1][0] == 0
+    finally:
+        gc.set_threshold(*usual)

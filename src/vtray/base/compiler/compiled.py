@@ -147,11 +147,11 @@ class Device:
         """
         import numba
 
-        from vtray.base.compiler.numba_pipeline import Pipeline
+        from vtray.base.compiler.numba_pipeline import DevicePipeline
 
         options = {**self._options, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
         compiled: Callable[..., object] = numba.njit(
-            self._function, pipeline_class=Pipeline, **options
+            self._function, pipeline_class=DevicePipeline, **options
         )
         return compiled
 

@@ -2,7 +2,8 @@
 
 A function that Numba has compiled is an ``int f(result *, exception **, arguments...)``. Tuples are
 taken apart into their members, and so are arrays: two pointers of Numba's own (null here), number
-of items, bytes of an item, address, then the shape and the strides.
+of items, bytes of an item, address, then the shape and the strides. Each of these is a word of
+eight bytes in memory, from where the entry point takes them (`numba_pipeline`).
 
 References
 ----------
@@ -10,6 +11,7 @@ https://numba.readthedocs.io/en/stable/developer/architecture.html
 """
 
 import ctypes
+import struct
 from collections.abc import Callable, Iterable
 from importlib import import_module
 from operator import attrgetter
@@ -34,17 +36,15 @@ C_TYPES: dict[str, Any] = {
 }
 """Scalars by the names of NumPy; without a name what returns nothing, which reads as None."""
 
-MAX_WORDS = 1000
-"""With more arguments ctypes refuses to call."""
-
 _SUCCESS = {0, -2}
 """What a function may return; -2 stands for None."""
 
-_address = ctypes.c_void_p.from_param
-_int = ctypes.c_int64.from_param
-_float = ctypes.c_double.from_param
-_bool = ctypes.c_bool.from_param
-_NULL = _address(None)
+_WORD_BYTES = 8
+_int = struct.Struct("q").pack
+_address = struct.Struct("Q").pack
+_float = struct.Struct("d").pack
+_NULL = _FALSE = bytes(_WORD_BYTES)
+_TRUE = b"\1".ljust(_WORD_BYTES, b"\0")
 
 
 class UnsupportedError(Exception):
@@ -72,7 +72,10 @@ Layout = str | TupleLayout
 Types = tuple[str, ...]
 """The types of a function's arguments, as texts that differ where the types do."""
 
-NativeCall = Callable[[list[Any]], object]
+Words = list[bytes]
+"""The words of arguments, one after the other; those of a pinned argument are together."""
+
+NativeCall = Callable[[Words], object]
 """Calls machine code with the words of its arguments."""
 
 
@@ -82,11 +85,12 @@ class Pinned:
     __slots__ = ("type", "value", "words")
 
     def __init__(self, value: object) -> None:
-        (self.type,), self.words = unpack([value])
+        (self.type,), words = unpack([value])
+        self.words = b"".join(words)
         self.value = value
 
 
-def unpack(arguments: Iterable[object]) -> tuple[Types, list[Any]]:
+def unpack(arguments: Iterable[object]) -> tuple[Types, Words]:
     """Return the types of arguments, and the words that are passed for them.
 
     The words hold addresses: they are good as long as the arguments live.
@@ -97,19 +101,17 @@ def unpack(arguments: Iterable[object]) -> tuple[Types, list[Any]]:
         Only Numba can handle these arguments.
     """
     types: list[str] = []
-    words: list[Any] = []
+    words: Words = []
     for argument in arguments:
         if type(argument) is Pinned:
             types.append(argument.type)
-            words += argument.words
+            words.append(argument.words)
         elif isinstance(argument, tuple):
             parts: list[str] = []
             _unpack(argument, parts, words)
             types.append("".join(parts))
         else:
             _unpack(argument, types, words)
-    if len(words) > MAX_WORDS:
-        raise UnsupportedError
     return tuple(types), words
 
 
@@ -136,9 +138,9 @@ def caller(address: int, layout: Layout) -> NativeCall:
     # All calls share this: nobody looks at it.
     exception = byref(ctypes.c_void_p())
 
-    def call(words: list[Any]) -> object:
+    def call(words: Words) -> object:
         result: Any = result_type()
-        status = native(byref(result), exception, *words)
+        status = native(byref(result), exception, b"".join(words))
         if status not in _SUCCESS:
             message = f"a kernel raised an exception: status {status}"
             raise RuntimeError(message)
@@ -147,7 +149,7 @@ def caller(address: int, layout: Layout) -> NativeCall:
     return call
 
 
-def _unpack(value: object, types: list[str], words: list[Any]) -> None:
+def _unpack(value: object, types: list[str], words: Words) -> None:
     """Append the type of a value, and its words."""
     kind = type(value)
     if kind is int and -(2**63) <= cast("int", value) < 2**63:
@@ -168,16 +170,15 @@ def _unpack(value: object, types: list[str], words: list[Any]) -> None:
         words.append(_NULL)
     elif kind is bool:
         types.append("b1,")
-        words.append(_bool(value))
+        words.append(_TRUE if value else _FALSE)
     elif isinstance(value, np.generic) and value.dtype.str[1:] in C_TYPES:
-        name = value.dtype.str[1:]
-        types.append(f"{name},")
-        words.append(C_TYPES[name].from_param(value.item()))
+        types.append(f"{value.dtype.str[1:]},")
+        words.append(value.tobytes().ljust(_WORD_BYTES, b"\0"))
     else:
         raise UnsupportedError
 
 
-def _unpack_array(array: "np.ndarray[Any, Any]", types: list[str], words: list[Any]) -> None:
+def _unpack_array(array: "np.ndarray[Any, Any]", types: list[str], words: Words) -> None:
     """Append the type of an array, and its words."""
     dtype, flags = array.dtype, array.flags
     if dtype.str[1:] not in C_TYPES:

@@ -1,19 +1,95 @@
 """Numba's compiler, without the work that is of no use to kernels.
 
-Numba makes machine code of each function by itself, so that Python could call it. Here that is of
-use for a kernel alone, into which LLVM has put all device functions by then.
+Numba optimizes each function together with all that it calls, and makes machine code of it, so that
+Python could call it. Here that is of use for a kernel alone, into which LLVM puts all device
+functions. They are only simplified, each by itself: without that, loops are not vectorised.
+
+A kernel takes its arguments as hundreds of machine words, and handing over so many takes 15
+microseconds. So machine code begins with an entry point that takes them from memory.
 """
 
 # mypy: allow-untyped-calls
 
 from typing import Any
 
+from llvmlite import binding, ir
+from numba.core import typed_passes, untyped_passes
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
+from numba.core.compiler_machinery import PassManager
+
+ENTRY = "entry"
+"""The name of the entry point: ``int entry(result *, exception **, const char *words)``."""
+
+UNUSED = (
+    untyped_passes.WithLifting,
+    untyped_passes.InlineClosureLikes,
+    untyped_passes.MakeFunctionToJitFunction,
+    untyped_passes.InlineInlinables,
+    untyped_passes.FindLiterallyCalls,
+    untyped_passes.LiteralUnroll,
+    untyped_passes.LiteralPropagationSubPipelinePass,
+    typed_passes.InlineOverloads,
+    typed_passes.NopythonRewrites,
+)
+"""Passes over what kernels do without: closures, contexts, literals, expressions of arrays."""
+
+WORD_BITS = 64
+"""What lies in memory for each argument, which begins where its word does."""
 
 
-class Pipeline(Compiler):
+class _NoEnvironments:
+    """Passes over what Numba keeps for those functions that Python calls."""
+
+    def set_env(self, name: str, environment: object) -> None:
+        """Do nothing."""
+
+
+class DeviceLibrary(JITCodeLibrary):
+    """A function and all that it calls, in LLVM's language, to be put into others."""
+
+    codegen = _NoEnvironments()
+
+    def get_pointer_to_function(self, name: str) -> int:  # noqa: ARG002
+        """Return 0: the function is nowhere in memory."""
+        self._ensure_finalized()
+        return 0
+
+    def _optimize_final_module(self) -> None:
+        """Leave what is optimized in the kernel as it is."""
+
+    def _finalize_final_module(self) -> None:
+        """Make no machine code of it."""
+        self._finalized = True
+
+
+class KernelLibrary(DeviceLibrary):
+    """A kernel and all that it calls, optimized."""
+
+    def object_code(self, name: str, kind: ir.FunctionType) -> bytes:
+        """Return an object file of this machine.
+
+        Parameters
+        ----------
+        name, kind
+            The function that the entry point calls, ``int name(result *, exception **, ...)``.
+        """
+        self._ensure_finalized()
+        # Not before: the function would be put into its entry, and LLVM forget what arguments are.
+        module = self._codegen._create_empty_module(ENTRY)  # noqa: SLF001
+        _write_entry(module, ir.Function(module, kind, name))
+        self._final_module.link_in(binding.parse_assembly(str(module)))
+        code: bytes = self._codegen._tm.emit_object(self._final_module)  # noqa: SLF001
+        return code
+
+    def _optimize_final_module(self) -> None:
+        JITCodeLibrary._optimize_final_module(self)  # noqa: SLF001
+
+
+class DevicePipeline(Compiler):
     """Numba's usual way from a function in Python to one in LLVM's language."""
+
+    library: type[DeviceLibrary] = DeviceLibrary
 
     def __init__(
         self,
@@ -25,33 +101,34 @@ class Pipeline(Compiler):
         flags: Any,  # noqa: ANN401
         locals: Any,  # noqa: A002, ANN401
     ) -> None:
-        made = Library(targetctx.codegen(), "function")
+        made = self.library(targetctx.codegen(), "function")
         super().__init__(typingctx, targetctx, made, args, return_type, flags, locals)
 
+    def define_pipelines(self) -> list[PassManager]:
+        """Return Numba's passes but those for which kernels have nothing."""
+        managers: list[PassManager] = super().define_pipelines()
+        for manager in managers:
+            manager.passes = [step for step in manager.passes if step[0] not in UNUSED]
+            manager.finalize()
+        return managers
 
-class _NoEnvironments:
-    """Passes over what Numba keeps for those functions that Python calls."""
 
-    def set_env(self, name: str, environment: object) -> None:
-        """Do nothing."""
+class KernelPipeline(DevicePipeline):
+    """The same for a kernel."""
+
+    library = KernelLibrary
 
 
-class Library(JITCodeLibrary):
-    """A function and all that it calls, in LLVM's language."""
-
-    codegen = _NoEnvironments()
-
-    def object_code(self) -> bytes:
-        """Return an object file of this machine."""
-        self._ensure_finalized()
-        code: bytes = self._codegen._tm.emit_object(self._final_module)  # noqa: SLF001
-        return code
-
-    def get_pointer_to_function(self, name: str) -> int:  # noqa: ARG002
-        """Return 0: the function is nowhere in memory."""
-        self._ensure_finalized()
-        return 0
-
-    def _finalize_final_module(self) -> None:
-        """Leave the module, which has been optimized, as it is."""
-        self._finalized = True
+def _write_entry(module: ir.Module, function: ir.Function) -> None:
+    """Write the entry point of a function."""
+    kind, word = function.function_type, ir.IntType(WORD_BITS)
+    entry_kind = ir.FunctionType(kind.return_type, [*kind.args[:2], word.as_pointer()])
+    entry = ir.Function(module, entry_kind, ENTRY)
+    entry.attributes.add("nounwind")
+    builder = ir.IRBuilder(entry.append_basic_block())
+    result, exception, words = entry.args
+    arguments = []
+    for number, argument in enumerate(kind.args[2:]):
+        place = builder.gep(words, [word(number)])
+        arguments.append(builder.load(builder.bitcast(place, argument.as_pointer()), align=1))
+    builder.ret(builder.call(function, [result, exception, *arguments]))

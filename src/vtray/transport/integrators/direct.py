@@ -115,8 +115,8 @@ def _trace_pixels(
     stop: NDArray[np.bool_],
 ) -> tuple[float, int]:
     """Trace pixels of a block's list, a packet of samples after the other."""
+    peak = 0.0
     rays = 0
-    hits = 0
     if sampling.rays > 1:
         clear_sums(work.sums, end - begin)
     for first in range(0, sampling.rays, LANES):
@@ -130,9 +130,11 @@ def _trace_pixels(
         rays += lanes
         if sampling.rays > 1:
             add_samples(packet, lanes, hits, last - first, work.sums)
+        else:
+            peak = write_middles(packet, block, begin, end, hits, work.pixels, film)
     if sampling.rays > 1:
-        return write_pixels(block, begin, end, work.pixels, work.sums, film), rays
-    return write_middles(packet, block, begin, end, hits, work.pixels, film), rays
+        peak = write_pixels(block, begin, end, work.pixels, work.sums, film)
+    return peak, rays
 
 
 @device
