@@ -1,6 +1,7 @@
 """The same spheres and cylinders at many places."""
 
 import math
+import operator
 import typing
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
@@ -113,7 +114,7 @@ lambert=1.0),), at=<float64 (2, 3)>)
         IndexError
             There is no such sphere or cylinder.
         """
-        left = index
+        left = operator.index(index)
         for place, item in enumerate(self.objects):
             count = len(item) if isinstance(item, Arrays) else 1
             if 0 <= left < count:
