@@ -212,10 +212,10 @@ def test_each_scale_has_a_bar(image: vtray.Image) -> None:
 def test_scales_of_copies_have_bars_once() -> None:
     scene = helix()
     heat = {"color": [1.0, 3.0], "cmap": "magma"}
-    bonds = vtray.Scene().add_cylinders(np.zeros((2, 3)), np.ones((2, 3)), 0.1, **heat)  # type: ignore[arg-type]
+    bonds = vtray.Scene().add_cylinders(np.zeros((2, 3)), np.ones((2, 3)), 0.1, **heat)
     (spheres, _) = scene.objects
     ball = vtray.Sphere((0, 0, 0), 1)
-    scene.objects[0] = vtray.Copies([ball, bonds, spheres, bonds], [(0, 0, 0), (0, 0, 9)])  # type: ignore[list-item]
+    scene.objects[0] = vtray.Copies([ball, bonds, spheres, bonds], [(0, 0, 0), (0, 0, 9)])
     scene.objects.append(spheres)
     labels = ["energy", "charge"]
     figure = vtray.render(scene).figure(colorbar=labels)

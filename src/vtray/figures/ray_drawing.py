@@ -12,8 +12,8 @@ from vtray.base.extras import need
 from vtray.figures.drawn.objects import (
     colored_parts,
     cut_shapes,
+    placed_shapes,
     shape_of,
-    shapes_in,
     where_met,
 )
 from vtray.figures.pen import BLOCKED, FAINT, INK, LIT, RAY, Pen
@@ -105,11 +105,12 @@ class _Drawing(Pen):
             return tree.hit.distance
         steep = float(np.dot(tree.direction, tree.view.forward))
         reach = 3 * tree.view.focus
-        for item in tree.scene.objects:
-            shapes = shapes_in(item)
-            if shapes is not None:
-                ahead = (shapes.middle - np.array(tree.origin)) @ np.array(tree.view.forward)
-                reach = max(reach, 1.15 * float(np.median(ahead)))
+        forward = np.array(tree.view.forward)
+        for shapes, at in placed_shapes(tree.scene.objects):
+            ahead = (shapes.middle - np.array(tree.origin)) @ forward
+            # Not the median of all sums, of which there may be too many.
+            middle = float(np.median(ahead)) + float(np.median(at @ forward))
+            reach = max(reach, 1.15 * middle)
         return reach / steep
 
     def _find_box(self) -> Floats:
