@@ -14,6 +14,7 @@ from conftest import JIT
 from vtray.figures.ray_tree import RayTree, Surface
 
 pytest.importorskip("matplotlib", reason="needs the extra vtray[figure]")
+from matplotlib.figure import Figure
 
 RED, BLUE = (200, 10, 20), (20, 10, 200)
 
@@ -50,6 +51,11 @@ def test_rays_are_those_of_copies_written_out() -> None:
         assert blockers == everything
 
 
+def in_lines(name: str) -> str:
+    """Return a name as drawings have it: that of a part of a copy in two lines."""
+    return name.replace(", ", ",\n") if "of copy" in name else name
+
+
 def floor_with(*parts: Any) -> vtray.Scene:
     """Return a floor with copies in place of spheres; the second is above `floor_pixel`."""
     scene = lit_floor()
@@ -79,7 +85,7 @@ def test_names_and_drawings_of_what_blocks(
     assert f"adds       nothing: {name}, is in the way" in str(tree)
     ax = tree.draw(light=0)
     ax.figure.draw_without_rendering()
-    assert f"lights[0]\nblocked by {name}" in texts(ax)
+    assert f"lights[0]\nblocked by {in_lines(name)}" in texts(ax)
     assert marks(ax, "X") == [pytest.approx((10, 2))]
 
 
@@ -95,6 +101,12 @@ def test_text_says_where_the_copy_that_is_hit_stands() -> None:
     assert "copy" not in str(vtray.trace_pixel(image, *floor_pixel())).splitlines()[3]
 
 
+def surfaces(tree: RayTree) -> list[Surface]:
+    """Return all that the rays of a pixel meet."""
+    found = [tree.hit.surface] if tree.hit else []
+    return found + [ray.blocker for ray in tree.lights if ray.blocker]
+
+
 def outlines(ax: Any) -> list[Any]:
     """Return the corners of all shapes in a drawing, (n, 2) each, in an order of their own."""
     paths = [path for collection in ax.collections for path in collection.get_paths()]
@@ -108,16 +120,22 @@ def test_drawings_are_those_of_copies_written_out(pixel: tuple[int, int]) -> Non
     written, origins = write_out(scene)
     tree, other = vtray.trace_pixel(scene, *pixel), vtray.trace_pixel(written, *pixel)
     ax, beside = tree.draw(), other.draw()
-    renamed = as_copied(other, origins)
-    pairs = [(other.hit, renamed.hit)] if other.hit else []
-    names = {str(old.surface): str(new.surface) for old, new in pairs}
-    names |= {
-        str(old.blocker): str(new.blocker)
-        for old, new in zip(other.lights, renamed.lights, strict=True)
-    }
+    pairs = zip(surfaces(other), surfaces(as_copied(other, origins)), strict=True)
+    names = {str(old): in_lines(str(new)) for old, new in pairs}
     found = texts(beside)
     for old, new in names.items():
         found = [text.replace(old, new) for text in found]
     assert sorted(texts(ax)) == sorted(found)
     for shown, expected in zip(outlines(ax), outlines(beside), strict=True):
         assert shown == pytest.approx(expected, abs=1e-9)
+
+
+@pytest.mark.parametrize("inches", [3, 5, 8])
+def test_names_are_within_the_drawing(inches: float) -> None:
+    tree = vtray.trace_pixel(molecules(size=(36, 27)), 18, 13)
+    ax = Figure(figsize=(inches, 0.7 * inches), dpi=100).add_axes((0.02, 0.08, 0.96, 0.82))
+    tree.draw(ax)
+    assert tree.hit is not None
+    (name,) = [text for text in ax.texts if text.get_text() == in_lines(str(tree.hit.surface))]
+    box = name.get_window_extent()
+    assert 0 <= box.x0 < box.x1 <= ax.figure.bbox.x1

@@ -292,7 +292,7 @@ class _Drawing(Pen):
             self.line(stop, goal, BLOCKED, lw=1.0, ls=(0, (1, 2.5)), alpha=0.7 * strength)
             size = 5 if thin else 9
             self.ax.plot(*stop, "X", ms=size, mfc=BLOCKED, mec="white", mew=size / 9, zorder=8)
-            text = f"blocked by {ray.blocker}"
+            text = f"blocked by {_label(ray.blocker)}"
         if shown:
             self.sun(goal, LIT, 0.5 if thin else 1.0)
         if not thin:
@@ -342,14 +342,14 @@ class _Drawing(Pen):
 
     def name(self, surface: Surface, away: Floats) -> None:
         """Write what is hit, on the side that the normal leaves free."""
-        shape, text = shape_of(self.tree.scene, surface), str(surface)
+        shape, text = shape_of(self.tree.scene, surface), _label(surface)
         low, high = self.box if shape is None else shape.bounds(self.section)
         middle, half = (low + high) / 2, (high - low) / 2
         if shape is None or not ((self.box[0] < middle) & (middle < self.box[1])).all():
             side, level = _side(-away[0]), _level(-away[1])
             self.note(text, self.end, _points(-14 * away), ha=side, va=level)
             return
-        room = 0.18 * (self.box[1, 0] - self.box[0, 0])
+        room = max(0.18 * (self.box[1, 0] - self.box[0, 0]), 1.1 * self.width(text))
         if 2 * half[0] > room:
             self.note(text, middle, (0, 0), ha="center", va="center")
         elif middle[0] + half[0] + room < self.box[1, 0]:
@@ -384,6 +384,11 @@ class _Drawing(Pen):
         self.ax.text(1, -0.03, text, ha="right", va="top", **style)
         length = round_length(0.2 * float(self.box[1, 0] - self.box[0, 0]))
         self.scale(float(self.box[0, 0]), length)
+
+
+def _label(surface: Surface) -> str:
+    """Return the name of a surface, in two lines if it is long."""
+    return str(surface) if surface.copy is None else str(surface).replace(", ", ",\n")
 
 
 def _shade(color: Vec) -> Vec:
