@@ -1,6 +1,7 @@
 """What drawings show of copies: what their plane cuts of those written out."""
 
 import tracemalloc
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from written_out import write_out
 
 import vtray
 from vtray.figures.drawn import objects
-from vtray.figures.drawn.objects import MOST_CUTS, cut_shapes, placed_shapes
+from vtray.figures.drawn.objects import MOST_CUTS, _near, cut_shapes, placed_shapes
 from vtray.figures.section import Section
 
 pytest.importorskip("matplotlib", reason="needs the extra vtray[figure]")
@@ -34,13 +35,22 @@ def placed(item: Any, at: Any) -> vtray.Scene:
     return scene
 
 
-@pytest.mark.parametrize("pairs", [objects.PAIRS, 4, 1])
+def spread() -> vtray.Scene:
+    """Return copies whose objects reach far beyond each other, and are long."""
+    random = np.random.default_rng(5)
+    balls = vtray.Spheres(random.uniform(-3, 3, (20, 3)), random.uniform(0.1, 0.4, 20))
+    sticks = vtray.Cylinders(*random.uniform(-3, 3, (2, 9, 3)), radius=0.1)
+    return placed([balls, sticks], random.uniform(-4, 4, (6, 3)))
+
+
+@pytest.mark.parametrize("make", [molecules, spread])
+@pytest.mark.parametrize("pairs", [objects.PAIRS, 40, 1])
 def test_a_plane_cuts_what_it_cuts_of_copies_written_out(
-    pairs: int, monkeypatch: pytest.MonkeyPatch
+    make: Callable[[], vtray.Scene], pairs: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(objects, "PAIRS", pairs)
     random = np.random.default_rng(1)
-    scene = molecules()
+    scene = make()
     written, _ = write_out(scene)
     counts = []
     for box in [EVERYWHERE, *random.uniform([(-3, -3), (0, 0)], [(0, 0), (3, 3)], (20, 2, 2))]:
@@ -67,9 +77,11 @@ def test_the_largest_of_many_are_shown(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("at", [[], [(0, 0, 1.01)], [(9, 0, 0)], [(0, -9, 0.5)]])
 def test_places_out_of_reach_are_left_out(at: Any) -> None:
-    scene = placed([vtray.Sphere((0, 0, 0), 1), vtray.Spheres([], 1)], at)
-    assert cut(scene, FLAT, [(-1, -1), (1, 1)]) == []
-    assert len(list(placed_shapes(scene.objects))) == min(len(at), 1)
+    scene, box = placed([vtray.Sphere((0, 0, 0), 1), vtray.Spheres([], 1)], at), EVERYWHERE / 99
+    assert cut(scene, FLAT, box) == []
+    shown = list(placed_shapes(scene.objects))
+    assert len(shown) == min(len(at), 1)
+    assert [near for group in shown for near in _near(*group, FLAT, box)] == []
 
 
 def test_many_copies_are_not_written_out() -> None:

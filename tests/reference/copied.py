@@ -20,7 +20,7 @@ def molecules(**camera: Any) -> vtray.Scene:
     random = np.random.default_rng(3)
     water = [
         vtray.Sphere((0, 0, 0), 0.5, RED),
-        vtray.Spheres(np.array([(0.7, 0.5, 0), (-0.7, 0.5, 0)], np.float32), 0.3, SAND, 0.9),
+        vtray.Spheres(np.array([(0.7, 0.5, 0), (-0.7, 0.5, 0)], "f4"), 0.3, [SAND, BLUE], 0.9),
         vtray.Cylinder((0, 0, 0), (0.7, 0.5, 0), 0.1, SAND),
         vtray.Cylinders([(0, 0, 0)], [(-0.7, 0.5, 0.1)], 0.12, RED, color_end=GREEN),
     ]
