@@ -209,6 +209,20 @@ def test_each_scale_has_a_bar(image: vtray.Image) -> None:
     assert len(image.figure(colorbar=True).axes) == 2
 
 
+def test_scales_of_copies_have_bars_once() -> None:
+    scene = helix()
+    heat = {"color": [1.0, 3.0], "cmap": "magma"}
+    bonds = vtray.Scene().add_cylinders(np.zeros((2, 3)), np.ones((2, 3)), 0.1, **heat)
+    (spheres, _) = scene.objects
+    ball = vtray.Sphere((0, 0, 0), 1)
+    scene.objects[0] = vtray.Copies([ball, bonds, spheres, bonds], [(0, 0, 0), (0, 0, 9)])
+    scene.objects.append(spheres)
+    labels = ["energy", "charge"]
+    figure = vtray.render(scene).figure(colorbar=labels)
+    assert [axes.get_ylabel() for axes in figure.axes[1:]] == labels
+    assert [axes.get_ylim() for axes in figure.axes[1:]] == [(1, 3), (-2, 3.5)]
+
+
 @pytest.mark.parametrize("limits", [(0, 1), (-1e-9, 3e-9), (0, 1e7), (99.99, 100.01), (-5, 250)])
 def test_marks_of_colour_bars_are_true_and_fit(limits: tuple[float, float]) -> None:
     scene = helix()

@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from copied import molecules
 from hypothesis import given
 from hypothesis import strategies as st
+from written_out import write_out
 
 import vtray
 from vtray.figures.flat import CONTRAST, DARKEST, lightness_range, lit_colors
@@ -132,3 +134,12 @@ def test_halves_of_cylinders_have_their_colors(one_for_all: bool) -> None:
     np.testing.assert_array_equal(image.halves[seen][sure], halves[sure])
     np.testing.assert_allclose(lab[sure, 1:], own[halves[sure], 1:], atol=0.0025)
     assert not image.halves[~seen].any()
+
+
+def test_copies_have_the_colors_of_what_is_copied() -> None:
+    scene = molecules()
+    image, written = vtray.render(scene), vtray.render(write_out(scene)[0])
+    assert {1, 3} <= set(np.unique(image.ids[..., 0]))
+    assert image.halves[image.copies >= 0].any()
+    np.testing.assert_array_equal(image.flat(), written.flat())
+    assert len(np.unique(image.flat().reshape(-1, 3), axis=0)) > 50

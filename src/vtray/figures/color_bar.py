@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vtray.figures.flat import lit_colors
 from vtray.figures.lettering import write
 from vtray.figures.sheet import INCH, FigureError
+from vtray.scene.copies import Copies
 from vtray.scene.objects import Object
 
 if TYPE_CHECKING:
@@ -29,12 +30,14 @@ LEAST_LINE = 6.0
 
 
 def color_scales(objects: Sequence[Object]) -> list[Any]:
-    """Return the different colour scales of objects, in their order."""
+    """Return the different colour scales of objects, in their order, and of what is copied."""
     scales: list[Any] = []
     for item in objects:
-        scale = getattr(item, "color_scale", None)
-        if scale is not None and scale not in scales:
-            scales.append(scale)
+        inner = color_scales(item.objects) if isinstance(item, Copies) else []
+        own = getattr(item, "color_scale", None)
+        for scale in inner if own is None else [own]:
+            if scale not in scales:
+                scales.append(scale)
     return scales
 
 

@@ -6,12 +6,15 @@ darker by `CONTRAST`. Colours that have no room below, such as the dark end of v
 above them.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.figures.oklab import oklab_to_linear, oklab_to_srgb, srgb_to_oklab
 from vtray.figures.subject import Floats, Pixels, Subject
 from vtray.scene.arrays import Arrays
+from vtray.scene.copies import Copies
 from vtray.scene.objects import Object
 from vtray.scene.vectors import Color
 
@@ -77,20 +80,34 @@ def _edge(lab: Floats, goal: float) -> Floats:
     return inside
 
 
-def _own_colors(objects: list[Object], ids: NDArray[np.int32], halves: NDArray[np.int8]) -> Pixels:
+def _own_colors(
+    objects: Sequence[Object], ids: NDArray[np.int32], halves: NDArray[np.int8]
+) -> Pixels:
     """Return the colours of the surfaces with these ids, (n, 2), and halves, (n,), as (n, 3)."""
     colors = np.zeros((len(ids), 3), np.uint8)
-    for place in np.unique(ids[:, 0]):
+    places, counts = np.unique(ids[:, 0], return_counts=True)
+    of_each = np.split(np.argsort(ids[:, 0], kind="stable"), np.cumsum(counts)[:-1])
+    for place, mine in zip(places.tolist(), of_each, strict=True):
         item = objects[place]
-        mine = ids[:, 0] == place
-        if not isinstance(item, Arrays):
+        if isinstance(item, Copies):
+            colors[mine] = _own_colors(item.objects, _ids_within(item, ids[mine, 1]), halves[mine])
+        elif isinstance(item, Arrays):
+            colors[mine] = _rows(item.given_for("color"), ids[mine, 1])
+            if "color_end" in item.COLUMNS:
+                ends = mine[halves[mine] == 1]
+                colors[ends] = _rows(item.given_for("color_end"), ids[ends, 1])
+        else:
             colors[mine] = (item.color.r, item.color.g, item.color.b)
-            continue
-        colors[mine] = _rows(item.given_for("color"), ids[mine, 1])
-        if "color_end" in item.COLUMNS:
-            mine &= halves == 1
-            colors[mine] = _rows(item.given_for("color_end"), ids[mine, 1])
     return colors
+
+
+def _ids_within(item: Copies, index: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Return, as `Copies.locate`, what indices lead to: places and those in arrays, (n, 2)."""
+    counts = [len(one) if isinstance(one, Arrays) else 1 for one in item.objects]
+    first = np.cumsum(counts) - counts
+    # Of objects that begin at the same, only the last has any.
+    place = np.searchsorted(first, index, side="right") - 1
+    return np.stack([place, index - first[place]], axis=1).astype(np.int32)
 
 
 def _rows(colors: Pixels, index: NDArray[np.int32]) -> Pixels:

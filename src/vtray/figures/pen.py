@@ -12,6 +12,9 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
+FONT_SIZE = 8.5
+"""Of notes, in points."""
+
 INK, FAINT, RAY, LIT, BLOCKED = "#22262b", "#8b9199", "#1f5fa8", "#e39b00", "#c23b3b"
 
 
@@ -58,13 +61,21 @@ class Pen:
             (float(place[0]), float(place[1])),
             shift,
             textcoords="offset points",
-            fontsize=8.5,
+            fontsize=FONT_SIZE,
             color=color,
             path_effects=[withStroke(linewidth=2.5, foreground="white", alpha=0.9)],
             zorder=10,
             annotation_clip=False,
             **style,
         )
+
+    def width(self, text: str) -> float:
+        """Return how wide a note is in the coordinates of the axes."""
+        label = self.ax.text(0, 0, text, fontsize=FONT_SIZE)
+        pixels = label.get_window_extent().width
+        label.remove()
+        low, high = self.ax.get_xlim()
+        return float(pixels / self.ax.bbox.width * (high - low))
 
     def sun(self, place: Floats, color: str, size: float) -> None:
         """Draw a light."""

@@ -12,8 +12,8 @@ from vtray.base.extras import need
 from vtray.figures.drawn.objects import (
     colored_parts,
     cut_shapes,
+    placed_shapes,
     shape_of,
-    shapes_in,
     where_met,
 )
 from vtray.figures.pen import BLOCKED, FAINT, INK, LIT, RAY, Pen
@@ -105,11 +105,12 @@ class _Drawing(Pen):
             return tree.hit.distance
         steep = float(np.dot(tree.direction, tree.view.forward))
         reach = 3 * tree.view.focus
-        for item in tree.scene.objects:
-            shapes = shapes_in(item)
-            if shapes is not None:
-                ahead = (shapes.middle - np.array(tree.origin)) @ np.array(tree.view.forward)
-                reach = max(reach, 1.15 * float(np.median(ahead)))
+        forward = np.array(tree.view.forward)
+        for shapes, at in placed_shapes(tree.scene.objects):
+            ahead = (shapes.middle - np.array(tree.origin)) @ forward
+            # Not the median of all sums, of which there may be too many.
+            middle = float(np.median(ahead)) + float(np.median(at @ forward))
+            reach = max(reach, 1.15 * middle)
         return reach / steep
 
     def _find_box(self) -> Floats:
@@ -291,7 +292,7 @@ class _Drawing(Pen):
             self.line(stop, goal, BLOCKED, lw=1.0, ls=(0, (1, 2.5)), alpha=0.7 * strength)
             size = 5 if thin else 9
             self.ax.plot(*stop, "X", ms=size, mfc=BLOCKED, mec="white", mew=size / 9, zorder=8)
-            text = f"blocked by {ray.blocker}"
+            text = f"blocked by {_label(ray.blocker)}"
         if shown:
             self.sun(goal, LIT, 0.5 if thin else 1.0)
         if not thin:
@@ -341,14 +342,14 @@ class _Drawing(Pen):
 
     def name(self, surface: Surface, away: Floats) -> None:
         """Write what is hit, on the side that the normal leaves free."""
-        shape, text = shape_of(self.tree.scene, surface), str(surface)
+        shape, text = shape_of(self.tree.scene, surface), _label(surface)
         low, high = self.box if shape is None else shape.bounds(self.section)
         middle, half = (low + high) / 2, (high - low) / 2
         if shape is None or not ((self.box[0] < middle) & (middle < self.box[1])).all():
             side, level = _side(-away[0]), _level(-away[1])
             self.note(text, self.end, _points(-14 * away), ha=side, va=level)
             return
-        room = 0.18 * (self.box[1, 0] - self.box[0, 0])
+        room = max(0.18 * (self.box[1, 0] - self.box[0, 0]), 1.1 * self.width(text))
         if 2 * half[0] > room:
             self.note(text, middle, (0, 0), ha="center", va="center")
         elif middle[0] + half[0] + room < self.box[1, 0]:
@@ -383,6 +384,11 @@ class _Drawing(Pen):
         self.ax.text(1, -0.03, text, ha="right", va="top", **style)
         length = round_length(0.2 * float(self.box[1, 0] - self.box[0, 0]))
         self.scale(float(self.box[0, 0]), length)
+
+
+def _label(surface: Surface) -> str:
+    """Return the name of a surface, in two lines if it is long."""
+    return str(surface) if surface.copy is None else str(surface).replace(", ", ",\n")
 
 
 def _shade(color: Vec) -> Vec:

@@ -1,8 +1,10 @@
 """The rays of a pixel in words: what ``vtray --pixel`` prints."""
 
 from collections.abc import Sequence
+from typing import Any
 
-from vtray.figures.traced_rays import Exposed, Hit, ShadowRay, TracedRays
+from vtray.figures.traced_rays import Exposed, Hit, ShadowRay, Surface, TracedRays
+from vtray.scene.scene import Scene
 
 
 def describe(tree: TracedRays) -> str:
@@ -15,7 +17,7 @@ def describe(tree: TracedRays) -> str:
     if tree.hit is None:
         lines.append("hit          nothing in front of the image plane")
     else:
-        lines += _describe_hit(tree.hit)
+        lines += _describe_hit(tree.hit, tree.scene)
         for ray in tree.lights:
             lines += _describe_light(ray, tree.hit)
     lines.append(f"light        {_vector(tree.light)}, the sum over all lights")
@@ -24,15 +26,24 @@ def describe(tree: TracedRays) -> str:
     return "\n".join(lines)
 
 
-def _describe_hit(hit: Hit) -> list[str]:
+def _describe_hit(hit: Hit, scene: Scene) -> list[str]:
     """Return the lines on what the ray hit."""
     red, green, blue = hit.surface.color
     return [
         f"hit          {hit.surface}, {hit.distance:.10g} away",
+        *_describe_copy(hit.surface, scene),
         f"  point      {_vector(hit.point)}",
         f"  normal     {_vector(hit.normal)}, on the ray's side",
         f"  material   color ({red:g}, {green:g}, {blue:g}), lambert {hit.surface.lambert:g}",
     ]
+
+
+def _describe_copy(surface: Surface, scene: Scene) -> list[str]:
+    """Return the line on where a copy stands, none for what is not copied."""
+    item: Any = scene.objects[surface.object]
+    return (
+        [] if surface.copy is None else [f"  copy       moved by {_vector(item.at[surface.copy])}"]
+    )
 
 
 def _describe_light(ray: ShadowRay, hit: Hit) -> list[str]:

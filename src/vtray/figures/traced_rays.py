@@ -13,7 +13,7 @@ class Surface:
     Attributes
     ----------
     object
-        Its place in ``scene.objects``.
+        Its place in ``scene.objects``, or that of the `Copies` which place it.
     index
         Its place in the arrays of `Spheres` or `Cylinders`; None for a single object.
     center
@@ -29,9 +29,9 @@ class Surface:
     end
         End of the cylinder in world space; None for others.
     copy
-        Which copy it is of what `Copies` place; None if it is none.
+        Which copy it is a part of, a row of ``Copies.at``; None if it is not copied.
     part
-        The place, among the objects that are copied, of that which it belongs to.
+        The place in ``Copies.objects`` of that which it belongs to; None if it is not copied.
     """
 
     object: int
@@ -48,8 +48,9 @@ class Surface:
     def __str__(self) -> str:
         name = "plane" if self.radius is None else "sphere" if self.end is None else "cylinder"
         which = f"a {name}" if self.index is None else f"{name} {self.index}"
-        copied = "" if self.copy is None else f".objects[{self.part}], copy {self.copy}"
-        return f"objects[{self.object}]{copied}, {which}"
+        if self.copy is None:
+            return f"objects[{self.object}], {which}"
+        return f"objects[{self.object}].objects[{self.part}], {which} of copy {self.copy}"
 
 
 @dataclass(frozen=True)

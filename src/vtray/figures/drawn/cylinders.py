@@ -46,6 +46,13 @@ class _Lie(NamedTuple):
 class DrawnCylinders(DrawnShapes):
     """Some cylinders."""
 
+    @property
+    def extent(self) -> Floats:
+        """From their middles to the edges of their caps."""
+        start, end = self.points
+        extent: Floats = np.hypot(np.linalg.norm(end - start, axis=1) / 2, self.radius)
+        return extent
+
     def cut(self, section: Section) -> Cuts:
         """Return circles around what a plane cuts out of them."""
         lie = self._lie(section)

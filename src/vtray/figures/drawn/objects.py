@@ -1,5 +1,6 @@
 """Which objects of a scene are drawn as which shapes, and what a drawing finds among them."""
 
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from vtray.figures.drawn.spheres import DrawnSpheres
 from vtray.figures.section import Section
 from vtray.figures.traced_rays import Surface
 from vtray.geometry.vector import Vec
+from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
 from vtray.scene.objects import Cylinder, Object, Sphere
 from vtray.scene.scene import Scene
@@ -30,17 +32,33 @@ SHAPES: dict[type, type[DrawnShapes]] = {
 MOST_CUTS = 400
 """How many of the shapes that a drawing cuts are shown; the largest."""
 
+PAIRS = 1 << 18
+"""How many shapes at places are looked at together at the most, if those at one are not more."""
 
-def shapes_in(item: Object) -> DrawnShapes | None:
-    """Return the shapes of an object; None if it has no edge, or is empty."""
-    kind = SHAPES.get(type(item))
-    if kind is None:
-        return None
-    given: Any = item
-    hull = given.hull()
+
+def placed_shapes(objects: Sequence[Object]) -> Iterator[tuple[DrawnShapes, Floats]]:
+    """Give the shapes of objects that have edges, each with the translations to where they are.
+
+    Yields
+    ------
+    shapes, at
+        At least one shape, as given, and at least one translation in world space, (n, 3).
+    """
+    for item in objects:
+        if isinstance(item, Copies):
+            if len(item):
+                at = _rows(item.at)
+                yield from ((shapes, at) for shapes, _ in placed_shapes(item.objects))
+        elif type(item) in SHAPES and (shapes := _shapes_of(item)).count:
+            yield shapes, np.zeros((1, 3))
+
+
+def _shapes_of(item: Any) -> DrawnShapes:  # noqa: ANN401
+    """Return the shapes of an object that has edges."""
+    hull = item.hull()
     points = [_rows(center) for center, _, _ in hull]
     radius = np.broadcast_to(np.asarray(hull[0][1], float), len(points[0]))
-    return kind(points, radius) if len(radius) else None
+    return SHAPES[type(item)](points, radius)
 
 
 def _rows(points: Any) -> Floats:  # noqa: ANN401
@@ -50,9 +68,15 @@ def _rows(points: Any) -> Floats:  # noqa: ANN401
     return np.asarray(points, float)
 
 
+def _item_of(scene: Scene, surface: Surface) -> Any:  # noqa: ANN401
+    """Return the object that a surface belongs to, of those that are copied, if it is a copy."""
+    item: Any = scene.objects[surface.object]
+    return item if surface.part is None else item.objects[surface.part]
+
+
 def shape_of(scene: Scene, surface: Surface) -> DrawnShapes | None:
-    """Return the shape that a surface is that of; None if it has no edge."""
-    kind = SHAPES.get(type(scene.objects[surface.object]))
+    """Return the shape that a surface is that of, where it is; None if it has no edge."""
+    kind = SHAPES.get(type(_item_of(scene, surface)))
     if kind is None:
         return None
     points = [surface.center] if surface.end is None else [surface.center, surface.end]
@@ -63,7 +87,7 @@ def colored_parts(
     scene: Scene, surface: Surface, shape: DrawnShapes
 ) -> list[tuple[DrawnShapes, Vec]]:
     """Return the parts of the shape of a surface that have a colour each."""
-    item: Any = scene.objects[surface.object]
+    item = _item_of(scene, surface)
     if not isinstance(shape, DrawnCylinders) or getattr(item, "color_end", None) is None:
         return [(shape, surface.color)]
     colors = [np.atleast_2d(column).tolist() for column in (item.color, item.color_end)]
@@ -76,18 +100,41 @@ def colored_parts(
 
 def cut_shapes(scene: Scene, section: Section, box: Floats) -> "list[Patch]":
     """Return what a plane cuts out of shapes within a box; the largest if they are many."""
-    found: list[tuple[float, Patch]] = []
-    for item in scene.objects:
-        shapes = shapes_in(item)
-        if shapes is None:
-            continue
-        middle, reach = shapes.cut(section)
-        near = (middle > box[0] - reach[:, None]) & (middle < box[1] + reach[:, None])
-        rows = np.flatnonzero(near.all(axis=1))
-        rows = rows[np.argsort(-reach[rows])[:MOST_CUTS]]
-        found += zip(reach[rows].tolist(), shapes.some(rows).sections(section), strict=True)
-    found.sort(key=lambda pair: -pair[0])
-    return [patch for _, patch in found[:MOST_CUTS]]
+    found: list[tuple[float, DrawnShapes]] = []
+    for shapes, at in placed_shapes(scene.objects):
+        for near in _near(shapes, at, section, box):
+            middle, reach = near.cut(section)
+            inside = (middle > box[0] - reach[:, None]) & (middle < box[1] + reach[:, None])
+            rows = np.flatnonzero(inside.all(axis=1))
+            rows = rows[np.argsort(-reach[rows])[:MOST_CUTS]]
+            found += [(float(reach[row]), near.some(np.array([row]))) for row in rows]
+            found = sorted(found, key=lambda pair: -pair[0])[:MOST_CUTS]
+    return [patch for _, shape in found for patch in shape.sections(section)]
+
+
+def _near(shapes: DrawnShapes, at: Floats, section: Section, box: Floats) -> Iterator[DrawnShapes]:
+    """Give the shapes that a plane may cut where they are, some of them at a time.
+
+    Parameters
+    ----------
+    shapes, at
+        The shapes, and the translations to where they are, (n, 3).
+    section, box
+        The plane, and the part of it that is looked at.
+    """
+    middle, extent = shapes.middle, shapes.extent
+    # Leave out places where a ball around all shapes is not met.
+    low, high = (np.array([end(column) for column in middle.T]) for end in (np.min, np.max))
+    ball, around = (low + high) / 2, float(np.linalg.norm(high - low)) / 2 + float(extent.max())
+    place = section(ball + at)
+    met = ((place > box[0] - around) & (place < box[1] + around)).all(axis=1)
+    at = at[met & (np.abs(section.height(ball + at)) < around)]
+    height, rise = section.height(middle), at @ section.normal
+    step = max(PAIRS // len(height), 1)
+    for k in range(0, len(at), step):
+        of, row = np.nonzero(np.abs(height + rise[k : k + step, None]) < extent)
+        if len(row):
+            yield shapes.some(row).moved(at[k + of])
 
 
 def where_met(scene: Scene, surface: Surface, start: Vec, way: Vec) -> Floats:

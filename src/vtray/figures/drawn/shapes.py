@@ -46,6 +46,11 @@ class DrawnShapes(ABC):
         self.radius = radius
 
     @property
+    def count(self) -> int:
+        """How many there are."""
+        return len(self.radius)
+
+    @property
     def middle(self) -> Floats:
         """Their middles in world space, (n, 3)."""
         return np.asarray(sum(point / len(self.points) for point in self.points))
@@ -53,6 +58,15 @@ class DrawnShapes(ABC):
     def some(self, rows: NDArray[np.int64]) -> Self:
         """Return those of some rows."""
         return type(self)([point[rows] for point in self.points], self.radius[rows])
+
+    def moved(self, ways: Floats) -> Self:
+        """Return them moved by a translation each, (n, 3)."""
+        return type(self)([point + ways for point in self.points], self.radius)
+
+    @property
+    @abstractmethod
+    def extent(self) -> Floats:
+        """How far each goes from its middle at the most, (n,)."""
 
     @abstractmethod
     def cut(self, section: Section) -> Cuts:

@@ -14,6 +14,16 @@ if TYPE_CHECKING:
 class DrawnSpheres(DrawnShapes):
     """Some spheres."""
 
+    @property
+    def middle(self) -> Floats:
+        """Their centres."""
+        return self.points[0]
+
+    @property
+    def extent(self) -> Floats:
+        """Their radii."""
+        return self.radius
+
     def cut(self, section: Section) -> Cuts:
         """Return the circles that a plane cuts out of them."""
         (center,) = self.points
