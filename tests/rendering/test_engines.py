@@ -33,7 +33,9 @@ class Elsewhere:
         progress: Progress | None = None,
     ) -> Cast:
         wanted = tuple(
-            name for name in set(Film._fields) - {"left", "top", "kept"} if getattr(film, name).size
+            name
+            for name in set(Film._fields) - {"left", "top", "kept"}
+            if getattr(film, name) is not None
         )
         casts = []
         for tile in reversed(tiles):

@@ -1,4 +1,8 @@
-"""All scenes use the same few kernels: none is compiled anew for another kind of array."""
+"""All scenes use the same few kernels: none is compiled anew for another kind of array.
+
+Only the tracer is compiled for each purpose: a picture with one ray a pixel, one with samples,
+each with or without its light kept apart, and what the rays meet.
+"""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -25,8 +29,11 @@ FLOOR = vtray.Plane((0, 5, 5), (0, -1, 0), WHITE, 0.5)
 
 
 @pytest.fixture
-def used(monkeypatch: pytest.MonkeyPatch) -> Callable[[], set[str]]:
-    """Let kernels forget what is loaded; return what tells their names, if each has one type."""
+def used(monkeypatch: pytest.MonkeyPatch) -> Callable[..., set[str]]:
+    """Let kernels forget what is loaded; return what tells their names, if each has one type.
+
+    That of the tracer is one for each of some purposes.
+    """
     assert pixel_rays
     assert renderer  # with them, all kernels are imported
     modules = [module for name, module in sys.modules.items() if name.startswith("vtray.")]
@@ -35,9 +42,10 @@ def used(monkeypatch: pytest.MonkeyPatch) -> Callable[[], set[str]]:
     for kernel in kernels:
         monkeypatch.setattr(kernel, "_native", {})
 
-    def names() -> set[str]:
+    def names(purposes: int = 1) -> set[str]:
         types = {kernel.__name__: list(kernel._native) for kernel in kernels}
-        assert {name: len(of_one) for name, of_one in types.items() if len(of_one) > 1} == {}
+        several = {name: len(of_one) for name, of_one in types.items() if len(of_one) > 1}
+        assert several == ({"trace_tile": purposes} if purposes > 1 else {})
         return {name for name, of_one in types.items() if of_one}
 
     return names
@@ -102,7 +110,7 @@ def render(
     return vtray.render(scene, 1, warn=str, **settings)  # some have no light
 
 
-def test_scenes_with_few_spheres_need_what_the_first_needed(used: Callable[[], set[str]]) -> None:
+def test_scenes_with_few_spheres_need_what_the_first_needed(used: Callable[..., set[str]]) -> None:
     render(BALL, FLOOR)
     assert used() == ONE_RAY
     for few in clouds(5):
@@ -115,42 +123,60 @@ def test_scenes_with_few_spheres_need_what_the_first_needed(used: Callable[[], s
     render()
     render(FLOOR)
     render(BALL, lights=0, projection="orthographic")
-    render(FLOOR, size=(1, 1), background="transparent", exposure=2.0)
+    render(FLOOR, size=(1, 1), exposure=2.0)
     assert used() == ONE_RAY
+    render(FLOOR, size=(1, 1), background="transparent", exposure=2.0)  # traces what is covered
+    assert used(2) == ONE_RAY
 
 
-def test_scenes_with_a_hierarchy_need_one_more_set(used: Callable[[], set[str]]) -> None:
+def test_scenes_with_a_hierarchy_need_one_more_set(used: Callable[..., set[str]]) -> None:
     for many in clouds(200):
         render(many)
         render(BALL, many, FLOOR)
     assert used() == ONE_RAY | HIERARCHY
 
 
-def test_cylinders_need_what_the_first_needed(used: Callable[[], set[str]]) -> None:
+def test_cylinders_need_what_the_first_needed(used: Callable[..., set[str]]) -> None:
     post = vtray.Cylinder((0, 0, 5), (1, 0, 5), 1)
     image = render(post, samples=2, keep_lights=True)
     image.relight([2.0]).depth  # noqa: B018 - traces
     vtray.trace_pixel(image, 0, 0)
     needed = ONE_RAY | {"mark_rows", "add_up_rows", "trace_pixel"}
-    assert used() == needed
+    assert used(2) == needed
     for few in bonds(3):
         render(few)
         render(BALL, few, FLOOR, post, projection="orthographic")
-    assert used() == needed
+    assert used(3) == needed
     for many in bonds(200):
         render(many)
         render(BALL, many, FLOOR)
     render(many, vtray.Spheres(np.random.default_rng(1).random((200, 3)), 0.1))
     of_cylinders = {"bound_cylinders", "gather_cylinders"}
-    assert used() == needed | HIERARCHY | of_cylinders
+    assert used(3) == needed | HIERARCHY | of_cylinders
 
 
 def test_samples_other_lights_and_single_rays_need_a_kernel_each(
-    used: Callable[[], set[str]],
+    used: Callable[..., set[str]],
 ) -> None:
     for objects in [(BALL, FLOOR), (), (BALL, *clouds(2))]:
         image = render(*objects, samples=2, keep_lights=True, filter="mitchell")
         image.relight([2.0]).recolor(0, "red") if objects else image.relight([2.0])
         image.expose(3.0).depth  # noqa: B018 - traces
         vtray.trace_pixel(image, 0, 0)
-    assert used() == ONE_RAY | {"mark_rows", "add_up_rows", "trace_pixel"}
+    assert used(2) == ONE_RAY | {"mark_rows", "add_up_rows", "trace_pixel"}
+
+
+def test_each_purpose_has_a_tracer_of_its_own(used: Callable[..., set[str]]) -> None:
+    purposes = 0
+    for settings in (
+        {},
+        {"keep_lights": True},
+        {"samples": 2},
+        {"samples": 3, "keep_lights": True},
+    ):
+        image = render(BALL, **settings)
+        purposes += 1
+        assert used(purposes) >= ONE_RAY
+    image.depth  # noqa: B018 - traces
+    image.ids  # noqa: B018 - does not trace again
+    assert used(purposes + 1) == ONE_RAY | {"mark_rows"}

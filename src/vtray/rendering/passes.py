@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vtray.base.memory import check_memory_of_lights
 from vtray.base.pool import Progress, run_tasks
 from vtray.base.tiles import TILE, Tile, split_into_tiles
-from vtray.rendering.engines.engine import Engine, Plan, trace
+from vtray.rendering.engines.engine import Engine, trace_to
 from vtray.rendering.engines.threads import Threads
 from vtray.scene.settings import RenderSettings
 from vtray.transport.film import Film, new_film
@@ -22,6 +22,12 @@ from vtray.transport.sampling.pixel_samples import (
     middle_rays,
 )
 from vtray.transport.scene_arrays import SceneArrays
+
+ONE_RAY = ("linear",)
+"""What is wanted of a picture with one ray a pixel."""
+
+SAMPLES = ("linear", "coverage", "primitive", "half", "shadows", "rims")
+"""What is wanted of one with samples."""
 
 
 class Traced(NamedTuple):
@@ -92,26 +98,27 @@ class Tracer:
             Whether to keep what each ray hits and which lights reach it.
         """
         if settings.samples == 1:
-            return self._middles(middle_rays(), keep, "linear")
+            return self._middles(middle_rays(), keep, *ONE_RAY)
         self._passes = 2
         footprint = filter_footprint(settings, self._scene.camera)
-        wanted = "linear", "primitive", "half", "shadows", "rims"
-        found = self._middles(middle_rays(footprint), keep, *wanted)
-        marks, peak = self._mark(found.film, settings)
-        coverage = (found.film.primitive >= 0).astype(np.float64)
-        film = new_film(0, 0)._replace(linear=found.film.linear, coverage=coverage)
+        found = self._middles(middle_rays(footprint, before_samples=True), keep, *SAMPLES)
+        film = found.film
+        marks, peak = self._mark(film, settings)
+        np.greater_equal(film.primitive, 0, out=film.coverage)
+        kept = found.kept
         if keep:
-            film = film._replace(kept=self._keep(marks, int(settings.samples)))
+            kept = (*kept, self._keep(marks, int(settings.samples)))
+            film = film._replace(kept=kept[-1])
         sampled = self._trace(filter_samples(settings, marks), film)
-        kept = (*found.kept, film.kept) if keep else ()
         return Traced(film, max(peak, sampled.peak), found.rays + sampled.rays, kept)
 
     def _middles(self, sampling: Sampling, keep: bool, *wanted: str) -> Traced:
         """Trace one ray for each pixel."""
         film = new_film(*self._size, *wanted)
-        if keep:
-            film = film._replace(kept=self._keep(np.ones(self._size[::-1], np.bool_), 1))
-        return self._trace(sampling, film)._replace(kept=(film.kept,) if keep else ())
+        if not keep:
+            return self._trace(sampling, film)
+        kept = self._keep(np.ones(self._size[::-1], np.bool_), 1)
+        return self._trace(sampling, film._replace(kept=kept))._replace(kept=(kept,))
 
     def _keep(self, marks: NDArray[np.bool_], samples: int) -> KeptLight:
         """Return where to keep what the samples of the marked pixels meet."""
@@ -124,6 +131,7 @@ class Tracer:
     def _mark(self, film: Film, settings: RenderSettings) -> tuple[NDArray[np.bool_], float]:
         """Return which pixels need samples, and the largest channel of the others."""
         width, height = self._size
+        film = film._replace(kept=None)  # one kernel, whether light is kept or not
         marks = np.empty((height, width), np.bool_)
         near = int(np.ceil(FILTERS[settings.filter].radius))
         peaks = []
@@ -148,8 +156,12 @@ class Tracer:
         return tell and (lambda done, _: tell(before + done, passes * tiles))
 
 
-def compile_kernels(scene: SceneArrays, settings: RenderSettings) -> None:
-    """Compile what is needed to trace a scene, or load it from disk."""
-    trace(scene, Plan(middle_rays(), ()), Tile(0, 0, 0, 0))
-    if settings.samples > 1:
-        mark_rows(new_film(0, 0), 0, 0, 0, np.zeros((0, 0), np.bool_))
+def compile_kernels(scene: SceneArrays, settings: RenderSettings, *, keep: bool = False) -> None:
+    """Compile what is needed to trace a scene, or load it from disk; see `Tracer.light`."""
+    has_samples = settings.samples > 1
+    film = new_film(0, 0, *(SAMPLES if has_samples else ONE_RAY))
+    if has_samples:
+        mark_rows(film, 0, 0, 0, np.zeros((0, 0), np.bool_))
+    if keep:
+        film = film._replace(kept=new_kept_light(np.zeros((0, 0), np.int64), 0, 0))
+    trace_to(film, scene, middle_rays(before_samples=has_samples), Tile(0, 0, 0, 0))

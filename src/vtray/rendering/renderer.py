@@ -132,7 +132,7 @@ def render(
     loading = loading_seconds() - loaded
     packed = pack(shown, kept)
     clock.lap("pack")
-    compile_kernels(packed.arrays, settings)
+    compile_kernels(packed.arrays, settings, keep=keep_lights)
     warm_up()
     clock.lap("compile")
     tracer = Tracer(packed.arrays, threads, tile, _step_of(progress, "trace"))

@@ -28,11 +28,15 @@ from vtray.geometry.packets.packet import (
 )
 from vtray.geometry.packets.workspace import Pixels, Sums
 from vtray.geometry.vector import add, scale
-from vtray.transport.light_buffer import KeptLight, keep_ray, nothing_kept
+from vtray.transport.light_buffer import KeptLight, keep_ray
+
+Rows = Any
+"""An array, or None for what is not wanted: as an argument of its own it is known to the compiler,
+which drops all that follows ``if rows is None: return``."""
 
 
 class Film(NamedTuple):
-    """What kernels write of each pixel; what is not wanted has no rows and no columns.
+    """What kernels write of each pixel; what is not wanted is None, and no code is compiled for it.
 
     Attributes
     ----------
@@ -41,7 +45,7 @@ class Film(NamedTuple):
     linear
         Linear light, (height, width, 3).
     coverage
-        Share of the pixel in which something is hit, (height, width).
+        Share of the pixel in which something is hit, (height, width); None for one ray a pixel.
     distance
         Along the middle ray, in the unit of the arrays, infinite for no hit, (height, width).
     normal
@@ -60,23 +64,22 @@ class Film(NamedTuple):
 
     left: int
     top: int
-    linear: NDArray[np.float64]
-    coverage: NDArray[np.float64]
-    distance: NDArray[np.float64]
-    normal: NDArray[np.float64]
-    primitive: NDArray[np.int32]
-    half: NDArray[np.int8]
-    shadows: NDArray[np.float64]
-    rims: NDArray[np.bool_]
-    kept: KeptLight
+    linear: Rows
+    coverage: Rows
+    distance: Rows
+    normal: Rows
+    primitive: Rows
+    half: Rows
+    shadows: Rows
+    rims: Rows
+    kept: KeptLight | None
 
 
 def new_film(width: int, height: int, *wanted: str, left: int = 0, top: int = 0) -> Film:
     """Return a film for what is wanted, of no certain content."""
 
-    def rows(name: str, kind: Any = np.float64, *more: int) -> NDArray[Any]:  # noqa: ANN401
-        size = (height, width) if name in wanted else (0, 0)
-        return np.empty((*size, *more), kind)
+    def rows(name: str, kind: Any = np.float64, *more: int) -> Any:  # noqa: ANN401
+        return np.empty((height, width, *more), kind) if name in wanted else None
 
     return Film(
         left=left,
@@ -89,15 +92,8 @@ def new_film(width: int, height: int, *wanted: str, left: int = 0, top: int = 0)
         half=rows("half", np.int8),
         shadows=rows("shadows"),
         rims=rows("rims", np.bool_),
-        kept=nothing_kept(),
+        kept=None,
     )
-
-
-@device
-def is_wanted(rows: NDArray[np.generic]) -> bool:
-    """Tell whether a part of a film is to be written."""
-    count: int = rows.shape[0]
-    return count > 0
 
 
 @device
@@ -109,9 +105,11 @@ def keep_rays(
     first: int,
     last: int,
     pixels: Pixels,
-    kept: KeptLight,
+    kept: KeptLight | None,
 ) -> None:
     """Keep what the samples from `first` to before `last` of pixels of a block's list hit."""
+    if kept is None:
+        return
     samples = last - first
     for lane in range((end - begin) * samples):
         row, column = _place(block, pixels[begin + lane // samples])
@@ -119,8 +117,10 @@ def keep_rays(
 
 
 @device
-def clear_sums(sums: Sums, pixels: int) -> None:
+def clear_sums(sums: Sums, pixels: int, coverage: Rows) -> None:
     """Start to add up the samples of some pixels."""
+    if coverage is None:
+        return
     for k in range(pixels):
         sums.light[k] = 0.0
         sums.light[k + LANES] = 0.0
@@ -130,8 +130,12 @@ def clear_sums(sums: Sums, pixels: int) -> None:
 
 
 @device
-def add_samples(packet: Packet, lanes: int, hits: int, samples: int, sums: Sums) -> None:
+def add_samples(
+    packet: Packet, lanes: int, hits: int, samples: int, sums: Sums, coverage: Rows
+) -> None:
     """Add the samples of a packet to their pixels, always in the order of their numbers."""
+    if coverage is None:
+        return
     numbers = packet.view(np.int64)
     _bring_back(packet, lanes, hits)
     for k in range(lanes // samples):
@@ -160,22 +164,28 @@ def _bring_back(packet: Packet, lanes: int, hits: int) -> None:
 
 @device
 def write_pixels(
-    block: Block, begin: int, end: int, pixels: Pixels, sums: Sums, film: Film
+    block: Block,
+    begin: int,
+    end: int,
+    pixels: Pixels,
+    sums: Sums,
+    linear: Rows,
+    coverage: Rows,
 ) -> float:
     """Write the sums of pixels of a block's list to the film; return their largest channel."""
     peak = 0.0
+    if linear is None or coverage is None:
+        return peak
     for k in range(end - begin):
         row, column = _place(block, pixels[begin + k])
         weight = sums.weight[k]
-        if is_wanted(film.linear):
-            red, green, blue = load(sums.light, 0, k)
-            film.linear[row, column, 0] = red / weight
-            film.linear[row, column, 1] = green / weight
-            film.linear[row, column, 2] = blue / weight
-            peak = max(peak, red / weight, green / weight, blue / weight)
-        if is_wanted(film.coverage):
-            # Filters with negative sides go a little beyond.
-            film.coverage[row, column] = min(max(sums.covered[k] / weight, 0.0), 1.0)
+        red, green, blue = load(sums.light, 0, k)
+        linear[row, column, 0] = red / weight
+        linear[row, column, 1] = green / weight
+        linear[row, column, 2] = blue / weight
+        peak = max(peak, red / weight, green / weight, blue / weight)
+        # Filters with negative sides go a little beyond.
+        coverage[row, column] = min(max(sums.covered[k] / weight, 0.0), 1.0)
     return peak
 
 
@@ -184,45 +194,67 @@ def write_middles(
     packet: Packet, block: Block, begin: int, end: int, hits: int, pixels: Pixels, film: Film
 ) -> float:
     """Write what is wanted of pixels with one ray, a lane for each; return the largest channel."""
-    peak = 0.0
-    if is_wanted(film.linear):
-        if hits < end - begin:
-            _clear(block, begin, end, pixels, film.linear)
-        peak = _write_light(packet, block, begin, hits, pixels, film.linear)
-    if is_wanted(film.normal):
-        _clear(block, begin, end, pixels, film.normal)
-        _write_normals(packet, block, begin, hits, pixels, film.normal)
-    _write_rays(packet, block, begin, end, pixels, film)
-    if is_wanted(film.shadows):
-        _write_shadows(packet, block, begin, end, hits, pixels, film.shadows)
+    peak = _write_light(packet, block, begin, end, hits, pixels, film.linear)
+    _write_normals(packet, block, begin, end, hits, pixels, film.normal)
+    _write_distances(packet, block, begin, end, pixels, film.distance)
+    _write_primitives(packet, block, begin, end, pixels, film.primitive)
+    _write_halves(packet, block, begin, end, pixels, film.half)
+    _write_rims(packet, block, begin, end, pixels, film.rims)
+    _write_shadows(packet, block, begin, end, hits, pixels, film.shadows)
     return peak
 
 
 @device
-def _write_rays(
-    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, film: Film
+def _write_distances(
+    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, distance: Rows
 ) -> None:
-    """Write what is wanted of the rays themselves."""
+    """Write how far the rays go."""
+    if distance is None:
+        return
+    for lane in range(end - begin):
+        row, column = _place(block, pixels[begin + lane])
+        distance[row, column] = packet[DISTANCE + lane]
+
+
+@device
+def _write_primitives(
+    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, primitive: Rows
+) -> None:
+    """Write what the rays hit."""
+    if primitive is None:
+        return
     numbers = packet.view(np.int64)
-    if is_wanted(film.distance):
-        for lane in range(end - begin):
-            row, column = _place(block, pixels[begin + lane])
-            film.distance[row, column] = packet[DISTANCE + lane]
-    if is_wanted(film.primitive):
-        for lane in range(end - begin):
-            row, column = _place(block, pixels[begin + lane])
-            film.primitive[row, column] = numbers[PRIMITIVE + lane]
-    if is_wanted(film.half):
-        for lane in range(end - begin):
-            row, column = _place(block, pixels[begin + lane])
-            is_hit = numbers[PRIMITIVE + lane] != NO_PRIMITIVE
-            film.half[row, column] = numbers[HALF + lane] if is_hit else 0
-    if is_wanted(film.rims):
-        for lane in range(end - begin):
-            row, column = _place(block, pixels[begin + lane])
-            rim = packet[RIM + lane]
-            # Where neither is, both are infinite.
-            film.rims[row, column] = (rim <= packet[DISTANCE + lane]) & (rim < math.inf)
+    for lane in range(end - begin):
+        row, column = _place(block, pixels[begin + lane])
+        primitive[row, column] = numbers[PRIMITIVE + lane]
+
+
+@device
+def _write_halves(
+    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, half: Rows
+) -> None:
+    """Write which half of a shape the rays hit."""
+    if half is None:
+        return
+    numbers = packet.view(np.int64)
+    for lane in range(end - begin):
+        row, column = _place(block, pixels[begin + lane])
+        is_hit = numbers[PRIMITIVE + lane] != NO_PRIMITIVE
+        half[row, column] = numbers[HALF + lane] if is_hit else 0
+
+
+@device
+def _write_rims(
+    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, rims: Rows
+) -> None:
+    """Write whether the rays pass near an outline that they could see."""
+    if rims is None:
+        return
+    for lane in range(end - begin):
+        row, column = _place(block, pixels[begin + lane])
+        rim = packet[RIM + lane]
+        # Where neither is, both are infinite.
+        rims[row, column] = (rim <= packet[DISTANCE + lane]) & (rim < math.inf)
 
 
 @device
@@ -248,13 +280,18 @@ def _write_light(
     packet: Packet,
     block: Block,
     begin: int,
+    end: int,
     hits: int,
     pixels: Pixels,
-    linear: NDArray[np.float64],
+    linear: Rows,
 ) -> float:
-    """Write the light of the hits; return the largest channel."""
-    numbers = packet.view(np.int64)
+    """Write the light of the pixels; return the largest channel."""
     peak = 0.0
+    if linear is None:
+        return peak
+    if hits < end - begin:
+        _clear(block, begin, end, pixels, linear)
+    numbers = packet.view(np.int64)
     for hit in range(hits):
         row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
         red, green, blue = load(packet, VALUE, hit)
@@ -270,11 +307,15 @@ def _write_normals(
     packet: Packet,
     block: Block,
     begin: int,
+    end: int,
     hits: int,
     pixels: Pixels,
-    normals: NDArray[np.float64],
+    normals: Rows,
 ) -> None:
-    """Write the normals of the hits."""
+    """Write the normals of the hits, 0 for the others."""
+    if normals is None:
+        return
+    _clear(block, begin, end, pixels, normals)
     numbers = packet.view(np.int64)
     for hit in range(hits):
         row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
@@ -290,9 +331,11 @@ def _write_shadows(
     end: int,
     hits: int,
     pixels: Pixels,
-    shadows: NDArray[np.float64],
+    shadows: Rows,
 ) -> None:
     """Write the numbers of the lights that something keeps from the hits."""
+    if shadows is None:
+        return
     numbers = packet.view(np.int64)
     for lane in range(end - begin):
         row, column = _place(block, pixels[begin + lane])

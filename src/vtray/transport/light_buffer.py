@@ -28,7 +28,7 @@ from vtray.transport.scene_arrays import SceneArrays
 
 
 class KeptLight(NamedTuple):
-    """What is kept of the rays of a pass; nothing is kept if there are no places.
+    """What is kept of the rays of a pass.
 
     Attributes
     ----------
@@ -51,11 +51,6 @@ class KeptLight(NamedTuple):
     cosines: NDArray[np.float64]
 
 
-def nothing_kept() -> KeptLight:
-    """Return that of a pass of which nothing is kept."""
-    return new_kept_light(np.zeros((0, 0), np.int64), 0, 0)
-
-
 def new_kept_light(first: NDArray[np.int64], places: int, lights: int) -> KeptLight:
     """Return what will be kept of a pass with so many rays."""
     return KeptLight(
@@ -65,13 +60,6 @@ def new_kept_light(first: NDArray[np.int64], places: int, lights: int) -> KeptLi
         np.empty(places, np.int8),
         np.zeros((lights, places)),
     )
-
-
-@device
-def is_kept(kept: KeptLight) -> bool:
-    """Tell whether anything is kept."""
-    pixels: int = kept.first.shape[0]
-    return pixels > 0
 
 
 @device

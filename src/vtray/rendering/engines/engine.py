@@ -82,9 +82,14 @@ def trace(scene: SceneArrays, plan: Plan, tile: Tile) -> tuple[Film, Cast]:
     """
     width, height = tile.right - tile.left, tile.bottom - tile.top
     film = new_film(width, height, *plan.wanted, left=tile.left, top=tile.top)
+    return film, trace_to(film, scene, plan.sampling, tile)
+
+
+def trace_to(film: Film, scene: SceneArrays, sampling: Sampling, tile: Tile) -> Cast:
+    """Trace one tile on its own, to a film that there is."""
     packet, work = new_packet(), new_workspace(scene.world)
     go_on = np.zeros(1, np.bool_)
-    return film, Cast(*trace_tile(scene, plan.sampling, *tile, film, packet, work, go_on))
+    return Cast(*trace_tile(scene, sampling, *tile, film, packet, work, go_on))
 
 
 def paste(tile: Tile, part: Film, marks: NDArray[np.bool_], film: Film) -> None:
@@ -103,6 +108,6 @@ def paste(tile: Tile, part: Film, marks: NDArray[np.bool_], film: Film) -> None:
     traced = marks[place] if marks.size else np.ones((1, 1), np.bool_)
     for name in set(Film._fields) - {"left", "top", "kept"}:
         source, target = getattr(part, name), getattr(film, name)
-        if source.size and target.size:
+        if source is not None and target is not None:
             where = traced[..., np.newaxis] if source.ndim > traced.ndim else traced
             np.copyto(target[place], source, where=where)

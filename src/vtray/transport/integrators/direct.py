@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
-from vtray.geometry.packets.occlusion import bound_points, find_sides, own_sphere
+from vtray.geometry.packets.occlusion import Target, bound_points, find_sides, own_sphere
 from vtray.geometry.packets.packet import (
     BLOCK,
     COLUMN,
@@ -27,15 +27,15 @@ from vtray.geometry.world import has_trees
 from vtray.transport.camera_rays import CameraFrame, camera_ray, sheaf_of
 from vtray.transport.film import (
     Film,
+    Rows,
     add_samples,
     clear_sums,
-    is_wanted,
     keep_rays,
     write_middles,
     write_pixels,
 )
 from vtray.transport.interaction import gather_interactions
-from vtray.transport.light_buffer import is_kept, keep_cosines
+from vtray.transport.light_buffer import KeptLight, keep_cosines
 from vtray.transport.lights.light import light_count, light_target
 from vtray.transport.lights.lighting import (
     add_light,
@@ -118,22 +118,24 @@ def _trace_pixels(
     peak = 0.0
     rays = 0
     if sampling.rays > 1:
-        clear_sums(work.sums, end - begin)
+        clear_sums(work.sums, end - begin, film.coverage)
     for first in range(0, sampling.rays, LANES):
         last = min(first + LANES, sampling.rays)
         lanes = place_samples(packet, block, begin, end, sampling, first, last, work.pixels)
         hits = _find_surfaces(packet, lanes, scene, sampling, work)
-        if is_kept(film.kept):
-            keep_rays(packet, block, begin, end, first, last, work.pixels, film.kept)
-        if is_wanted(film.linear) and hits > 0:
-            rays += _light_hits(scene, hits, film, packet, work, stop)
+        keep_rays(packet, block, begin, end, first, last, work.pixels, film.kept)
+        if hits > 0:
+            is_noted = sampling.rays == 1
+            rays += _light_hits(
+                scene, hits, film.linear, film.shadows, film.kept, is_noted, packet, work, stop
+            )
         rays += lanes
         if sampling.rays > 1:
-            add_samples(packet, lanes, hits, last - first, work.sums)
+            add_samples(packet, lanes, hits, last - first, work.sums, film.coverage)
         else:
             peak = write_middles(packet, block, begin, end, hits, work.pixels, film)
     if sampling.rays > 1:
-        peak = write_pixels(block, begin, end, work.pixels, work.sums, film)
+        peak = write_pixels(block, begin, end, work.pixels, work.sums, film.linear, film.coverage)
     return peak, rays
 
 
@@ -154,18 +156,24 @@ def _find_surfaces(
 def _light_hits(
     scene: SceneArrays,
     hits: int,
-    film: Film,
+    linear: Rows,
+    shadows: Rows,
+    kept: KeptLight | None,
+    is_noted: bool,
     packet: Packet,
     work: Workspace,
     stop: NDArray[np.bool_],
 ) -> int:
     """Add all lights to the hits of a packet; return how many shadow rays were cast."""
     rays = 0
+    if linear is None:
+        return rays
     bounds = bound_points(packet, hits)
     find_sides(packet, hits, scene.world, work)
     own = -1 if has_trees(scene.world) else own_sphere(packet, hits, scene.world)
-    if is_wanted(film.shadows):
-        clear_shadows(packet, hits)
+    if shadows is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_noted:
+            clear_shadows(packet, hits)
     for light in range(light_count(scene.lights)):
         if stop[0]:
             break
@@ -174,12 +182,27 @@ def _light_hits(
         if facing > 0:
             if find_blocked(packet, hits, bounds, own, scene.world, target, work):
                 add_light(packet, hits, target, scene.lights.intensity[light])
-            if is_wanted(film.shadows):
-                note_shadows(packet, hits, target, light)
-            if is_kept(film.kept):
-                keep_cosines(packet, hits, target, light, film.kept)
+            _record_light(packet, hits, target, light, shadows, kept, is_noted)
             rays += facing
     return rays
+
+
+@device
+def _record_light(
+    packet: Packet,
+    hits: int,
+    target: Target,
+    light: int,
+    shadows: Rows,
+    kept: KeptLight | None,
+    is_noted: bool,
+) -> None:
+    """Record what is wanted of a light at the hits of a packet, beside what it adds."""
+    if shadows is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_noted:
+            note_shadows(packet, hits, target, light)
+    if kept is not None:
+        keep_cosines(packet, hits, target, light, kept)
 
 
 @device

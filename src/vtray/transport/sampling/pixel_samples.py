@@ -29,7 +29,8 @@ class Sampling(NamedTuple):
     seed
         Chooses among equally good places.
     points
-        Their places before they are scrambled, (2, count).
+        Their places before they are scrambled, (2, count); None where no pixel has more than one
+        ray, so that no code is compiled for samples.
     places
         The table of the filter.
     positive
@@ -42,7 +43,7 @@ class Sampling(NamedTuple):
 
     rays: int
     seed: int
-    points: NDArray[np.int64]
+    points: NDArray[np.int64] | None
     places: NDArray[np.float64]
     positive: float
     footprint: Footprint
@@ -52,10 +53,11 @@ class Sampling(NamedTuple):
 _NO_FOOTPRINT = Footprint(0.0, 0.0)
 
 
-def middle_rays(footprint: Footprint = _NO_FOOTPRINT) -> Sampling:
-    """Return one ray for each pixel, through its middle."""
+def middle_rays(footprint: Footprint = _NO_FOOTPRINT, *, before_samples: bool = False) -> Sampling:
+    """Return one ray for each pixel, through its middle; if samples follow, for the same kernel."""
     none = np.zeros((0, 0), np.bool_)
-    return Sampling(1, 0, sobol_points(1), np.zeros(2), math.inf, footprint, none)
+    points = sobol_points(1) if before_samples else None
+    return Sampling(1, 0, points, np.zeros(2), math.inf, footprint, none)
 
 
 def filter_samples(settings: RenderSettings, marks: NDArray[np.bool_]) -> Sampling:
@@ -134,12 +136,7 @@ def place_samples(
             packet[ROW + lane] = block.top + pixel // BLOCK
             packet[WEIGHT + lane] = 1.0
     else:
-        for k in range(begin, end):
-            pixel = pixels[k]
-            column, row = block.left + pixel % BLOCK, block.top + pixel // BLOCK
-            lane = (k - begin) * (last - first)
-            _place_in_pixel(packet, lane, column, row, sampling, first, last)
-            _keep_positive(packet, lane, last - first)
+        _place_in_pixels(packet, block, begin, end, sampling, sampling.points, first, last, pixels)
     for lane in range(lanes, LANES):
         packet[COLUMN + lane] = packet[COLUMN + lanes - 1]
         packet[ROW + lane] = packet[ROW + lanes - 1]
@@ -147,14 +144,44 @@ def place_samples(
 
 
 @device
+def _place_in_pixels(
+    packet: Packet,
+    block: Block,
+    begin: int,
+    end: int,
+    sampling: Sampling,
+    points: NDArray[np.int64] | None,
+    first: int,
+    last: int,
+    pixels: Pixels,
+) -> None:
+    """Set the places and weights of samples of pixels of a block's list."""
+    if points is None:
+        return
+    for k in range(begin, end):
+        pixel = pixels[k]
+        column, row = block.left + pixel % BLOCK, block.top + pixel // BLOCK
+        lane = (k - begin) * (last - first)
+        _place_in_pixel(packet, lane, column, row, sampling, points, first, last)
+        _keep_positive(packet, lane, last - first)
+
+
+@device
 def _place_in_pixel(
-    packet: Packet, lane: int, column: int, row: int, sampling: Sampling, first: int, last: int
+    packet: Packet,
+    lane: int,
+    column: int,
+    row: int,
+    sampling: Sampling,
+    points: NDArray[np.int64],
+    first: int,
+    last: int,
 ) -> None:
     """Set the places and weights of samples of one pixel."""
     key_x, key_y = pixel_keys(column, row, IMAGE_PLACE, sampling.seed)
     # A loop for each step: only so are they vectorised.
-    _scramble(packet, COLUMN + lane, sampling.points, 0, first, last, key_x)
-    _scramble(packet, ROW + lane, sampling.points, 1, first, last, key_y)
+    _scramble(packet, COLUMN + lane, points, 0, first, last, key_x)
+    _scramble(packet, ROW + lane, points, 1, first, last, key_y)
     _put_in_filter(packet, lane, last - first, sampling)
     for k in range(lane, lane + last - first):
         packet[COLUMN + k] += column
