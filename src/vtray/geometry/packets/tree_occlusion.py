@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.bvh.tree import WIDTH
+from vtray.geometry.bvh.tree import WIDTH, leaf_range
 from vtray.geometry.packets.beam import Beam, beam_margin, children_met, make_beam
 from vtray.geometry.packets.occlusion import PointBox, Target, block_by_slot, in_shaft
 from vtray.geometry.packets.packet import BLOCKED, ERROR_SCALE, POINT, Packet, load
@@ -14,6 +14,7 @@ from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import Vec, add, lower, scale, sub, upper
 from vtray.geometry.world import (
+    NO_TREE,
     Group,
     Hierarchy,
     Places,
@@ -23,7 +24,6 @@ from vtray.geometry.world import (
     hierarchy_of_places,
     load_group,
     placed_row,
-    range_of,
 )
 
 SOONER = 16
@@ -190,6 +190,9 @@ def _search(
     int
         The first point that nothing blocks, the end of the cluster if there is none.
     """
+    if hierarchy.root == NO_TREE:
+        first, after = hierarchy.begin, hierarchy.end
+        return visit(begin, cluster, world, subject, first, after, stack, base)
     bvh, nodes = world.bvh, stack.node
     beam = _cluster_beam(cluster.box, hierarchy.to_boxes, cluster.target)
     nodes[base] = hierarchy.root
@@ -197,18 +200,19 @@ def _search(
     while waiting > base:
         waiting -= 1
         node = nodes[waiting]
-        if node < 0:
-            first, after = range_of(hierarchy, node)
-            begin = visit(begin, cluster, world, subject, first, after, stack, waiting)
-            if begin == cluster.end:
-                return begin
-            continue
         met = children_met(bvh, node, beam, 0.0, 1.0 + MARGIN)
         place = node * WIDTH
         while met > 0:
             if met & 1:
-                nodes[waiting] = bvh.child[place]
-                waiting += 1
+                child = bvh.child[place]
+                if child >= 0:
+                    nodes[waiting] = child
+                    waiting += 1
+                else:
+                    first, after = leaf_range(child)
+                    begin = visit(begin, cluster, world, subject, first, after, stack, waiting)
+                    if begin == cluster.end:
+                        return begin
             met >>= 1
             place += 1
     return begin
