@@ -14,6 +14,7 @@ from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.shapes.cylinder import (
     cylinder_distance,
     cylinder_hides,
+    cylinder_is_aside,
     cylinder_outline,
     cylinder_surface,
     load_cylinder,
@@ -22,6 +23,7 @@ from vtray.geometry.shapes.plane import (
     load_plane,
     plane_distance,
     plane_hides,
+    plane_is_aside,
     plane_outline,
     plane_surface,
 )
@@ -29,6 +31,7 @@ from vtray.geometry.shapes.sphere import (
     load_sphere,
     sphere_distance,
     sphere_hides,
+    sphere_is_aside,
     sphere_outline,
     sphere_surface,
 )
@@ -48,6 +51,8 @@ class Verbs(NamedTuple):
     ----------
     distance_to
         Returns the distance at which a ray first meets a shape, or infinity.
+    is_aside
+        Tells whether a ray is sure to miss a shape, at less cost: worth asking one ray at a time.
     hides
         Tells whether a shape stands between two points.
     outline
@@ -58,6 +63,7 @@ class Verbs(NamedTuple):
     """
 
     distance_to: Callable[[Shape, Ray], float]
+    is_aside: Callable[[Shape, Ray], bool]
     hides: Callable[[Shape, Segment], bool]
     outline: Callable[[Shape, Ray, Footprint], float]
     surface: Callable[[Shape, Vec, float], Surface]
@@ -72,7 +78,7 @@ def with_any(world: World, group: Group, slot: int, action: Action, arguments: A
     """Return what an action returns for a shape of a group of any kind."""
     if group.kind == PLANE:
         plane = load_plane(world.planes, slot, group.place)
-        verbs = Verbs(plane_distance, plane_hides, plane_outline, plane_surface)
+        verbs = Verbs(plane_distance, plane_is_aside, plane_hides, plane_outline, plane_surface)
         return action(plane, verbs, group.number + world.planes.number[slot], arguments)
     return with_bounded(world, group, slot, action, arguments)
 
@@ -96,8 +102,16 @@ def _with_one_of(
     if cylinders is not None:  # noqa: SIM102
         if group.kind == CYLINDER:
             cylinder = load_cylinder(cylinders, slot, group.place)
-            verbs = Verbs(cylinder_distance, cylinder_hides, cylinder_outline, cylinder_surface)
+            verbs = Verbs(
+                cylinder_distance,
+                cylinder_is_aside,
+                cylinder_hides,
+                cylinder_outline,
+                cylinder_surface,
+            )
             return action(cylinder, verbs, group.number + cylinders.number[slot], arguments)
     sphere = load_sphere(spheres, slot, group.place)
-    verbs_of_spheres = Verbs(sphere_distance, sphere_hides, sphere_outline, sphere_surface)
+    verbs_of_spheres = Verbs(
+        sphere_distance, sphere_is_aside, sphere_hides, sphere_outline, sphere_surface
+    )
     return action(sphere, verbs_of_spheres, group.number + spheres.number[slot], arguments)

@@ -122,6 +122,8 @@ def _nearest_slots(
 @device
 def _meet(shape: Shape, verbs: Verbs, number: int, ray: Ray) -> tuple[float, int]:
     """Return the distance at which a ray meets a shape, and the shape's number."""
+    if verbs.is_aside(shape, ray):
+        return math.inf, number
     return verbs.distance_to(shape, ray), number
 
 

@@ -209,6 +209,12 @@ def cylinder_distance(cylinder: CylinderShape, ray: Ray) -> float:
 
 
 @device
+def cylinder_is_aside(cylinder: CylinderShape, ray: Ray) -> bool:  # noqa: ARG001
+    """Return False: what tells that costs as much as `cylinder_distance`."""
+    return False
+
+
+@device
 def cylinder_hides(cylinder: CylinderShape, segment: Segment) -> bool:
     """Tell whether a cylinder stands between two points, in front of the image plane."""
     error_bound = ROUNDING * (segment.start_scale + cylinder.error_scale)

@@ -90,6 +90,12 @@ def end_side(plane: PlaneShape, end: Vec, end_scale: float) -> float:
 
 
 @device
+def plane_is_aside(plane: PlaneShape, ray: Ray) -> bool:  # noqa: ARG001
+    """Return False: what tells that costs as much as `plane_distance`."""
+    return False
+
+
+@device
 def plane_hides(plane: PlaneShape, segment: Segment) -> bool:
     """Tell whether a plane stands between two points, in front of the image plane."""
     return hides_side((plane, end_side(plane, segment.end, segment.end_scale)), segment)

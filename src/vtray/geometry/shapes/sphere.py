@@ -39,11 +39,25 @@ def load_sphere(columns: Columns, slot: int, place: Place) -> SphereShape:
 
 
 @device
+def approach_sphere(from_center: Vec, direction: Vec, radius: float) -> tuple[float, float]:
+    """Return where on a ray a sphere's centre is nearest, and the discriminant.
+
+    This is taken from the closest approach, not from ``b*b - c``, so that it stays accurate for a
+    small sphere far away. The parameters are those of `intersect_sphere`.
+
+    References
+    ----------
+    Haines, Gunther, Akenine-Moeller, "Precision Improvements for Ray/Sphere Intersection",
+    Ray Tracing Gems (2019), chapter 7.
+    """
+    middle = -dot(from_center, direction)
+    approach = add(from_center, scale(middle, direction))
+    return middle, radius * radius - dot(approach, approach)
+
+
+@device
 def intersect_sphere(from_center: Vec, direction: Vec, radius: float) -> tuple[float, float]:
     """Return the distances at which a ray enters and leaves a sphere.
-
-    The discriminant is taken from the closest approach, not from ``b*b - c``, so that it stays
-    accurate for a small sphere far away.
 
     Parameters
     ----------
@@ -58,15 +72,8 @@ def intersect_sphere(from_center: Vec, direction: Vec, radius: float) -> tuple[f
     -------
     near, far
         Distances along the ray, both ``inf`` for a miss. A sphere of radius 0 is always missed.
-
-    References
-    ----------
-    Haines, Gunther, Akenine-Moeller, "Precision Improvements for Ray/Sphere Intersection",
-    Ray Tracing Gems (2019), chapter 7.
     """
-    middle = -dot(from_center, direction)
-    approach = add(from_center, scale(middle, direction))
-    discriminant = radius * radius - dot(approach, approach)
+    middle, discriminant = approach_sphere(from_center, direction, radius)
     half_chord = math.sqrt(max(discriminant, 0.0))
     near = middle - half_chord if discriminant > 0.0 else math.inf
     far = middle + half_chord if discriminant > 0.0 else math.inf
@@ -94,6 +101,14 @@ def sphere_distance(sphere: SphereShape, ray: Ray) -> float:
     if far * ray.forward + ray.depth > ROUNDING * (abs(far) + error_scale):
         return far
     return math.inf
+
+
+@device
+def sphere_is_aside(sphere: SphereShape, ray: Ray) -> bool:
+    """Tell whether the line of a ray passes by a sphere."""
+    from_center = sub(ray.origin, sphere.center)
+    _, discriminant = approach_sphere(from_center, ray.direction, sphere.radius)
+    return not discriminant > 0.0
 
 
 @device
