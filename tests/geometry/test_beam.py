@@ -6,7 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from machine_code import instructions_in
 
+from conftest import compiled_only
+from vtray.base.compiler.compiled import Kernel
+from vtray.base.compiler.object_code import compile_object
 from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh
 from vtray.geometry.packets.beam import Beam, beam_margin, children_met, enter_child, make_beam
 
@@ -25,6 +29,19 @@ WIDTHS = st.sampled_from([0.0, 5e-324, 1e-320, 1e-17, 1e-6, 0.3]) | st.floats(0,
 
 def vectors(part: st.SearchStrategy[float]) -> st.SearchStrategy[Vec]:
     return st.tuples(part, part, part)
+
+
+def boxes_met(bvh: Any, node: Any, beam: Any, start: Any, end: Any) -> Any:
+    return children_met(bvh, node, beam, start, end)
+
+
+@compiled_only
+def test_boxes_of_a_node_are_tested_side_by_side() -> None:
+    beam = make_beam(NO_OFFSET, NO_OFFSET, (1.0, 1.0, 1.0), (1.0, 1.0, 1.0), 0.0)
+    bvh = node_of([((-1.0,) * 3, (1.0,) * 3)])
+    code = compile_object(boxes_met, (bvh, 0, beam, 0.0, 1.0), Kernel._options).code
+    # Of x86-64 and of aarch64: several numbers of single precision become doubles at once.
+    assert instructions_in(code) & {"cvtps2pd", "vcvtps2pd", "fcvtl"}
 
 
 def node_of(boxes: list[Box]) -> Bvh:

@@ -46,19 +46,32 @@ SYMBOLS = 2
 
 def inexact_in(code: bytes) -> set[str]:
     """Return the functions that an object file calls, and its instructions, that may differ."""
-    machine = struct.unpack_from("<H", code, 18)[0]
-    decoder = capstone.Cs(*ARCHITECTURES[machine])
+    inexact = INEXACT[_machine_of(code)]
     sections = list(_sections(code))
-    found = set()
+    found = {name for name in instructions_in(code) if inexact.match(name)}
     for section in sections:
         if section.kind == SYMBOLS:
             found |= set(_undefined(section.data, sections[section.link].data)) - MOVE_BYTES
+    return found
+
+
+def instructions_in(code: bytes) -> set[str]:
+    """Return the names of all instructions of an object file."""
+    decoder = capstone.Cs(*ARCHITECTURES[_machine_of(code)])
+    found = set()
+    for section in _sections(code):
         if section.is_code:
             lines = list(decoder.disasm_lite(section.data, 0))
             length = sum(size for _, size, _, _ in lines)
             assert length == len(section.data), "not all of the code could be read"
-            found |= {name for _, _, name, _ in lines if INEXACT[machine].match(name)}
+            found |= {name for _, _, name, _ in lines}
     return found
+
+
+def _machine_of(code: bytes) -> int:
+    """Return the number of the processor that an object file is for."""
+    machine: int = struct.unpack_from("<H", code, 18)[0]
+    return machine
 
 
 def _sections(code: bytes) -> Iterator[Section]:
