@@ -142,7 +142,12 @@ INEXACT = set(
     interp mean average std var median quantile percentile nansum nanmean trapezoid polyval polyfit
     """.split()  # noqa: SIM905
 )
-INTEGERS = {"geometry/bvh/build", "geometry/bvh/join", "scene/fingerprint"}
+INTEGERS = set(
+    """
+    geometry/bvh/build geometry/bvh/join rendering/acceleration rendering/hierarchy
+    rendering/numbering scene/fingerprint
+    """.split()  # noqa: SIM905
+)
 """Modules whose sums over arrays are of integers, which have no order."""
 
 

@@ -76,14 +76,14 @@ class Found(NamedTuple):
         The place of the object in the list of all.
     copy
         Which of its copies; -1 if it is not copied.
-    inner
+    member
         Which of its primitives, 0 for a single one; those of a copy are counted through all the
         objects that are copied.
     """
 
     place: int
     copy: int
-    inner: int
+    member: int
 
 
 class Ranges(NamedTuple):

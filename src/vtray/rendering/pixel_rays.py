@@ -151,10 +151,10 @@ def _surface(
     found = find(scene.objects, numbering, primitive)
     item: Any = scene.objects[found.place]
     copy = part = None
-    shift, inner = (0.0, 0.0, 0.0), found.inner
+    shift, member = (0.0, 0.0, 0.0), found.member
     if isinstance(item, Copies):
         copy, shift = found.copy, _row(item, "at", found.copy)
-        part, inner = item.locate(inner)
+        part, member = item.locate(member)
         item = item.objects[part]
     if isinstance(item, Plane):
         center, normal = _vec(item.center), unit(item.normal)
@@ -165,11 +165,11 @@ def _surface(
         points = [_vec(getattr(item, name)) for name in kind.points]
         color, radius, lambert, number = _rgb(item.color), item.radius, item.lambert, None
     else:
-        points = [_row(item, name, inner) for name in kind.points]
+        points = [_row(item, name, member) for name in kind.points]
         halves = is_second and getattr(item, "color_end", None) is not None
-        color = _row(item, "color_end" if halves else "color", inner)
-        radius, lambert = _number(item, "radius", inner), _number(item, "lambert", inner)
-        number = inner
+        color = _row(item, "color_end" if halves else "color", member)
+        radius, lambert = _number(item, "radius", member), _number(item, "lambert", member)
+        number = member
     if copy is not None:
         points = [uncompiled(add)(point, shift) for point in points]
     end = points[1] if len(points) > 1 else None

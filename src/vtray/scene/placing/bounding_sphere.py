@@ -18,8 +18,8 @@ EXPANDED = 2**18
 ROUNDING = 1.0 + 2.0**-40
 """More than rounding changes a distance, as a factor."""
 
-ANGLE_ROUNDING = 2.0**-24
-"""More than rounding changes an angle between vectors, in radians."""
+COSINE_ROUNDING = 2.0**-24
+"""More than rounding changes the cosine of a difference of angles."""
 
 
 def bounding_sphere(*parts: Balls) -> tuple[Floats, float]:
@@ -124,10 +124,11 @@ def _far_pair(placed: Placed) -> Placed:
     for first in ways:
         way = first
         for _ in range(3):
-            reach = placed.own @ way + placed.radius * float(np.linalg.norm(way))
-            pair = placed.some([int(reach.argmax())], [int((placed.there @ way).argmax())])
+            reach = _products(placed.own, way) + placed.radius * _length(way)
+            there = _products(placed.there, way)
+            pair = placed.some([int(reach.argmax())], [int(there.argmax())])
             way = pair.own[0] + pair.there[0]
-            found = float(np.linalg.norm(way) + np.max(pair.radius))
+            found = _length(way) + float(np.max(pair.radius))
             if found <= length:
                 break
             best, length = pair, found
@@ -157,20 +158,33 @@ def _most(points: Floats, others: Floats) -> Floats:
     one, two = _lengths(points), _lengths(others)
     longest = float(two.max())
     # In the plane of a point and the axis of the cone, it is apart from the nearest by an angle.
-    width = float(_angles(others, two, middle).max()) + ANGLE_ROUNDING
-    apart = np.maximum(_angles(points, one, middle) - width, 0.0)
-    squares = np.square(one) + np.maximum(longest * (longest + 2 * one * np.cos(apart)), 0.0)
+    edge, aside = float(_cosines(others, two, middle).min()), _cosines(points, one, middle)
+    sines = np.sqrt(1 - edge * edge) * np.sqrt(1 - np.square(aside))
+    apart = np.where(aside < edge, edge * aside + sines + COSINE_ROUNDING, 1.0)
+    squares = np.square(one) + np.maximum(longest * (longest + 2 * one * apart), 0.0)
     bounds: Floats = np.minimum(np.minimum(in_box, in_ball), np.sqrt(squares))
     return bounds
 
 
-def _angles(vectors: Floats, lengths: Floats, axis: Floats) -> Floats:
-    """Return the angles between vectors of these lengths and an axis, (n,); π for one of none."""
-    products = lengths * float(np.sqrt(axis @ axis))
+def _cosines(vectors: Floats, lengths: Floats, axis: Floats) -> Floats:
+    """Return cosines of the angles of vectors to an axis, (n,); -1 for those of no length."""
+    products = lengths * _length(axis)
     cosines = np.full(len(vectors), -1.0)
-    np.divide(vectors @ axis, products, out=cosines, where=products > 0)
-    angles: Floats = np.arccos(np.clip(cosines, -1.0, 1.0))
-    return angles
+    np.divide(_products(vectors, axis), products, out=cosines, where=products > 0)
+    clipped: Floats = np.clip(cosines, -1.0, 1.0)
+    return clipped
+
+
+def _products(vectors: Floats, axis: Floats) -> Floats:
+    """Return the scalar products of vectors and an axis, (n,)."""
+    x, y, z = vectors.T
+    products: Floats = x * axis[0] + y * axis[1] + z * axis[2]
+    return products
+
+
+def _length(vector: Floats) -> float:
+    """Return the length of a vector."""
+    return float(_lengths(vector[np.newaxis])[0])
 
 
 def _lengths(vectors: Floats) -> Floats:
