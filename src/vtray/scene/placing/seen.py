@@ -5,7 +5,7 @@ to the camera's. One look at each finds them, and the way to the answer leads pa
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vtray.base.exact_math import hypotenuse
 from vtray.scene.placing.bounds import Balls, from_middle, middle_of, normals_of, some
 from vtray.scene.placing.directions import Vec
-from vtray.scene.placing.pieces import by_pieces
+from vtray.scene.placing.pieces import PIECE, by_workers
 
 Floats = NDArray[np.float64]
 
@@ -117,10 +117,18 @@ def look(balls: Balls, middle: Floats, axes: Axes, edges: Sequence[Slopes] = ())
         there = look(places, away, axes, edges)
         ends = own.centers + there.centers, own.surfaces + there.centers
         return own._replace(centers=ends[0], surfaces=ends[1], there=there)
-    bounds = _find_bounds(balls, middle, axes, edges)
-    parts = by_pieces(
-        len(balls.center), lambda rows: _look_at(some(balls, rows), middle, axes, bounds)
-    )
+    bounds, core = _find_bounds(balls, middle, axes, edges)
+
+    def new_worker() -> Callable[[slice], Seen]:
+        outside = _Outside(middle, core) if core > 0.0 else None
+
+        def look_at(rows: slice) -> Seen:
+            piece = some(balls, rows)
+            return _look_at(outside.of(piece) if outside else piece, middle, axes, bounds)
+
+        return look_at
+
+    parts = by_workers(len(balls.center), new_worker)
     x, y, z = (np.concatenate([part[k] for part in parts]) for k in range(3))
     radius = balls.radius
     if not isinstance(radius, float):
@@ -143,12 +151,41 @@ def _turn(columns: list[Floats], axes: Axes) -> list[Floats]:
     return [columns[0] * a + columns[1] * b + columns[2] * c for a, b, c in axes]
 
 
+class _Outside:
+    """Chooses those of some balls that are not near the middle of all.
+
+    Parameters
+    ----------
+    middle
+        The middle, (3,).
+    core
+        How far their centres are from there at least.
+    """
+
+    def __init__(self, middle: Floats, core: float) -> None:
+        self._middle = middle
+        self._least = core * core
+        # New memory for each piece would take as long as the work.
+        self._memory = np.empty((3, PIECE))
+
+    def of(self, balls: Balls) -> Balls:
+        """Return those of a piece."""
+        squares, square, place = self._memory[:, : len(balls.center)]
+        squares[...] = 0.0
+        for column, offset in zip(balls.center.T, self._middle, strict=True):
+            np.subtract(column, offset, out=place)
+            np.multiply(place, place, out=square)
+            squares += square
+        return some(balls, np.flatnonzero(squares >= self._least))
+
+
 def _look_at(balls: Balls, middle: Floats, axes: Axes, bounds: list[Bound]) -> Seen:
     """Bring a piece into the space of a camera, without what leaves more than all bounds."""
     columns = _turn(from_middle(balls.center, middle), axes)
     radius = balls.radius
     normals = None if balls.toward is None else _turn(normals_of(balls), axes)
-    centers = surfaces = np.array([[c.min() for c in columns], [c.max() for c in columns]])
+    ends = [(c.min(initial=math.inf), c.max(initial=-math.inf)) for c in columns]
+    centers = surfaces = np.array(ends).T
     if normals is not None:
         x, y, z = normals
         around = [np.sqrt(a * a + b * b) * radius for a, b in ((y, z), (x, z), (x, y))]
@@ -158,9 +195,12 @@ def _look_at(balls: Balls, middle: Floats, axes: Axes, bounds: list[Bound]) -> S
         surfaces = centers + np.array([[-radius], [radius]])
     else:
         radius = radius.astype(float, copy=False)
-        ends = [((c - radius).min(), (c + radius).max()) for c in columns]
+        ends = [
+            ((c - radius).min(initial=math.inf), (c + radius).max(initial=-math.inf))
+            for c in columns
+        ]
         surfaces = np.array(ends).T
-    inside = np.ones(len(balls.center), np.bool_)
+    inside = np.ones(len(columns[0]), np.bool_)
     for aside, side, slope, room in bounds:
         left = rooms(columns[aside], columns[2], slope, side)
         length = math.sqrt(1.0 + slope * slope)
@@ -236,13 +276,22 @@ def least_room(seen: Seen, aside: int, slope: float, side: int) -> tuple[float, 
     return bound + more[0], changing + more[1]
 
 
-def _find_bounds(balls: Balls, middle: Floats, axes: Axes, edges: Sequence[Slopes]) -> list[Bound]:
-    """Return bounds: what leaves more room than all is not the first to touch an edge."""
+def _find_bounds(
+    balls: Balls, middle: Floats, axes: Axes, edges: Sequence[Slopes]
+) -> tuple[list[Bound], float]:
+    """Return bounds: what leaves more room than all is not the first to touch an edge.
+
+    Returns
+    -------
+    bounds, core
+        The bounds; and how near to the middle the centres of balls are that leave more than all
+        bounds, and are the first in no direction, 0 if that is not known of any.
+    """
     count = len(balls.center)
     if not edges:
-        return []
+        return [], 0.0
     if count < MANY or not all(map(_is_usual, edges)):
-        return [UNBOUNDED]
+        return [UNBOUNDED], 0.0
     # Numbers spread as the golden ratio does, in step with no order of the spheres.
     chosen = np.arange(SAMPLE) * (int(count * 0.6180339887) | 1) % count
     x, y, z = _turn(from_middle(some(balls, chosen).center, middle), axes)
@@ -250,12 +299,19 @@ def _find_bounds(balls: Balls, middle: Floats, axes: Axes, edges: Sequence[Slope
     # What is the same of all radii makes no difference between balls; discs may be edge-on.
     least = float(np.min(balls.radius)) if balls.toward is None else 0.0
     less = least - ROUNDING * extent - SMALLEST
-    return [
+    bounds = [
         Bound(aside, side, slope, room - less * math.sqrt(1.0 + slope * slope))
         for aside, (place, (low, high)) in enumerate(zip((x, y), edges, strict=True))
         for side, end in ((-1, low), (1, high))
         for slope, room in _least_rooms(place, z, side, (low + high) / 2, end)
     ]
+    if balls.toward is not None:
+        return bounds, 0.0
+    # What is so near is farther than the others from all planes that are the edges of a bound.
+    most = float(np.max(balls.radius))
+    core = min(-bound.room / math.sqrt(1.0 + bound.slope**2) for bound in bounds) - most
+    reached = min(min(float(c.max()), -float(c.min())) for c in (x, y, z)) - (most - least)
+    return bounds, min(core, reached) - 2 * ROUNDING * extent - SMALLEST
 
 
 def _is_usual(slopes: Slopes) -> bool:
