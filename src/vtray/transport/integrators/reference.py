@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import kernel
+from vtray.geometry.between import first_between
 from vtray.geometry.packets.stack import Stack
-from vtray.geometry.queries import NOTHING, first_between, nearest_hit
+from vtray.geometry.queries import NOTHING, nearest_hit
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, add, dot, sub
