@@ -290,6 +290,10 @@ def test_more_than_can_be_numbered(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(vtray.RenderError, match=words):
         accelerate(scene)
     monkeypatch.setattr(hierarchy, "MAX_NUMBERS", 10)
-    monkeypatch.setattr(hierarchy, "MAX_SPHERES", 2)  # of which there are only two
+    monkeypatch.setattr(hierarchy, "MAX_SPHERES", 4)
+    words = "^objects: expected at most 4 places of copies, got 5$"
+    with pytest.raises(vtray.RenderError, match=words):
+        accelerate(scene)
+    monkeypatch.setattr(hierarchy, "MAX_SPHERES", 5)
     assert accelerate(scene).placed is not None
     assert accelerate(scene).shapes[0].root == NO_TREE

@@ -117,7 +117,7 @@ def _make(
         for item in copies
     ]
     parts = [*given, *chain.from_iterable(copied)]
-    _check_counts(parts, numbering)
+    _check_counts(parts, sum(map(len, copies)), numbering)
     built = [_build(part, threads, progress) for part in parts]
     placed, places = _place(copies, copied, threads)
     columns, begins = _join_columns(parts, built, numbering)
@@ -142,14 +142,17 @@ def _part(kind: Kind, items: Sequence[Any], few: int) -> _Part:
     return _Part(kind, collect(kind, kind.items_of(items)), few)
 
 
-def _check_counts(parts: Sequence[_Part], numbering: Numbering) -> None:
-    """Raise RenderError if there are more shapes than can be held, or numbered."""
+def _check_counts(parts: Sequence[_Part], places: int, numbering: Numbering) -> None:
+    """Raise RenderError if there are more shapes or places than can be held, or numbered."""
     for kind in KINDS:
         count = sum(part.count for part in parts if part.kind is kind)
         if count > MAX_SPHERES:
             message = f"objects: expected at most {MAX_SPHERES} {kind.name}, got {count}"
             raise RenderError(message)
-    check_memory_of_spheres(sum(part.count for part in parts))
+    if places > MAX_SPHERES:
+        message = f"objects: expected at most {MAX_SPHERES} places of copies, got {places}"
+        raise RenderError(message)
+    check_memory_of_spheres(sum(part.count for part in parts) + places)
     numbers = sum(map(int, numbering.size))
     if numbers > MAX_NUMBERS:
         words = f"expected at most {MAX_NUMBERS} spheres and cylinders, copies counted"

@@ -12,13 +12,17 @@ from numpy.typing import NDArray
 
 from vtray.base.capacity import MAX_NUMBERS
 from vtray.rendering.shape_kinds import KINDS, Kind, count_of
+from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.copies import Copies
-from vtray.scene.objects import Object, Plane
+from vtray.scene.objects import Object
 
 Integers = NDArray[np.int64]
 
 PLANES = len(KINDS)
 """In place of a kind of bounded shapes: planes."""
+
+COPIED = PLANES + 1
+"""In place of a kind: copies, which may be of several."""
 
 
 class Numbering(NamedTuple):
@@ -112,25 +116,33 @@ class Ranges(NamedTuple):
 
 def number_objects(objects: Sequence[Object]) -> Numbering:
     """Return the numbers of objects: kind by kind, and in the order of the scene."""
-    copied = [k for k, item in enumerate(objects) if isinstance(item, Copies)]
-    types = [*((kind.single, kind.arrays) for kind in KINDS), (Plane,)]
-    kinds, places, sizes, each = [], [], [], []
-    for kind, of_kind in enumerate(types):
-        own = [k for k, item in enumerate(objects) if isinstance(item, of_kind)]
-        counts = {k: count for k in copied if (count := _copied_of(objects[k], kind))}
-        row = sorted([*own, *counts]) if counts else own
-        kinds += [kind] * len(row)
-        places += row
-        each += [counts.get(k, 0) for k in row]
-        sizes += [counts.get(k, 1) * _times(objects[k]) for k in row]
-    size = np.array(sizes, np.int64)
-    kind_of, place = np.array(kinds, np.int64), np.array(places, np.int64)
-    return Numbering(kind_of, place, np.cumsum(size) - size, size, np.array(each, np.int64))
+    # Of a million single objects, none is looked at but for its type.
+    types = list(map(type, objects))
+    kind_of = {found: _kind_of(found) for found in set(types)}
+    kind = np.array([kind_of[found] for found in types], np.int64)
+    place, size, each = np.arange(len(types)), np.ones(len(types), np.int64), np.zeros_like(kind)
+    held = {found for found in kind_of if issubclass(found, ArrayHolder)}
+    for k in (k for k, found in enumerate(types) if found in held):
+        size[k] = len(objects[k])  # type: ignore[arg-type]
+    rows = np.stack([kind, place, size, each])[:, kind != COPIED]
+    copied = [_rows_of(k, objects[k]) for k in np.flatnonzero(kind == COPIED).tolist()]
+    rows = np.concatenate([rows, *copied], axis=1)
+    kind, place, size, each = rows[:, np.lexsort(rows[1::-1])]
+    return Numbering(kind, place, np.cumsum(size) - size, size, each)
 
 
-def _times(item: Any) -> int:  # noqa: ANN401
-    """Return how many copies there are of copied shapes, and of others how many shapes."""
-    return len(item) if isinstance(item, Copies) else count_of(item)
+def _kind_of(found: type) -> int:
+    """Return the place of a type of objects in ``KINDS``, ``PLANES``, or ``COPIED``."""
+    kinds = (k for k, kind in enumerate(KINDS) if issubclass(found, (kind.single, kind.arrays)))
+    return COPIED if issubclass(found, Copies) else next(kinds, PLANES)
+
+
+def _rows_of(place: int, copies: Any) -> Integers:  # noqa: ANN401
+    """Return kind, place, size and each of the rows of copies, (4, m); none without a place."""
+    counts = [sum(map(count_of, kind.items_of(copies.objects))) for kind in KINDS]
+    times = len(copies)
+    rows = [(k, place, times * each, each) for k, each in enumerate(counts) if times and each]
+    return np.array(rows, np.int64).reshape(-1, 4).T
 
 
 def copied_rows(numbering: Numbering) -> Integers:
@@ -151,13 +163,6 @@ def find_ranges(numbering: Numbering) -> Ranges:
         begin[given] = np.cumsum(numbering.size[given]) - numbering.size[given]
     columns = numbering.first, np.where(each > 0, each, MAX_NUMBERS), copied, kind, begin
     return Ranges(*(column[is_first] for column in columns))
-
-
-def _copied_of(item: Any, kind: int) -> int:  # noqa: ANN401
-    """Return how many primitives of a kind one copy has, 0 if there is no place for any."""
-    if kind == PLANES or not len(item):
-        return 0
-    return sum(map(count_of, KINDS[kind].items_of(item.objects)))
 
 
 def locate(numbering: Numbering, number: int) -> tuple[int, int]:
