@@ -114,6 +114,18 @@ def few_lit() -> Scene:
     return scene
 
 
+def at_places() -> Image:
+    """Draw a ball and two sticks at many places."""
+    scene = few()
+    sticks = vtray.Cylinders(
+        [(0, 0, 0)] * 2, [(0.5, 0.2, 0.1), (0, -0.4, 0.3)], 0.1, (200, 30, 20), 1.0, (9, 40, 250)
+    )
+    scene.add_copies([vtray.Sphere((0, 0, 0), 0.2), sticks], cloud(40, 5))
+    scene.camera = Camera.fit(scene, (0.3, -0.4, -1), size=(48, 36), fov_degrees=37)
+    scene.lights = lights.rembrandt(scene)
+    return vtray.render(scene, samples=2)
+
+
 def from_file() -> Image:
     """Draw a scene of the examples, smaller."""
     scene = vtray.load(Path(__file__).parents[2] / "scenes" / "inside.json")
@@ -127,6 +139,7 @@ DRAWINGS: dict[str, Drawing] = {
     "on-white": on_white,
     "cut-out": cut_out,
     "lit-again": lit_again,
+    "at-places": at_places,
     "from-file": from_file,
     **{name: lambda name=name: by_preset(name) for name in ("cloudy", "lightbox", "butterfly")},
     **{f"filter-{name}": lambda name=name: by_filter(name) for name in FILTERS},
@@ -160,7 +173,7 @@ def main(folder: Path) -> None:
         image = draw()
         image.save(folder / f"{name}.png")
         image.save(folder / f"{name}-16.png", bits=16)
-        image.save(folder / f"{name}.npz", aov=("depth", "normals", "ids"))
+        image.save(folder / f"{name}.npz", aov=("depth", "normals", "ids", "copies"))
         light = hashlib.sha256(image.linear.tobytes()).hexdigest()[:16]
         print(f"{name:24} {light}", flush=True)
     print("compiled" if "numba" in sys.modules else "loaded")
