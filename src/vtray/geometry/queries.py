@@ -112,18 +112,20 @@ def _nearest_slots(
 ) -> Hit:
     """Return the nearer of a hit and those of the shapes of a range of slots."""
     for slot in range(begin, end):
-        distance, number = with_any(world, group, slot, _meet, ray)
-        if distance < hit.distance or (distance == hit.distance and number < hit.primitive):
-            hit = Hit(distance, number, group.row, slot)
+        hit = with_any(world, group, slot, _nearer, (ray, hit, group.row, slot))
     return hit
 
 
 @device
-def _meet(shape: Shape, verbs: Verbs, number: int, ray: Ray) -> tuple[float, int]:
-    """Return the distance at which a ray meets a shape, and the shape's number."""
+def _nearer(shape: Shape, verbs: Verbs, number: int, arguments: tuple[Ray, Hit, int, int]) -> Hit:
+    """Return the nearer of a hit and that of a shape."""
+    ray, hit, row, slot = arguments
     if verbs.is_aside(shape, ray):
-        return math.inf, number
-    return verbs.distance_to(shape, ray), number
+        return hit
+    distance = verbs.distance_to(shape, ray)
+    if distance < hit.distance or (distance == hit.distance and number < hit.primitive):
+        return Hit(distance, number, row, slot)
+    return hit
 
 
 def _nearest_in_tree(

@@ -309,7 +309,7 @@ def _find_bounds(
         return bounds, 0.0
     # What is so near is farther than the others from all planes that are the edges of a bound.
     most = float(np.max(balls.radius))
-    core = min(-bound.room / math.sqrt(1.0 + bound.slope**2) for bound in bounds) - most
+    core = min(-bound.room / math.sqrt(1.0 + bound.slope * bound.slope) for bound in bounds) - most
     reached = min(min(float(c.max()), -float(c.min())) for c in (x, y, z)) - (most - least)
     return bounds, min(core, reached) - 2 * ROUNDING * extent - SMALLEST
 
