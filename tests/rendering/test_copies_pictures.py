@@ -121,7 +121,7 @@ def many(
     scene.add_cylinder((-2 + by, -2 + by, by), (2 + by, 2 + by, by), 0.05)
     ball = vtray.Sphere((0, 0, 0), 0.1, (255, 255, 0), 0.5)
     scene.add_copies(ball, np.round(numbers.uniform(-2, 2, (copies, 3)), 1) + by)
-    size, pixel = ((60, 40), 0.1) if JIT else ((6, 4), 1.0)
+    size, pixel = ((60, 40), 0.1) if JIT else ((9, 7), 0.5)
     center = (by, -1.0 + by, -3.0 + by)
     scene.camera = vtray.Camera(center, (0, 1, 3), 6.0, size, (pixel, pixel), projection=projection)
     scene.add_light((5 + by, -9 + by, -6 + by))
@@ -136,7 +136,7 @@ def list_of_colors(count: int) -> np.ndarray[Any, Any]:
 
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 @pytest.mark.parametrize("by", [0.0, 1e6, -12345.678])
-@pytest.mark.parametrize(("shapes", "copies"), [(1, 1), (4, 40), (300, 30)] if JIT else [(2, 3)])
+@pytest.mark.parametrize(("shapes", "copies"), [(1, 1), (4, 40), (300, 30)] if JIT else [(2, 6)])
 def test_many_as_written_out(shapes: int, copies: int, by: float, projection: str) -> None:
     scene = many(1, shapes, copies, by, projection)
     image = render(scene)
@@ -214,7 +214,7 @@ def test_far_and_tiny_copies_are_found_without_their_hierarchies(
         [(0, 0, 4 * size), (shift, shift, shift), (-shift, shift, -shift)],
     )
     scene.add_light((0, -size, 0))
-    scene.camera = vtray.Camera.look_at((0, 0, 0), (0, 0, size), size=(40, 30) if JIT else (6, 5))
+    scene.camera = vtray.Camera.look_at((0, 0, 0), (0, 0, size), size=(40, 30) if JIT else (12, 9))
     image = render(scene)
     assert (image.copies == 0).any()
     assert_as_written_out(scene, image)
