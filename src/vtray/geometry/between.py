@@ -9,7 +9,7 @@ from typing import Any
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import WIDTH
 from vtray.geometry.dispatch import Shape, Verbs, with_any
-from vtray.geometry.packets.beam import beam_margin, children_met, make_beam
+from vtray.geometry.packets.beam import children_met, make_beam, shape_margin
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.ray import Segment
@@ -155,8 +155,7 @@ def _first_in_tree(
     # From the light: its place is the more exact of the two.
     end = add(scale(ratio, segment.end), offset)
     way = scale(ratio, sub(segment.start, segment.end))
-    margin = beam_margin(end, offset) + MARGIN * to_boxes.moved
-    margin += MARGIN * segment.start_scale * ratio
+    margin = shape_margin(to_boxes, end, segment.start_scale)
     beam = make_beam(end, end, way, way, margin)
     stack.node[base] = hierarchy.root
     waiting = base + 1

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.dispatch import Shape, Verbs, with_any
-from vtray.geometry.packets.beam import Beam, beam_margin, make_beam
+from vtray.geometry.packets.beam import Beam, make_beam, shape_margin
 from vtray.geometry.packets.stack import Stack, push_met
 from vtray.geometry.ray import Ray
 from vtray.geometry.rounding import MARGIN
@@ -181,6 +181,5 @@ def _ray_beam(to_boxes: ToBoxes, ray: Ray) -> Beam:
     """Return a ray as a beam in the boxes' space."""
     ratio, offset = to_boxes.ratio, to_boxes.offset
     start = add(scale(ratio, ray.origin), offset)
-    margin = beam_margin(start, offset) + MARGIN * to_boxes.moved
-    margin += MARGIN * ray.error_scale * ratio
+    margin = shape_margin(to_boxes, start, ray.error_scale)
     return make_beam(start, start, ray.direction, ray.direction, margin)

@@ -17,6 +17,7 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import Vec, magnitude
+from vtray.geometry.world import ToBoxes
 
 TINY = 1e-30
 """In place of a direction of 0, whose inverse must stay finite."""
@@ -158,3 +159,20 @@ def beam_margin(apex: Vec, offset: Vec) -> float:
     """
     # Eight: more than the boxes themselves reach.
     return MARGIN * (magnitude(apex) + magnitude(offset) + 8.0)
+
+
+@device
+def shape_margin(to_boxes: ToBoxes, apex: Vec, error_scale: float) -> float:
+    """Return how far rounding may move what a beam is tested for among the boxes of shapes.
+
+    Parameters
+    ----------
+    to_boxes
+        What leads to the boxes.
+    apex
+        Where the beam starts, in their space.
+    error_scale
+        What the rounding errors of the beam's rays are relative to, in the kernels' space.
+    """
+    margin = beam_margin(apex, to_boxes.offset) + MARGIN * to_boxes.moved
+    return margin + MARGIN * error_scale * to_boxes.ratio

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.beam import Beam, beam_margin, make_beam
+from vtray.geometry.packets.beam import Beam, make_beam, shape_margin
 from vtray.geometry.packets.nearest import nearest_slots
 from vtray.geometry.packets.packet import Packet, Sheaf
 from vtray.geometry.packets.ray_bounds import farthest_of, part_directions, part_starts
@@ -167,8 +167,7 @@ def _part_beam(
     near, far = part_starts(work.cones, first, count, sheaf)
     ratio, offset = to_boxes.ratio, to_boxes.offset
     apex = add(scale(ratio, sheaf.origin), offset)
-    margin = beam_margin(apex, offset) + MARGIN * to_boxes.moved
-    margin += MARGIN * sheaf.error_scale * ratio
+    margin = shape_margin(to_boxes, apex, sheaf.error_scale)
     margin += CORNER * footprint.width * ratio
     growth = CORNER * footprint.growth
     wider = growth, growth, growth

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import WIDTH, leaf_range
-from vtray.geometry.packets.beam import Beam, beam_margin, children_met, make_beam
+from vtray.geometry.packets.beam import Beam, children_met, make_beam, shape_margin
 from vtray.geometry.packets.occlusion import PointBox, Target, block_by_slot, in_shaft
 from vtray.geometry.packets.packet import BLOCKED, ERROR_SCALE, POINT, Packet, load
 from vtray.geometry.packets.stack import Stack
@@ -249,6 +249,5 @@ def _cluster_beam(box: Box, to_boxes: ToBoxes, target: Target) -> Beam:
     """Return the beam from a light to a box of points."""
     ratio, offset = to_boxes.ratio, to_boxes.offset
     apex = add(scale(ratio, target.place), offset)
-    margin = beam_margin(apex, offset) + MARGIN * to_boxes.moved
-    margin += MARGIN * box.error_scale * ratio
+    margin = shape_margin(to_boxes, apex, box.error_scale)
     return make_beam(apex, apex, scale(ratio, box.low), scale(ratio, box.high), margin)
