@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vtray.geometry.bvh.tree import Bvh, Frame, node_count
 from vtray.geometry.shapes.columns import Columns
-from vtray.rendering.numbering import Numbering
+from vtray.rendering.numbering import Ranges
 from vtray.rendering.placed import Placed
 from vtray.rendering.shape_kinds import Kind, Source, collect
 from vtray.scene.copies import Copies
@@ -70,8 +70,10 @@ class Acceleration:
         The hierarchies of all.
     placed
         Where copies stand; None if there are none.
-    numbering
-        The numbers of all.
+    ranges
+        The numbers of all, by ranges.
+    count
+        How many shapes there are, with all copies.
     items
         The objects that have them.
     fingerprint
@@ -83,7 +85,8 @@ class Acceleration:
     columns: tuple[Columns, ...]
     bvh: Bvh
     placed: Placed | None
-    numbering: Numbering
+    ranges: Ranges
+    count: int
     items: list[Any]
     fingerprint: bytes
 
@@ -106,11 +109,6 @@ class Acceleration:
         # Not their sum with this, which can be beyond the largest double.
         moved = float(np.abs(self.placed.shift).max()) if self.placed else 0.0
         return max(moved, *(one.largest for one in self.shapes), *copied)
-
-    @property
-    def count(self) -> int:
-        """How many shapes there are, with all copies."""
-        return int(self.numbering.size.sum())
 
     @property
     def memory(self) -> int:

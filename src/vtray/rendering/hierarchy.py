@@ -25,7 +25,7 @@ from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.vector import Vec, lower, upper
 from vtray.geometry.world import NO_TREE
 from vtray.rendering.acceleration import Acceleration, Shapes
-from vtray.rendering.numbering import Numbering, copied_rows, number_objects
+from vtray.rendering.numbering import Numbering, copied_rows, find_ranges, number_objects
 from vtray.rendering.placed import Placed, place_copies
 from vtray.rendering.shape_kinds import KINDS, Kind, Source, collect
 from vtray.scene.array_holder import ArrayHolder
@@ -131,7 +131,8 @@ def _make(
         columns,
         bvh,
         placed and replace(placed, root=roots[-1]),
-        numbering,
+        find_ranges(numbering),
+        int(numbering.size.sum()),
         items,
         fingerprint,
     )

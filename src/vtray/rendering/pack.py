@@ -16,7 +16,6 @@ from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.vector import Vec
 from vtray.geometry.world import NO_TREE, PLANE, Groups, Places, ToBoxes, World
 from vtray.rendering.acceleration import Acceleration, Shapes
-from vtray.rendering.numbering import find_ranges
 from vtray.rendering.placed import Placed
 from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
@@ -248,7 +247,7 @@ def _pack_materials(kept: Acceleration, planes: list[Plane]) -> Materials:
     halved = [k for k, source in enumerate(sources) if source.color_end is not None]
     end_row[halved], end_step[halved] = row[len(colors) :], step[len(colors) :]
     lambert_row, lambert_step = _rows(lamberts)
-    ranges = find_ranges(kept.numbering)
+    ranges = kept.ranges
     k = np.where(ranges.copied < 0, ranges.kind, len(kept.shapes) + ranges.copied)
     k, begin = np.append(k, len(sources)), np.append(ranges.begin, 0)
     return Materials(
