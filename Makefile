@@ -19,7 +19,7 @@ test: .venv/ready ## run all tests, kernels compiled
 	$(BIN)/pytest -n 2
 
 coverage: .venv/ready ## run the tests without the compiler, and see that they reach 95 % of lines
-	NUMBA_DISABLE_JIT=1 $(BIN)/coverage run -m pytest -q
+	NUMBA_DISABLE_JIT=1 $(BIN)/pytest -n 2 -q --cov --cov-report=
 	$(BIN)/coverage report
 
 memtest: .venv/ready ## see that memory stays within bounds
