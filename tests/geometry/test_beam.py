@@ -11,8 +11,11 @@ from machine_code import instructions_in
 from conftest import compiled_only
 from vtray.base.compiler.compiled import Kernel
 from vtray.base.compiler.object_code import compile_object
+from vtray.geometry.bvh.boxes import Bounds
+from vtray.geometry.bvh.nodes import OUTSIDE
 from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh
-from vtray.geometry.packets.beam import Beam, beam_margin, children_met, enter_child, make_beam
+from vtray.geometry.packets import beam as beams
+from vtray.geometry.packets.beam import Beam, beam_margin, lower_limit, make_beam, upper_limit
 
 Vec = tuple[float, float, float]
 Box = tuple[Any, Any]
@@ -31,17 +34,36 @@ def vectors(part: st.SearchStrategy[float]) -> st.SearchStrategy[Vec]:
     return st.tuples(part, part, part)
 
 
-def boxes_met(bvh: Any, node: Any, beam: Any, start: Any, end: Any) -> Any:
-    return children_met(bvh, node, beam, start, end)
+ENTERED = np.zeros(WIDTH, np.float32)
+
+
+def children_met(bvh: Bvh, node: int, beam: Beam, start: float, end: float) -> int:
+    """Return a bit for each child that a beam may meet with s between two bounds."""
+    limits = np.float32(lower_limit(beam, start)), np.float32(upper_limit(beam, end))
+    return beams.children_met(bvh, node, in_singles(beam), *limits, ENTERED)
+
+
+def in_singles(beam: Beam) -> Beam:
+    """Return a beam as it is in kernels; to Python, all their numbers are of double precision."""
+    near, far = (
+        Bounds(bounds.side, *(tuple(map(np.float32, three)) for three in bounds[1:]))
+        for bounds in (beam.near, beam.far)
+    )
+    return Beam(near, far, beam.ahead)
+
+
+def ask(bvh: Any, node: Any, beam: Any, start: Any, end: Any, entered: Any) -> Any:
+    return beams.children_met(bvh, node, beam, start, end, entered)
 
 
 @compiled_only
 def test_boxes_of_a_node_are_tested_side_by_side() -> None:
     beam = make_beam(NO_OFFSET, NO_OFFSET, (1.0, 1.0, 1.0), (1.0, 1.0, 1.0), 0.0)
     bvh = node_of([((-1.0,) * 3, (1.0,) * 3)])
-    code = compile_object(boxes_met, (bvh, 0, beam, 0.0, 1.0), Kernel._options).code
-    # Of x86-64 and of aarch64: several numbers of single precision become doubles at once.
-    assert instructions_in(code) & {"cvtps2pd", "vcvtps2pd", "fcvtl"}
+    limits = np.float32(0.0), np.float32(1.0)
+    code = compile_object(ask, (bvh, 0, in_singles(beam), *limits, ENTERED), Kernel._options).code
+    # Of x86-64 and of aarch64: several numbers of single precision are compared at once.
+    assert instructions_in(code) & {"mulps", "vmulps", "fcmge", "fcmgt"}
 
 
 def node_of(boxes: list[Box]) -> Bvh:
@@ -109,7 +131,7 @@ def assert_all_met(
                 # Far beyond the boxes' frame only the margin's share of a step is promised.
                 if s <= min(end, 1e12):
                     assert met >> k & 1
-                    assert enter_child(bvh, WIDTH + k, beam) <= s
+                    assert float(ENTERED[k]) + beam.ahead <= s
 
 
 AWAY = [
@@ -137,8 +159,22 @@ def test_boxes_that_are_clearly_away_are_left_out(apex: Vec, low: Vec, high: Vec
     assert children_met(node_of(boxes), 0, beam, 0.0, 1.0) == 0
 
 
+@pytest.mark.parametrize("distance", [1e2, 1e5, 1e8])
+@pytest.mark.parametrize("way", [(0.6, 0.0, 0.8), (-0.48, 0.64, 0.6), (0.0, 0.0, 1.0)])
+def test_boxes_beside_a_beam_from_far_away_are_left_out(distance: float, way: Vec) -> None:
+    apex = tuple(-distance * np.array(way))
+    across = np.cross(way, (0.3, 0.5, -0.2))
+    across *= 0.04 / np.linalg.norm(across)
+    places = [np.zeros(3), across, -across, 2 * np.array(way), -2 * np.array(way) + across]
+    boxes = [(tuple(p - 0.01), tuple(p + 0.01)) for p in places]
+    beam = make_beam(apex, apex, way, way, beam_margin(apex, NO_OFFSET))
+    assert children_met(node_of(boxes), 0, beam, 0.0, np.inf) == 0b01001
+    assert children_met(node_of(boxes), 0, beam, 0.0, distance + 1) == 0b00001
+    assert children_met(node_of(boxes), 0, beam, distance + 1, np.inf) == 0b01000
+
+
 def test_sides_of_an_empty_child_are_not_met() -> None:
-    nothing = (3e38, 3e38, 3e38), (-3e38, -3e38, -3e38)
+    nothing = (OUTSIDE,) * 3, (-OUTSIDE,) * 3
     for low, high in AWAY:
         beam = make_beam(NO_OFFSET, NO_OFFSET, low, high, beam_margin(NO_OFFSET, NO_OFFSET))
         assert children_met(node_of([nothing]), 0, beam, 0.0, np.inf) == 0

@@ -7,9 +7,16 @@ from collections.abc import Callable
 from typing import Any
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.bvh.boxes import fetch_node
 from vtray.geometry.bvh.tree import WIDTH
 from vtray.geometry.dispatch import Shape, Verbs, with_any
-from vtray.geometry.packets.beam import children_met, make_beam, shape_margin
+from vtray.geometry.packets.beam import (
+    children_met,
+    lower_limit,
+    make_beam,
+    shape_margin,
+    upper_limit,
+)
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.ray import Segment
@@ -157,6 +164,7 @@ def _first_in_tree(
     way = scale(ratio, sub(segment.start, segment.end))
     margin = shape_margin(to_boxes, end, segment.start_scale)
     beam = make_beam(end, end, way, way, margin)
+    near, far = lower_limit(beam, 0.0), upper_limit(beam, 1.0 + MARGIN)
     stack.node[base] = hierarchy.root
     waiting = base + 1
     while waiting > base:
@@ -168,11 +176,13 @@ def _first_in_tree(
             if is_any and first != NOTHING:
                 return first
             continue
-        met = children_met(bvh, node, beam, 0.0, 1.0 + MARGIN)
+        met = children_met(bvh, node, beam, near, far, stack.entered)
         place = node * WIDTH
         while met > 0:
             if met & 1:
-                stack.node[waiting] = bvh.child[place]
+                child = bvh.child[place]
+                fetch_node(bvh, child)
+                stack.node[waiting] = child
                 waiting += 1
             met >>= 1
             place += 1

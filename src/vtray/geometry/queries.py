@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.dispatch import Shape, Verbs, with_any
-from vtray.geometry.packets.beam import Beam, make_beam, shape_margin
+from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_margin, upper_limit
 from vtray.geometry.packets.stack import Stack, push_met
 from vtray.geometry.ray import Ray
 from vtray.geometry.rounding import MARGIN
@@ -153,13 +153,13 @@ def _nearest_in_tree(
     """
     ratio = hierarchy.to_boxes.ratio
     beam = _ray_beam(hierarchy.to_boxes, ray)
-    start = max(-ray.depth, 0.0) * ratio * (1.0 - MARGIN)
+    start = lower_limit(beam, max(-ray.depth, 0.0) * ratio * (1.0 - MARGIN))
     stack.node[base] = hierarchy.root
-    stack.enter[base] = 0.0
+    stack.enter[base] = start
     waiting = base + 1
     while waiting > base:
         waiting -= 1
-        far = hit.distance * ratio * (1.0 + MARGIN)
+        far = upper_limit(beam, hit.distance * ratio * (1.0 + MARGIN))
         if stack.enter[waiting] > far:
             continue
         child = stack.node[waiting]

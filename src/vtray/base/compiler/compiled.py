@@ -19,6 +19,7 @@ import threading
 import time
 from collections.abc import Callable
 from functools import cached_property, update_wrapper
+from importlib import import_module
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar, cast
 
@@ -65,6 +66,25 @@ _waiting: list[Callable[[bool], object]] = []
 def device(function: Function) -> Function:
     """Compile a small scalar function that kernels call."""
     return function if _is_off() else cast("Function", Device(function))
+
+
+def written_in_llvm(writer: str) -> Callable[[Function], Function]:
+    """Take the code of a device function from what writes it in LLVM's language.
+
+    This is for the few instructions that a compiler does not find by itself. The function itself
+    says what they do, and does it where nothing is compiled.
+
+    Parameters
+    ----------
+    writer
+        ``"module:name"`` of a function as `numba.extending.intrinsic` takes it. It is imported
+        only to compile.
+    """
+
+    def decorate(function: Function) -> Function:
+        return function if _is_off() else cast("Function", Written(function, writer))
+
+    return decorate
 
 
 def kernel(function: Function) -> Function:
@@ -162,6 +182,25 @@ class Device:
 
         dispatcher: Any = self._unwrapped
         return numba.types.Dispatcher(dispatcher)
+
+
+class Written:
+    """A function that compiled code calls, and whose own code is written in LLVM's language."""
+
+    def __init__(self, function: Callable[..., object], writer: str) -> None:
+        self.__wrapped__ = function
+        self._writer = writer
+
+    @cached_property
+    def _numba_type_(self) -> object:
+        """What Numba asks for where compiled code calls this."""
+        import numba
+        from numba.core.typing.templates import make_intrinsic_template
+
+        module, name = self._writer.split(":")
+        write = getattr(import_module(module), name)
+        make: Any = make_intrinsic_template
+        return numba.types.Function(make(self, write, name))
 
 
 class Kernel(Device):

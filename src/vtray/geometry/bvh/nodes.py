@@ -14,8 +14,8 @@ from vtray.geometry.bvh.tree import EMPTY, LEAF, SIDES, WIDTH, Bvh, Frame, leaf_
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import Vec, add, lower, magnitude, sub, upper
 
-OUTSIDE = 3.0e38
-"""The low sides of an empty box, and minus its high sides."""
+OUTSIDE = 1.0e7
+"""The low sides of an empty box, and minus its high sides: much farther away than any box."""
 
 
 class Extent(NamedTuple):

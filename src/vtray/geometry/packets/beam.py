@@ -11,9 +11,14 @@ Kay, Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986 (slabs); Boulos, Wald, 
 and Arithmetic Culling Methods for Entire Ray Packets", 2006 (intervals).
 """
 
+import math
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from vtray.base.compiler.compiled import device
+from vtray.geometry.bvh.boxes import Bounds, boxes_met
 from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import Vec, magnitude
@@ -22,26 +27,39 @@ from vtray.geometry.world import ToBoxes
 TINY = 1e-30
 """In place of a direction of 0, whose inverse must stay finite."""
 
-NEVER = 1e300
-"""A bound that nothing reaches."""
+NEVER = 3e38
+"""A bound that nothing reaches, in single precision."""
 
-NODE_BITS = (1 << 40) - 1
-SIDE_BITS = 63
-"""Masks that tell the compiler that no index is negative, without which it does not vectorise."""
+FRAME = 4.0
+"""No box reaches farther from the origin of its space."""
+
+SINGLE_ROUNDING = 2.0**-22
+"""Bound on the error of a bound in single precision, relative to what is added up: four times the
+error of one operation, where there are three."""
+
+SINGLE_TINY = 1e-44
+"""The same where numbers are so small that they have fewer digits."""
 
 
-class Slab(NamedTuple):
-    """The bounds on ``s`` along one axis, linear in the sides of a box.
+class Beam(NamedTuple):
+    """A beam; s is measured in directions.
 
     Attributes
     ----------
-    near_side, far_side
-        Where a node's low or high sides begin: the side that the bound is taken from.
-    near, near_start
-        The beam is in reach of a box from ``side * near + near_start`` on,
-    far, far_start
-        up to ``side * far + far_start``.
+    near, far
+        The beam is in reach of a box between these bounds on s, less `ahead`.
+    ahead
+        About the s at which the beam reaches the space of the boxes, 0 if it starts there. What
+        counts from there is small, and single precision enough for it.
     """
+
+    near: Bounds
+    far: Bounds
+    ahead: float
+
+
+class Slab(NamedTuple):
+    """The bounds on s along one axis, linear in the sides of a box; see `Bounds`."""
 
     near_side: int
     near: float
@@ -49,14 +67,6 @@ class Slab(NamedTuple):
     far_side: int
     far: float
     far_start: float
-
-
-class Beam(NamedTuple):
-    """A beam; s is measured in directions."""
-
-    x: Slab
-    y: Slab
-    z: Slab
 
 
 @device
@@ -72,10 +82,30 @@ def make_beam(start_low: Vec, start_high: Vec, low: Vec, high: Vec, margin: floa
     margin
         How far rounding may have moved what the beam is tested for.
     """
+    x = _make_slab(start_low[0] - margin, start_high[0] + margin, low[0], high[0], 0)
+    y = _make_slab(start_low[1] - margin, start_high[1] + margin, low[1], high[1], 1)
+    z = _make_slab(start_low[2] - margin, start_high[2] + margin, low[2], high[2], 2)
+    ahead = max(0.0, _reach_frame(x), _reach_frame(y), _reach_frame(z))
     return Beam(
-        _make_slab(start_low[0] - margin, start_high[0] + margin, low[0], high[0], 0),
-        _make_slab(start_low[1] - margin, start_high[1] + margin, low[1], high[1], 1),
-        _make_slab(start_low[2] - margin, start_high[2] + margin, low[2], high[2], 2),
+        Bounds(
+            (x.near_side, y.near_side, z.near_side),
+            (np.float32(x.near), np.float32(y.near), np.float32(z.near)),
+            (
+                _lower_term(x.near, x.near_start, ahead),
+                _lower_term(y.near, y.near_start, ahead),
+                _lower_term(z.near, z.near_start, ahead),
+            ),
+        ),
+        Bounds(
+            (x.far_side, y.far_side, z.far_side),
+            (np.float32(x.far), np.float32(y.far), np.float32(z.far)),
+            (
+                -_lower_term(x.far, -x.far_start, -ahead),
+                -_lower_term(y.far, -y.far_start, -ahead),
+                -_lower_term(z.far, -z.far_start, -ahead),
+            ),
+        ),
+        ahead,
     )
 
 
@@ -94,56 +124,55 @@ def _make_slab(first: float, last: float, low: float, high: float, axis: int) ->
         return Slab(high_side, enter, -first * enter, low_side, leave, -last * leave)
     # Directions to both sides: one bound says something, and there is no end.
     enter = 1.0 / max(high, TINY)
-    return Slab(low_side, enter, -last * enter, high_side, 0.0, NEVER)
+    return Slab(low_side, enter, -last * enter, high_side, 0.0, math.inf)
 
 
 @device
-def children_met(bvh: Bvh, node: int, beam: Beam, start: float, end: float) -> int:
-    """Return a bit for each child of a node that a beam may meet with s between two bounds."""
-    first = node * SIDES & NODE_BITS
-    x_near, x_far = first + (beam.x.near_side & SIDE_BITS), first + (beam.x.far_side & SIDE_BITS)
-    y_near, y_far = first + (beam.y.near_side & SIDE_BITS), first + (beam.y.far_side & SIDE_BITS)
-    z_near, z_far = first + (beam.z.near_side & SIDE_BITS), first + (beam.z.far_side & SIDE_BITS)
-    x, y, z = beam.x, beam.y, beam.z
-    met = 0
-    for k in range(_width(bvh)):
-        enter = max(
-            start,
-            float(bvh.sides[x_near + k]) * x.near + x.near_start,
-            float(bvh.sides[y_near + k]) * y.near + y.near_start,
-            float(bvh.sides[z_near + k]) * z.near + z.near_start,
-        )
-        leave = min(
-            end,
-            float(bvh.sides[x_far + k]) * x.far + x.far_start,
-            float(bvh.sides[y_far + k]) * y.far + y.far_start,
-            float(bvh.sides[z_far + k]) * z.far + z.far_start,
-        )
-        met |= 1 << k if enter <= leave else 0
-    return met
+def _reach_frame(slab: Slab) -> float:
+    """Return the s from which on a beam may be in the space of the boxes, along one axis."""
+    return slab.near_start - FRAME * abs(slab.near)
 
 
 @device
-def _width(bvh: Bvh) -> int:
-    """Return ``WIDTH``, as the compiler cannot know: it unrolls loops that it sees the end of.
+def _lower_term(factor: float, term: float, ahead: float) -> np.float32:
+    """Return the term of a lower bound, less `ahead`: no rounding makes the bound too great."""
+    term = min(max(term - ahead, -NEVER), NEVER)
+    return np.float32(term - SINGLE_ROUNDING * (FRAME * abs(factor) + abs(term)) - SINGLE_TINY)
 
-    Unrolled, the test of a node's boxes is not vectorised, and takes three times as long.
+
+@device
+def lower_limit(beam: Beam, s: float) -> np.float32:
+    """Return a limit on s as the bounds of a beam count it, not greater than it is."""
+    return _lower_term(0.0, s, beam.ahead)
+
+
+@device
+def upper_limit(beam: Beam, s: float) -> np.float32:
+    """Return a limit on s as the bounds of a beam count it, not less than it is."""
+    return -_lower_term(0.0, -s, -beam.ahead)
+
+
+@device
+def children_met(
+    bvh: Bvh,
+    node: int,
+    beam: Beam,
+    start: np.float32,
+    end: np.float32,
+    entered: NDArray[np.float32],
+) -> int:
+    """Return a bit for each child of a node that a beam may meet.
+
+    Parameters
+    ----------
+    bvh, node, beam
+        The node, and the beam.
+    start, end
+        Its `lower_limit` and `upper_limit`.
+    entered
+        Out: from which s on it may meet each child, as its bounds count, (8,).
     """
-    float32_bytes: int = bvh.sides.itemsize & 4
-    return WIDTH // 4 * float32_bytes
-
-
-@device
-def enter_child(bvh: Bvh, child: int, beam: Beam) -> float:
-    """Return from which s on a beam may meet a child."""
-    first = child // WIDTH * SIDES + child % WIDTH
-    x, y, z = beam.x, beam.y, beam.z
-    enter: float = max(
-        float(bvh.sides[first + x.near_side]) * x.near + x.near_start,
-        float(bvh.sides[first + y.near_side]) * y.near + y.near_start,
-        float(bvh.sides[first + z.near_side]) * z.near + z.near_start,
-    )
-    return enter
+    return boxes_met(bvh, node * SIDES, beam.near, beam.far, start, end, entered)
 
 
 @device

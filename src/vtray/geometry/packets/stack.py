@@ -10,49 +10,63 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bits import lowest_bit
+from vtray.geometry.bvh.boxes import fetch_node
 from vtray.geometry.bvh.tree import STACK, WIDTH, Bvh
-from vtray.geometry.packets.beam import Beam, children_met, enter_child
+from vtray.geometry.packets.beam import Beam, children_met
 
 LEVELS = 2
 """Hierarchies that lie one in the other at the most: that over places, and that at a place."""
 
 
 class Stack(NamedTuple):
-    """The nodes and leaves that wait, and where the beam, or the ray, enters them."""
+    """What waits, and scratch memory.
+
+    Attributes
+    ----------
+    node, enter
+        The nodes and leaves that wait, and where the beam enters them, as its bounds count.
+    entered
+        The same for the children of one node, (8,).
+    """
 
     node: NDArray[np.int64]
-    enter: NDArray[np.float64]
+    enter: NDArray[np.float32]
+    entered: NDArray[np.float32]
 
 
 def new_stack() -> Stack:
     """Return the scratch memory of one thread."""
-    return Stack(np.zeros(LEVELS * STACK, np.int64), np.zeros(LEVELS * STACK))
+    size = LEVELS * STACK
+    return Stack(np.zeros(size, np.int64), np.zeros(size, np.float32), np.zeros(WIDTH, np.float32))
 
 
 @device
 def push_met(
-    bvh: Bvh, node: int, beam: Beam, start: float, end: float, stack: Stack, base: int
+    bvh: Bvh, node: int, beam: Beam, start: np.float32, end: np.float32, stack: Stack, base: int
 ) -> int:
     """Push the children that a beam may meet, the nearest last; return the stack's new height."""
-    met = children_met(bvh, node, beam, start, end)
+    nodes, enters, entered = stack.node, stack.enter, stack.entered
+    met = children_met(bvh, node, beam, start, end, entered)
     if met == 0:
         return base
-    nodes, enters = stack.node, stack.enter
-    nearest = node * WIDTH + lowest_bit(met)
-    nearest_enter = enter_child(bvh, nearest, beam)
+    first = node * WIDTH
+    nearest = lowest_bit(met)
+    nearest_enter = entered[nearest]
     met &= met - 1
     top = base
     while met != 0:
-        child = node * WIDTH + lowest_bit(met)
-        enter = enter_child(bvh, child, beam)
+        k = lowest_bit(met)
+        enter = entered[k]
         met &= met - 1
         # Both are chosen without a branch, which processors would often guess wrong.
         is_nearer = enter < nearest_enter
-        nodes[top] = bvh.child[nearest if is_nearer else child]
+        child = bvh.child[first + (nearest if is_nearer else k)]
+        fetch_node(bvh, child)
+        nodes[top] = child
         enters[top] = nearest_enter if is_nearer else enter
-        nearest = child if is_nearer else nearest
+        nearest = k if is_nearer else nearest
         nearest_enter = enter if is_nearer else nearest_enter
         top += 1
-    nodes[top] = bvh.child[nearest]
+    nodes[top] = bvh.child[first + nearest]
     enters[top] = nearest_enter
     return top + 1

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.beam import Beam, make_beam, shape_margin
+from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_margin, upper_limit
 from vtray.geometry.packets.nearest import nearest_slots
 from vtray.geometry.packets.packet import Packet, Sheaf
 from vtray.geometry.packets.ray_bounds import farthest_of, part_directions, part_starts
@@ -130,10 +130,10 @@ def _search(
     _, first, count, sheaf, footprint = rays
     bvh, ratio, stack = world.bvh, hierarchy.to_boxes.ratio, work.stack
     beam = _part_beam(first, count, sheaf, footprint, hierarchy.to_boxes, work)
-    start = -sheaf.depth * ratio * (1.0 - MARGIN)
-    far = farthest_of(work.cones, first, count) * ratio
+    start = lower_limit(beam, -sheaf.depth * ratio * (1.0 - MARGIN))
+    far = upper_limit(beam, farthest_of(work.cones, first, count) * ratio)
     stack.node[base] = hierarchy.root
-    stack.enter[base] = 0.0
+    stack.enter[base] = start
     waiting = base + 1
     while waiting > base:
         waiting -= 1
@@ -145,7 +145,7 @@ def _search(
         else:
             begin, end = range_of(hierarchy, child)
             visit(rays, world, subject, begin, end, work, waiting)
-            far = farthest_of(work.cones, first, count) * ratio
+            far = upper_limit(beam, farthest_of(work.cones, first, count) * ratio)
 
 
 _search_places, _search_shapes = device(_search), device(_search)

@@ -5,8 +5,16 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.bvh.boxes import fetch_node
 from vtray.geometry.bvh.tree import WIDTH, leaf_range
-from vtray.geometry.packets.beam import Beam, children_met, make_beam, shape_margin
+from vtray.geometry.packets.beam import (
+    Beam,
+    children_met,
+    lower_limit,
+    make_beam,
+    shape_margin,
+    upper_limit,
+)
 from vtray.geometry.packets.occlusion import PointBox, Target, block_by_slot, in_shaft
 from vtray.geometry.packets.packet import BLOCKED, ERROR_SCALE, POINT, Packet, load
 from vtray.geometry.packets.stack import Stack
@@ -195,17 +203,19 @@ def _search(
         return visit(begin, cluster, world, subject, first, after, stack, base)
     bvh, nodes = world.bvh, stack.node
     beam = _cluster_beam(cluster.box, hierarchy.to_boxes, cluster.target)
+    near, far = lower_limit(beam, 0.0), upper_limit(beam, 1.0 + MARGIN)
     nodes[base] = hierarchy.root
     waiting = base + 1
     while waiting > base:
         waiting -= 1
         node = nodes[waiting]
-        met = children_met(bvh, node, beam, 0.0, 1.0 + MARGIN)
+        met = children_met(bvh, node, beam, near, far, stack.entered)
         place = node * WIDTH
         while met > 0:
             if met & 1:
                 child = bvh.child[place]
                 if child >= 0:
+                    fetch_node(bvh, child)
                     nodes[waiting] = child
                     waiting += 1
                 else:
