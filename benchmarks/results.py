@@ -5,10 +5,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import msgspec
-from from_arrays import ArraysRow
-from measure import Timing
 
-from rendering import Row
+from measures.from_arrays import ArraysRow
+from measures.rendering import Row
+from timing.jobs import Timing
 
 
 @dataclass

@@ -15,20 +15,19 @@ import sys
 import tempfile
 from pathlib import Path
 
-import startup
-from antialiasing import time_samples
-from ball_and_stick import time_bonds
-from cube import SIDE, write_cube
-from from_arrays import time_arrays
-from machine import cores, machine
-from measure import Timing
-from peers import CUBE_PEERS
-from plot import draw_scaling
-from report import full_report, readme_table, replace_between_markers
+from measures import startup
+from measures.antialiasing import time_samples
+from measures.bonds import time_bonds
+from measures.from_arrays import time_arrays
+from measures.machine import cores, machine
+from measures.rendering import THREADS, time_cube, time_scene, time_threads
+from peers.programs import CUBE_PEERS
+from report.pages import full_report, readme_table, replace_between_markers
+from report.plot import draw_scaling
 from results import Results, load_results, save_results
-from scenes import SCENES
-
-from rendering import THREADS, time_cube, time_scene, time_threads
+from scenes.cube import SIDE, write_cube
+from scenes.few_objects import SCENES
+from timing.jobs import Timing
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
