@@ -5,9 +5,8 @@ from collections.abc import Mapping, Sequence
 from measures.from_arrays import ArraysRow
 from measures.rendering import THREADS, Row
 from peers.programs import CUBE_PEERS, PEERS
-from report import arrays_tables, bonds_tables, samples_tables
+from report import arrays_tables, samples_tables
 from report.arrays_tables import arrays_table
-from report.bonds_tables import bonds_table
 from report.cube_tables import (
     cube_table,
     cube_threads_table,
@@ -15,6 +14,7 @@ from report.cube_tables import (
     own_timing,
     programs_table,
 )
+from report.own_scenes_tables import BONDS_NOTE, COPIES_NOTE, own_scenes_table
 from report.samples_tables import samples_table
 from report.tables import ratio, table
 from results import Results
@@ -47,9 +47,9 @@ def full_report(results: Results) -> str:
         rows = samples_table(results.samples, THREADS)
         parts += ["## Antialiasing", "The cube, with vtray.", rows, samples_tables.NOTE]
     if results.bonds:
-        rows = bonds_table(results.bonds, THREADS)
-        parts += ["## Bonds", "100,000 atoms and 200,000 bonds, with vtray.", rows]
-        parts += [bonds_tables.NOTE]
+        parts += ["## Bonds", own_scenes_table(results.bonds), BONDS_NOTE]
+    if results.copies:
+        parts += ["## Copies", own_scenes_table(results.copies), COPIES_NOTE]
     if results.arrays:
         parts += ["## From arrays to a PNG", arrays_table(results.arrays), arrays_tables.NOTE]
     if results.scaling:

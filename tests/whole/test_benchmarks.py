@@ -16,6 +16,7 @@ import pytest
 from PIL import Image
 
 import vtray
+from conftest import compiled_only
 
 BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
 FEW, SMALL = 60, 64
@@ -345,6 +346,7 @@ def test_results_are_read_as_they_were_kept(tmp_path: Path) -> None:
     arrays, spread = module("measures.from_arrays"), module("timing.jobs").Spread((0.1, 0.3, 0.2))
     found = cube_results()
     found.arrays = {"many": [arrays.ArraysRow("vtray", 1, *[spread] * 3, memory=9e7, note="")]}
+    found.copies = {"spheres": {1: timing(0.5, 0.25), 2: timing(0.3, 0.1)}}
     kept.save_results(found, tmp_path / "results.json")
     again = kept.load_results(tmp_path / "results.json")
     assert report.full_report(again) == report.full_report(found)
@@ -527,16 +529,48 @@ def test_report_has_the_times_of_samples() -> None:
     assert "| 16 | 2 | 0.800 | 1.00 | 16 | 4.00 |" in report
 
 
-def test_report_has_the_times_of_bonds() -> None:
-    found, bonds = results(), module("measures.bonds")
+def test_report_compares_own_scenes_with_the_first() -> None:
+    found = results()
     found.bonds = {
-        bonds.job_name(name, threads): timing(2 * seconds, seconds)
-        for name, seconds in (("atoms", 0.2), ("bonds", 0.5))
-        for threads in module("report.pages").THREADS
+        "atoms": {1: timing(0.4, 0.2, memory=80e6), 2: timing(0.3, 0.1, memory=90e6)},
+        "bonds": {1: timing(1.0, 0.5, load=0.05, build=0.1, memory=120e6), 2: timing(0.6, 0.3)},
     }
+    found.copies = {"spheres": {1: timing(0.5, 0.25, memory=8e7)}}
     report = module("report.pages").full_report(found)
-    assert "| atoms alone | 1 | 0.200 | 0.400 | 1.00 | 1.00 |" in report
-    assert "| atoms and bonds | 2 | 0.500 | 1.00 | 2.50 | 2.50 |" in report
+    for row in (
+        "| atoms | 1 | - | - | 0.200 | 0.400 | 80 | 1.00 | 1.00 | 1.00 |",
+        "| bonds | 1 | 0.0500 | 0.100 | 0.500 | 1.00 | 120 | 2.50 | 2.50 | 1.50 |",
+        "| bonds | 2 | - | - | 0.300 | 0.600 | - | 3.00 | 2.00 | - |",
+        "| spheres | 1 | - | - | 0.250 | 0.500 | 80 | 1.00 | 1.00 | 1.00 |",
+    ):
+        assert row in report
+    assert report.index("## Bonds") < report.index("## Copies")
+
+
+@compiled_only
+@pytest.mark.parametrize(("name", "scenes"), [("bonds", 2), ("copies", 4)])
+def test_own_scenes_are_timed(
+    name: str, scenes: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    measure = module(f"measures.{name}")
+    write = measure.write_scenes
+    monkeypatch.setattr(measure, "write_scenes", lambda *given: write(*given, SMALL))
+    if name == "copies":
+        monkeypatch.setattr(measure, "MANY", 5)
+    found = getattr(measure, f"time_{name}")(FEW, (1, 2), tmp_path, 1)
+    assert len(found) == scenes
+    for by_threads in found.values():
+        assert list(by_threads) == [1, 2]
+        assert all(0 < each.inner.median < each.whole.median for each in by_threads.values())
+
+
+def test_copied_cubes_are_seen_as_those_written_out() -> None:
+    cube = module("scenes.copied_cube")
+    copied, written = (cube.make_scene(FEW, 2, SMALL, written_out=out) for out in (False, True))
+    assert (len(copied.objects[0]), len(written.objects[0])) == (8, 8 * FEW)
+    pictures = [vtray.render(scene).linear for scene in (copied, written)]
+    np.testing.assert_array_equal(*pictures)
+    assert len(np.unique(pictures[0])) > FEW
 
 
 def test_ball_and_stick_model_is_what_it_is_said_to_be(tmp_path: Path) -> None:
