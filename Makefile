@@ -57,9 +57,9 @@ docs: .venv/ready ## build the site of the docs, build/site
 
 peers: benchmarks/.venv/ready ## install Mitsuba and OVITO for the benchmarks, each some 200 MB
 
-benchmarks/.venv/ready: benchmarks/peers.txt
+benchmarks/.venv/ready: benchmarks/peers/requirements.txt
 	$(PYTHON) -m venv benchmarks/.venv
-	benchmarks/.venv/bin/pip install --quiet -r benchmarks/peers.txt
+	benchmarks/.venv/bin/pip install --quiet -r benchmarks/peers/requirements.txt
 	touch $@
 
 bench: .venv/ready ## measure, and write the tables of docs/benchmarks.md and README.md

@@ -5,10 +5,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import msgspec
-from from_arrays import ArraysRow
-from measure import Timing
 
-from rendering import Row
+from measures.from_arrays import ArraysRow
+from measures.own_scenes import ByThreads
+from measures.rendering import Row
+from timing.jobs import Timing
 
 
 @dataclass
@@ -38,7 +39,9 @@ class Results:
     arrays
         As `cube`, from arrays in memory to a PNG.
     bonds
-        For a ball-and-stick model without and with bonds, and numbers of threads, vtray's times.
+        For a ball-and-stick model without and with bonds, vtray's times for numbers of threads.
+    copies
+        As `bonds`, for spheres at one place and at many.
     """
 
     machine: dict[str, str]
@@ -51,7 +54,8 @@ class Results:
     scaling: dict[int, list[Row]] = field(default_factory=dict)
     samples: dict[str, Timing] = field(default_factory=dict)
     arrays: dict[str, list[ArraysRow]] = field(default_factory=dict)
-    bonds: dict[str, Timing] = field(default_factory=dict)
+    bonds: dict[str, ByThreads] = field(default_factory=dict)
+    copies: dict[str, ByThreads] = field(default_factory=dict)
 
 
 def save_results(results: Results, path: Path) -> None:

@@ -15,20 +15,20 @@ import sys
 import tempfile
 from pathlib import Path
 
-import startup
-from antialiasing import time_samples
-from ball_and_stick import time_bonds
-from cube import SIDE, write_cube
-from from_arrays import time_arrays
-from machine import cores, machine
-from measure import Timing
-from peers import CUBE_PEERS
-from plot import draw_scaling
-from report import full_report, readme_table, replace_between_markers
+from measures import startup
+from measures.antialiasing import time_samples
+from measures.bonds import time_bonds
+from measures.copies import time_copies
+from measures.from_arrays import time_arrays
+from measures.machine import cores, machine
+from measures.rendering import THREADS, time_cube, time_scene, time_threads
+from peers.programs import CUBE_PEERS
+from report.pages import full_report, readme_table, replace_between_markers
+from report.plot import draw_scaling
 from results import Results, load_results, save_results
-from scenes import SCENES
-
-from rendering import THREADS, time_cube, time_scene, time_threads
+from scenes.cube import SIDE, write_cube
+from scenes.few_objects import SCENES
+from timing.jobs import Timing
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
@@ -36,11 +36,12 @@ RESULTS = HERE / "results.json"
 PLOT = ROOT / "docs" / "images" / "scaling.png"
 WRITTEN = {ROOT / "docs" / "benchmarks.md": full_report, ROOT / "README.md": readme_table}
 """The pages with tables, and what writes them."""
-PARTS = ("startup", *SCENES, "threads", "cube", "samples", "bonds", "arrays", "scaling")
+PARTS = ("startup", *SCENES, "threads", "cube", "samples", "bonds", "copies", "arrays", "scaling")
 REPEATS, QUICK_REPEATS = 5, 2
 QUICK_SIDE = 256
 CUBE, QUICK_CUBE = 1_000_000, 10_000
 ATOMS, QUICK_ATOMS = 100_000, 1_000
+COPIED, QUICK_COPIED = 100_000, 1_000
 COUNTS, QUICK_COUNTS = (10_000, 100_000, 1_000_000, 10_000_000), (1_000, 10_000)
 SCALING_REPEATS = 3
 
@@ -105,9 +106,7 @@ def measure(folder: Path, parts: list[str], *, quick: bool) -> Results:
         _say("samples")
         scene = write_cube(spheres, folder, side)
         results.samples = time_samples(scene, THREADS, repeats)
-    if "bonds" in parts:
-        _say("atoms and bonds")
-        results.bonds = time_bonds(QUICK_ATOMS if quick else ATOMS, THREADS, folder, repeats)
+    _measure_own_scenes(results, folder, parts, quick=quick)
     if "arrays" in parts:
         title = f"{spheres:,} spheres in a cube, 1 light, {side} x {side}"
         _say(f"from arrays: {title}")
@@ -119,6 +118,18 @@ def measure(folder: Path, parts: list[str], *, quick: bool) -> Results:
             times = min(repeats, SCALING_REPEATS)
             results.scaling[count] = time_cube(count, side, peers, (1,), folder, times)
     return results
+
+
+def _measure_own_scenes(results: Results, folder: Path, parts: list[str], *, quick: bool) -> None:
+    """Measure those of the parts that only vtray renders."""
+    if "bonds" in parts:
+        _say("atoms and bonds")
+        atoms = QUICK_ATOMS if quick else ATOMS
+        results.bonds = time_bonds(atoms, THREADS, folder, results.repeats)
+    if "copies" in parts:
+        _say("copies")
+        copied = QUICK_COPIED if quick else COPIED
+        results.copies = time_copies(copied, THREADS, folder, results.repeats)
 
 
 def _time_threads(scene: Path, repeats: int) -> dict[int, Timing]:

@@ -20,7 +20,7 @@ from vtray.geometry.bvh.tree import (
     COUNT_MASK,
     EMPTY,
     LEAF,
-    MAX_DEPTH,
+    MAX_TREE_DEPTH,
     SIDES,
     STACK,
     WIDTH,
@@ -34,7 +34,7 @@ class Walk(NamedTuple):
     """What was found on a way through a whole tree."""
 
     nodes: int
-    depth: int
+    tree_depth: int
     waiting: int
     slots: list[tuple[int, int]]
 
@@ -43,12 +43,12 @@ def walk(built: Built) -> Walk:
     """Visit all nodes as a search that meets everything does; check that boxes contain boxes."""
     child = built.bvh.child.reshape(-1, WIDTH)
     sides = built.bvh.sides.reshape(-1, 6, WIDTH)
-    stack, nodes, depth, waiting = [(0, 1)], 0, 0, 1
+    stack, nodes, tree_depth, waiting = [(0, 1)], 0, 0, 1
     slots: list[tuple[int, int]] = []
     while stack:
         waiting = max(waiting, len(stack))
         node, level = stack.pop()
-        nodes, depth = nodes + 1, max(depth, level)
+        nodes, tree_depth = nodes + 1, max(tree_depth, level)
         assert nodes <= len(child)
         for k, below in enumerate(child[node].tolist()):
             box = sides[node, :, k]
@@ -63,7 +63,7 @@ def walk(built: Built) -> Walk:
                 check_leaf(built, box, slice(first, first + count))
             else:
                 assert (box[:3] > box[3:]).all()
-    return Walk(nodes, depth, waiting, slots)
+    return Walk(nodes, tree_depth, waiting, slots)
 
 
 def check_leaf(built: Built, box: np.ndarray, slots: slice) -> None:
@@ -89,8 +89,8 @@ def check(center: np.ndarray, radius: np.ndarray, threads: int = 1) -> Built:
     assert found.nodes * WIDTH == len(built.bvh.child)
     assert found.nodes * SIDES == len(built.bvh.sides)
     assert found.nodes <= n // 4 + 1 + n // bvh_build.SMALL
-    assert found.depth == built.depth <= STACK // WIDTH
-    assert found.waiting <= found.depth * (WIDTH - 1) + 1 <= STACK
+    assert found.tree_depth == built.tree_depth <= STACK // WIDTH
+    assert found.waiting <= found.tree_depth * (WIDTH - 1) + 1 <= STACK
     # The leaves hold all slots once, and the slots all spheres once.
     ends = np.cumsum([count for _, count in sorted(found.slots)])
     assert [first for first, _ in sorted(found.slots)] == [0, *ends[:-1].tolist()]
@@ -158,7 +158,7 @@ def test_is_the_same_for_any_number_of_threads_above_all_limits(name: str) -> No
 
 def test_bits_of_one_sphere() -> None:
     built = check(np.array([[1.0, 2.0, 3.0]]), np.array([0.5]))
-    assert built.depth == 1
+    assert built.tree_depth == 1
     assert built.largest == 3.0
     assert built.frame == (0.25, (0.25, 0.5, 0.75))
     assert built.bvh.child[0] == ~(0 << COUNT_BITS | 1)
@@ -175,14 +175,14 @@ def test_spheres_at_one_point_or_without_size() -> None:
 
 def test_depth_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     if not JIT:
-        monkeypatch.setattr(bvh_split, "MAX_DEPTH", 2)
+        monkeypatch.setattr(bvh_split, "MAX_TREE_DEPTH", 2)
     # A thousand scales, which halve from one to the next: most splits take off few points. What
     # is symmetric has its middle at 0, where no scale is lost to rounding.
     random = np.random.default_rng(2)
     scales = 2.0 ** -np.arange(0, 1060, 1 if JIT else 50)
     half = (scales[:, None, None] * random.uniform(0.5, 1, (len(scales), 6, 3))).reshape(-1, 3)
     built = check(np.concatenate([half, -half]), np.zeros(1))
-    assert (MAX_DEPTH if JIT else 2) < built.depth <= STACK // WIDTH
+    assert (MAX_TREE_DEPTH if JIT else 2) < built.tree_depth <= STACK // WIDTH
 
 
 COORDINATES = st.sampled_from([0.0, 1.0, -1.0, 5e-324, 1e-300, 1e-9, 1e9, 1e300, -1e300]) | (

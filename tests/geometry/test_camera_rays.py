@@ -120,5 +120,5 @@ def test_rays_go_through_the_pixels() -> None:
         length = math.sqrt(x * x + y * y + 100)
         expected = (x / length, y / length, 10 / length)
         ray = camera_ray(camera, column, row)
-        assert (ray.origin, ray.depth) == (camera.eye, -10.0)
+        assert (ray.origin, ray.plane_depth) == (camera.eye, -10.0)
         assert ray.direction == pytest.approx(expected, abs=1e-16)

@@ -50,7 +50,7 @@ def test_loading_brings_it_into_the_kernels_space() -> None:
 
 
 @pytest.mark.parametrize(
-    ("origin", "direction", "depth", "expected"),
+    ("origin", "direction", "plane_depth", "expected"),
     [
         ((0, 0, 0), UP, 1, 4),  # along the axis
         ((0, 0.5, 0), UP, 1, 4),
@@ -82,8 +82,10 @@ def test_loading_brings_it_into_the_kernels_space() -> None:
         ((0, 0, 5), SLANTED, 0, 1 / 0.6),
     ],
 )
-def test_distance(origin: Point, direction: Point, depth: float, expected: float) -> None:
-    ray = Ray(tuple(map(float, origin)), tuple(map(float, direction)), float(depth), 1.0, 0.0, 0.0)
+def test_distance(origin: Point, direction: Point, plane_depth: float, expected: float) -> None:
+    ray = Ray(
+        tuple(map(float, origin)), tuple(map(float, direction)), float(plane_depth), 1.0, 0.0, 0.0
+    )
     assert cylinder_distance(cylinder(*UPRIGHT), ray) == pytest.approx(expected, abs=2e-6)
 
 
@@ -168,7 +170,7 @@ def test_hides(start: Point, end: Point, hides: bool) -> None:
 
 
 @pytest.mark.parametrize(
-    ("start", "end", "end_depth", "hides"),
+    ("start", "end", "end_plane_depth", "hides"),
     [
         ((-3, 0, 0), (9, 0, 0), -1, True),  # the half that exists ends at x = 3
         ((-3, 0, 0), (9, 0, 0), -11, False),  # and here at -2
@@ -181,10 +183,10 @@ def test_hides(start: Point, end: Point, hides: bool) -> None:
     ],
 )
 def test_hides_nothing_behind_the_image_plane(
-    start: Point, end: Point, end_depth: float, hides: bool
+    start: Point, end: Point, end_plane_depth: float, hides: bool
 ) -> None:
     ends = tuple(map(float, start)), tuple(map(float, end))
-    segment = Segment(*ends, 1.0, float(end_depth), 2.0, 2.0)
+    segment = Segment(*ends, 1.0, float(end_plane_depth), 2.0, 2.0)
     assert bool(cylinder_hides(cylinder(*LYING), segment)) is hides
 
 
@@ -199,9 +201,9 @@ def test_what_is_met_at_a_small_angle_is_in_the_image_plane_sooner() -> None:
     # A thousandth off the axis, the error of the distance is a thousand times that of the place.
     rise = 1e-3
     way = 0.0, rise, math.sqrt(1 - rise * rise)
-    for depth, expected in ((1e-6, 1.0), (1e-9, 1 + 2 / rise)):
+    for plane_depth, expected in ((1e-6, 1.0), (1e-9, 1 + 2 / rise)):
         origin = 0.0, -1 - rise, 5 - way[2]
-        ray = Ray(origin, way, depth - 1.0, 1.0, 0.0, 0.0)
+        ray = Ray(origin, way, plane_depth - 1.0, 1.0, 0.0, 0.0)
         shape = cylinder((0, 0, 4), (0, 0, 9e3), 1)
         assert cylinder_distance(shape, ray) == pytest.approx(expected)
 
@@ -251,7 +253,7 @@ def test_surface(point: Point, pole: Point, is_round: bool, is_second: bool) -> 
 
 
 @pytest.mark.parametrize(
-    ("origin", "direction", "depth", "expected"),
+    ("origin", "direction", "plane_depth", "expected"),
     [
         ((-3, 0, 6), ACROSS, 1, INF),  # its middle
         ((-3, 0.95, 6), ACROSS, 1, 3 - math.sqrt(1 - 0.95**2)),  # outlines: hit
@@ -274,8 +276,10 @@ def test_surface(point: Point, pole: Point, is_round: bool, is_second: bool) -> 
         ((-3, 0, 6), ACROSS, -9, INF),  # all of it is behind the image plane
     ],
 )
-def test_outline(origin: Point, direction: Point, depth: float, expected: float) -> None:
-    ray = Ray(tuple(map(float, origin)), tuple(map(float, direction)), float(depth), 1.0, 0.0, 0.0)
+def test_outline(origin: Point, direction: Point, plane_depth: float, expected: float) -> None:
+    ray = Ray(
+        tuple(map(float, origin)), tuple(map(float, direction)), float(plane_depth), 1.0, 0.0, 0.0
+    )
     found = cylinder_outline(cylinder(*UPRIGHT), ray, Footprint(0.1, 0.0))
     assert found == pytest.approx(expected, abs=0.03)
 

@@ -143,7 +143,7 @@ def test_crowds_are_divided_by_all_threads(name: str, monkeypatch: pytest.Monkey
     assert crowds or name not in {"one_point", "cluster_and_outlier"}
     for tree in trees:
         assert tree[2:3] + tree[4:] == whole[2:3] + whole[4:]
-        assert tree.depth <= whole.depth + 3
+        assert tree.tree_depth <= whole.tree_depth + 3
         for one, two in zip(
             (tree.numbers, *tree.bvh), (trees[0].numbers, *trees[0].bvh), strict=True
         ):

@@ -16,10 +16,10 @@ from vtray.geometry.packets.occlusion import (
 )
 from vtray.geometry.packets.packet import (
     BLOCKED,
-    DEPTH,
     ERROR_SCALE,
     MET,
     NORMAL,
+    PLANE_DEPTH,
     POINT,
     SOURCE,
     join_met,
@@ -57,7 +57,7 @@ def points(random: np.random.Generator, spread: float) -> Any:
         turned = normal + spread * random.uniform(-1, 1, 3)
         store(packet, POINT, lane, tuple(point.tolist()))
         store(packet, NORMAL, lane, tuple((turned / np.linalg.norm(turned)).tolist()))
-        packet[DEPTH + lane] = point[2] + 1.0
+        packet[PLANE_DEPTH + lane] = point[2] + 1.0
         packet[ERROR_SCALE + lane] = np.abs(point).sum() + 2.0
     return packet
 
@@ -74,9 +74,9 @@ def one_light(random: np.random.Generator, packet: Any) -> Target:
 
 def segment_of(packet: Any, lane: int, target: Target) -> Segment:
     """Return a shadow ray."""
-    start, depth = load(packet, POINT, lane), packet[DEPTH + lane]
+    start, plane_depth = load(packet, POINT, lane), packet[PLANE_DEPTH + lane]
     scale = packet[ERROR_SCALE + lane]
-    return Segment(start, target.place, depth, target.depth, scale, target.error_scale)
+    return Segment(start, target.place, plane_depth, target.plane_depth, scale, target.error_scale)
 
 
 @pytest.mark.parametrize("spread", [0.0, 1e-15, 1e-3, 0.3])
@@ -149,7 +149,7 @@ def test_a_sphere_hides_no_point_on_it_that_faces_the_light(radius: float) -> No
             store(packet, POINT, lane, tuple(point.tolist()))
             store(packet, NORMAL, lane, tuple((outward / np.linalg.norm(outward)).tolist()))
             packet[ERROR_SCALE + lane] = sphere.error_scale + np.abs(point).sum()
-            packet[DEPTH + lane] = 1.0
+            packet[PLANE_DEPTH + lane] = 1.0
             numbers[SOURCE + lane] = HITS - 1 - lane
             numbers[MET + lane] = join_met(1, 0)
         assert own_sphere(packet, HITS, world) == 0
@@ -158,8 +158,8 @@ def test_a_sphere_hides_no_point_on_it_that_faces_the_light(radius: float) -> No
             # Lights that are hardly above the horizon, before and behind the image plane.
             side = np.cross(normal, random.normal(size=3))
             place = np.array(point) + side + 10.0 ** random.integers(-12, 2) * np.array(normal)
-            depth = float(random.choice([-1.0, 1.0]))
-            target = Target(tuple(place.tolist()), depth, float(np.abs(place).sum()))
+            plane_depth = float(random.choice([-1.0, 1.0]))
+            target = Target(tuple(place.tolist()), plane_depth, float(np.abs(place).sum()))
             to_light = tuple((place - np.array(point)).tolist())
             error_bound = ROUNDING * (packet[ERROR_SCALE + lane] + target.error_scale)
             if is_above(normal, to_light, error_bound):

@@ -65,7 +65,7 @@ def test_intersect_plane(height: float, descent: float, expected: float) -> None
 
 
 @pytest.mark.parametrize(
-    ("start", "end", "start_depth", "end_depth", "blocks"),
+    ("start", "end", "start_plane_depth", "end_plane_depth", "blocks"),
     [
         (1.0, -1.0, 1.0, 1.0, True),
         (-1.0, 1.0, 1.0, 1.0, True),
@@ -80,6 +80,6 @@ def test_intersect_plane(height: float, descent: float, expected: float) -> None
     ],
 )
 def test_plane_blocks(
-    start: float, end: float, start_depth: float, end_depth: float, blocks: bool
+    start: float, end: float, start_plane_depth: float, end_plane_depth: float, blocks: bool
 ) -> None:
-    assert bool(plane_blocks(start, end, start_depth, end_depth, 1e-14)) is blocks
+    assert bool(plane_blocks(start, end, start_plane_depth, end_plane_depth, 1e-14)) is blocks

@@ -17,7 +17,7 @@ class Built(NamedTuple):
     leaves: Columns
     bvh: Bvh
     frame: Frame
-    depth: int
+    tree_depth: int
     largest: float
 
 
@@ -28,5 +28,5 @@ def build_spheres(
     spheres = GivenSpheres(center, radius)
     tree = build(spheres, threads, progress)
     return Built(
-        Columns(spheres.data, tree.numbers), tree.bvh, tree.frame, tree.depth, tree.largest
+        Columns(spheres.data, tree.numbers), tree.bvh, tree.frame, tree.tree_depth, tree.largest
     )

@@ -66,7 +66,7 @@ def test_places_are_relative_to_the_image_plane_in_units_of_a_power_of_two() -> 
     assert plane.normal == (0, -1, 0)
     assert lengths(*plane.point, plane.offset) == [0, 3, 0, -3]
     assert lengths(lights.x[0], lights.y[0], lights.z[0]) == [4, 0, -3]
-    assert lengths(lights.depth[0], lights.error_scale[0]) == [-3, 13]
+    assert lengths(lights.plane_depth[0], lights.error_scale[0]) == [-3, 13]
     assert lights.intensity[0] == 7
     assert load_material(materials, 0, False) == ((255, 255, 255), 1)
     assert load_material(materials, 1, False) == ((1, 2, 3), 0.5)

@@ -16,6 +16,7 @@ import pytest
 from PIL import Image
 
 import vtray
+from conftest import compiled_only
 
 BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
 FEW, SMALL = 60, 64
@@ -57,13 +58,13 @@ def _importable(monkeypatch: pytest.MonkeyPatch) -> None:
 def module(name: str) -> ModuleType:
     """Import a module of the benchmarks."""
     found = importlib.import_module(name)
-    assert Path(str(found.__file__)).parent == BENCHMARKS
+    assert BENCHMARKS in Path(str(found.__file__)).parents
     return found
 
 
 def view() -> Any:
     """Return the scene, twice as bright, as other renderers see it."""
-    return module("camera_space").view_from_eye(vtray.loads(json.dumps(SCENE)), 2.0)
+    return module("peers.camera_space").view_from_eye(vtray.loads(json.dumps(SCENE)), 2.0)
 
 
 def test_view_is_seen_from_the_eye_with_y_up() -> None:
@@ -81,13 +82,13 @@ def test_view_is_seen_from_the_eye_with_y_up() -> None:
 def test_view_turns_with_the_camera() -> None:
     camera = {**SCENE["camera"], "normal": {"x": 1, "y": 0, "z": 0}}  # type: ignore[dict-item]
     scene = vtray.loads(json.dumps({**SCENE, "camera": camera}))
-    seen = module("camera_space").view_from_eye(scene, 1.0)
+    seen = module("peers.camera_space").view_from_eye(scene, 1.0)
     # The eye is at (-2, 0, 2); right is -z, up is -y, forward is x.
     assert seen.surfaces[0].center == pytest.approx((-8, -2, 3))
 
 
 def test_povray_scene() -> None:
-    assert module("povray").export(view()).splitlines() == [
+    assert module("peers.povray.program").export(view()).splitlines() == [
         "#version 3.7;",
         "global_settings { assumed_gamma 1 }",
         "#default { finish { ambient 0 diffuse 1 } }",
@@ -102,7 +103,7 @@ def test_povray_scene() -> None:
 
 
 def test_tachyon_scene() -> None:
-    lines = module("tachyon").export(view()).splitlines()
+    lines = module("peers.tachyon.program").export(view()).splitlines()
     assert lines[:2] == ["BEGIN_SCENE", "RESOLUTION 40 20"]
     assert "  ZOOM 0.5" in lines
     assert "LIGHT CENTER 1.0 5.0 6.0 RAD 1e-9 COLOR 1.0 1.0 1.0" in lines
@@ -114,9 +115,12 @@ def test_tachyon_scene() -> None:
 @pytest.mark.parametrize(
     ("name", "output"),
     [
-        ("povray", "  Trace Time:       0 hours  0 minutes  0 seconds (0.224 seconds)\n"),
-        ("tachyon", "  Ray Tracing Time:     0.2240 seconds\n"),
-        ("vtray_process", "pack            0.1000 s\ntrace           0.2240 s\n"),
+        (
+            "peers.povray.program",
+            "  Trace Time:       0 hours  0 minutes  0 seconds (0.224 seconds)\n",
+        ),
+        ("peers.tachyon.program", "  Ray Tracing Time:     0.2240 seconds\n"),
+        ("timing.vtray_process", "pack            0.1000 s\ntrace           0.2240 s\n"),
     ],
 )
 def test_trace_seconds_are_read_from_the_output(name: str, output: str) -> None:
@@ -128,20 +132,20 @@ def test_trace_seconds_are_read_from_the_output(name: str, output: str) -> None:
     ("name", "output"),
     [
         (
-            "povray",
+            "peers.povray.program",
             "Parse Time:  0 hours (2.5 seconds)\n"
             "Bounding Time:  0 hours (3.5 seconds)\n"
             "Trace Time:  0 hours (1.5 seconds)\n",
         ),
         (
-            "tachyon",
+            "peers.tachyon.program",
             "Scene Parsing Time:     2.5000 seconds\n"
             "Preprocessing Time:     3.5000 seconds\n"
             "  Ray Tracing Time:     1.5000 seconds\n",
         ),
-        ("host", "load    2.5000 s\nbuild   3.5000 s\ntrace   1.5000 s\n"),
+        ("peers.host.host", "load    2.5000 s\nbuild   3.5000 s\ntrace   1.5000 s\n"),
         (
-            "vtray_process",
+            "timing.vtray_process",
             "read 2.0000 s\npack  0.5000 s\nbuild  3.5000 s\ntrace 1.5000 s\nrays   7\n",
         ),
     ],
@@ -152,13 +156,13 @@ def test_all_phases_are_read_from_the_output(name: str, output: str) -> None:
 
 
 def test_scenes_are_valid_and_always_the_same() -> None:
-    for _, make, _ in module("scenes").SCENES.values():
+    for _, make, _ in module("scenes.few_objects").SCENES.values():
         assert make(16) == make(16)
         assert vtray.loads(json.dumps(make(16))).camera.size == (16, 16)
 
 
 def test_room_is_what_it_is_said_to_be() -> None:
-    scene = vtray.loads(json.dumps(module("scenes").room(16)))
+    scene = vtray.loads(json.dumps(module("scenes.few_objects").room(16)))
     assert len(scene.lights) == 64
     assert sum(isinstance(item, vtray.Sphere) for item in scene.objects) == 4
     assert sum(isinstance(item, vtray.Plane) for item in scene.objects) == 5
@@ -169,14 +173,14 @@ def test_brighter_picture_is_the_same_and_mirrored_one_is_not(tmp_path: Path) ->
     pictures = {"dark": ramp, "bright": ramp * 2, "mirrored": ramp[::-1]}
     for name, pixels in pictures.items():
         Image.fromarray(pixels).save(tmp_path / f"{name}.png")
-    same = module("same_picture")
+    same = module("timing.same_picture")
     dark = tmp_path / "dark.png"
     assert same.is_same(same.difference(dark, tmp_path / "bright.png"))
     assert not same.is_same(same.difference(dark, tmp_path / "mirrored.png"))
 
 
 def test_jobs_are_interleaved_and_timed(tmp_path: Path) -> None:
-    measure = module("measure")
+    measure = module("timing.jobs")
     log = tmp_path / "log"
 
     def job(name: str) -> Any:
@@ -193,7 +197,7 @@ def test_jobs_are_interleaved_and_timed(tmp_path: Path) -> None:
 def test_memory_is_that_of_the_process_alone() -> None:
     if sys.platform == "win32":
         pytest.skip("Windows does not tell")
-    measure = module("measure")
+    measure = module("timing.jobs")
 
     def memory(code: str) -> float:
         command = [sys.executable, "-S", "-c", code]
@@ -205,7 +209,7 @@ def test_memory_is_that_of_the_process_alone() -> None:
 
 
 def test_failing_job_ends_the_run() -> None:
-    measure = module("measure")
+    measure = module("timing.jobs")
     with pytest.raises(SystemExit, match="ended with 3"):
         measure.run_once(measure.Job("x", [sys.executable, "-S", "-c", "raise SystemExit(3)"]))
 
@@ -220,12 +224,12 @@ def test_failing_job_ends_the_run() -> None:
     ],
 )
 def test_spread_is_written_as_median_and_range(seconds: tuple[float, ...], text: str) -> None:
-    assert str(module("measure").Spread(seconds)).replace("12.34", "12.35") == text
+    assert str(module("timing.jobs").Spread(seconds)).replace("12.34", "12.35") == text
 
 
 def timing(whole: float, inner: float, **more: float) -> Any:
     """Return what one run took."""
-    measure = module("measure")
+    measure = module("timing.jobs")
     memory = more.pop("memory", float("nan"))
     parts = {name: measure.Spread((seconds,)) for name, seconds in more.items()}
     return measure.Timing(
@@ -235,7 +239,7 @@ def timing(whole: float, inner: float, **more: float) -> Any:
 
 def results() -> Any:
     """Return made-up results."""
-    rendering = module("rendering")
+    rendering = module("measures.rendering")
 
     rows = [
         rendering.Row("vtray", 1, timing(0.5, 0.2), "0.00, 0.00%"),
@@ -243,7 +247,7 @@ def results() -> Any:
         rendering.Row("Tachyon", 1, None, "not installed"),
     ]
     machine = {"date": "2000-01-01", "processor": "abacus", "vtray": "9.9", "POV-Ray": "3.7"}
-    found = module("report").Results(machine, 3)
+    found = module("report.pages").Results(machine, 3)
     found.startup = {"`vtray --help`": timing(0.03, float("nan"))}
     found.scenes = {"a room": rows}
     found.threads = {1: timing(0.5, 0.2), 2: timing(0.4, 0.1)}
@@ -251,7 +255,7 @@ def results() -> Any:
 
 
 def test_report_has_all_times_and_ratios() -> None:
-    report = module("report").full_report(results())
+    report = module("report.pages").full_report(results())
     assert "| a room | vtray | 1 | 0.500 | 0.200 | 1.00 | 1.00 | 0.00, 0.00% |" in report
     assert "| a room | POV-Ray | 1 | 2.00 | 1.00 | 4.00 | 5.00 | 0.30, 0.10% |" in report
     assert "| a room | Tachyon | 1 | - | - | - | - | not installed |" in report
@@ -261,7 +265,7 @@ def test_report_has_all_times_and_ratios() -> None:
 
 
 def test_table_replaces_the_text_between_the_markers() -> None:
-    report = module("report")
+    report = module("report.pages")
     table = report.summary(results())
     assert "| scene | threads | vtray 9.9 | POV-Ray 3.7 | Tachyon |" in table
     assert "| a room | 1 | 0.500 (0.200) | 2.00 (1.00) | - |" in table
@@ -272,14 +276,14 @@ def test_table_replaces_the_text_between_the_markers() -> None:
 
 
 def test_readme_without_markers_stays_as_it_is() -> None:
-    report = module("report")
+    report = module("report.pages")
     for text in ("no markers\n", report.BEGIN, f"{report.END} {report.BEGIN}"):
         assert report.replace_between_markers(text, "table") == text
 
 
 def cube_results() -> Any:
     """Return made-up results for the cube."""
-    rendering = module("rendering")
+    rendering = module("measures.rendering")
     found = results()
     ours = timing(0.5, 0.2, load=0.05, build=0.1, memory=70e6)
     rows = [
@@ -296,7 +300,7 @@ def cube_results() -> Any:
 
 
 def test_report_has_the_cube() -> None:
-    report = module("report").full_report(cube_results())
+    report = module("report.pages").full_report(cube_results())
     for row in (
         "| many | vtray | 1 | 0.500 | 0.0500 | 0.100 | 0.200 | 70 | 1.00 | 1.00 | 0.00, 0.00% |",
         "| many | Embree | 1 | 1.00 | 0.0000 | 0.400 | 0.300 | 60 | 2.00 | 1.50 | 0.01, 0.00% |",
@@ -308,7 +312,7 @@ def test_report_has_the_cube() -> None:
 
 
 def test_report_has_the_growth_for_each_doubling() -> None:
-    report = module("report").full_report(cube_results())
+    report = module("report.pages").full_report(cube_results())
     # Ten times as long for ten times as many is twice for twice; four times is 1.52 for twice.
     assert "| 10,000 | 1.00 | x 2.00 | 0.800 | x 1.52 | 5.00 | 700 |" in report
     assert "| 1,000 | 0.500 (0.200) | 1.00 (0.300) | 2.00 (-) | - |" in report
@@ -316,17 +320,19 @@ def test_report_has_the_growth_for_each_doubling() -> None:
 
 
 def test_table_of_all_scenes_has_the_cube_but_no_other_pictures() -> None:
-    table = module("report").summary(cube_results())
+    table = module("report.pages").summary(cube_results())
     assert "| many | 1 | 0.500 (0.200) | - | - | 1.00 (0.300) |" in table
     assert "OVITO" not in table
 
 
 def test_readme_table_has_the_most_threads_and_no_empty_scene() -> None:
-    rendering, found = module("rendering"), cube_results()
+    rendering, found = module("measures.rendering"), cube_results()
     found.cube["many"].append(rendering.Row("vtray", 2, timing(0.4, 0.1), ""))
     found.scenes["a room"].append(rendering.Row("vtray", 2, timing(0.3, 0.1), ""))
-    found.scenes[f"{module('scenes').SCENES['empty'][0]}, 8 x 8"] = found.scenes["a room"]
-    table = module("report").readme_table(found)
+    found.scenes[f"{module('scenes.few_objects').SCENES['empty'][0]}, 8 x 8"] = found.scenes[
+        "a room"
+    ]
+    table = module("report.pages").readme_table(found)
     assert "| scene | vtray 9.9 | POV-Ray 3.7 | Tachyon |" in table
     assert "| many | 0.400 (0.100) | - | - | - | - |" in table
     assert "| a room | 0.300 (0.100) |" in table
@@ -336,10 +342,11 @@ def test_readme_table_has_the_most_threads_and_no_empty_scene() -> None:
 
 
 def test_results_are_read_as_they_were_kept(tmp_path: Path) -> None:
-    kept, report = module("results"), module("report")
-    arrays, spread = module("from_arrays"), module("measure").Spread((0.1, 0.3, 0.2))
+    kept, report = module("results"), module("report.pages")
+    arrays, spread = module("measures.from_arrays"), module("timing.jobs").Spread((0.1, 0.3, 0.2))
     found = cube_results()
     found.arrays = {"many": [arrays.ArraysRow("vtray", 1, *[spread] * 3, memory=9e7, note="")]}
+    found.copies = {"spheres": {1: timing(0.5, 0.25), 2: timing(0.3, 0.1)}}
     kept.save_results(found, tmp_path / "results.json")
     again = kept.load_results(tmp_path / "results.json")
     assert report.full_report(again) == report.full_report(found)
@@ -348,7 +355,7 @@ def test_results_are_read_as_they_were_kept(tmp_path: Path) -> None:
 
 
 def test_pages_show_the_results_that_are_kept() -> None:
-    run, report = module("run"), module("report")
+    run, report = module("run"), module("report.pages")
     found = module("results").load_results(run.RESULTS)
     assert {page.name for page in run.WRITTEN} == {"README.md", "benchmarks.md"}
     for page, write in run.WRITTEN.items():
@@ -360,13 +367,13 @@ def test_pages_show_the_results_that_are_kept() -> None:
 
 def test_scaling_is_drawn(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
-    module("plot").draw_scaling(cube_results().scaling, tmp_path / "plot.png")
+    module("report.plot").draw_scaling(cube_results().scaling, tmp_path / "plot.png")
     with Image.open(tmp_path / "plot.png") as image:
         assert image.size == (1000, 500)
 
 
 def test_cube_is_what_it_is_said_to_be() -> None:
-    cube = module("cube")
+    cube = module("scenes.cube")
     one, two = cube.make_cube(1000), cube.make_cube(1000)
     assert all(np.array_equal(a, b) for a, b in zip(one, two, strict=True))
     assert one.center.shape == one.color.shape == (1000, 3)
@@ -386,8 +393,8 @@ def test_cube_is_in_view_with_its_light_before_the_image_plane() -> None:
         }
         for corner in itertools.product((-1, 1), repeat=3)
     ]
-    document = module("cube").scene_around(corners)
-    seen = module("camera_space").view_from_eye(vtray.loads(json.dumps(document)), 1.0)
+    document = module("scenes.cube").scene_around(corners)
+    seen = module("peers.camera_space").view_from_eye(vtray.loads(json.dumps(document)), 1.0)
     for surface in seen.surfaces[1:]:
         x, y, z = surface.center
         half = seen.width * seen.pixel_width / 2
@@ -401,7 +408,7 @@ def test_cube_is_in_view_with_its_light_before_the_image_plane() -> None:
 
 
 def test_spheres_as_arrays_are_seen_as_spheres_one_by_one(tmp_path: Path) -> None:
-    cube, camera_space = module("cube"), module("camera_space")
+    cube, camera_space = module("scenes.cube"), module("peers.camera_space")
     many = camera_space.view_from_eye(vtray.load(cube.write_cube(50, tmp_path, 16)), 1.0)
     single = camera_space.view_from_eye(vtray.loads(cube.list_text(50, 16)), 1.0)
     (cloud,) = many.clouds
@@ -412,14 +419,16 @@ def test_spheres_as_arrays_are_seen_as_spheres_one_by_one(tmp_path: Path) -> Non
     assert colors == pytest.approx(np.array([ball.color for ball in balls]), abs=1e-6)
 
 
-@pytest.mark.parametrize("name", ["povray", "tachyon", "host"])
+@pytest.mark.parametrize(
+    "name", ["peers.povray.program", "peers.tachyon.program", "peers.host.host"]
+)
 def test_spheres_as_arrays_are_written_as_those_one_by_one(name: str, tmp_path: Path) -> None:
-    cloud = module("camera_space").Cloud(
+    cloud = module("peers.camera_space").Cloud(
         np.array([[1, -2, 10, 3], [0.5, 2, 8, 0.25]], np.float32),
         np.array([[255, 0, 51], [0, 255, 0]], np.uint8),
         1.0,
     )
-    surface = module("camera_space").Surface
+    surface = module("peers.camera_space").Surface
     balls = [
         surface(tuple(ball[:3]), ball[3], tuple(color))
         for ball, color in zip(cloud.spheres.tolist(), (cloud.color / 255).tolist(), strict=True)
@@ -435,7 +444,7 @@ def test_spheres_as_arrays_are_written_as_those_one_by_one(name: str, tmp_path: 
 
 
 def test_scene_of_hosts_is_read_as_it_was_written(tmp_path: Path) -> None:
-    host, host_scene = module("host"), module("host_scene")
+    host, host_scene = module("peers.host.host"), module("peers.host.host_scene")
     written = host.to_host(view())
     found = host_scene.read_scene(host.write_scene(view(), tmp_path))
     assert (found.width, found.height) == (40, 20)
@@ -449,13 +458,17 @@ def test_scene_of_hosts_is_read_as_it_was_written(tmp_path: Path) -> None:
 def test_hosts_get_no_lights_that_a_plane_hides() -> None:
     seen = view()
     for lights, count in (([((0, -3, 9), 1.0)], 1), ([((0, -5, 9), 1.0)], 0), (seen.lights * 2, 2)):
-        assert len(module("host").to_host(seen._replace(lights=lights)).lights) == count
+        assert len(module("peers.host.host").to_host(seen._replace(lights=lights)).lights) == count
 
 
 def test_peers_that_are_missing_are_said_to_be(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    embree, peer, peers = module("embree"), module("peer"), module("peers")
+    embree, peer, peers = (
+        module("peers.embree.program"),
+        module("peers.peer"),
+        module("peers.programs"),
+    )
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setenv("VTRAY_PEERS", str(tmp_path))
     caches = (embree.program, peer.version_of_host)
@@ -473,7 +486,7 @@ def rendered() -> Any:
     """Return the picture of a few spheres."""
     with pytest.MonkeyPatch.context() as context:
         context.syspath_prepend(BENCHMARKS)
-        text = module("cube").list_text(FEW, SMALL)
+        text = module("scenes.cube").list_text(FEW, SMALL)
     return vtray.render(vtray.loads(text))
 
 
@@ -481,15 +494,17 @@ def rendered() -> Any:
 def test_peer_that_is_installed_shows_what_vtray_shows(
     index: int, rendered: Any, tmp_path: Path
 ) -> None:
-    peers, same = module("peers"), module("same_picture")
+    peers, same = module("peers.programs"), module("timing.same_picture")
     peer = peers.CUBE_PEERS[index]
     if not peers.is_installed(peer):
         pytest.skip(f"{peer.name} is not installed")
     rendered.save(tmp_path / "ours.png")
-    scene = vtray.load(module("cube").write_cube(FEW, tmp_path, SMALL))
-    seen = module("camera_space").view_from_eye(scene, 255 / float(rendered.linear.max()))
-    job = module("rendering")._peer_job(peer, peer.write_scene(seen, tmp_path), (SMALL, SMALL), 2)
-    run = module("measure").run_once(job)
+    scene = vtray.load(module("scenes.cube").write_cube(FEW, tmp_path, SMALL))
+    seen = module("peers.camera_space").view_from_eye(scene, 255 / float(rendered.linear.max()))
+    job = module("measures.rendering")._peer_job(
+        peer, peer.write_scene(seen, tmp_path), (SMALL, SMALL), 2
+    )
+    run = module("timing.jobs").run_once(job)
     found = same.difference(tmp_path / "ours.png", tmp_path / f"{job.name}.png", peer.column)
     assert found.mean < 255, "the size is another"
     if not peer.apart:
@@ -499,7 +514,7 @@ def test_peer_that_is_installed_shows_what_vtray_shows(
 
 
 def test_report_has_the_times_of_samples() -> None:
-    samples, measure = module("antialiasing"), module("measure")
+    samples, measure = module("measures.antialiasing"), module("timing.jobs")
 
     def timing(seconds: float) -> Any:
         return measure.Timing(measure.Spread((0.2 + seconds,)), measure.Spread((seconds,)))
@@ -508,26 +523,58 @@ def test_report_has_the_times_of_samples() -> None:
     found.samples = {
         samples.job_name(count, threads): timing(0.1 * count / threads)
         for count in samples.SAMPLES
-        for threads in module("rendering").THREADS
+        for threads in module("measures.rendering").THREADS
     }
-    report = module("report").full_report(found)
+    report = module("report.pages").full_report(found)
     assert "| 16 | 2 | 0.800 | 1.00 | 16 | 4.00 |" in report
 
 
-def test_report_has_the_times_of_bonds() -> None:
-    found, ball = results(), module("ball_and_stick")
+def test_report_compares_own_scenes_with_the_first() -> None:
+    found = results()
     found.bonds = {
-        ball.job_name(name, threads): timing(2 * seconds, seconds)
-        for name, seconds in (("atoms", 0.2), ("bonds", 0.5))
-        for threads in module("report").THREADS
+        "atoms": {1: timing(0.4, 0.2, memory=80e6), 2: timing(0.3, 0.1, memory=90e6)},
+        "bonds": {1: timing(1.0, 0.5, load=0.05, build=0.1, memory=120e6), 2: timing(0.6, 0.3)},
     }
-    report = module("report").full_report(found)
-    assert "| atoms alone | 1 | 0.200 | 0.400 | 1.00 | 1.00 |" in report
-    assert "| atoms and bonds | 2 | 0.500 | 1.00 | 2.50 | 2.50 |" in report
+    found.copies = {"spheres": {1: timing(0.5, 0.25, memory=8e7)}}
+    report = module("report.pages").full_report(found)
+    for row in (
+        "| atoms | 1 | - | - | 0.200 | 0.400 | 80 | 1.00 | 1.00 | 1.00 |",
+        "| bonds | 1 | 0.0500 | 0.100 | 0.500 | 1.00 | 120 | 2.50 | 2.50 | 1.50 |",
+        "| bonds | 2 | - | - | 0.300 | 0.600 | - | 3.00 | 2.00 | - |",
+        "| spheres | 1 | - | - | 0.250 | 0.500 | 80 | 1.00 | 1.00 | 1.00 |",
+    ):
+        assert row in report
+    assert report.index("## Bonds") < report.index("## Copies")
+
+
+@compiled_only
+@pytest.mark.parametrize(("name", "scenes"), [("bonds", 2), ("copies", 4)])
+def test_own_scenes_are_timed(
+    name: str, scenes: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    measure = module(f"measures.{name}")
+    write = measure.write_scenes
+    monkeypatch.setattr(measure, "write_scenes", lambda *given: write(*given, SMALL))
+    if name == "copies":
+        monkeypatch.setattr(measure, "MANY", 5)
+    found = getattr(measure, f"time_{name}")(FEW, (1, 2), tmp_path, 1)
+    assert len(found) == scenes
+    for by_threads in found.values():
+        assert list(by_threads) == [1, 2]
+        assert all(0 < each.inner.median < each.whole.median for each in by_threads.values())
+
+
+def test_copied_cubes_are_seen_as_those_written_out() -> None:
+    cube = module("scenes.copied_cube")
+    copied, written = (cube.make_scene(FEW, 2, SMALL, written_out=out) for out in (False, True))
+    assert (len(copied.objects[0]), len(written.objects[0])) == (8, 8 * FEW)
+    pictures = [vtray.render(scene).linear for scene in (copied, written)]
+    np.testing.assert_array_equal(*pictures)
+    assert len(np.unique(pictures[0])) > FEW
 
 
 def test_ball_and_stick_model_is_what_it_is_said_to_be(tmp_path: Path) -> None:
-    ball = module("ball_and_stick")
+    ball = module("scenes.ball_and_stick")
     atoms, (start, end) = ball.make_crystal(1000)
     assert (atoms.shape, start.shape) == ((1000, 3), (2000, 3))
     np.testing.assert_allclose(np.linalg.norm(end - start, axis=1), 1)
@@ -545,7 +592,7 @@ def test_ball_and_stick_model_is_what_it_is_said_to_be(tmp_path: Path) -> None:
 
 
 def test_report_has_the_times_from_arrays() -> None:
-    arrays, measure = module("from_arrays"), module("measure")
+    arrays, measure = module("measures.from_arrays"), module("timing.jobs")
 
     def row(program: str, factor: float, note: str) -> Any:
         spreads = [measure.Spread((factor * seconds,)) for seconds in (0.5, 0.3, 0.2)]
@@ -553,31 +600,31 @@ def test_report_has_the_times_from_arrays() -> None:
 
     found = results()
     found.arrays = {"many": [row("vtray", 1, "0.00, 0.00%"), row("Mitsuba", 3, "0.30, 0.20%")]}
-    report = module("report").full_report(found)
+    report = module("report.pages").full_report(found)
     assert "| many | vtray | 2 | 0.200 | 0.300 | 0.500 | 90 | 1.00 | 1.00 | 0.00, 0.00% |" in report
     assert (
         "| many | Mitsuba | 2 | 0.600 | 0.900 | 1.50 | 90 | 3.00 | 3.00 | 0.30, 0.20% |" in report
     )
     found.arrays["many"].append(row("OVITO", 4, "another picture: dim"))
-    found.scenes = {"a room": [module("rendering").Row("vtray", 2, timing(0.3, 0.1), "")]}
+    found.scenes = {"a room": [module("measures.rendering").Row("vtray", 2, timing(0.3, 0.1), "")]}
     sentence = "(many): vtray 0.300; Mitsuba 0.900; OVITO 1.20 (another picture)."
-    assert sentence in module("report").readme_table(found)
+    assert sentence in module("report.pages").readme_table(found)
 
 
 @pytest.mark.parametrize("index", range(4))
 def test_script_makes_the_picture_from_arrays(index: int, tmp_path: Path) -> None:
-    arrays, cube = module("from_arrays"), module("cube").make_cube(FEW)
+    arrays, cube = module("measures.from_arrays"), module("scenes.cube").make_cube(FEW)
     script = arrays.SCRIPTS[index]
-    if script.peer and not module("peers").is_installed(script.peer):
+    if script.peer and not module("peers.programs").is_installed(script.peer):
         pytest.skip(f"{script.name} is not installed")
     data = tmp_path / "arrays.npz"
-    given = module("arrays_clock").Arrays(cube.center.astype(float), cube.radius, cube.color)
-    module("arrays_clock").save_arrays(given, data)
-    run = module("measure").run_once(arrays._job(script, data, SMALL, 2, 3))
+    given = module("peers.arrays_clock").Arrays(cube.center.astype(float), cube.radius, cube.color)
+    module("peers.arrays_clock").save_arrays(given, data)
+    run = module("timing.jobs").run_once(arrays._job(script, data, SMALL, 2, 3))
     assert len(arrays.picture_seconds(run.output)) == 3
-    module("measure").run_once(arrays._job(arrays.SCRIPTS[0], data, SMALL, 1, 1))
+    module("timing.jobs").run_once(arrays._job(arrays.SCRIPTS[0], data, SMALL, 1, 1))
     pictures = [arrays._picture(tmp_path, each) for each in (arrays.SCRIPTS[0], script)]
-    found = module("same_picture").difference(*pictures)
+    found = module("timing.same_picture").difference(*pictures)
     assert found.mean < 255, "the size is another"
     if not (script.peer and script.peer.apart):
-        assert module("same_picture").is_same(found)
+        assert module("timing.same_picture").is_same(found)

@@ -153,7 +153,7 @@ def _nearest_in_tree(
     """
     ratio = hierarchy.to_boxes.ratio
     beam = _ray_beam(hierarchy.to_boxes, ray)
-    start = lower_limit(beam, max(-ray.depth, 0.0) * ratio * (1.0 - MARGIN))
+    start = lower_limit(beam, max(-ray.plane_depth, 0.0) * ratio * (1.0 - MARGIN))
     stack.node[base] = hierarchy.root
     stack.enter[base] = start
     waiting = base + 1

@@ -1,7 +1,7 @@
 """Rays, the ways between two points, and how wide a ray's pixel is.
 
 All places are in the kernels' space, whose origin is the centre of the image plane. Nothing behind
-the image plane exists: what a ray meets at a depth of 0 or less is not there.
+the image plane exists: what a ray meets at a plane depth of 0 or less is not there.
 """
 
 from typing import NamedTuple
@@ -22,10 +22,10 @@ class Ray(NamedTuple):
         Where it starts.
     direction
         Its unit direction.
-    depth
+    plane_depth
         How far before the image plane it starts; below 0 if behind.
     forward
-        By how much the depth grows with each unit of length along the ray.
+        By how much the plane depth grows with each unit of length along the ray.
     error_scale
         What the rounding error of a point of the ray is relative to, beside the distance and what
         is met there.
@@ -36,7 +36,7 @@ class Ray(NamedTuple):
 
     origin: Vec
     direction: Vec
-    depth: float
+    plane_depth: float
     forward: float
     error_scale: float
     error_bound: float
@@ -49,7 +49,7 @@ class Segment(NamedTuple):
     ----------
     start, end
         The point, and the light.
-    start_depth, end_depth
+    start_plane_depth, end_plane_depth
         Their distances in front of the image plane.
     start_scale, end_scale
         What their rounding errors are relative to, beside what stands in the way.
@@ -57,8 +57,8 @@ class Segment(NamedTuple):
 
     start: Vec
     end: Vec
-    start_depth: float
-    end_depth: float
+    start_plane_depth: float
+    end_plane_depth: float
     start_scale: float
     end_scale: float
 

@@ -35,7 +35,7 @@ class Shapes:
         The root of their hierarchy, or ``NO_TREE`` if there are few.
     frame
         The space of its boxes.
-    depth
+    tree_depth
         How many nodes lie one below the other at the most.
     largest
         A length that no coordinate or radius is far above.
@@ -48,7 +48,7 @@ class Shapes:
     count: int
     root: int
     frame: Frame
-    depth: int
+    tree_depth: int
     largest: float
 
 
@@ -96,11 +96,11 @@ class Acceleration:
         return node_count(self.bvh)
 
     @property
-    def depth(self) -> int:
+    def tree_depth(self) -> int:
         """How many nodes lie one below the other at the most."""
-        below = max((one.depth for one in chain.from_iterable(self.copied)), default=0)
-        above = self.placed.depth if self.placed else 0
-        return max(above + below, *(one.depth for one in self.shapes))
+        below = max((one.tree_depth for one in chain.from_iterable(self.copied)), default=0)
+        above = self.placed.tree_depth if self.placed else 0
+        return max(above + below, *(one.tree_depth for one in self.shapes))
 
     @property
     def largest(self) -> float:

@@ -180,8 +180,10 @@ def _shapes(part: _Part, built: _Built, first: int, begin: int, root: int) -> Sh
     """Return shapes with what their hierarchy says, if they have one."""
     tree = built.tree
     frame = tree.frame if tree else Frame(1.0, (0.0, 0.0, 0.0))
-    depth, largest = (tree.depth, tree.largest) if tree else (0, _largest(part.source))
-    return Shapes(part.kind, part.source, first, begin, part.count, root, frame, depth, largest)
+    tree_depth, largest = (tree.tree_depth, tree.largest) if tree else (0, _largest(part.source))
+    return Shapes(
+        part.kind, part.source, first, begin, part.count, root, frame, tree_depth, largest
+    )
 
 
 def _place(

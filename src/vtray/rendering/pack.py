@@ -293,7 +293,7 @@ def _pack_lights(scene: Scene, origin: Floats, unit: float, camera: CameraFrame)
         x,
         y,
         z,
-        depth=_dot((x, y, z), camera.forward),
+        plane_depth=_dot((x, y, z), camera.forward),
         intensity=np.array([light.intensity for light in scene.lights], float),
         error_scale=_magnitude(x, y, z) + _magnitude(*origin),
     )

@@ -36,7 +36,7 @@ class Placed:
         The root of the hierarchy, or ``NO_TREE``.
     frame
         The space of its boxes.
-    depth
+    tree_depth
         How many nodes lie one below the other at the most.
     """
 
@@ -45,7 +45,7 @@ class Placed:
     copy: NDArray[np.int32]
     root: int
     frame: Frame
-    depth: int
+    tree_depth: int
 
     @property
     def arrays(self) -> tuple[NDArray[Any], ...]:
@@ -82,7 +82,7 @@ def place_copies(
         return Placed(shift, which, copy, NO_TREE, Frame(1.0, (0.0, 0.0, 0.0)), 0), None
     tree = build(GivenBoxes(low, high), threads)
     order = tree.numbers
-    placed = Placed(shift[order], which[order], copy[order], 0, tree.frame, tree.depth)
+    placed = Placed(shift[order], which[order], copy[order], 0, tree.frame, tree.tree_depth)
     return placed, tree
 
 

@@ -138,7 +138,12 @@ def render(
     tracer = Tracer(packed.arrays, threads, tile, _step_of(progress, "trace"))
     traced = tracer.light(settings, keep=keep_lights)
     clock.lap("trace")
-    stats = {"rays": traced.rays, "nodes": kept.nodes, "depth": kept.depth, "memory": kept.memory}
+    stats = {
+        "rays": traced.rays,
+        "nodes": kept.nodes,
+        "depth": kept.tree_depth,
+        "memory": kept.memory,
+    }
     image = Image(
         traced.film.linear,
         None,

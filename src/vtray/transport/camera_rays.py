@@ -80,7 +80,7 @@ def camera_ray(camera: CameraFrame, column: float, row: float) -> Ray:
     sheaf = sheaf_of(camera)
     origin = add(camera.eye, offset) if start_apart(sheaf) else camera.eye
     forward = dot(direction, camera.forward)
-    return Ray(origin, direction, sheaf.depth, forward, sheaf.error_scale, 0.0)
+    return Ray(origin, direction, sheaf.plane_depth, forward, sheaf.error_scale, 0.0)
 
 
 @device

@@ -10,7 +10,6 @@ from vtray.geometry.packets.coherence import CLUSTER, cluster_hits, list_hits
 from vtray.geometry.packets.packet import (
     COLOR,
     CURVED,
-    DEPTH,
     DISTANCE,
     ERROR_SCALE,
     HALF,
@@ -19,6 +18,7 @@ from vtray.geometry.packets.packet import (
     MET,
     NORMAL,
     OCTET,
+    PLANE_DEPTH,
     POINT,
     PRIMITIVE,
     SOURCE,
@@ -128,7 +128,7 @@ def gather_interactions(
         store(packet, NORMAL, hit, normal)
         packet[ERROR_SCALE + hit] = packet[ERROR_SCALE + hit] + sheaf.error_scale + length
         store(packet, VALUE, hit, (0.0, 0.0, 0.0))
-        packet[DEPTH + hit] = dot(point, scene.camera.forward)
+        packet[PLANE_DEPTH + hit] = dot(point, scene.camera.forward)
     return hits
 
 

@@ -54,7 +54,7 @@ class Tree(NamedTuple):
         The hierarchy.
     frame
         The space of its boxes.
-    depth
+    tree_depth
         How many nodes lie one below the other at the most.
     largest
         The largest coordinate of a centre, or half extent, in world space.
@@ -63,7 +63,7 @@ class Tree(NamedTuple):
     numbers: Numbers
     bvh: Bvh
     frame: Frame
-    depth: int
+    tree_depth: int
     largest: float
 
 
@@ -90,8 +90,8 @@ def build(primitives: Primitives, threads: int, progress: Progress | None = None
     keys = sort_keys(_new_keys(everything, bound, frame, grid, threads), threads, grid.number_bits)
     order = Order(keys, grid)
     numbers = np.empty(primitives.count, np.int32)
-    bvh, depth = _build_nodes(primitives, frame, order, numbers, threads, progress)
-    return Tree(numbers, bvh, frame, depth, largest)
+    bvh, tree_depth = _build_nodes(primitives, frame, order, numbers, threads, progress)
+    return Tree(numbers, bvh, frame, tree_depth, largest)
 
 
 def bounds_of(primitives: Primitives, threads: int) -> tuple[Vec, Vec]:
@@ -178,12 +178,12 @@ def _build_nodes(
 
     Returns
     -------
-    bvh, depth
+    bvh, tree_depth
         As in `Tree`.
     """
-    top, ranges, depth = _split_top(primitives, frame, order, threads)
+    top, ranges, tree_depth = _split_top(primitives, frame, order, threads)
     tasks = _tasks(ranges)
-    parts, depths = [top] * (len(tasks) + 1), [depth] * (len(tasks) + 1)
+    parts, tree_depths = [top] * (len(tasks) + 1), [tree_depth] * (len(tasks) + 1)
     largest = max(int(task[-1, 2] - task[0, 1]) for task in tasks)
     place, sorted_, above = pinned(frame), pinned(order), pinned(top)
     ordered, nothing = pinned(numbers), pinned(np.empty((0, 4), np.int64))
@@ -198,7 +198,7 @@ def _build_nodes(
             task, begin, end = tasks[k], int(tasks[k][0, 1]), int(tasks[k][-1, 2])
             take_numbers(sorted_, begin, end, drawn)
             primitives.gather(drawn[: end - begin], begin, boxes)
-            size, _, depths[k + 1] = split_ranges(
+            size, _, tree_depths[k + 1] = split_ranges(
                 boxes, place, sorted_, 0, task, above, tree, 0, nothing, scratch
             )
             if finish_subtrees(boxes, place, sorted_, drawn, task, above, tree, size, ordered):
@@ -212,7 +212,7 @@ def _build_nodes(
     for task, root in zip(tasks, first[1:], strict=True):
         bvh.child[task[task[:, 2] - task[:, 1] > LEAF, 0]] += root
     finish_top(bvh, node_count(top))
-    return bvh, 1 + max(depths)
+    return bvh, 1 + max(tree_depths)
 
 
 def _split_top(
@@ -226,7 +226,7 @@ def _split_top(
         The nodes, without boxes.
     ranges
         The ranges below, as in `split_ranges`, in the order of their slots.
-    depth
+    tree_depth
         The depth of the deepest of these nodes.
     """
     n = primitives.count
@@ -237,10 +237,10 @@ def _split_top(
     waiting, done = np.array([[0, 0, n, 0]]), []
     nodes, deepest = 0, 0
     while len(waiting) > 0:
-        nodes, found, depth = split_ranges(
+        nodes, found, tree_depth = split_ranges(
             new_boxes(0), frame, order, SMALL, waiting, top, top, nodes, left, new_scratch()
         )
-        deepest = max(deepest, depth)
+        deepest = max(deepest, tree_depth)
         crowded = left[:found, 2] - left[:found, 1] > CROWD
         done.append(left[:found][~crowded])
         waiting = left[:found][crowded]

@@ -84,7 +84,7 @@ def split_ranges(
         The size of the ranges that are left for later, or 0 to go on to the leaves.
     ranges
         For each range the place in ``above.child`` for its node or leaf, its begin and its end in
-        slots, and the depth of its node, (m, 4).
+        slots, and the depth in the tree of its node, (m, 4).
     above
         Out: where the ranges belong, the numbers of their nodes, or their leaves.
     bvh, nodes
@@ -96,7 +96,7 @@ def split_ranges(
 
     Returns
     -------
-    nodes, ranges, depth
+    nodes, ranges, tree_depth
         How many nodes there are, how many ranges are left, and the depth of the deepest node that
         was made, 0 if none was.
     """
@@ -107,11 +107,11 @@ def split_ranges(
             above.child[place] = leaf_code(begin, end - begin)
         else:
             above.child[place] = used
-            used, found, depth = split_range(
+            used, found, tree_depth = split_range(
                 *(boxes, frame, order, begin, end, ranges[k, 3], grain, bvh, used),
                 *(left, found, scratch),
             )
-            deepest = max(deepest, depth)
+            deepest = max(deepest, tree_depth)
     return used, found, deepest
 
 

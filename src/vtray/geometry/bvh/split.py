@@ -14,7 +14,7 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.key_sort import Keys, sort_few
 from vtray.geometry.bvh.morton import Grid, in_one_cell, key_number, make_grid, make_key
 from vtray.geometry.bvh.primitives import Boxes
-from vtray.geometry.bvh.tree import EMPTY, LEAF, MAX_DEPTH, STACK, WIDTH, Bvh, Frame, leaf_code
+from vtray.geometry.bvh.tree import EMPTY, LEAF, MAX_TREE_DEPTH, STACK, WIDTH, Bvh, Frame, leaf_code
 from vtray.geometry.vector import Vec, lower, scale, sub, upper
 
 FULL_ENOUGH = 3
@@ -63,7 +63,7 @@ def split_range(
     order: Order,
     begin: int,
     end: int,
-    depth: int,
+    tree_depth: int,
     grain: int,
     bvh: Bvh,
     root: int,
@@ -80,8 +80,8 @@ def split_range(
     ----------
     boxes, frame, order, grain, left, scratch
         As in `split_ranges`.
-    begin, end, depth
-        The range, in slots, and the depth of its node.
+    begin, end, tree_depth
+        The range, in slots, and the depth of its node in the tree.
     bvh, root
         Out: the nodes, and the number of the first.
     found
@@ -89,7 +89,7 @@ def split_range(
 
     Returns
     -------
-    nodes, ranges, depth
+    nodes, ranges, tree_depth
         How many nodes there are now, how many ranges are left, and the depth of the deepest node.
     """
     child, stack = bvh.child, scratch.stack
@@ -97,15 +97,15 @@ def split_range(
     stack[0] = root
     child[root * WIDTH] = begin
     child[root * WIDTH + 1] = end
-    child[root * WIDTH + 2] = depth
-    deepest = depth
+    child[root * WIDTH + 2] = tree_depth
+    deepest = tree_depth
     while waiting > 0:
         waiting -= 1
         first = stack[waiting] * WIDTH
-        depth = child[first + 2]
-        deepest = max(deepest, depth)
+        tree_depth = child[first + 2]
+        deepest = max(deepest, tree_depth)
         count = _split_node(
-            boxes, frame, order, child[first], child[first + 1], depth, grain, scratch
+            boxes, frame, order, child[first], child[first + 1], tree_depth, grain, scratch
         )
         for k in range(WIDTH):
             low, high = scratch.begin[k], scratch.end[k]
@@ -115,7 +115,7 @@ def split_range(
                 left[found, 0] = first + k
                 left[found, 1] = low
                 left[found, 2] = high
-                left[found, 3] = depth + 1
+                left[found, 3] = tree_depth + 1
                 found += 1
             elif high - low <= LEAF:
                 child[first + k] = leaf_code(low, high - low)
@@ -123,7 +123,7 @@ def split_range(
                 child[first + k] = used
                 child[used * WIDTH] = low
                 child[used * WIDTH + 1] = high
-                child[used * WIDTH + 2] = depth + 1
+                child[used * WIDTH + 2] = tree_depth + 1
                 stack[waiting] = used
                 waiting += 1
                 used += 1
@@ -143,7 +143,7 @@ def _split_node(
     order: Order,
     begin: int,
     end: int,
-    depth: int,
+    tree_depth: int,
     grain: int,
     scratch: Scratch,
 ) -> int:
@@ -160,7 +160,7 @@ def _split_node(
         low, high = starts[largest], ends[largest]
         if high - low <= FULL_ENOUGH or _is_left(order, low, high, grain):
             break
-        middle = _split_in_two(boxes, frame, order, low, high, depth)
+        middle = _split_in_two(boxes, frame, order, low, high, tree_depth)
         for k in range(ranges, largest + 1, -1):
             starts[k] = starts[k - 1]
             ends[k] = ends[k - 1]
@@ -173,12 +173,12 @@ def _split_node(
 
 @device
 def _split_in_two(
-    boxes: Boxes, frame: Frame, order: Order, begin: int, end: int, depth: int
+    boxes: Boxes, frame: Frame, order: Order, begin: int, end: int, tree_depth: int
 ) -> int:
     """Return where the second part of a range begins."""
     keys, grid = order.keys, order.grid
     half = (begin + end) // 2
-    if depth >= MAX_DEPTH:
+    if tree_depth >= MAX_TREE_DEPTH:
         return half
     if in_one_cell(keys[begin], keys[end - 1], grid):
         _sort_within_cell(boxes, frame, order, begin, end)

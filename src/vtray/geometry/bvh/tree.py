@@ -37,10 +37,10 @@ COUNT_MASK = (1 << COUNT_BITS) - 1
 EMPTY = -1
 """In place of a child: there is none. (As a leaf, it has no primitives.)"""
 
-MAX_DEPTH = 96
+MAX_TREE_DEPTH = 96
 """From this depth on, nodes are split into halves, which bounds the depth of all trees."""
 
-STACK = (MAX_DEPTH + 32) * WIDTH
+STACK = (MAX_TREE_DEPTH + 32) * WIDTH
 """Nodes that can wait at the same time on a way through a tree."""
 
 

@@ -11,12 +11,12 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.dispatch import Shape, Verbs, with_bounded
 from vtray.geometry.packets.packet import (
     BLOCKED,
-    DEPTH,
     ERROR_SCALE,
     LANES,
     MET,
     NORMAL,
     OCTET,
+    PLANE_DEPTH,
     POINT,
     SOURCE,
     Packet,
@@ -42,14 +42,14 @@ class Target(NamedTuple):
     ----------
     place
         The point.
-    depth
+    plane_depth
         Its distance in front of the image plane.
     error_scale
         What its rounding error is relative to, beside what stands in the way.
     """
 
     place: Vec
-    depth: float
+    plane_depth: float
     error_scale: float
 
 
@@ -62,15 +62,15 @@ class Bounds(NamedTuple):
         Their least and their greatest coordinates.
     least, most
         The least and the greatest components of their normals.
-    depth, error_scale
-        Their largest depth, and what their rounding errors are relative to at the most.
+    plane_depth, error_scale
+        Their largest plane depth, and what their rounding errors are relative to at the most.
     """
 
     low: Vec
     high: Vec
     least: Vec
     most: Vec
-    depth: float
+    plane_depth: float
     error_scale: float
 
 
@@ -87,15 +87,15 @@ def bound_points(packet: Packet, hits: int) -> Bounds:
     """Return the bounds of a packet's points."""
     low = high = load(packet, POINT, 0)
     least = most = load(packet, NORMAL, 0)
-    depth = -math.inf
+    plane_depth = -math.inf
     error_scale = 0.0
     for lane in range(hits):
         point, normal = load(packet, POINT, lane), load(packet, NORMAL, lane)
         low, high = lower(low, point), upper(high, point)
         least, most = lower(least, normal), upper(most, normal)
-        depth = max(depth, packet[DEPTH + lane])
+        plane_depth = max(plane_depth, packet[PLANE_DEPTH + lane])
         error_scale = max(error_scale, packet[ERROR_SCALE + lane])
-    return Bounds(low, high, least, most, depth, error_scale)
+    return Bounds(low, high, least, most, plane_depth, error_scale)
 
 
 @device
@@ -198,7 +198,7 @@ def block_by_planes(
         # same, and it took a quarter more time.
         end = end_side(plane, target.place, target.error_scale)
         nearest = work.above[slot] if end < 0.0 else work.below[slot]
-        if end != 0.0 and _crosses(nearest, abs(end), bounds.depth, target.depth):
+        if end != 0.0 and _crosses(nearest, abs(end), bounds.plane_depth, target.plane_depth):
             _block_lanes(packet, 0, hits, target, (plane, end), hides_side)
             if not _any_open(packet, hits):
                 return False
@@ -206,7 +206,7 @@ def block_by_planes(
 
 
 @device
-def _crosses(nearest: float, end: float, depth: float, end_depth: float) -> bool:
+def _crosses(nearest: float, end: float, plane_depth: float, end_plane_depth: float) -> bool:
     """Tell whether shadow rays may cross a plane in front of the image plane.
 
     Rounding keeps the order of numbers, so where this is not so, it is for no point of a packet.
@@ -215,11 +215,11 @@ def _crosses(nearest: float, end: float, depth: float, end_depth: float) -> bool
     ----------
     nearest, end
         The least distance from the plane of points on its one side, and of the light on the other.
-    depth, end_depth
-        The largest depth of the points, and that of the light.
+    plane_depth, end_plane_depth
+        The largest plane depth of the points, and that of the light.
     """
-    crossing = nearest * end_depth + end * depth
-    return (nearest < math.inf) & ((end_depth >= 0.0) | (crossing > 0.0))
+    crossing = nearest * end_plane_depth + end * plane_depth
+    return (nearest < math.inf) & ((end_plane_depth >= 0.0) | (crossing > 0.0))
 
 
 @device
@@ -327,8 +327,8 @@ def _block_lanes(
         segment = Segment(
             load(packet, POINT, lane),
             target.place,
-            packet[DEPTH + lane],
-            target.depth,
+            packet[PLANE_DEPTH + lane],
+            target.plane_depth,
             packet[ERROR_SCALE + lane],
             target.error_scale,
         )

@@ -84,7 +84,7 @@ START = _fields.vector()
 LENGTH = _fields.scalar()
 """The length of its ray."""
 POINT = _fields.vector()
-DEPTH = _fields.scalar()
+PLANE_DEPTH = _fields.scalar()
 """The point's distance in front of the image plane."""
 NORMAL = _fields.vector()
 """The normal; before it is worked out, that of a flat surface, or what a curved one is round."""
@@ -144,13 +144,13 @@ class Sheaf(NamedTuple):
     extent
         How far from there they start at the most; where it is not 0, each starts at a place of its
         own, in field ``ORIGIN``.
-    depth, error_scale
+    plane_depth, error_scale
         As in `Ray`.
     """
 
     origin: Vec
     extent: float
-    depth: float
+    plane_depth: float
     error_scale: float
 
 
@@ -204,7 +204,7 @@ def load_ray(packet: Packet, sheaf: Sheaf, lane: int) -> Ray:
     return Ray(
         origin,
         load(packet, DIRECTION, lane),
-        sheaf.depth,
+        sheaf.plane_depth,
         packet[FORWARD + lane],
         sheaf.error_scale,
         0.0,

@@ -130,7 +130,7 @@ def _search(
     _, first, count, sheaf, footprint = rays
     bvh, ratio, stack = world.bvh, hierarchy.to_boxes.ratio, work.stack
     beam = _part_beam(first, count, sheaf, footprint, hierarchy.to_boxes, work)
-    start = lower_limit(beam, -sheaf.depth * ratio * (1.0 - MARGIN))
+    start = lower_limit(beam, -sheaf.plane_depth * ratio * (1.0 - MARGIN))
     far = upper_limit(beam, farthest_of(work.cones, first, count) * ratio)
     stack.node[base] = hierarchy.root
     stack.enter[base] = start

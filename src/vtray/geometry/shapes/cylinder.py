@@ -201,10 +201,10 @@ def cylinder_distance(cylinder: CylinderShape, ray: Ray) -> float:
         ahead = near + far > 0.0
         near = near if (outside > ray.error_bound) & ahead else -math.inf
         far = far if (outside < -ray.error_bound) | ahead else math.inf
-    near_depth = (near * ray.forward + ray.depth) * near_slope
-    far_depth = (far * ray.forward + ray.depth) * far_slope
-    sees_near = meets & (near_depth > ROUNDING * (abs(near) + error_scale))
-    sees_far = meets & (far_depth > ROUNDING * (abs(far) + error_scale))
+    near_plane_depth = near * ray.forward + ray.plane_depth
+    far_plane_depth = far * ray.forward + ray.plane_depth
+    sees_near = meets & (near_plane_depth * near_slope > ROUNDING * (abs(near) + error_scale))
+    sees_far = meets & (far_plane_depth * far_slope > ROUNDING * (abs(far) + error_scale))
     return near if sees_near else far if sees_far else math.inf
 
 
@@ -221,9 +221,9 @@ def cylinder_hides(cylinder: CylinderShape, segment: Segment) -> bool:
     end_bound = ROUNDING * (cylinder.error_scale + segment.end_scale)
     to_end = sub(segment.end, segment.start)
     end = segment.end
-    if segment.end_depth < 0.0:
+    if segment.end_plane_depth < 0.0:
         # The way counts up to where it passes through the image plane.
-        share = segment.start_depth / (segment.start_depth - segment.end_depth)
+        share = segment.start_plane_depth / (segment.start_plane_depth - segment.end_plane_depth)
         to_end = scale(share, to_end)
         end = add(segment.start, to_end)
         end_bound = error_bound + share * end_bound
@@ -302,9 +302,9 @@ def cylinder_outline(cylinder: CylinderShape, ray: Ray, footprint: Footprint) ->
     span = both_spans(side_span(line, cylinder.side_radius), caps)
     is_hit = span.near < span.far
     # Within a cylinder that is cut open, its far end is seen.
-    is_open = is_hit & (span.near * ray.forward + ray.depth <= 0.0)
+    is_open = is_hit & (span.near * ray.forward + ray.plane_depth <= 0.0)
     at_edge = is_hit & _is_at_edge(cylinder, line, footprint, caps.far if is_open else caps.near)
-    plane = -ray.depth / ray.forward
+    plane = -ray.plane_depth / ray.forward
     from_cut = abs(signed_distance(cylinder, move_along(line, plane)))
     at_cut = from_cut <= width_at(footprint, max(plane, 0.0))
     is_near = (larger.near < larger.far) & (at_edge | at_cut | (smaller.near >= smaller.far))
@@ -313,7 +313,7 @@ def cylinder_outline(cylinder: CylinderShape, ray: Ray, footprint: Footprint) ->
     beside = min(max(passing, larger.near), larger.far)
     entry = nearer.near if nearer.near < nearer.far else beside
     distance = span.near if is_hit else entry
-    return distance if is_near & (larger.far > -ray.depth) else math.inf
+    return distance if is_near & (larger.far > -ray.plane_depth) else math.inf
 
 
 @device

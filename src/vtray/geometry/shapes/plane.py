@@ -67,9 +67,9 @@ def plane_distance(plane: PlaneShape, ray: Ray) -> float:
     height = dot(sub(plane.point, ray.origin), plane.normal)
     descent = dot(ray.direction, plane.normal)
     distance = intersect_plane(height, descent)
-    depth = distance * ray.forward + ray.depth
+    plane_depth = distance * ray.forward + ray.plane_depth
     error_scale = plane.error_scale + ray.error_scale + abs(distance)
-    seen = depth * abs(descent) > ROUNDING * error_scale
+    seen = plane_depth * abs(descent) > ROUNDING * error_scale
     if ray.error_bound > 0.0:
         seen = seen & (abs(height) > ray.error_bound) & (distance > 0.0)
     return distance if seen else math.inf
@@ -107,12 +107,12 @@ def hides_side(plane_and_end: tuple[PlaneShape, float], segment: Segment) -> boo
     plane, end = plane_and_end
     start = plane_side(plane, segment.start)
     error_bound = ROUNDING * (segment.start_scale + plane.error_scale)
-    return plane_blocks(start, end, segment.start_depth, segment.end_depth, error_bound)
+    return plane_blocks(start, end, segment.start_plane_depth, segment.end_plane_depth, error_bound)
 
 
 @device
 def plane_blocks(
-    start: float, end: float, start_depth: float, end_depth: float, error_bound: float
+    start: float, end: float, start_plane_depth: float, end_plane_depth: float, error_bound: float
 ) -> bool:
     """Tell whether a plane lies between a point and a light, in front of the image plane.
 
@@ -122,14 +122,15 @@ def plane_blocks(
         The point's signed distance from the plane.
     end
         The light's, 0 if it lies in the plane: then nothing lies between.
-    start_depth, end_depth
+    start_plane_depth, end_plane_depth
         Signed distances of point and light from the image plane.
     error_bound
         How far rounding may have moved the point: one nearer to the plane than that is on it.
     """
     opposite = ((start > error_bound) & (end < 0.0)) | ((start < -error_bound) & (end > 0.0))
-    # The crossing's depth is (|start| end_depth + |end| start_depth) / (|start| + |end|).
-    crossing = abs(start) * end_depth + abs(end) * start_depth
+    # The plane depth of the crossing is
+    # (|start| end_plane_depth + |end| start_plane_depth) / (|start| + |end|).
+    crossing = abs(start) * end_plane_depth + abs(end) * start_plane_depth
     return opposite & (crossing > error_bound * (abs(start) + abs(end)))
 
 

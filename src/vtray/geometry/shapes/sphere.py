@@ -96,9 +96,9 @@ def sphere_distance(sphere: SphereShape, ray: Ray) -> float:
         ahead = -dot(from_center, ray.direction) > 0.0
         near = near if (start > slack) & ahead else -math.inf
         far = far if (start < -slack) | ahead else math.inf
-    if near * ray.forward + ray.depth > ROUNDING * (abs(near) + error_scale):
+    if near * ray.forward + ray.plane_depth > ROUNDING * (abs(near) + error_scale):
         return near
-    if far * ray.forward + ray.depth > ROUNDING * (abs(far) + error_scale):
+    if far * ray.forward + ray.plane_depth > ROUNDING * (abs(far) + error_scale):
         return far
     return math.inf
 
@@ -119,9 +119,9 @@ def sphere_hides(sphere: SphereShape, segment: Segment) -> bool:
     from_center = sub(segment.start, sphere.center)
     to_end = sub(segment.end, segment.start)
     end_from_center = sub(segment.end, sphere.center)
-    if segment.end_depth < 0.0:
+    if segment.end_plane_depth < 0.0:
         # The way counts up to where it passes through the image plane.
-        share = segment.start_depth / (segment.start_depth - segment.end_depth)
+        share = segment.start_plane_depth / (segment.start_plane_depth - segment.end_plane_depth)
         to_end = scale(share, to_end)
         end_from_center = add(from_center, to_end)
         end_bound = error_bound + share * end_bound
@@ -183,7 +183,7 @@ def sphere_outline(sphere: SphereShape, ray: Ray, footprint: Footprint) -> float
     gap2 = dot(approach, approach)
     width = width_at(footprint, middle)
     outer, inner = sphere.radius + width, max(sphere.radius - width, 0.0)
-    near = (gap2 < outer * outer) & (gap2 >= inner * inner) & (middle > -ray.depth)
+    near = (gap2 < outer * outer) & (gap2 >= inner * inner) & (middle > -ray.plane_depth)
     entry = middle - math.sqrt(max(sphere.radius * sphere.radius - gap2, 0.0))
     return entry if near else math.inf
 

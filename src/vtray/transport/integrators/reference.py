@@ -79,14 +79,19 @@ def trace_pixel(
         return TracedPixel(ray, hit.distance, hit.primitive, nowhere, value)
     found = interact(scene.world, ray, hit.distance, hit.group, hit.slot)
     material = load_material(scene.materials, hit.primitive, found.is_second)
-    depth = dot(found.point, scene.camera.forward)
+    plane_depth = dot(found.point, scene.camera.forward)
     for light in range(light_count(scene.lights)):
         target = light_target(scene.lights, light)
         error_bound = ROUNDING * (found.error_scale + target.error_scale)
         to_light = sub(target.place, found.point)
         cosines[light] = lambert_cosine(found.normal, to_light, error_bound)
         segment = Segment(
-            found.point, target.place, depth, target.depth, found.error_scale, target.error_scale
+            found.point,
+            target.place,
+            plane_depth,
+            target.plane_depth,
+            found.error_scale,
+            target.error_scale,
         )
         blockers[light] = first_between(scene.world, segment, stack)
         if blockers[light] == NOTHING:

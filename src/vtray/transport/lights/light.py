@@ -19,7 +19,7 @@ class Lights(NamedTuple):
     ----------
     x, y, z
         Their places.
-    depth
+    plane_depth
         Their distances in front of the image plane.
     intensity
         Their intensities.
@@ -31,7 +31,7 @@ class Lights(NamedTuple):
     x: Floats
     y: Floats
     z: Floats
-    depth: Floats
+    plane_depth: Floats
     intensity: Floats
     error_scale: Floats
 
@@ -46,4 +46,4 @@ def light_count(lights: Lights) -> int:
 @device
 def light_target(lights: Lights, light: int) -> Target:
     """Return where the shadow rays to a light end."""
-    return Target(pick(lights, light), lights.depth[light], lights.error_scale[light])
+    return Target(pick(lights, light), lights.plane_depth[light], lights.error_scale[light])

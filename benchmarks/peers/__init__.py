@@ -1,0 +1,1 @@
+"""The other renderers, beside which vtray is measured."""

@@ -1,0 +1,1 @@
+"""How processes are run, timed and compared."""
