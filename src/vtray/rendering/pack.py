@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vtray.base.capacity import MAX_NUMBERS
 from vtray.base.compiler.compiled import input_array
+from vtray.base.exact_math import sine
 from vtray.geometry.bvh.tree import Frame, no_bvh
 from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.vector import Vec
@@ -20,8 +21,12 @@ from vtray.rendering.placed import Placed
 from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.scene import Camera, Plane, Scene, Vector
+from vtray.scene.vectors import Color
+from vtray.scene.temp import Ambient, SphereLight, Sun
+from vtray.scene.objects import Light
 from vtray.transport.camera_rays import CameraFrame
 from vtray.transport.lights.light import Lights
+from vtray.transport.lights.soft_light import AROUND, SPHERE, SUN, SoftLights
 from vtray.transport.materials.material import Materials
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -34,6 +39,9 @@ An eye that is farther away sees the scene along rays that differ by less than 1
 by side, where they pass a plane nearby. Started at the eye, rounding would move what they meet, and
 lose what is near the image plane: from 1e15 times the size of the scene on, all of it.
 """
+
+FAR = 2.0**221
+"""How long shadow rays are that end nowhere: a million times as far as all else can be."""
 
 LARGEST_SHIFT = 2.0**300
 """Copies so tiny beside how far they are moved that this is exceeded, as lengths in the space of
@@ -158,7 +166,7 @@ def _unit_length(scene: Scene, planes: list[Plane], kept: Acceleration) -> float
     """Return the power of two by which the lengths of a scene are divided."""
     camera = scene.camera
     places = [camera.center, *(plane.center for plane in planes)]
-    places += [light.location for light in scene.lights]
+    places += [light.location for light in scene.lights if isinstance(light, Light | SphereLight)]
     coordinates = max(max(abs(p.x), abs(p.y), abs(p.z)) for p in places)
     highest = max(_start_exponent(camera), _exponent(coordinates), _exponent(kept.largest))
     # The unit itself and its inverse must be ordinary doubles.
@@ -287,16 +295,42 @@ def _pack_planes(planes: list[Plane]) -> Columns:
 
 def _pack_lights(scene: Scene, origin: Floats, unit: float, camera: CameraFrame) -> Lights:
     """Return the arrays of all lights."""
-    points = _points([light.location for light in scene.lights], unit) - origin
+    hard = [light for light in scene.lights if isinstance(light, Light)]
+    soft = [light for light in scene.lights if not isinstance(light, Light)]
+    points = _points([light.location for light in hard], unit) - origin
     x, y, z = _columns(points)
+    colors = [(c.r, c.g, c.b) for light in (*hard, *soft) for c in (getattr(light,'color',None) or Color(255,255,255),)]
     return Lights(
         x,
         y,
         z,
         plane_depth=_dot((x, y, z), camera.forward),
-        intensity=np.array([light.intensity for light in scene.lights], float),
         error_scale=_magnitude(x, y, z) + _magnitude(*origin),
+        soft=_pack_soft(soft, origin, unit) if soft else None,
+        intensity=np.array([light.intensity for light in (*hard, *soft)], float),
+        color=np.array(colors, float).reshape(-1, 3) / 255.0,
     )
+
+
+def _pack_soft(lights: list[Any], origin: Floats, unit: float) -> SoftLights:
+    """Return the arrays of the lights that are no points."""
+    x, y, z, size = np.zeros((4, len(lights)))
+    kind, error_scale = np.zeros(len(lights), np.int64), np.zeros(len(lights))
+    for k, light in enumerate(lights):
+        place: Floats | Vec = (0.0, 0.0, 0.0)
+        if isinstance(light, Sun):
+            kind[k], size[k] = SUN, 2.0 * sine(light.angle / 4) ** 2
+            towards = unit_vector(light.direction)
+            place = -towards[0], -towards[1], -towards[2]
+        elif isinstance(light, SphereLight):
+            kind[k], size[k] = SPHERE, light.radius / unit
+            place = _points([light.location], unit)[0] - origin
+            error_scale[k] = float(_magnitude(*place) + _magnitude(*origin)) + size[k]
+        else:
+            distance = light.distance if isinstance(light, Ambient) else math.inf
+            kind[k], size[k] = AROUND, min(distance / unit, FAR)
+        x[k], y[k], z[k] = place
+    return SoftLights(kind, x, y, z, size, error_scale, FAR)
 
 
 def _points(places: list[Vector], unit: float) -> Floats:

@@ -14,6 +14,7 @@ from vtray.scene.settings import RenderSettings
 from vtray.transport.film import Film, new_film
 from vtray.transport.light_buffer import KeptLight, new_kept_light
 from vtray.transport.sampling.adaptive import mark_rows
+from vtray.transport.sampling.fans import Fans, new_fans
 from vtray.transport.sampling.filters import FILTERS
 from vtray.transport.sampling.pixel_samples import (
     Sampling,
@@ -98,10 +99,14 @@ class Tracer:
             Whether to keep what each ray hits and which lights reach it.
         """
         if settings.samples == 1:
-            return self._middles(middle_rays(), keep, *ONE_RAY)
+            fans = self._fans(1)
+            return self._middles(middle_rays(fans=fans, seed=int(settings.seed)), keep, *ONE_RAY)
         self._passes = 2
         footprint = filter_footprint(settings, self._scene.camera)
-        found = self._middles(middle_rays(footprint, before_samples=True), keep, *SAMPLES)
+        middles = middle_rays(
+            footprint, before_samples=True, fans=self._fans(1), seed=int(settings.seed)
+        )
+        found = self._middles(middles, keep, *SAMPLES)
         film = found.film
         marks, peak = self._mark(film, settings)
         np.greater_equal(film.primitive, 0, out=film.coverage)
@@ -109,8 +114,12 @@ class Tracer:
         if keep:
             kept = (*kept, self._keep(marks, int(settings.samples)))
             film = film._replace(kept=kept[-1])
-        sampled = self._trace(filter_samples(settings, marks), film)
+        sampled = self._trace(filter_samples(settings, marks, self._fans(int(settings.samples))), film)
         return Traced(film, max(peak, sampled.peak), found.rays + sampled.rays, kept)
+
+    def _fans(self, samples: int) -> Fans | None:
+        """Return which rays are cast to soft lights, if there are any."""
+        return None if self._scene.lights.soft is None else new_fans(samples)
 
     def _middles(self, sampling: Sampling, keep: bool, *wanted: str) -> Traced:
         """Trace one ray for each pixel."""
@@ -122,7 +131,7 @@ class Tracer:
 
     def _keep(self, marks: NDArray[np.bool_], samples: int) -> KeptLight:
         """Return where to keep what the samples of the marked pixels meet."""
-        count, lights = int(np.count_nonzero(marks)) * samples, len(self._scene.lights.x)
+        count, lights = int(np.count_nonzero(marks)) * samples, len(self._scene.lights.intensity)
         check_memory_of_lights(count, lights)
         first = np.cumsum(marks, dtype=np.int64).reshape(marks.shape)
         first = np.where(marks, (first - 1) * samples, -1)
@@ -164,4 +173,5 @@ def compile_kernels(scene: SceneArrays, settings: RenderSettings, *, keep: bool 
         mark_rows(film, 0, 0, 0, np.zeros((0, 0), np.bool_))
     if keep:
         film = film._replace(kept=new_kept_light(np.zeros((0, 0), np.int64), 0, 0))
-    trace_to(film, scene, middle_rays(before_samples=has_samples), Tile(0, 0, 0, 0))
+    fans = None if scene.lights.soft is None else new_fans(1)
+    trace_to(film, scene, middle_rays(before_samples=has_samples, fans=fans), Tile(0, 0, 0, 0))

@@ -22,6 +22,7 @@ from vtray.geometry.packets.packet import (
     Packet,
 )
 from vtray.geometry.vector import add, scale
+from vtray.transport.lights.light import load_power
 from vtray.transport.lights.lighting import arriving_cosine
 from vtray.transport.materials.material import load_material, scattered
 from vtray.transport.scene_arrays import SceneArrays
@@ -129,6 +130,6 @@ def _light_of_ray(scene: SceneArrays, kept: KeptLight, place: int) -> tuple[floa
     if primitive != NO_PRIMITIVE:
         material = load_material(scene.materials, primitive, kept.half[place] == 1)
         for light in range(kept.cosines.shape[0]):
-            cosine, intensity = kept.cosines[light, place], scene.lights.intensity[light]
-            value = add(value, scattered(material, cosine, intensity))
+            cosine, power = kept.cosines[light, place], load_power(scene.lights, light)
+            value = add(value, scattered(material, cosine, power))
     return value

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.geometry.packets.fan import Fan, new_fan
 from vtray.geometry.packets.packet import BLOCK, LANES
 from vtray.geometry.packets.ray_bounds import Cones, new_cones
 from vtray.geometry.packets.stack import Stack, new_stack
@@ -49,6 +50,8 @@ class Workspace(NamedTuple):
         Those that are traced.
     sums
         The sums of the samples of the pixels of a packet.
+    fan
+        The shadow rays of one hit to one light.
     table, owner, member, size
         The hash table of what is hit: a number for each, what it is, which lanes hit it, how many.
     """
@@ -63,6 +66,7 @@ class Workspace(NamedTuple):
     curve: Pixels
     pixels: Pixels
     sums: Sums
+    fan: Fan
     table: NDArray[np.int64]
     owner: NDArray[np.int64]
     member: NDArray[np.int64]
@@ -101,6 +105,7 @@ def new_workspace(world: World) -> Workspace:
         curve=curve_of_block(),
         pixels=integers(LANES),
         sums=Sums(np.zeros(3 * LANES), np.zeros(LANES), np.zeros(LANES)),
+        fan=new_fan(),
         table=integers(TABLE),
         owner=integers(LANES),
         member=integers(LANES),

@@ -36,13 +36,14 @@ from vtray.transport.film import (
 )
 from vtray.transport.interaction import gather_interactions
 from vtray.transport.light_buffer import KeptLight, keep_cosines
-from vtray.transport.lights.light import light_count, light_target
+from vtray.transport.lights.light import light_count, light_target, load_power
 from vtray.transport.lights.lighting import (
     add_light,
     clear_shadows,
     find_facing,
     note_shadows,
 )
+from vtray.transport.lights.soft_lighting import add_soft_lights
 from vtray.transport.sampling.pixel_samples import Sampling, list_pixels, place_samples
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -129,6 +130,9 @@ def _trace_pixels(
             rays += _light_hits(
                 scene, hits, film.linear, film.shadows, film.kept, is_noted, packet, work, stop
             )
+            rays += _light_softly(
+                scene, sampling, block, begin, first, last, hits, film.linear, film.kept, packet, work
+            )
         rays += lanes
         if sampling.rays > 1:
             add_samples(packet, lanes, hits, last - first, work.sums, film.coverage)
@@ -181,10 +185,33 @@ def _light_hits(
         facing = find_facing(packet, hits, bounds, target)
         if facing > 0:
             if find_blocked(packet, hits, bounds, own, scene.world, target, work):
-                add_light(packet, hits, target, scene.lights.intensity[light])
+                add_light(packet, hits, target, load_power(scene.lights, light))
             _record_light(packet, hits, target, light, shadows, kept, is_noted)
             rays += facing
     return rays
+
+
+@device
+def _light_softly(
+    scene: SceneArrays,
+    sampling: Sampling,
+    block: Block,
+    begin: int,
+    first: int,
+    last: int,
+    hits: int,
+    linear: Rows,
+    kept: KeptLight | None,
+    packet: Packet,
+    work: Workspace,
+) -> int:
+    """Add the lights that are no points; return how many shadow rays were cast."""
+    if linear is None:
+        return 0
+    soft, fans, seed = scene.lights.soft, sampling.fans, sampling.seed
+    return add_soft_lights(
+        packet, hits, last - first, first, block, begin, scene, soft, fans, seed, kept, work
+    )
 
 
 @device

@@ -17,7 +17,7 @@ from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, add, dot, sub
 from vtray.transport.camera_rays import camera_ray
 from vtray.transport.interaction import Interaction, interact
-from vtray.transport.lights.light import light_count, light_target
+from vtray.transport.lights.light import light_count, light_target, load_power
 from vtray.transport.materials.lambert import lambert_cosine
 from vtray.transport.materials.material import load_material, scattered
 from vtray.transport.scene_arrays import SceneArrays
@@ -95,6 +95,6 @@ def trace_pixel(
         )
         blockers[light] = first_between(scene.world, segment, stack)
         if blockers[light] == NOTHING:
-            intensity = scene.lights.intensity[light]
-            value = add(value, scattered(material, cosines[light], intensity))
+            power = load_power(scene.lights, light)
+            value = add(value, scattered(material, cosines[light], power))
     return TracedPixel(ray, hit.distance, hit.primitive, found, value)

@@ -7,40 +7,63 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.occlusion import Target
-from vtray.geometry.vector import pick
+from vtray.geometry.vector import Vec, pick
+from vtray.transport.lights.soft_light import SoftLights
 
 Floats = NDArray[np.float64]
 
 
 class Lights(NamedTuple):
-    """Point lights, all (n,).
+    """Lights: the points first, and then the soft ones.
 
     Attributes
     ----------
     x, y, z
-        Their places.
+        The places of the points, (n,).
     plane_depth
-        Their distances in front of the image plane.
-    intensity
-        Their intensities.
+        Their distances in front of the image plane, (n,).
     error_scale
         What the rounding of a light's place is relative to: its coordinates in world space, where
-        it was worked out, by hand or by a program.
+        it was worked out, by hand or by a program, (n,).
+    soft
+        The lights that are no points; None where there are none, so that no code is compiled for
+        them.
+    intensity
+        The intensities of all, (all,).
+    color
+        Their colours, 1 for white, (all, 3).
     """
 
     x: Floats
     y: Floats
     z: Floats
     plane_depth: Floats
-    intensity: Floats
     error_scale: Floats
+    soft: SoftLights | None
+    intensity: Floats
+    color: Floats
+
+
+class Power(NamedTuple):
+    """How strong a light is, and its colour, 1 for white."""
+
+    intensity: float
+    color: Vec
 
 
 @device
 def light_count(lights: Lights) -> int:
-    """Return how many lights there are."""
+    """Return how many points there are."""
     count: int = lights.x.shape[0]
     return count
+
+
+@device
+def load_power(lights: Lights, light: int) -> Power:
+    """Return how strong one of all lights is."""
+    color = lights.color
+    red, green, blue = color[light, 0], color[light, 1], color[light, 2]
+    return Power(lights.intensity[light], (red, green, blue))
 
 
 @device

@@ -17,6 +17,7 @@ from vtray.geometry.packets.packet import (
 )
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import add, sub
+from vtray.transport.lights.light import Power
 from vtray.transport.materials.lambert import cosine_of, is_above
 from vtray.transport.materials.material import Material, scattered
 
@@ -66,7 +67,7 @@ def arriving_cosine(packet: Packet, lane: int, target: Target) -> float:
 
 
 @device
-def add_light(packet: Packet, hits: int, target: Target, intensity: float) -> None:
+def add_light(packet: Packet, hits: int, target: Target, power: Power) -> None:
     """Add a light to the points of a packet that it reaches.
 
     The root and the division of the cosine cost more than all else: packets in the dark go without.
@@ -74,7 +75,7 @@ def add_light(packet: Packet, hits: int, target: Target, intensity: float) -> No
     for lane in range(hits):
         cosine = arriving_cosine(packet, lane, target)
         material = Material(load(packet, COLOR, lane), packet[LAMBERT + lane])
-        added = scattered(material, cosine, intensity)
+        added = scattered(material, cosine, power)
         store(packet, VALUE, lane, add(load(packet, VALUE, lane), added))
 
 

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.vector import Vec
+from vtray.transport.lights.light import Power
 from vtray.transport.materials.lambert import lambert_light
 
 Integers = NDArray[np.int64]
@@ -76,7 +77,7 @@ def load_material(materials: Materials, primitive: int, is_second: bool) -> Mate
 
 
 @device
-def scattered(material: Material, cosine: float, intensity: float) -> Vec:
+def scattered(material: Material, cosine: float, power: Power) -> Vec:
     """Return the light that a surface scatters to the viewer.
 
     Parameters
@@ -85,7 +86,8 @@ def scattered(material: Material, cosine: float, intensity: float) -> Vec:
         What it is made of.
     cosine
         That of the angle at which the light comes, 0 where none does.
-    intensity
-        The light's intensity.
+    power
+        The light's intensity and colour.
     """
-    return lambert_light(material.color, material.lambert, cosine, intensity)
+    red, green, blue = lambert_light(material.color, material.lambert, cosine, power.intensity)
+    return red * power.color[0], green * power.color[1], blue * power.color[2]

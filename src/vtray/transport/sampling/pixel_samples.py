@@ -12,6 +12,7 @@ from vtray.geometry.packets.workspace import Pixels
 from vtray.geometry.ray import Footprint
 from vtray.scene.settings import RenderSettings
 from vtray.transport.camera_rays import CameraFrame
+from vtray.transport.sampling.fans import Fans
 from vtray.transport.sampling.filters import FILTERS, filter_places, place_in_filter
 from vtray.transport.sampling.sobol import IMAGE_PLACE, pixel_keys, scrambled, sobol_points
 
@@ -31,6 +32,8 @@ class Sampling(NamedTuple):
     points
         Their places before they are scrambled, (2, count); None where no pixel has more than one
         ray, so that no code is compiled for samples.
+    fans
+        Which rays are cast to soft lights; None where there are none.
     places
         The table of the filter.
     positive
@@ -44,6 +47,7 @@ class Sampling(NamedTuple):
     rays: int
     seed: int
     points: NDArray[np.int64] | None
+    fans: Fans | None
     places: NDArray[np.float64]
     positive: float
     footprint: Footprint
@@ -53,19 +57,28 @@ class Sampling(NamedTuple):
 _NO_FOOTPRINT = Footprint(0.0, 0.0)
 
 
-def middle_rays(footprint: Footprint = _NO_FOOTPRINT, *, before_samples: bool = False) -> Sampling:
+def middle_rays(
+    footprint: Footprint = _NO_FOOTPRINT,
+    *,
+    before_samples: bool = False,
+    fans: Fans | None = None,
+    seed: int = 0,
+) -> Sampling:
     """Return one ray for each pixel, through its middle; if samples follow, for the same kernel."""
     none = np.zeros((0, 0), np.bool_)
     points = sobol_points(1) if before_samples else None
-    return Sampling(1, 0, points, np.zeros(2), math.inf, footprint, none)
+    return Sampling(1, seed, points, fans, np.zeros(2), math.inf, footprint, none)
 
 
-def filter_samples(settings: RenderSettings, marks: NDArray[np.bool_]) -> Sampling:
+def filter_samples(
+    settings: RenderSettings, marks: NDArray[np.bool_], fans: Fans | None
+) -> Sampling:
     """Return the samples of the pixels that are marked."""
     return Sampling(
         int(settings.samples),
         int(settings.seed),
         sobol_points(int(settings.samples)),
+        fans,
         filter_places(settings.filter),
         FILTERS[settings.filter].positive,
         _NO_FOOTPRINT,

@@ -1,0 +1,190 @@
+"""Lights that are no points: where the rays of a fan go, and what each of them counts.
+
+A fan of rays goes from a point on a surface to many places of one light. What the light adds there
+is the mean of the weights of those rays that arrive, so that it is one number, as the cosine of a
+point light is.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.fan import (
+    BLOCKED,
+    END,
+    END_PLANE_DEPTH,
+    FAN,
+    WEIGHT,
+    Fan,
+    Start,
+)
+from vtray.geometry.vector import Vec, add, dot, scale, sub
+from vtray.transport.sampling.fans import fan_point
+from vtray.transport.sampling.warps import cone_direction, cosine_direction
+
+Floats = NDArray[np.float64]
+
+SUN, SPHERE, AROUND = 0, 1, 2
+"""The kinds: far away in a cone of directions, a sphere, and light from all sides."""
+
+ALL_AROUND = 2.0
+"""The spread of light from all directions."""
+
+
+class SoftLights(NamedTuple):
+    """Lights that are no points, all (n,) but for the last.
+
+    Attributes
+    ----------
+    kind
+        Their kind.
+    x, y, z
+        Where they are; for a sun, the unit direction towards its middle.
+    size
+        The radius of a sphere; for a sun 1 minus the cosine of half its angle; for light from all
+        sides how far away something can be that stops it.
+    error_scale
+        What the rounding of the ends of rays to them is relative to, beside their starts.
+    far
+        How long rays are that end nowhere: much longer than all in the scene.
+    """
+
+    kind: NDArray[np.int64]
+    x: Floats
+    y: Floats
+    z: Floats
+    size: Floats
+    error_scale: Floats
+    far: float
+
+
+class Aim(NamedTuple):
+    """A light as it is seen from a point.
+
+    Attributes
+    ----------
+    kind, place, size
+        As in `SoftLights`.
+    axis
+        The unit direction to its middle, or the normal of the surface for light from all sides.
+    spread
+        1 minus the cosine of half the angle under which it is seen.
+    share
+        What makes the mean weight 1 on a surface that faces it squarely.
+    """
+
+    kind: int
+    place: Vec
+    size: float
+    axis: Vec
+    spread: float
+    share: float
+
+
+@device
+def soft_count(soft: SoftLights) -> int:
+    """Return how many there are."""
+    count: int = soft.kind.shape[0]
+    return count
+
+
+@device
+def aim_at(soft: SoftLights, light: int, point: Vec, normal: Vec) -> Aim:
+    """Return a light as it is seen from a point of a surface."""
+    kind, size = soft.kind[light], soft.size[light]
+    place = soft.x[light], soft.y[light], soft.z[light]
+    if kind == SUN:
+        # The mean of the cosine over a cone around the normal is 1 - spread / 2.
+        return Aim(SUN, scale(soft.far, place), soft.far, place, size, 1.0 / (1.0 - 0.5 * size))
+    if kind == SPHERE:
+        way = sub(place, point)
+        distance2 = dot(way, way)
+        if distance2 > size * size:
+            sine2 = size * size / distance2
+            spread = sine2 / (1.0 + math.sqrt(1.0 - sine2))
+            axis = scale(1.0 / math.sqrt(distance2), way)
+            return Aim(SPHERE, place, size, axis, spread, 1.0 / (1.0 - 0.5 * spread))
+        # Inside, its light comes from all sides.
+        return Aim(SPHERE, place, size, normal, ALL_AROUND, 1.0)
+    return Aim(AROUND, place, size, normal, ALL_AROUND, 1.0)
+
+
+@device
+def spread_fan(
+    fan: Fan,
+    rays: int,
+    aim: Aim,
+    start: Start,
+    normal: Vec,
+    forward: Vec,
+    points: NDArray[np.int64],
+    first: int,
+    keys: tuple[int, int],
+) -> int:
+    """Set the rays of a fan to a light; return how many of them count.
+
+    Parameters
+    ----------
+    fan, rays
+        Out: so many rays.
+    aim, start, normal
+        The light, and the point with its unit normal.
+    forward
+        The unit direction in which the camera looks.
+    points, first, keys
+        The points that choose the rays, from the first on, and what they are scrambled by.
+    """
+    # A loop for each: only so are they vectorised.
+    if aim.spread == ALL_AROUND:
+        for ray in range(rays):
+            u, v = fan_point(points, first + ray, keys)
+            direction = cosine_direction(u, v, normal)
+            length = _length(aim, start.point, direction, 1.0)
+            _set_ray(fan, ray, start, scale(length, direction), forward, 1.0)
+    else:
+        for ray in range(rays):
+            u, v = fan_point(points, first + ray, keys)
+            direction = cone_direction(u, v, aim.axis, aim.spread)
+            length = _length(aim, start.point, direction, -1.0)
+            weight = aim.share * max(dot(normal, direction), 0.0)
+            _set_ray(fan, ray, start, scale(length, direction), forward, weight)
+    cast = 0
+    for ray in range(rays):
+        cast += 1 if fan[BLOCKED + ray] == 0.0 else 0
+    return cast
+
+
+@device
+def _set_ray(
+    fan: Fan, ray: int, start: Start, way: Vec, forward: Vec, weight: float
+) -> None:
+    """Set a ray of a fan; one that counts nothing is not cast."""
+    x, y, z = add(start.point, way)
+    fan[END + ray] = x
+    fan[END + FAN + ray] = y
+    fan[END + 2 * FAN + ray] = z
+    fan[END_PLANE_DEPTH + ray] = start.plane_depth + dot(way, forward)
+    fan[WEIGHT + ray] = weight
+    fan[BLOCKED + ray] = 0.0 if weight > 0.0 else 1.0
+
+
+@device
+def _length(aim: Aim, point: Vec, direction: Vec, side: float) -> float:
+    """Return how long a ray is: up to a side of a sphere, -1 the near and 1 the far one, if any."""
+    way = sub(aim.place, point)
+    middle = dot(way, direction)
+    approach = sub(way, scale(middle, direction))
+    half_chord = math.sqrt(max(aim.size * aim.size - dot(approach, approach), 0.0))
+    return middle + side * half_chord if aim.kind == SPHERE else aim.size
+
+
+@device
+def arriving_share(fan: Fan, rays: int) -> float:
+    """Return the mean weight of the rays of a fan, 0 for one that something stops."""
+    total = 0.0
+    for ray in range(rays):
+        total += fan[WEIGHT + ray] if fan[BLOCKED + ray] == 0.0 else 0.0
+    return total / rays

@@ -1,0 +1,130 @@
+"""What soft lights add to the hits of a packet: a fan of rays from each hit to each of them."""
+
+import numpy as np
+
+from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.fan import Start, find_stopped
+from vtray.geometry.packets.packet import (
+    BLOCK,
+    COLOR,
+    ERROR_SCALE,
+    KEPT,
+    LAMBERT,
+    NORMAL,
+    PLANE_DEPTH,
+    POINT,
+    SOURCE,
+    VALUE,
+    Block,
+    Packet,
+    load,
+    store,
+)
+from vtray.geometry.packets.workspace import Workspace
+from vtray.geometry.vector import add
+from vtray.transport.light_buffer import KeptLight
+from vtray.transport.lights.light import Lights, light_count, load_power
+from vtray.transport.lights.soft_light import (
+    SoftLights,
+    aim_at,
+    arriving_share,
+    soft_count,
+    spread_fan,
+)
+from vtray.transport.materials.material import Material, scattered
+from vtray.transport.sampling.fans import Fans, fan_keys
+from vtray.transport.scene_arrays import SceneArrays
+
+
+@device
+def add_soft_lights(
+    packet: Packet,
+    hits: int,
+    samples: int,
+    first: int,
+    block: Block,
+    begin: int,
+    scene: SceneArrays,
+    soft: SoftLights | None,
+    fans: Fans | None,
+    seed: int,
+    kept: KeptLight | None,
+    work: Workspace,
+) -> int:
+    """Add all soft lights to the hits of a packet; return how many shadow rays were cast.
+
+    Parameters
+    ----------
+    packet, hits
+        The hits.
+    samples, first
+        How many samples of each pixel the packet has, and the number of the first of them.
+    block, begin
+        Its lanes belong to the pixels of the block's list from `begin` on, one after the other.
+    scene, soft
+        The scene, and its soft lights.
+    fans, seed
+        Which rays are cast.
+    kept
+        Out: what each light adds, if that is kept.
+    work
+        Scratch memory.
+    """
+    cast = 0
+    # Arguments that are None are known to the compiler, which drops what depends on them alone.
+    if soft is not None:  # noqa: SIM102
+        if fans is not None:
+            for hit in range(hits):
+                lane = packet.view(np.int64)[SOURCE + hit]
+                pixel = work.pixels[begin + lane // samples]
+                column, row = block.left + (pixel & (BLOCK - 1)), block.top + pixel // BLOCK
+                point = (first + lane % samples) * fans.rays
+                for light in range(soft_count(soft)):
+                    keys = fan_keys(column, row, light, seed)
+                    share, rays = _arriving(packet, hit, scene, soft, light, fans, point, keys, work)
+                    _add_share(packet, hit, scene.lights, light, share)
+                    _keep_share(packet, lane, scene.lights, light, share, kept)
+                    cast += rays
+    return cast
+
+
+@device
+def _arriving(
+    packet: Packet,
+    hit: int,
+    scene: SceneArrays,
+    soft: SoftLights,
+    light: int,
+    fans: Fans,
+    first: int,
+    keys: tuple[int, int],
+    work: Workspace,
+) -> tuple[float, int]:
+    """Return what arrives of a light at a hit, and how many rays tell."""
+    point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
+    start = Start(point, packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
+    aim = aim_at(soft, light, point, normal)
+    fan, forward = work.fan, scene.camera.forward
+    rays = spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, first, keys)
+    end_scale = soft.error_scale[light] + start.error_scale
+    find_stopped(fan, fans.rays, start, end_scale, scene.world, work.stack)
+    return arriving_share(fan, fans.rays), rays
+
+
+@device
+def _add_share(packet: Packet, hit: int, lights: Lights, light: int, share: float) -> None:
+    """Add what arrives of a soft light to a hit."""
+    power = load_power(lights, light_count(lights) + light)
+    material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
+    added = scattered(material, share, power)
+    store(packet, VALUE, hit, add(load(packet, VALUE, hit), added))
+
+
+@device
+def _keep_share(
+    packet: Packet, lane: int, lights: Lights, light: int, share: float, kept: KeptLight | None
+) -> None:
+    """Keep what arrives of a soft light at the hit of a lane, after the point lights."""
+    if kept is not None:
+        place = packet.view(np.int64)[KEPT + lane]
+        kept.cosines[light_count(lights) + light, place] = share
