@@ -18,12 +18,12 @@ from vtray.geometry.vector import Vec
 from vtray.geometry.world import NO_TREE, PLANE, Groups, Places, ToBoxes, World
 from vtray.rendering.acceleration import Acceleration, Shapes
 from vtray.rendering.placed import Placed
+from vtray.scene.objects import Light
 from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.scene import Camera, Plane, Scene, Vector
-from vtray.scene.vectors import Color
 from vtray.scene.temp import Ambient, SphereLight, Sun
-from vtray.scene.objects import Light
+from vtray.scene.vectors import Color
 from vtray.transport.camera_rays import CameraFrame
 from vtray.transport.lights.light import Lights
 from vtray.transport.lights.soft_light import AROUND, SPHERE, SUN, SoftLights
@@ -299,7 +299,11 @@ def _pack_lights(scene: Scene, origin: Floats, unit: float, camera: CameraFrame)
     soft = [light for light in scene.lights if not isinstance(light, Light)]
     points = _points([light.location for light in hard], unit) - origin
     x, y, z = _columns(points)
-    colors = [(c.r, c.g, c.b) for light in (*hard, *soft) for c in (getattr(light,'color',None) or Color(255,255,255),)]
+    colors = [
+        (c.r, c.g, c.b)
+        for light in (*hard, *soft)
+        for c in (getattr(light, "color", None) or Color(255, 255, 255),)
+    ]
     return Lights(
         x,
         y,

@@ -114,7 +114,9 @@ class Tracer:
         if keep:
             kept = (*kept, self._keep(marks, int(settings.samples)))
             film = film._replace(kept=kept[-1])
-        sampled = self._trace(filter_samples(settings, marks, self._fans(int(settings.samples))), film)
+        sampled = self._trace(
+            filter_samples(settings, marks, self._fans(int(settings.samples))), film
+        )
         return Traced(film, max(peak, sampled.peak), found.rays + sampled.rays, kept)
 
     def _fans(self, samples: int) -> Fans | None:

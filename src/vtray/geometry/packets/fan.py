@@ -1,6 +1,6 @@
 """A fan: shadow rays that spread from one point, and which of them something stops.
 
-Eight of them that point into nearly the same direction go through the hierarchies as one beam.
+Those that point into nearly the same direction go through the hierarchies as one beam.
 What each is told is what it would be told alone.
 """
 
@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import device
 from vtray.geometry.dispatch import Shape, Verbs, with_any
 from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_margin, upper_limit
-from vtray.geometry.packets.packet import OCTET
 from vtray.geometry.packets.stack import Stack, push_met
 from vtray.geometry.ray import Segment
 from vtray.geometry.rounding import MARGIN
@@ -68,13 +67,13 @@ class Start(NamedTuple):
     error_scale: float
 
 
-class Octet(NamedTuple):
-    """Eight neighbouring rays of a fan.
+class Bundle(NamedTuple):
+    """Neighbouring rays of a fan, which go through hierarchies as one beam.
 
     Attributes
     ----------
-    fan, first
-        The fan, and the first of the rays.
+    fan, first, rays
+        The fan, the first of the rays, and how many there are.
     start
         Where they start.
     end_scale
@@ -83,6 +82,7 @@ class Octet(NamedTuple):
 
     fan: Fan
     first: int
+    rays: int
     start: Start
     end_scale: float
 
@@ -99,15 +99,36 @@ def load_end(fan: Fan, ray: int) -> Vec:
 
 
 @device
+def fan_segment(fan: Fan, ray: int, start: Start, end_scale: float) -> Segment:
+    """Return the way of a ray."""
+    return Segment(
+        start.point,
+        load_end(fan, ray),
+        start.plane_depth,
+        fan[END_PLANE_DEPTH + ray],
+        start.error_scale,
+        end_scale,
+    )
+
+
+@device
 def find_stopped(
-    fan: Fan, rays: int, start: Start, end_scale: float, world: World, stack: Stack
+    fan: Fan,
+    rays: int,
+    together: int,
+    start: Start,
+    end_scale: float,
+    world: World,
+    stack: Stack,
 ) -> None:
     """Mark in field ``BLOCKED`` the rays of a fan that something stops.
 
     Parameters
     ----------
     fan, rays
-        The rays, so many, a multiple of eight. Those marked already are passed over.
+        The rays, so many. Those marked already are passed over.
+    together
+        Rays that go through hierarchies as one beam, a part of all.
     start, end_scale
         Where they start, and what the rounding errors of their ends are relative to.
     world
@@ -115,53 +136,53 @@ def find_stopped(
     stack
         Scratch memory.
     """
-    for first in range(0, rays, OCTET):
-        octet = Octet(fan, first & (FAN - 1), start, end_scale)
-        if _any_open(octet):
-            _stop_octet(octet, world, stack)
+    for first in range(0, rays, together):
+        bundle = Bundle(fan, first & (FAN - 1), together, start, end_scale)
+        if _any_open(bundle):
+            _stop_bundle(bundle, world, stack)
 
 
 @device
-def _stop_octet(octet: Octet, world: World, stack: Stack) -> None:
-    """Mark the rays of an octet that something stops."""
+def _stop_bundle(bundle: Bundle, world: World, stack: Stack) -> None:
+    """Mark the rays of an bundle that something stops."""
     for row in range(group_count(world)):
-        if not _stop_by_group(octet, world, load_group(world, row), stack, 0):
+        if not _stop_by_group(bundle, world, load_group(world, row), stack, 0):
             return
-    _stop_by_placed(octet, world, world.places, stack)
+    _stop_by_placed(bundle, world, world.places, stack)
 
 
 @device
-def _stop_by_group(octet: Octet, world: World, group: Group, stack: Stack, base: int) -> bool:
+def _stop_by_group(bundle: Bundle, world: World, group: Group, stack: Stack, base: int) -> bool:
     """Mark the rays that shapes of a group stop; tell whether any is left."""
-    return _search_shapes(octet, world, hierarchy_of(group), stack, base, _stop_by_slots, group)
+    return _search_shapes(bundle, world, hierarchy_of(group), stack, base, _stop_by_slots, group)
 
 
 @device
-def _stop_by_placed(octet: Octet, world: World, places: Places | None, stack: Stack) -> None:
+def _stop_by_placed(bundle: Bundle, world: World, places: Places | None, stack: Stack) -> None:
     """Mark the rays that something stops that is placed."""
     # An argument that is None is known to the compiler, which drops what depends on that alone.
     if places is not None:
         hierarchy = hierarchy_of_places(places)
-        _search_places(octet, world, hierarchy, stack, 0, _stop_by_places, places)
+        _search_places(bundle, world, hierarchy, stack, 0, _stop_by_places, places)
 
 
 @device
 def _stop_by_places(
-    octet: Octet, world: World, places: Places, begin: int, end: int, stack: Stack, base: int
+    bundle: Bundle, world: World, places: Places, begin: int, end: int, stack: Stack, base: int
 ) -> bool:
     """Mark the rays that the groups of a range of places stop; tell whether any is left."""
     for at in range(begin, end):
         item = places.item[at]
         for row in range(places.rows[item], places.rows[item + 1]):
             group = load_group(world, placed_row(world, at, row))
-            if not _stop_by_group(octet, world, group, stack, base):
+            if not _stop_by_group(bundle, world, group, stack, base):
                 return False
     return True
 
 
 @device
 def _stop_by_slots(
-    octet: Octet,
+    bundle: Bundle,
     world: World,
     group: Group,
     begin: int,
@@ -171,50 +192,43 @@ def _stop_by_slots(
 ) -> bool:
     """Mark the rays that the shapes of a range of slots stop; tell whether any is left."""
     for slot in range(begin, end):
-        with_any(world, group, slot, _stop_by_shape, octet)
-    return _any_open(octet)
+        with_any(world, group, slot, _stop_by_shape, bundle)
+    return _any_open(bundle)
 
 
 @device
-def _stop_by_shape(shape: Shape, verbs: Verbs, number: int, octet: Octet) -> int:
+def _stop_by_shape(shape: Shape, verbs: Verbs, number: int, bundle: Bundle) -> int:
     """Mark the rays that a shape stops."""
-    fan, first, start, end_scale = octet
-    for ray in range(first, first + OCTET):
-        segment = Segment(
-            start.point,
-            load_end(fan, ray),
-            start.plane_depth,
-            fan[END_PLANE_DEPTH + ray],
-            start.error_scale,
-            end_scale,
-        )
+    fan, first, rays, start, end_scale = bundle
+    for ray in range(first, first + rays):
+        segment = fan_segment(fan, ray, start, end_scale)
         fan[BLOCKED + ray] = 1.0 if verbs.hides(shape, segment) else fan[BLOCKED + ray]
     return number
 
 
 @device
-def _any_open(octet: Octet) -> bool:
+def _any_open(bundle: Bundle) -> bool:
     """Tell whether nothing so far stops any of the rays."""
     count = 0
-    for ray in range(octet.first, octet.first + OCTET):
-        count += 1 if octet.fan[BLOCKED + ray] == 0.0 else 0
+    for ray in range(bundle.first, bundle.first + bundle.rays):
+        count += 1 if bundle.fan[BLOCKED + ray] == 0.0 else 0
     return count > 0
 
 
 def _search(
-    octet: Octet,
+    bundle: Bundle,
     world: World,
     hierarchy: Hierarchy,
     stack: Stack,
     base: int,
-    visit: Callable[[Octet, World, Any, int, int, Stack, int], bool],
+    visit: Callable[[Bundle, World, Any, int, int, Stack, int], bool],
     subject: Any,  # noqa: ANN401
 ) -> bool:
     """Visit the leaves of a hierarchy that may stop rays, the nearest first, until none is left.
 
     Parameters
     ----------
-    octet, world, hierarchy
+    bundle, world, hierarchy
         The rays, and the hierarchy.
     stack, base
         Scratch memory, and what waits there already, which stays.
@@ -226,7 +240,7 @@ def _search(
     bool
         Whether any ray is left.
     """
-    beam = _octet_beam(octet, hierarchy.to_boxes)
+    beam = _bundle_beam(bundle, hierarchy.to_boxes)
     near, far = lower_limit(beam, 0.0), upper_limit(beam, 1.0 + MARGIN)
     stack.node[base] = hierarchy.root
     waiting = base + 1
@@ -237,7 +251,7 @@ def _search(
             waiting = push_met(world.bvh, child, beam, near, far, stack, waiting)
         else:
             begin, end = range_of(hierarchy, child)
-            if not visit(octet, world, subject, begin, end, stack, waiting):
+            if not visit(bundle, world, subject, begin, end, stack, waiting):
                 return False
     return True
 
@@ -248,15 +262,15 @@ two, as the compiler takes what calls itself for recursion, whatever it is given
 
 
 @device
-def _octet_beam(octet: Octet, to_boxes: ToBoxes) -> Beam:
-    """Return the beam of those rays of an octet that nothing stops so far."""
+def _bundle_beam(bundle: Bundle, to_boxes: ToBoxes) -> Beam:
+    """Return the beam of those rays of an bundle that nothing stops so far."""
     low = math.inf, math.inf, math.inf
     high = -math.inf, -math.inf, -math.inf
-    for ray in range(octet.first, octet.first + OCTET):
-        if octet.fan[BLOCKED + ray] == 0.0:
-            way = sub(load_end(octet.fan, ray), octet.start.point)
+    for ray in range(bundle.first, bundle.first + bundle.rays):
+        if bundle.fan[BLOCKED + ray] == 0.0:
+            way = sub(load_end(bundle.fan, ray), bundle.start.point)
             low, high = lower(low, way), upper(high, way)
     ratio = to_boxes.ratio
-    apex = add(scale(ratio, octet.start.point), to_boxes.offset)
-    margin = shape_margin(to_boxes, apex, octet.start.error_scale)
+    apex = add(scale(ratio, bundle.start.point), to_boxes.offset)
+    margin = shape_margin(to_boxes, apex, bundle.start.error_scale)
     return make_beam(apex, apex, scale(ratio, low), scale(ratio, high), margin)

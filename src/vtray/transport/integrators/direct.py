@@ -131,7 +131,17 @@ def _trace_pixels(
                 scene, hits, film.linear, film.shadows, film.kept, is_noted, packet, work, stop
             )
             rays += _light_softly(
-                scene, sampling, block, begin, first, last, hits, film.linear, film.kept, packet, work
+                scene,
+                sampling,
+                block,
+                begin,
+                first,
+                last,
+                hits,
+                film.linear,
+                film.kept,
+                packet,
+                work,
             )
         rays += lanes
         if sampling.rays > 1:

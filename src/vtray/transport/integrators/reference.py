@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import kernel
-from vtray.geometry.between import first_between
+from vtray.geometry.between import first_between, is_occluded
+from vtray.geometry.packets.fan import BLOCKED, Fan, Start, fan_segment
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.queries import NOTHING, nearest_hit
 from vtray.geometry.ray import Ray, Segment
@@ -18,8 +19,15 @@ from vtray.geometry.vector import Vec, add, dot, sub
 from vtray.transport.camera_rays import camera_ray
 from vtray.transport.interaction import Interaction, interact
 from vtray.transport.lights.light import light_count, light_target, load_power
+from vtray.transport.lights.soft_light import (
+    SoftLights,
+    aim_at,
+    arriving_share,
+    spread_fan,
+)
 from vtray.transport.materials.lambert import lambert_cosine
 from vtray.transport.materials.material import load_material, scattered
+from vtray.transport.sampling.fans import Fans, fan_keys
 from vtray.transport.scene_arrays import SceneArrays
 
 
@@ -56,7 +64,7 @@ def trace_pixel(
     cosines: NDArray[np.float64],
     blockers: NDArray[np.int64],
 ) -> TracedPixel:
-    """Trace one pixel.
+    """Trace one pixel, with the light of points.
 
     Parameters
     ----------
@@ -67,9 +75,9 @@ def trace_pixel(
     stack
         Scratch memory.
     cosines
-        Out: for each light the cosine at the hit, 0 for a light below the horizon.
+        Out: for each point light the cosine at the hit, 0 for a light below the horizon.
     blockers
-        Out: for each light the first primitive between hit and light, or ``NOTHING``.
+        Out: for each point light the first primitive between hit and light, or ``NOTHING``.
     """
     ray = camera_ray(scene.camera, column, row)
     hit = nearest_hit(scene.world, ray, stack)
@@ -98,3 +106,56 @@ def trace_pixel(
             power = load_power(scene.lights, light)
             value = add(value, scattered(material, cosines[light], power))
     return TracedPixel(ray, hit.distance, hit.primitive, found, value)
+
+
+@kernel
+def trace_fan(
+    scene: SceneArrays,
+    soft: SoftLights,
+    traced: TracedPixel,
+    column: int,
+    row: int,
+    light: int,
+    fans: Fans,
+    seed: int,
+    stack: Stack,
+    fan: Fan,
+) -> tuple[float, Vec]:
+    """Trace the rays from the hit of a pixel to one soft light, one by one.
+
+    Parameters
+    ----------
+    scene, soft
+        The scene, and its soft lights.
+    traced
+        The pixel, with the light of all lights before this one.
+    column, row
+        The pixel, from the left and from the top.
+    light
+        The light, counted among the soft ones.
+    fans, seed
+        Which rays are cast.
+    stack
+        Scratch memory.
+    fan
+        Out: the rays.
+
+    Returns
+    -------
+    share, value
+        How much of the light arrives, and the pixel's value with it.
+    """
+    point, normal, error_scale, is_second = traced.interaction
+    start = Start(point, dot(point, scene.camera.forward), error_scale)
+    aim = aim_at(soft, light, point, normal)
+    keys, forward = fan_keys(column, row, light, seed), scene.camera.forward
+    spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, 0, keys)
+    end_scale = soft.error_scale[light] + error_scale
+    for ray in range(fans.rays):
+        segment = fan_segment(fan, ray, start, end_scale)
+        if fan[BLOCKED + ray] == 0.0 and is_occluded(scene.world, segment, stack):
+            fan[BLOCKED + ray] = 1.0
+    share = arriving_share(fan, fans.rays)
+    material = load_material(scene.materials, traced.primitive, is_second)
+    power = load_power(scene.lights, light_count(scene.lights) + light)
+    return share, add(traced.value, scattered(material, share, power))

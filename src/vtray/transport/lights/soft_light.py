@@ -158,9 +158,7 @@ def spread_fan(
 
 
 @device
-def _set_ray(
-    fan: Fan, ray: int, start: Start, way: Vec, forward: Vec, weight: float
-) -> None:
+def _set_ray(fan: Fan, ray: int, start: Start, way: Vec, forward: Vec, weight: float) -> None:
     """Set a ray of a fan; one that counts nothing is not cast."""
     x, y, z = add(start.point, way)
     fan[END + ray] = x

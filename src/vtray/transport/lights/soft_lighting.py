@@ -32,8 +32,11 @@ from vtray.transport.lights.soft_light import (
     spread_fan,
 )
 from vtray.transport.materials.material import Material, scattered
-from vtray.transport.sampling.fans import Fans, fan_keys
+from vtray.transport.sampling.fans import RUN, Fans, fan_keys
 from vtray.transport.scene_arrays import SceneArrays
+
+NARROW = 0.02
+"""Up to this spread, all rays to a light go through hierarchies as one beam."""
 
 
 @device
@@ -81,7 +84,9 @@ def add_soft_lights(
                 point = (first + lane % samples) * fans.rays
                 for light in range(soft_count(soft)):
                     keys = fan_keys(column, row, light, seed)
-                    share, rays = _arriving(packet, hit, scene, soft, light, fans, point, keys, work)
+                    share, rays = _arriving(
+                        packet, hit, scene, soft, light, fans, point, keys, work
+                    )
                     _add_share(packet, hit, scene.lights, light, share)
                     _keep_share(packet, lane, scene.lights, light, share, kept)
                     cast += rays
@@ -107,7 +112,8 @@ def _arriving(
     fan, forward = work.fan, scene.camera.forward
     rays = spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, first, keys)
     end_scale = soft.error_scale[light] + start.error_scale
-    find_stopped(fan, fans.rays, start, end_scale, scene.world, work.stack)
+    together = fans.rays if aim.spread < NARROW else RUN
+    find_stopped(fan, fans.rays, together, start, end_scale, scene.world, work.stack)
     return arriving_share(fan, fans.rays), rays
 
 

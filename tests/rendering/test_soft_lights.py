@@ -1,0 +1,208 @@
+"""Lights that are no points: what arrives, ray by ray, and against what is known."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+import vtray
+from conftest import compiled_only
+from vtray import render
+from vtray.geometry.packets.fan import new_fan
+from vtray.geometry.packets.stack import new_stack
+from vtray.geometry.queries import NOTHING
+from vtray.rendering.hierarchy import accelerate
+from vtray.rendering.pack import pack
+from vtray.transport.integrators import reference
+from vtray.transport.sampling.fans import new_fans
+
+SIZE = 40, 30
+
+
+def soft_lights() -> list[Any]:
+    return [
+        vtray.Ambient(0.4),
+        vtray.Light((3, -4, 9), 0.3, color="#ffd0a0"),
+        vtray.Sun((0.5, 0.6, -1), 0.5, angle=8, color="#ffe0c0"),
+        vtray.SphereLight((-4, -2, 5), 1.5, 0.4),
+        vtray.Sky(0.2, color="#a0c0ff"),
+        vtray.Ambient(0.3, distance=0.7),
+    ]
+
+
+def scene_of(kind: str) -> vtray.Scene:
+    """Return a scene of many shapes on a floor."""
+    random = np.random.default_rng(3)
+    scene = vtray.Scene()
+    count = {"few": 12, "many": 600, "bonds": 60, "copies": 9}[kind]
+    centers = random.uniform(-2, 2, (count, 3)) + (0, 0, 2.3)
+    scene.add_spheres(centers, random.uniform(0.05, 0.3, count), color="#c0d0e0")
+    if kind in ("bonds", "copies"):
+        ends = centers + random.normal(size=(count, 3)) * 0.4
+        scene.add_cylinders(centers, ends, 0.06, color="white", color_end="#e07a5f")
+    if kind == "copies":
+        scene.objects = [vtray.Copies(scene.objects, random.uniform(-1, 1, (7, 3)))]
+    scene.add_plane((0, 0, 0), normal=(0, 0, 1), color="#f4f1de")
+    scene.camera = vtray.Camera.fit(scene, direction=(0.3, 1, -0.6), size=SIZE)
+    scene.lights = soft_lights()
+    return scene
+
+
+@pytest.mark.parametrize("kind", ["few", "many", "bonds", "copies"])
+def test_bundles_tell_what_each_ray_alone_would(kind: str) -> None:
+    scene = scene_of(kind)
+    image = render(scene, seed=5)
+    arrays, fans, fan = pack(scene, accelerate(scene)).arrays, new_fans(1), new_fan()
+    soft = arrays.lights.soft
+    assert soft is not None
+    stack, cosines, blockers = new_stack(), np.zeros(1), np.full(1, NOTHING)
+    hits = 0
+    for y in range(1, SIZE[1], 6):
+        for x in range(1, SIZE[0], 5):
+            traced = reference.trace_pixel(arrays, x, y, stack, cosines, blockers)
+            if traced.primitive != NOTHING:
+                hits += 1
+                for light in range(len(soft.kind)):
+                    _, value = reference.trace_fan(
+                        arrays, soft, traced, x, y, light, fans, 5, stack, fan
+                    )
+                    traced = traced._replace(value=value)
+            assert tuple(image.linear[y, x]) == traced.value
+    assert hits > 10
+
+
+@compiled_only
+@pytest.mark.parametrize("samples", [1, 9])
+def test_threads_and_tiles_change_nothing(samples: int) -> None:
+    scene = scene_of("bonds")
+    image = render(scene, threads=1, samples=samples)
+    other = render(scene, threads=3, samples=samples, tile=16)
+    np.testing.assert_array_equal(image.linear, other.linear)
+    assert not np.array_equal(image.linear, render(scene, samples=samples, seed=1).linear)
+
+
+@compiled_only
+@pytest.mark.parametrize("samples", [1, 4])
+def test_relit_and_recolored_pictures_are_those_rendered_anew(samples: int) -> None:
+    options: dict[str, Any] = {"samples": samples, "keep_lights": True}
+    image = render(scene_of("copies"), **options)
+    relit = image.relight([0.1, 0.9, 0.0, 2.0, 0.5, 0.2])
+    np.testing.assert_array_equal(relit.linear, render(relit.scene, **options).linear)
+    assert not np.array_equal(relit.linear, image.linear)
+    colored = image.recolor(1, "purple")
+    np.testing.assert_array_equal(colored.linear, render(colored.scene, **options).linear)
+
+
+def floor(light: Any, *walls: tuple[float, float, float]) -> vtray.Scene:
+    """Return a small part of a white floor near (1, 1, 0), with walls through the origin."""
+    scene = vtray.Scene()
+    scene.add_plane((0, 0, 0), normal=(0, 0, 1))
+    for normal in walls:
+        scene.add_plane((0, 0, 0), normal=normal)
+    scene.camera = vtray.Camera.look_at((1, 1, 0.5), (1, 1, 0), up=(0, 1, 0), size=(16, 16))
+    scene.camera = vtray.Camera((1, 1, 0.4), (0, 0, -1), 0.1, (16, 16), (1e-4, 1e-4), up=(0, 1, 0))
+    scene.lights = [light]
+    return scene
+
+
+def share(scene: vtray.Scene) -> float:
+    """Return how bright a white floor is, on average, 1 for what a light of 1 makes it."""
+    return float(render(scene, exposure=1.0).linear.mean()) / 255
+
+
+@pytest.mark.parametrize("light", [vtray.Sky(), vtray.Ambient(), vtray.Ambient(distance=2)])
+def test_nothing_near_leaves_all_the_light(light: Any) -> None:
+    assert share(floor(light)) == 1.0
+    scene = floor(light)
+    scene.objects = []
+    scene.add_sphere((1, 1, 0.25), 0.05)
+    assert share(scene) == 1.0
+
+
+@pytest.mark.parametrize("light", [vtray.Sky(), vtray.Ambient(), vtray.Ambient(distance=1e6)])
+def test_each_wall_of_a_corner_takes_half_of_the_light(light: Any) -> None:
+    assert share(floor(light, (1, 0, 0))) == pytest.approx(0.5, abs=2e-3)
+    assert share(floor(light, (1, 0, 0), (0, 1, 0))) == pytest.approx(0.25, abs=2e-3)
+
+
+def test_ambient_light_under_a_sphere() -> None:
+    scene = floor(vtray.Ambient())
+    scene.add_sphere((1, 0, 0.8), 0.8)
+    # The form factor of a sphere that lies above the horizon is r^2 h / d^3.
+    blocked = 0.8**3 / math.hypot(1, 0.8) ** 3
+    assert share(scene) == pytest.approx(1 - blocked, abs=3e-3)
+    scene.lights = [vtray.Ambient(distance=0.3)]
+    assert share(scene) == 1.0
+    scene.lights = [vtray.Ambient(distance=0.6)]
+    assert 1 - blocked < share(scene) < 1.0
+
+
+@pytest.mark.parametrize("radius", [0.1, 1.0, 2.9])
+def test_a_sphere_that_nothing_hides_shines_as_its_middle(radius: float) -> None:
+    scene = floor(vtray.Light((1, 3, 3)))
+    soft = floor(vtray.SphereLight((1, 3, 3), radius))
+    assert share(soft) == pytest.approx(share(scene), rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("light", "point"),
+    [
+        (vtray.SphereLight((1, 3, 3), 0.0), vtray.Light((1, 3, 3))),
+        (vtray.SphereLight((1, 3, 3), 1e-9), vtray.Light((1, 3, 3))),
+        (vtray.Sun((0, -1, -2), angle=0), vtray.Light((1, 1e6, 2e6))),
+        (vtray.Sun((0, -1, -2), angle=1e-6), vtray.Light((1, 1e6, 2e6))),
+    ],
+)
+def test_lights_without_size_are_points(light: Any, point: vtray.Light) -> None:
+    scene = scene_of("bonds")
+    scene.lights = [light]
+    soft = render(scene, exposure=1.0).linear
+    scene.lights = [point]
+    hard = render(scene, exposure=1.0).linear
+    # Edges of shadows may lie on the other side of a pixel's middle.
+    assert np.mean(np.abs(soft - hard).max(axis=2) > 0.01) < 0.01
+
+
+def test_half_of_a_sun_behind_an_edge_gives_half_its_light() -> None:
+    scene = floor(vtray.Sun((0, 0, -1), angle=1), (1, 0, 0))
+    scene.objects = scene.objects[:1]
+    # A half-plane, nearly, that ends above the middle of the picture.
+    scene.add_sphere((1 + 1e4, 1, 1e3), 1e4)
+    assert share(scene) == pytest.approx(0.5, abs=0.02)
+
+
+def test_what_lies_behind_the_image_plane_stops_no_light() -> None:
+    scene = floor(vtray.Ambient())
+    bare = render(scene).linear
+    scene.add_sphere((1, 1, 2.0), 1.5)
+    assert share(scene) == 1.0
+    np.testing.assert_array_equal(render(scene).linear, bare)
+
+
+def test_colors_of_lights() -> None:
+    scene = floor(vtray.Ambient(color="#ff8000"))
+    scene.add_light((1, 1, 5), 0.5, color="blue")
+    linear = render(scene, exposure=1.0).linear
+    np.testing.assert_allclose(linear.mean(axis=(0, 1)), [255, 128, 127.5], rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    "light",
+    [
+        pytest.param(vtray.SphereLight((1, 1, 0), 0.5), id="half in the floor"),
+        pytest.param(vtray.SphereLight((1, 1, -3), 0.5), id="below the floor"),
+        pytest.param(vtray.SphereLight((0, 0, 2.3), 50), id="around everything"),
+        pytest.param(vtray.SphereLight((1, 1, 0), 1e-300), id="tiny, on the floor"),
+        pytest.param(vtray.Sun((0, 0, 1), angle=180), id="from below"),
+        pytest.param(vtray.Sun((1, 0, 0), angle=180), id="half below the horizon"),
+        pytest.param(vtray.Ambient(distance=1e-300), id="as near as nothing"),
+        pytest.param(vtray.Sky(0.0), id="a black sky"),
+    ],
+)
+def test_odd_lights_give_finite_light(light: Any) -> None:
+    scene = scene_of("few")
+    scene.lights = [light, vtray.Light((0, -9, 9))]
+    linear = render(scene).linear
+    assert np.isfinite(linear).all()
+    assert (linear >= 0).all()
