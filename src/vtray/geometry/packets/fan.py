@@ -1,7 +1,8 @@
 """A fan: shadow rays that spread from one point, and which of them something stops.
 
-Those that point into nearly the same direction go through the hierarchies as one beam.
-What each is told is what it would be told alone.
+Where they point into nearly the same direction, as to a lamp that is small or far away, they go
+through the hierarchies as one beam, which tells of most points that all rays arrive, or none. What
+each ray is told is what it would be told alone.
 """
 
 import math
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.between import is_occluded
 from vtray.geometry.dispatch import Shape, Verbs, with_any
 from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_margin, upper_limit
 from vtray.geometry.packets.stack import Stack, push_met
@@ -43,7 +45,15 @@ WEIGHT = 4 * FAN
 """What the ray counts, if nothing stops it; 0 for a ray that is not cast."""
 BLOCKED = 5 * FAN
 """1 where something stops it, else 0."""
-SIZE = 6 * FAN
+DIRECTION = 6 * FAN
+"""A unit vector."""
+SIZE = 9 * FAN
+
+NONE, SOME, MANY = 0, 1, 2
+"""Which rays are left: none, those that nothing stops, or more as the search was given up."""
+
+MOST_LEAVES = 4
+"""So many leaves a beam may meet. In more, its rays meet different shapes, and are faster alone."""
 
 Fan = NDArray[np.float64]
 """The fields of all rays, one after the other, as those of a packet."""
@@ -68,12 +78,12 @@ class Start(NamedTuple):
 
 
 class Bundle(NamedTuple):
-    """Neighbouring rays of a fan, which go through hierarchies as one beam.
+    """The rays of a fan that go through hierarchies together.
 
     Attributes
     ----------
-    fan, first, rays
-        The fan, the first of the rays, and how many there are.
+    fan, rays
+        The fan, and how many there are.
     start
         Where they start.
     end_scale
@@ -81,7 +91,6 @@ class Bundle(NamedTuple):
     """
 
     fan: Fan
-    first: int
     rays: int
     start: Start
     end_scale: float
@@ -115,7 +124,7 @@ def fan_segment(fan: Fan, ray: int, start: Start, end_scale: float) -> Segment:
 def find_stopped(
     fan: Fan,
     rays: int,
-    together: int,
+    is_narrow: bool,
     start: Start,
     end_scale: float,
     world: World,
@@ -127,8 +136,8 @@ def find_stopped(
     ----------
     fan, rays
         The rays, so many. Those marked already are passed over.
-    together
-        Rays that go through hierarchies as one beam, a part of all.
+    is_narrow
+        Whether they are so near each other that they may all meet the same.
     start, end_scale
         Where they start, and what the rounding errors of their ends are relative to.
     world
@@ -136,48 +145,55 @@ def find_stopped(
     stack
         Scratch memory.
     """
-    for first in range(0, rays, together):
-        bundle = Bundle(fan, first & (FAN - 1), together, start, end_scale)
-        if _any_open(bundle):
-            _stop_bundle(bundle, world, stack)
-
-
-@device
-def _stop_bundle(bundle: Bundle, world: World, stack: Stack) -> None:
-    """Mark the rays of an bundle that something stops."""
-    for row in range(group_count(world)):
-        if not _stop_by_group(bundle, world, load_group(world, row), stack, 0):
+    if is_narrow:
+        bundle = Bundle(fan, rays, start, end_scale)
+        if _any_open(bundle) and _stop_bundle(bundle, world, stack) != MANY:
             return
-    _stop_by_placed(bundle, world, world.places, stack)
+    for ray in range(rays):
+        if fan[BLOCKED + ray] == 0.0:
+            segment = fan_segment(fan, ray, start, end_scale)
+            fan[BLOCKED + ray] = 1.0 if is_occluded(world, segment, stack) else 0.0
 
 
 @device
-def _stop_by_group(bundle: Bundle, world: World, group: Group, stack: Stack, base: int) -> bool:
-    """Mark the rays that shapes of a group stop; tell whether any is left."""
+def _stop_bundle(bundle: Bundle, world: World, stack: Stack) -> int:
+    """Mark the rays that something stops; return which of them may be left."""
+    for row in range(group_count(world)):
+        left = _stop_by_group(bundle, world, load_group(world, row), stack, 0)
+        if left != SOME:
+            return left
+    return _stop_by_placed(bundle, world, world.places, stack)
+
+
+@device
+def _stop_by_group(bundle: Bundle, world: World, group: Group, stack: Stack, base: int) -> int:
+    """Mark the rays that shapes of a group stop; return which are left."""
     return _search_shapes(bundle, world, hierarchy_of(group), stack, base, _stop_by_slots, group)
 
 
 @device
-def _stop_by_placed(bundle: Bundle, world: World, places: Places | None, stack: Stack) -> None:
-    """Mark the rays that something stops that is placed."""
+def _stop_by_placed(bundle: Bundle, world: World, places: Places | None, stack: Stack) -> int:
+    """Mark the rays that something stops that is placed; return which are left."""
     # An argument that is None is known to the compiler, which drops what depends on that alone.
     if places is not None:
         hierarchy = hierarchy_of_places(places)
-        _search_places(bundle, world, hierarchy, stack, 0, _stop_by_places, places)
+        return _search_places(bundle, world, hierarchy, stack, 0, _stop_by_places, places)
+    return SOME
 
 
 @device
 def _stop_by_places(
     bundle: Bundle, world: World, places: Places, begin: int, end: int, stack: Stack, base: int
-) -> bool:
-    """Mark the rays that the groups of a range of places stop; tell whether any is left."""
+) -> int:
+    """Mark the rays that the groups of a range of places stop; return which are left."""
     for at in range(begin, end):
         item = places.item[at]
         for row in range(places.rows[item], places.rows[item + 1]):
             group = load_group(world, placed_row(world, at, row))
-            if not _stop_by_group(bundle, world, group, stack, base):
-                return False
-    return True
+            left = _stop_by_group(bundle, world, group, stack, base)
+            if left != SOME:
+                return left
+    return SOME
 
 
 @device
@@ -189,18 +205,18 @@ def _stop_by_slots(
     end: int,
     stack: Stack,  # noqa: ARG001
     base: int,  # noqa: ARG001
-) -> bool:
-    """Mark the rays that the shapes of a range of slots stop; tell whether any is left."""
+) -> int:
+    """Mark the rays that the shapes of a range of slots stop; return which are left."""
     for slot in range(begin, end):
         with_any(world, group, slot, _stop_by_shape, bundle)
-    return _any_open(bundle)
+    return SOME if _any_open(bundle) else NONE
 
 
 @device
 def _stop_by_shape(shape: Shape, verbs: Verbs, number: int, bundle: Bundle) -> int:
     """Mark the rays that a shape stops."""
-    fan, first, rays, start, end_scale = bundle
-    for ray in range(first, first + rays):
+    fan, rays, start, end_scale = bundle
+    for ray in range(rays):
         segment = fan_segment(fan, ray, start, end_scale)
         fan[BLOCKED + ray] = 1.0 if verbs.hides(shape, segment) else fan[BLOCKED + ray]
     return number
@@ -210,7 +226,7 @@ def _stop_by_shape(shape: Shape, verbs: Verbs, number: int, bundle: Bundle) -> i
 def _any_open(bundle: Bundle) -> bool:
     """Tell whether nothing so far stops any of the rays."""
     count = 0
-    for ray in range(bundle.first, bundle.first + bundle.rays):
+    for ray in range(bundle.rays):
         count += 1 if bundle.fan[BLOCKED + ray] == 0.0 else 0
     return count > 0
 
@@ -221,9 +237,9 @@ def _search(
     hierarchy: Hierarchy,
     stack: Stack,
     base: int,
-    visit: Callable[[Bundle, World, Any, int, int, Stack, int], bool],
+    visit: Callable[[Bundle, World, Any, int, int, Stack, int], int],
     subject: Any,  # noqa: ANN401
-) -> bool:
+) -> int:
     """Visit the leaves of a hierarchy that may stop rays, the nearest first, until none is left.
 
     Parameters
@@ -237,23 +253,27 @@ def _search(
 
     Returns
     -------
-    bool
-        Whether any ray is left.
+    int
+        Which rays are left.
     """
     beam = _bundle_beam(bundle, hierarchy.to_boxes)
     near, far = lower_limit(beam, 0.0), upper_limit(beam, 1.0 + MARGIN)
     stack.node[base] = hierarchy.root
-    waiting = base + 1
+    waiting, leaves = base + 1, 0
     while waiting > base:
         waiting -= 1
         child = stack.node[waiting]
         if child >= 0:
             waiting = push_met(world.bvh, child, beam, near, far, stack, waiting)
         else:
+            leaves += 1
+            if leaves > MOST_LEAVES:
+                return MANY
             begin, end = range_of(hierarchy, child)
-            if not visit(bundle, world, subject, begin, end, stack, waiting):
-                return False
-    return True
+            left = visit(bundle, world, subject, begin, end, stack, waiting)
+            if left != SOME:
+                return left
+    return SOME
 
 
 _search_places, _search_shapes = device(_search), device(_search)
@@ -266,7 +286,7 @@ def _bundle_beam(bundle: Bundle, to_boxes: ToBoxes) -> Beam:
     """Return the beam of those rays of an bundle that nothing stops so far."""
     low = math.inf, math.inf, math.inf
     high = -math.inf, -math.inf, -math.inf
-    for ray in range(bundle.first, bundle.first + bundle.rays):
+    for ray in range(bundle.rays):
         if bundle.fan[BLOCKED + ray] == 0.0:
             way = sub(load_end(bundle.fan, ray), bundle.start.point)
             low, high = lower(low, way), upper(high, way)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.fan import (
     BLOCKED,
+    DIRECTION,
     END,
     END_PLANE_DEPTH,
     FAN,
@@ -137,20 +138,21 @@ def spread_fan(
     points, first, keys
         The points that choose the rays, from the first on, and what they are scrambled by.
     """
-    # A loop for each: only so are they vectorised.
+    # A loop for each step: only so are they vectorised.
+    for ray in range(rays):
+        fan[DIRECTION + ray], fan[DIRECTION + FAN + ray] = fan_point(points, first + ray, keys)
     if aim.spread == ALL_AROUND:
         for ray in range(rays):
-            u, v = fan_point(points, first + ray, keys)
-            direction = cosine_direction(u, v, normal)
-            length = _length(aim, start.point, direction, 1.0)
-            _set_ray(fan, ray, start, scale(length, direction), forward, 1.0)
+            u, v = fan[DIRECTION + ray], fan[DIRECTION + FAN + ray]
+            _set_direction(fan, ray, cosine_direction(u, v, normal))
     else:
         for ray in range(rays):
-            u, v = fan_point(points, first + ray, keys)
-            direction = cone_direction(u, v, aim.axis, aim.spread)
-            length = _length(aim, start.point, direction, -1.0)
-            weight = aim.share * max(dot(normal, direction), 0.0)
-            _set_ray(fan, ray, start, scale(length, direction), forward, weight)
+            u, v = fan[DIRECTION + ray], fan[DIRECTION + FAN + ray]
+            _set_direction(fan, ray, cone_direction(u, v, aim.axis, aim.spread))
+    for ray in range(rays):
+        _set_weight(fan, ray, aim, normal)
+    for ray in range(rays):
+        _set_end(fan, ray, aim, start, forward)
     cast = 0
     for ray in range(rays):
         cast += 1 if fan[BLOCKED + ray] == 0.0 else 0
@@ -158,25 +160,49 @@ def spread_fan(
 
 
 @device
-def _set_ray(fan: Fan, ray: int, start: Start, way: Vec, forward: Vec, weight: float) -> None:
-    """Set a ray of a fan; one that counts nothing is not cast."""
-    x, y, z = add(start.point, way)
-    fan[END + ray] = x
-    fan[END + FAN + ray] = y
-    fan[END + 2 * FAN + ray] = z
-    fan[END_PLANE_DEPTH + ray] = start.plane_depth + dot(way, forward)
+def _set_direction(fan: Fan, ray: int, direction: Vec) -> None:
+    """Set the direction of a ray."""
+    fan[DIRECTION + ray] = direction[0]
+    fan[DIRECTION + FAN + ray] = direction[1]
+    fan[DIRECTION + 2 * FAN + ray] = direction[2]
+
+
+@device
+def _load_direction(fan: Fan, ray: int) -> Vec:
+    """Return the direction of a ray."""
+    return fan[DIRECTION + ray], fan[DIRECTION + FAN + ray], fan[DIRECTION + 2 * FAN + ray]
+
+
+@device
+def _set_weight(fan: Fan, ray: int, aim: Aim, normal: Vec) -> None:
+    """Set what a ray counts; one that counts nothing is not cast."""
+    cosine = max(dot(normal, _load_direction(fan, ray)), 0.0)
+    weight = 1.0 if aim.spread == ALL_AROUND else aim.share * cosine
     fan[WEIGHT + ray] = weight
     fan[BLOCKED + ray] = 0.0 if weight > 0.0 else 1.0
 
 
 @device
-def _length(aim: Aim, point: Vec, direction: Vec, side: float) -> float:
-    """Return how long a ray is: up to a side of a sphere, -1 the near and 1 the far one, if any."""
+def _set_end(fan: Fan, ray: int, aim: Aim, start: Start, forward: Vec) -> None:
+    """Set where a ray ends."""
+    direction = _load_direction(fan, ray)
+    way = scale(_length(aim, start.point, direction), direction)
+    x, y, z = add(start.point, way)
+    fan[END + ray] = x
+    fan[END + FAN + ray] = y
+    fan[END + 2 * FAN + ray] = z
+    fan[END_PLANE_DEPTH + ray] = start.plane_depth + dot(way, forward)
+
+
+@device
+def _length(aim: Aim, point: Vec, direction: Vec) -> float:
+    """Return how long a ray is: up to the near side of a sphere, or the far one from inside."""
     way = sub(aim.place, point)
     middle = dot(way, direction)
     approach = sub(way, scale(middle, direction))
     half_chord = math.sqrt(max(aim.size * aim.size - dot(approach, approach), 0.0))
-    return middle + side * half_chord if aim.kind == SPHERE else aim.size
+    side = middle + half_chord if aim.spread == ALL_AROUND else middle - half_chord
+    return side if aim.kind == SPHERE else aim.size
 
 
 @device

@@ -32,11 +32,11 @@ from vtray.transport.lights.soft_light import (
     spread_fan,
 )
 from vtray.transport.materials.material import Material, scattered
-from vtray.transport.sampling.fans import RUN, Fans, fan_keys
+from vtray.transport.sampling.fans import Fans, fan_keys
 from vtray.transport.scene_arrays import SceneArrays
 
-NARROW = 0.02
-"""Up to this spread, all rays to a light go through hierarchies as one beam."""
+NARROW = 0.1
+"""Up to this spread, which a lamp has that is seen under 50 degrees, its rays are kept together."""
 
 
 @device
@@ -112,8 +112,8 @@ def _arriving(
     fan, forward = work.fan, scene.camera.forward
     rays = spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, first, keys)
     end_scale = soft.error_scale[light] + start.error_scale
-    together = fans.rays if aim.spread < NARROW else RUN
-    find_stopped(fan, fans.rays, together, start, end_scale, scene.world, work.stack)
+    is_narrow = aim.spread < NARROW
+    find_stopped(fan, fans.rays, is_narrow, start, end_scale, scene.world, work.stack)
     return arriving_share(fan, fans.rays), rays
 
 

@@ -20,9 +20,6 @@ from vtray.base.compiler.compiled import device
 IMAGE_PLACE = 0
 """The purpose of the samples: where in the image plane a ray goes through."""
 
-LIGHT_FANS = 1 << 16
-"""The first purpose of the fans, one for each light."""
-
 BITS = (1 << 32) - 1
 
 UNIT = 2.0**-32
