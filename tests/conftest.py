@@ -1,6 +1,7 @@
 """What all tests share."""
 
 import os
+import platform
 import subprocess
 import sys
 from collections.abc import Callable
@@ -25,6 +26,9 @@ settings.register_profile(
 settings.load_profile("vtray")
 
 compiled_only = pytest.mark.skipif(not JIT, reason="needs the compiler")
+x86_only = pytest.mark.skipif(
+    platform.machine() not in {"x86_64", "AMD64"}, reason="looks for instructions of x86-64"
+)
 
 
 def pytest_configure(config: pytest.Config) -> None:

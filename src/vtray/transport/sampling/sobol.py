@@ -20,6 +20,9 @@ from vtray.base.compiler.compiled import device
 IMAGE_PLACE = 0
 """The purpose of the samples: where in the image plane a ray goes through."""
 
+LIGHT_FANS = 1 << 16
+"""The purposes from here on: where in a light shadow rays aim, one purpose for each light."""
+
 BITS = (1 << 32) - 1
 
 UNIT = 2.0**-32

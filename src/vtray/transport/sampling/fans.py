@@ -1,0 +1,116 @@
+"""Where the shadow rays of a surface point aim within a light: a fan of points of the unit square.
+
+Each sample of a pixel has one fan for each light, the next block of Sobol's sequence. Both a fan
+and all fans of a pixel together fill the square evenly. Eight points at a time, which kernels do at
+once, are near each other: they share an elementary cell, a side of which is a power of 1/2, in the
+places of its size. Scrambling moves whole cells, and so does going from a block to the next; thus
+one order of a fan's points is right for all of them.
+
+References
+----------
+Niederreiter, "Point sets and sequences with small discrepancy", 1987 (elementary cells, called
+intervals there); Owen, "Randomly permuted (t,m,s)-nets", 1995; Hilbert, "Ueber die stetige
+Abbildung einer Linie auf ein Flächenstück", 1891 (the order of the cells).
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.compiler.compiled import device
+from vtray.transport.sampling.sobol import LIGHT_FANS, pixel_keys, scrambled, sobol_points
+
+Integers = NDArray[np.int64]
+
+RUN = 8
+"""Points in a row that share a cell."""
+
+
+def fan_points(fan: int, samples: int) -> Integers:
+    """Return the points of the fans of a pixel before they are scrambled.
+
+    Parameters
+    ----------
+    fan
+        Points of a fan: a power of two, at least ``RUN``.
+    samples
+        Fans of a pixel.
+
+    Returns
+    -------
+    NDArray[np.int64]
+        One fan after the other, as `sobol_points` has them, ``(2, fan * samples)``. Each ``RUN``
+        points of a fan share one of ``fan // RUN`` cells, which are squares or half as wide as
+        high; each 2, 4 ... of these runs share a larger cell. Without scrambling, cells that
+        follow each other are side by side; with it, those in a common square of four are.
+    """
+    starts = fan * np.arange(samples)
+    order = starts[:, None] + _fan_order(fan)
+    return sobol_points(fan * samples).take(order.reshape(-1), axis=1)
+
+
+@device
+def fan_keys(column: int, row: int, light: int, seed: int) -> tuple[int, int]:
+    """Return what scrambles the fans of a pixel for a light, which is given by its number.
+
+    Within one pixel, points of the same number for two lights are in the same halves of the square,
+    or in opposite ones, as chance has it; over pixels they are independent.
+    """
+    return pixel_keys(column, row, LIGHT_FANS + light, seed)
+
+
+@device
+def fan_point(points: Integers, k: int, keys: tuple[int, int]) -> tuple[float, float]:
+    """Return a point of the fans of a pixel, from 0 to below 1 either way.
+
+    Parameters
+    ----------
+    points
+        What `fan_points` returns.
+    k
+        Its number: ``fan * sample + ray``.
+    keys
+        What `fan_keys` returns.
+    """
+    return scrambled(points[0, k], keys[0]), scrambled(points[1, k], keys[1])
+
+
+def _fan_order(fan: int) -> Integers:
+    """Return the numbers of a block's points, cell by cell, (fan,)."""
+    levels = (fan // RUN).bit_length() - 1  # how often the square is halved
+    down = levels // 2
+    across = levels - down
+    x, y = sobol_points(fan)
+    cell = _reversed_bits(x, across) << down | _reversed_bits(y, down)
+    columns, rows = _hilbert_curve(down)
+    if across > down:
+        # Round two squares side by side; of four cells by two, each two then make a square.
+        side = 1 << down
+        columns, rows = (
+            np.concatenate([side - 1 - rows, side + rows]),
+            np.concatenate([columns, side - 1 - columns]),
+        )
+    place = np.argsort(columns << down | rows)
+    return np.argsort(place[cell], kind="stable")
+
+
+def _reversed_bits(numbers: Integers, bits: int) -> Integers:
+    """Return the lowest bits of numbers with their order reversed."""
+    reversed_bits = np.zeros_like(numbers)
+    for bit in range(bits):
+        reversed_bits |= (numbers >> bit & 1) << bits - 1 - bit
+    return reversed_bits
+
+
+def _hilbert_curve(levels: int) -> tuple[Integers, Integers]:
+    """Return the columns and rows of a square's ``4**levels`` cells along Hilbert's curve.
+
+    It goes from the first column and row to the last column in the first row.
+    """
+    x = y = np.zeros(1, np.int64)
+    for level in range(levels):
+        side = 1 << level
+        x, y = (
+            np.concatenate([y, x, x + side, 2 * side - 1 - y]),
+            np.concatenate([x, y + side, y + side, side - 1 - x]),
+        )
+    return x, y

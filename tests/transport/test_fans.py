@@ -1,0 +1,200 @@
+"""Fans of points in a light: nets, runs that share a cell, and their own for each light."""
+
+import itertools
+from typing import Any
+
+import numpy as np
+import pytest
+import sample_places
+from hypothesis import given
+from hypothesis import strategies as st
+from machine_code import instructions_in
+
+from conftest import JIT, compiled_only, x86_only
+from vtray.base.compiler.compiled import Kernel, kernel, uncompiled
+from vtray.base.compiler.object_code import compile_object
+from vtray.transport.sampling.fans import RUN, fan_keys, fan_point, fan_points
+from vtray.transport.sampling.sobol import IMAGE_PLACE, pixel_keys, scrambled, sobol_points
+
+WORDS = st.sampled_from([0, 1, 2**16, 2**31, 2**32 - 1]) | st.integers(0, 2**32 - 1)
+KEYS = st.tuples(WORDS, WORDS)
+FANS = [8, 16, 32, 64, 128, 256]
+SIDE = 64 if JIT else 24
+
+
+def places(points: np.ndarray, keys: tuple[int, int]) -> np.ndarray:
+    """Return all points of fans, (count, 2)."""
+    return np.array([fan_point(points, k, keys) for k in range(points.shape[1])])
+
+
+def cells_of(found: np.ndarray, columns: int, rows: int) -> np.ndarray:
+    """Return the cell of each point, (..., 2)."""
+    return np.floor(found * (columns, rows)).astype(int)
+
+
+def grid_of(fan: int) -> tuple[int, int]:
+    """Return how many columns and rows of cells there are for a fan: as many, or twice."""
+    rows = 1
+    while 4 * rows * rows * RUN <= fan:
+        rows *= 2
+    return fan // RUN // rows, rows
+
+
+def assert_net(found: np.ndarray) -> None:
+    """Check that there is one point in each elementary cell of all shapes."""
+    columns = 1
+    while columns <= len(found):
+        cells = cells_of(found, columns, len(found) // columns)
+        assert len(set(map(tuple, cells.tolist()))) == len(found)
+        columns *= 2
+
+
+def test_cells_are_nearly_square() -> None:
+    assert [grid_of(fan) for fan in FANS] == [(1, 1), (2, 1), (2, 2), (4, 2), (4, 4), (8, 4)]
+
+
+@pytest.mark.parametrize("fan", FANS)
+@pytest.mark.parametrize("samples", [1, 3, 4])
+def test_fans_are_blocks_of_sobols_sequence(fan: int, samples: int) -> None:
+    points = fan_points(fan, samples)
+    assert points.shape == (2, fan * samples)
+    assert points.dtype == np.int64
+    assert points.flags.c_contiguous
+    numbers = points[0].reshape(samples, fan)
+    assert (np.sort(numbers) == np.arange(fan * samples).reshape(samples, fan)).all()
+    np.testing.assert_array_equal(points, sobol_points(fan * samples)[:, points[0]])
+    # One order for all blocks.
+    np.testing.assert_array_equal(numbers % fan, numbers[:1].repeat(samples, axis=0))
+
+
+@pytest.mark.parametrize("fan", FANS)
+@given(keys=KEYS)
+def test_runs_share_a_cell(fan: int, keys: tuple[int, int]) -> None:
+    found = places(fan_points(fan, 3), keys)
+    assert ((found >= 0) & (found < 1)).all()
+    columns, rows = grid_of(fan)
+    cells = cells_of(found, columns, rows).reshape(3, fan // RUN, RUN, 2)
+    assert (cells == cells[:, :, :1]).all()
+    for block in cells[:, :, 0]:
+        assert len(set(map(tuple, block.tolist()))) == fan // RUN
+
+
+@pytest.mark.parametrize("fan", FANS)
+@given(keys=KEYS)
+def test_runs_that_follow_share_larger_cells(fan: int, keys: tuple[int, int]) -> None:
+    columns, rows = grid_of(fan)
+    cells = cells_of(places(fan_points(fan, 2), keys)[::RUN], columns, rows)
+    together = 2
+    while together < fan // RUN:
+        for group in cells.reshape(-1, together, 2):
+            wide, high = (len(set(axis)) for axis in group.T.tolist())
+            assert wide * high == together
+            assert max(wide, high) <= 2 * min(wide, high)
+            for axis, size in zip(group.T, (wide, high), strict=True):
+                assert len(set((axis // size).tolist())) == 1
+        together *= 2
+    if fan // RUN >= 4:
+        steps = np.diff(cells.reshape(-1, 4, 2), axis=1)
+        assert (np.abs(steps).sum(axis=2) == 1).all()
+
+
+@given(keys=KEYS)
+def test_two_runs_of_64_points_share_a_quarter(keys: tuple[int, int]) -> None:
+    quarters = cells_of(places(fan_points(64, 2), keys), 2, 2).reshape(-1, 2 * RUN, 2)
+    assert (quarters == quarters[:, :1]).all()
+
+
+@pytest.mark.parametrize("fan", FANS)
+def test_runs_that_follow_are_side_by_side(fan: int) -> None:
+    points = fan_points(fan, 1)
+    unscrambled = np.array([[int(f"{n:032b}"[::-1], 2) for n in axis] for axis in points.tolist()])
+    cells = cells_of(unscrambled.T[::RUN] / 2**32, *grid_of(fan))
+    assert (np.abs(np.diff(cells, axis=0)).sum(axis=1) == 1).all()
+
+
+@pytest.mark.parametrize("fan", [8, 32, 64])
+@given(keys=KEYS)
+def test_each_fan_and_all_together_are_nets(fan: int, keys: tuple[int, int]) -> None:
+    found = places(fan_points(fan, 4), keys)
+    for block in found.reshape(4, fan, 2):
+        assert_net(block)
+    assert_net(found[: 2 * fan])
+    assert_net(found)
+
+
+def test_keys_of_lights_differ_from_all_others() -> None:
+    lights = [fan_keys(5, 3, light, 1) for light in range(1000)]
+    others = [pixel_keys(5, 3, purpose, 1) for purpose in range(1000)]
+    assert len(set(lights + others)) == 2000
+
+
+def field(point: int, light: int) -> np.ndarray:
+    """Return where a point of the fans of each pixel of a picture lies, (SIDE, SIDE, 2)."""
+    points = fan_points(64, point // 64 + 1)
+    return np.array(
+        [
+            [fan_point(points, point, fan_keys(x, y, light, 0)) for x in range(SIDE)]
+            for y in range(SIDE)
+        ]
+    )
+
+
+def image_places(sample: int) -> np.ndarray:
+    """Return where a sample of each pixel of a picture lies, (SIDE, SIDE, 2)."""
+    numbers = sobol_points(sample + 1)[:, sample].tolist()
+    return np.array(
+        [
+            [
+                [
+                    scrambled(n, key)
+                    for n, key in zip(numbers, pixel_keys(x, y, IMAGE_PLACE, 0), strict=True)
+                ]
+                for x in range(SIDE)
+            ]
+            for y in range(SIDE)
+        ]
+    )
+
+
+@pytest.mark.parametrize("point", [0, 9, 64 * 3 + 17])
+def test_lights_and_places_in_the_image_are_independent(point: int) -> None:
+    fields = [field(point, light) for light in (0, 1, 2, 100)] + [image_places(point // 64)]
+    axes = [one[..., axis].ravel() - 0.5 for one in fields for axis in (0, 1)]
+    # Covariances in units of their standard deviation for points that are independent.
+    pairs = itertools.combinations(axes, 2)
+    related = np.array([(one * other).sum() * 12 / SIDE for one, other in pairs])
+    assert np.abs(related).max() < 4
+    assert (related * related).mean() < 2
+
+
+@given(KEYS, st.integers(0, 64 * 3 - 1))
+def test_compiled_equals_plain_python(keys: tuple[int, int], k: int) -> None:
+    points = fan_points(64, 3)
+    found = fan_point(points, k, keys)
+    assert found == uncompiled(fan_point)(points, k, keys)
+    reversed_points = [sample_places.reversed_bits(n) for n in points[:, k].tolist()]
+    assert found == tuple(map(sample_places.owen, reversed_points, keys))
+
+
+@kernel
+def place_run(points: Any, first: int, count: int, keys: tuple[int, int], run: Any) -> None:
+    """Set the points of a run, all columns and then all rows."""
+    for k in range(count):
+        u, v = fan_point(points, first + k, keys)
+        run[k] = u
+        run[RUN + k] = v
+
+
+def test_runs_in_kernels() -> None:
+    points, run = fan_points(32, 2), np.zeros(2 * RUN)
+    place_run(points, 40, RUN, (3, 2**32 - 1), run)
+    np.testing.assert_array_equal(run.reshape(2, RUN).T, places(points, (3, 2**32 - 1))[40:48])
+
+
+@compiled_only
+@x86_only
+def test_runs_are_vectorised() -> None:
+    arguments = fan_points(32, 2), 40, RUN, (3, 5), np.zeros(2 * RUN)
+    code = compile_object(place_run._function, arguments, Kernel._options).code
+    # Several products of integers at once.
+    assert instructions_in(code) & {"pmuludq", "vpmuludq", "vpmullq"}
