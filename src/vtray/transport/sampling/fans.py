@@ -13,6 +13,8 @@ intervals there); Owen, "Randomly permuted (t,m,s)-nets", 1995; Hilbert, "Ueber 
 Abbildung einer Linie auf ein Flächenstück", 1891 (the order of the cells).
 """
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,6 +25,33 @@ Integers = NDArray[np.int64]
 
 RUN = 8
 """Points in a row that share a cell."""
+
+
+MOST_RAYS = 64
+"""Rays from a hit to a light where a pixel has one sample."""
+
+
+class Fans(NamedTuple):
+    """Which rays are cast to soft lights.
+
+    Attributes
+    ----------
+    rays
+        Rays from one hit to one light.
+    points
+        What `fan_points` returns.
+    """
+
+    rays: int
+    points: Integers
+
+
+def new_fans(samples: int) -> Fans:
+    """Return the fans of pixels with so many samples, which share their rays."""
+    rays = MOST_RAYS
+    while rays > RUN and rays * samples > MOST_RAYS:
+        rays //= 2
+    return Fans(rays, fan_points(rays, samples))
 
 
 def fan_points(fan: int, samples: int) -> Integers:
