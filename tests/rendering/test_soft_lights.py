@@ -23,10 +23,10 @@ SIZE = 40, 30
 def soft_lights() -> list[Any]:
     return [
         vtray.Ambient(0.4),
-        vtray.Light((3, -4, 9), 0.3, color="#ffd0a0"),
-        vtray.Sun((0.5, 0.6, -1), 0.5, angle=8, color="#ffe0c0"),
+        vtray.Light((3, -4, 9), 0.3, color=(255, 208, 160)),
+        vtray.Sun((0.5, 0.6, -1), 0.5, angle=8, color=(255, 224, 192)),
         vtray.SphereLight((-4, -2, 5), 1.5, 0.4),
-        vtray.Sky(0.2, color="#a0c0ff"),
+        vtray.Sky(0.2, color=(160, 192, 255)),
         vtray.Ambient(0.3, distance=0.7),
     ]
 
@@ -36,7 +36,7 @@ def scene_of(kind: str) -> vtray.Scene:
     random = np.random.default_rng(3)
     scene = vtray.Scene()
     count = {"few": 12, "many": 600, "bonds": 60, "copies": 9}[kind]
-    centers = random.uniform(-2, 2, (count, 3)) + (0, 0, 2.3)
+    centers = random.uniform((-2, -2, 0.3), (2, 2, 4.3), (count, 3))
     scene.add_spheres(centers, random.uniform(0.05, 0.3, count), color="#c0d0e0")
     if kind in ("bonds", "copies"):
         ends = centers + random.normal(size=(count, 3)) * 0.4
@@ -100,8 +100,7 @@ def floor(light: Any, *walls: tuple[float, float, float]) -> vtray.Scene:
     scene.add_plane((0, 0, 0), normal=(0, 0, 1))
     for normal in walls:
         scene.add_plane((0, 0, 0), normal=normal)
-    scene.camera = vtray.Camera.look_at((1, 1, 0.5), (1, 1, 0), up=(0, 1, 0), size=(16, 16))
-    scene.camera = vtray.Camera((1, 1, 0.4), (0, 0, -1), 0.1, (16, 16), (1e-4, 1e-4), up=(0, 1, 0))
+    scene.camera = vtray.Camera((1, 1, 1e3), (0, 0, -1), 1.0, (16, 16), (1e-7, 1e-7), up=(0, 1, 0))
     scene.lights = [light]
     return scene
 
@@ -165,23 +164,24 @@ def test_lights_without_size_are_points(light: Any, point: vtray.Light) -> None:
 
 
 def test_half_of_a_sun_behind_an_edge_gives_half_its_light() -> None:
-    scene = floor(vtray.Sun((0, 0, -1), angle=1), (1, 0, 0))
-    scene.objects = scene.objects[:1]
-    # A half-plane, nearly, that ends above the middle of the picture.
-    scene.add_sphere((1 + 1e4, 1, 1e3), 1e4)
-    assert share(scene) == pytest.approx(0.5, abs=0.02)
+    scene = floor(vtray.Sun((-1, 0, -1), angle=1))
+    unhidden = share(scene)
+    # Nearly a half-plane, whose edge the middle of the sun's rays touches at (301, 1, 300).
+    down = 1e4 / math.sqrt(2)
+    scene.add_sphere((301 + down, 1, 300 - down), 1e4)
+    assert share(scene) == pytest.approx(unhidden / 2, abs=0.01)
 
 
 def test_what_lies_behind_the_image_plane_stops_no_light() -> None:
     scene = floor(vtray.Ambient())
     bare = render(scene).linear
-    scene.add_sphere((1, 1, 2.0), 1.5)
+    scene.add_sphere((1, 1, 1002.0), 1.5)
     assert share(scene) == 1.0
     np.testing.assert_array_equal(render(scene).linear, bare)
 
 
 def test_colors_of_lights() -> None:
-    scene = floor(vtray.Ambient(color="#ff8000"))
+    scene = floor(vtray.Ambient(color=(255, 128, 0)))
     scene.add_light((1, 1, 5), 0.5, color="blue")
     linear = render(scene, exposure=1.0).linear
     np.testing.assert_allclose(linear.mean(axis=(0, 1)), [255, 128, 127.5], rtol=1e-6)

@@ -31,7 +31,8 @@ from vtray.rendering.shape_kinds import KINDS, Kind, Source, collect
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.copies import Copies
 from vtray.scene.fingerprint import hash_arrays
-from vtray.scene.objects import Light, Plane
+from vtray.scene.light_types import Light
+from vtray.scene.objects import Plane
 from vtray.scene.scene import Scene
 
 FEW = 128

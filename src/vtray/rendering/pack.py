@@ -2,7 +2,6 @@
 
 import math
 import sys
-from collections.abc import Sequence
 from itertools import chain
 from typing import Any, NamedTuple
 
@@ -11,22 +10,18 @@ from numpy.typing import NDArray
 
 from vtray.base.capacity import MAX_NUMBERS
 from vtray.base.compiler.compiled import input_array
-from vtray.base.exact_math import sine
 from vtray.geometry.bvh.tree import Frame, no_bvh
 from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.vector import Vec
 from vtray.geometry.world import NO_TREE, PLANE, Groups, Places, ToBoxes, World
 from vtray.rendering.acceleration import Acceleration, Shapes
+from vtray.rendering.pack_lights import pack_lights, points_of
 from vtray.rendering.placed import Placed
-from vtray.scene.objects import Light
+from vtray.scene.light_types import Light, SphereLight
 from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
-from vtray.scene.scene import Camera, Plane, Scene, Vector
-from vtray.scene.temp import Ambient, SphereLight, Sun
-from vtray.scene.vectors import Color
+from vtray.scene.scene import Camera, Plane, Scene
 from vtray.transport.camera_rays import CameraFrame
-from vtray.transport.lights.light import Lights
-from vtray.transport.lights.soft_light import AROUND, SPHERE, SUN, SoftLights
 from vtray.transport.materials.material import Materials
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -39,9 +34,6 @@ An eye that is farther away sees the scene along rays that differ by less than 1
 by side, where they pass a plane nearby. Started at the eye, rounding would move what they meet, and
 lose what is near the image plane: from 1e15 times the size of the scene on, all of it.
 """
-
-FAR = 2.0**221
-"""How long shadow rays are that end nowhere: a million times as far as all else can be."""
 
 LARGEST_SHIFT = 2.0**300
 """Copies so tiny beside how far they are moved that this is exceeded, as lengths in the space of
@@ -74,12 +66,12 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
     planes = [item for item in scene.objects if isinstance(item, Plane)]
     unit = _unit_length(scene, planes, kept)
     camera = _pack_camera(scene.camera, unit)
-    origin = _points([scene.camera.center], unit)[0]
+    origin = points_of([scene.camera.center], unit)[0]
     x, y, z = map(float, origin)
     arrays = SceneArrays(
         camera,
         _pack_world(planes, kept, unit, (x, y, z)),
-        _pack_lights(scene, origin, unit, camera),
+        pack_lights(scene.lights, origin, unit, camera),
         _pack_materials(kept, planes),
     )
     return Packed(arrays, unit, scene.camera.focus - start_distance(scene.camera))
@@ -291,70 +283,3 @@ def _pack_planes(planes: list[Plane]) -> Columns:
         row[:3] = plane.center.x, plane.center.y, plane.center.z
         row[3:] = unit_vector(plane.normal)
     return Columns(data.reshape(-1), np.arange(len(planes), dtype=np.int32))
-
-
-def _pack_lights(scene: Scene, origin: Floats, unit: float, camera: CameraFrame) -> Lights:
-    """Return the arrays of all lights."""
-    hard = [light for light in scene.lights if isinstance(light, Light)]
-    soft = [light for light in scene.lights if not isinstance(light, Light)]
-    points = _points([light.location for light in hard], unit) - origin
-    x, y, z = _columns(points)
-    colors = [
-        (c.r, c.g, c.b)
-        for light in (*hard, *soft)
-        for c in (getattr(light, "color", None) or Color(255, 255, 255),)
-    ]
-    return Lights(
-        x,
-        y,
-        z,
-        plane_depth=_dot((x, y, z), camera.forward),
-        error_scale=_magnitude(x, y, z) + _magnitude(*origin),
-        soft=_pack_soft(soft, origin, unit) if soft else None,
-        intensity=np.array([light.intensity for light in (*hard, *soft)], float),
-        color=np.array(colors, float).reshape(-1, 3) / 255.0,
-    )
-
-
-def _pack_soft(lights: list[Any], origin: Floats, unit: float) -> SoftLights:
-    """Return the arrays of the lights that are no points."""
-    x, y, z, size = np.zeros((4, len(lights)))
-    kind, error_scale = np.zeros(len(lights), np.int64), np.zeros(len(lights))
-    for k, light in enumerate(lights):
-        place: Floats | Vec = (0.0, 0.0, 0.0)
-        if isinstance(light, Sun):
-            kind[k], size[k] = SUN, 2.0 * sine(light.angle / 4) ** 2
-            towards = unit_vector(light.direction)
-            place = -towards[0], -towards[1], -towards[2]
-        elif isinstance(light, SphereLight):
-            kind[k], size[k] = SPHERE, light.radius / unit
-            place = _points([light.location], unit)[0] - origin
-            error_scale[k] = float(_magnitude(*place) + _magnitude(*origin)) + size[k]
-        else:
-            distance = light.distance if isinstance(light, Ambient) else math.inf
-            kind[k], size[k] = AROUND, min(distance / unit, FAR)
-        x[k], y[k], z[k] = place
-    return SoftLights(kind, x, y, z, size, error_scale, FAR)
-
-
-def _points(places: list[Vector], unit: float) -> Floats:
-    """Return places as an (n, 3) array, lengths in units."""
-    return np.array([(p.x, p.y, p.z) for p in places], float).reshape(-1, 3) / unit
-
-
-def _columns(rows: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return the columns of an (n, 3) array, each contiguous."""
-    columns = np.ascontiguousarray(rows.T)
-    return columns[0], columns[1], columns[2]
-
-
-def _magnitude(x: Floats, y: Floats, z: Floats) -> Floats:
-    """Return the sums of the absolute coordinates, always in this order."""
-    sums: Floats = np.abs(x) + np.abs(y) + np.abs(z)
-    return sums
-
-
-def _dot(a: Sequence[Floats] | Floats, b: Sequence[Floats] | Vec) -> Floats:
-    """Return the scalar products of vectors, each given as its three coordinates."""
-    products: Floats = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-    return products

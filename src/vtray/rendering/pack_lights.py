@@ -1,0 +1,99 @@
+"""From the lights of a scene to the arrays that kernels read."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.exact_math import sine
+from vtray.geometry.vector import Vec
+from vtray.scene.light_types import Ambient, AnyLight, Light, SphereLight, Sun
+from vtray.scene.placing.directions import unit as unit_vector
+from vtray.scene.vectors import Vector
+from vtray.transport.camera_rays import CameraFrame
+from vtray.transport.lights.light import Lights
+from vtray.transport.lights.soft_light import AROUND, SPHERE, SUN, SoftLights
+
+Floats = NDArray[np.float64]
+
+FAR = 2.0**221
+"""How long shadow rays are that end nowhere: a million times as far as all else can be."""
+
+
+def pack_lights(
+    lights: Sequence[AnyLight], origin: Floats, unit: float, camera: CameraFrame
+) -> Lights:
+    """Return the arrays of all lights.
+
+    Parameters
+    ----------
+    lights
+        The lights, in any order.
+    origin
+        The origin of the kernels' space, in units.
+    unit
+        The length in scene units of length 1 in the arrays.
+    camera
+        The camera.
+    """
+    hard = [light for light in lights if isinstance(light, Light)]
+    soft = [light for light in lights if not isinstance(light, Light)]
+    points = points_of([light.location for light in hard], unit) - origin
+    x, y, z = _columns(points)
+    ordered = *hard, *soft
+    colors = [(light.color.r, light.color.g, light.color.b) for light in ordered]
+    return Lights(
+        x,
+        y,
+        z,
+        plane_depth=_dot((x, y, z), camera.forward),
+        error_scale=_magnitude(x, y, z) + _magnitude(*origin),
+        soft=_pack_soft(soft, origin, unit) if soft else None,
+        intensity=np.array([light.intensity for light in ordered], float),
+        color=np.array(colors, float).reshape(-1, 3) / 255.0,
+    )
+
+
+def _pack_soft(lights: Sequence[AnyLight], origin: Floats, unit: float) -> SoftLights:
+    """Return the arrays of the lights that are no points."""
+    x, y, z, size = np.zeros((4, len(lights)))
+    kind, error_scale = np.zeros(len(lights), np.int64), np.zeros(len(lights))
+    for k, light in enumerate(lights):
+        place: Floats | Vec = (0.0, 0.0, 0.0)
+        if isinstance(light, Sun):
+            kind[k], size[k] = SUN, 2.0 * sine(light.angle / 4.0) * sine(light.angle / 4.0)
+            towards = unit_vector(light.direction)
+            place = -towards[0], -towards[1], -towards[2]
+        elif isinstance(light, SphereLight):
+            kind[k], size[k] = SPHERE, light.radius / unit
+            place = points_of([light.location], unit)[0] - origin
+            error_scale[k] = float(_magnitude(*place) + _magnitude(*origin)) + size[k]
+        else:
+            distance = light.distance if isinstance(light, Ambient) else math.inf
+            kind[k], size[k] = AROUND, min(distance / unit, FAR)
+        x[k], y[k], z[k] = place
+    return SoftLights(kind, x, y, z, size, error_scale, FAR)
+
+
+def points_of(places: list[Vector], unit: float) -> Floats:
+    """Return places as an (n, 3) array, lengths in units."""
+    return np.array([(p.x, p.y, p.z) for p in places], float).reshape(-1, 3) / unit
+
+
+def _columns(rows: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return the columns of an (n, 3) array, each contiguous."""
+    columns = np.ascontiguousarray(rows.T)
+    return columns[0], columns[1], columns[2]
+
+
+def _magnitude(x: Floats, y: Floats, z: Floats) -> Floats:
+    """Return the sums of the absolute coordinates, always in this order."""
+    sums: Floats = np.abs(x) + np.abs(y) + np.abs(z)
+    return sums
+
+
+def _dot(a: Sequence[Floats] | Floats, b: Sequence[Floats] | Vec) -> Floats:
+    """Return the scalar products of vectors, each given as its three coordinates."""
+    products: Floats = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    return products
