@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from vtray.scene.files.scene_dict import load_dict
     from vtray.scene.files.scene_file import load, loads
     from vtray.scene.scene import (
+        Ambient,
         Camera,
         Color,
         Cylinder,
@@ -30,13 +31,17 @@ if TYPE_CHECKING:
         Light,
         Plane,
         Scene,
+        Sky,
         Sphere,
+        SphereLight,
+        Sun,
         Vector,
     )
     from vtray.scene.settings import RenderSettings
     from vtray.scene.spheres import Spheres
 
 __all__ = [
+    "Ambient",
     "Camera",
     "Color",
     "ColorScale",
@@ -54,8 +59,11 @@ __all__ = [
     "RenderSettings",
     "Scene",
     "SceneError",
+    "Sky",
     "Sphere",
+    "SphereLight",
     "Spheres",
+    "Sun",
     "Vector",
     "VtrayError",
     "__version__",
@@ -73,6 +81,7 @@ __all__ = [
 # Nothing is loaded before it is first needed: neither NumPy nor the compiler, and for the command
 # not even what reads a scene, so that Ctrl-C is taken care of first.
 _MODULES = {
+    "Ambient": "scene.light_types",
     "Camera": "scene.camera",
     "Color": "scene.vectors",
     "ColorScale": "scene.colors.color_scale",
@@ -81,7 +90,7 @@ _MODULES = {
     "Cylinders": "scene.cylinders",
     "Direction": "scene.vectors",
     "Image": "image.image",
-    "Light": "scene.objects",
+    "Light": "scene.light_types",
     "OutputError": "base.errors",
     "Plane": "scene.objects",
     "Provenance": "image.provenance",
@@ -90,8 +99,11 @@ _MODULES = {
     "RenderSettings": "scene.settings",
     "Scene": "scene.scene",
     "SceneError": "base.errors",
+    "Sky": "scene.light_types",
     "Sphere": "scene.objects",
+    "SphereLight": "scene.light_types",
     "Spheres": "scene.spheres",
+    "Sun": "scene.light_types",
     "Vector": "scene.vectors",
     "VtrayError": "base.errors",
     "__version__": "base.version",

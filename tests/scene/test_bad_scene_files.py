@@ -13,7 +13,10 @@ from vtray.scene.scene import Scene
 TYPES = '"sphere", "cylinder", "plane", "spheres", "cylinders" or "copies"'
 OBJECT = f'expected an object with "type": {TYPES}, got'
 TYPE = f"expected {TYPES}, got"
-LIGHT = "expected an object with the keys location and intensity, got"
+LIGHT = (
+    "expected an object with the keys location and intensity, "
+    'or with "type": "sun", "sphere", "sky" or "ambient", got'
+)
 BYTE = "expected an integer from 0 to 255, got"
 SIZE = "expected an integer from 1 to 2147483647, got"
 DIRECTION = "expected numbers x, y and z that are not all zero, got"

@@ -17,6 +17,7 @@ CAMERA = Camera(Vector(0, 0, 0), Direction(0, 0, 1), 10, (4, 3), (0.5, 0.25))
 SPHERE = Sphere(Vector(1, 2, 3), 0.1, Color(1, 2, 255), 0.3)
 PLANE = Plane(Vector(0, 5, 0), Direction(0, -1, 0), Color(9, 8, 7), 1)
 OBJECTS = "expected Sphere, Cylinder, Plane, Spheres, Cylinders or Copies"
+LIGHTS = "expected Light, Sun, SphereLight, Sky or Ambient"
 LIGHT = Light(Vector(0.1, -0.0, 1e300), 1e-320)
 
 
@@ -144,7 +145,7 @@ def test_integers_may_be_written_as_floats() -> None:
             ((0, 0, 0), (0, 0, 1), 1, (1, 1), (1, float("nan"))),
             "Camera.resolution[1]: expected a finite number, got nan",
         ),
-        (Scene, (CAMERA, [LIGHT, 3], []), "Scene.lights[1]: expected Light, got 3"),
+        (Scene, (CAMERA, [LIGHT, 3], []), f"Scene.lights[1]: {LIGHTS}, got 3"),
         (Scene, (CAMERA, LIGHT, []), "Scene.lights: expected a list, got Light(location"),
         (
             Scene,
@@ -233,7 +234,7 @@ def test_save_of_a_spoilt_scene_leaves_the_file(tmp_path: Path) -> None:
     path.write_text("old")
     spoilt = scene()
     spoilt.lights = [None]  # type: ignore[list-item]
-    with pytest.raises(SceneError, match=r"Scene.lights\[0\]: expected Light, got None"):
+    with pytest.raises(SceneError, match=rf"Scene.lights\[0\]: {LIGHTS}, got None"):
         spoilt.save(path)
     assert path.read_text() == "old"
 

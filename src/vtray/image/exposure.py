@@ -13,7 +13,7 @@ from vtray.base.compiler.compiled import kernel
 from vtray.base.errors import RenderError
 from vtray.base.pool import run_tasks
 from vtray.base.tiles import TILE
-from vtray.scene.scene import Light
+from vtray.scene.light_types import AnyLight
 from vtray.scene.settings import Background, Exposure
 from vtray.scene.vectors import Color
 
@@ -21,7 +21,7 @@ BRIGHTEST = sys.float_info.max / 2.0**17
 """The largest sum of intensities: times a colour of 255 and the 255 of exposure it is a double."""
 
 
-def check_brightness(lights: Sequence[Light]) -> None:
+def check_brightness(lights: Sequence[AnyLight]) -> None:
     """Raise RenderError if the lights are so bright that a pixel could overflow."""
     total = sum(light.intensity for light in lights)
     if total > BRIGHTEST:

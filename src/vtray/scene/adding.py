@@ -1,13 +1,14 @@
-"""Adds objects and lights to a scene, with arguments in the ways that people write them."""
+"""Adds objects to a scene, with arguments in the ways that people write them."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from vtray.scene.checks.argument import argument
 from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.colors.names import to_rgb
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.objects import Cylinder, Light, Object, Plane, Sphere
+from vtray.scene.objects import Cylinder, Object, Plane, Sphere
 from vtray.scene.spheres import Spheres
 from vtray.scene.vectors import Color, Direction, Vector
 
@@ -21,12 +22,11 @@ if TYPE_CHECKING:
 
 
 class Adding:
-    """What can be added to the lists of a scene."""
+    """What can be added to the objects of a scene."""
 
     __slots__ = ()
 
     if TYPE_CHECKING:
-        lights: list[Light]
         objects: list[Object]
 
     @explain_unknown
@@ -55,7 +55,7 @@ class Adding:
         SceneError
             If an argument is not right.
         """
-        place = _argument("add_sphere", "center", center, Vector)
+        place = argument("add_sphere", "center", center, Vector)
         sphere = Sphere(place, radius, Color(*to_rgb(color, "add_sphere: color")), lambert)
         self.objects.append(sphere)
         return sphere
@@ -149,8 +149,8 @@ class Adding:
         SceneError
             If an argument is not right.
         """
-        one = _argument("add_cylinder", "start", start, Vector)
-        other = _argument("add_cylinder", "end", end, Vector)
+        one = argument("add_cylinder", "start", start, Vector)
+        other = argument("add_cylinder", "end", end, Vector)
         rgb = Color(*to_rgb(color, "add_cylinder: color"))
         cylinder = Cylinder(one, other, radius, rgb, lambert)
         self.objects.append(cylinder)
@@ -284,35 +284,8 @@ class Adding:
         SceneError
             If an argument is not right.
         """
-        place = _argument("add_plane", "point", point, Vector)
-        square = _argument("add_plane", "normal", normal, Direction)
+        place = argument("add_plane", "point", point, Vector)
+        square = argument("add_plane", "normal", normal, Direction)
         plane = Plane(place, square, Color(*to_rgb(color, "add_plane: color")), lambert)
         self.objects.append(plane)
         return plane
-
-    @explain_unknown
-    def add_light(self, location: "Vector | Triple", intensity: float = 1.0) -> Light:
-        """Add a point light.
-
-        Parameters
-        ----------
-        location
-            Position in world space.
-        intensity
-            Strength, relative to the other lights, ≥ 0.
-
-        Raises
-        ------
-        SceneError
-            If an argument is not right.
-        """
-        light = Light(_argument("add_light", "location", location, Vector), intensity)
-        self.lights.append(light)
-        return light
-
-
-def _argument(call: str, name: str, value: object, kind: Any) -> Any:  # noqa: ANN401
-    """Return an argument of a call as an object of a kind, or raise SceneError naming it."""
-    from vtray.scene.checks.scene_check import from_code
-
-    return value if isinstance(value, kind) else from_code(value, kind, f"{call}: {name}")

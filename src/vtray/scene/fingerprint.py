@@ -15,6 +15,7 @@ from vtray.base.pool import run_tasks
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.copies import Copies
 from vtray.scene.scene import Scene
+from vtray.scene.written_lights import as_written
 
 PIECE = 1 << 20
 """Bytes, about, that are hashed as one task."""
@@ -74,7 +75,8 @@ def scene_hash(scene: Scene, threads: int = THREADS) -> str:
     threads
         How many threads look at its arrays.
     """
-    parts = [scene.camera, scene.lights, *_parts_of(scene.objects, threads)]
+    lights = [as_written(light) for light in scene.lights]
+    parts = [scene.camera, lights, *_parts_of(scene.objects, threads)]
     return blake3(msgspec.json.encode(parts)).hexdigest(DIGITS // 2)
 
 

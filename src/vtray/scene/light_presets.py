@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta
 
 from vtray.base.exact_math import cosine, sine
-from vtray.scene.objects import Light
+from vtray.scene.light_types import Light
 from vtray.scene.placing.directions import Vec, along, cross, unit
 from vtray.scene.studio import HasCamera, Side, direction, studio_of
 from vtray.scene.vectors import Direction

@@ -1,13 +1,13 @@
-"""What a scene is made of: lights, single objects, many as arrays, and copies of these."""
+"""What a scene shows: single objects, many as arrays, and copies of these."""
 
 from typing import TypeAlias
 
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.single import Cylinder, Light, Plane, Sphere
+from vtray.scene.single import Cylinder, Plane, Sphere
 from vtray.scene.spheres import Spheres
 
-__all__ = ["ARRAY_KINDS", "Cylinder", "Light", "Object", "Plane", "Sphere"]
+__all__ = ["ARRAY_KINDS", "Cylinder", "Object", "Plane", "Sphere"]
 
 Object: TypeAlias = Sphere | Cylinder | Plane | Spheres | Cylinders | Copies
 

@@ -12,18 +12,22 @@ import msgspec
 
 from vtray.base.errors import SceneError
 from vtray.scene.adding import Adding
+from vtray.scene.adding_lights import AddingLights
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.camera import Camera
 from vtray.scene.checks.checked import Checked
 from vtray.scene.checks.unknown_names import unknown_attribute
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.objects import Cylinder, Light, Object, Plane, Sphere
+from vtray.scene.light_types import Ambient, AnyLight, Light, Sky, SphereLight, Sun
+from vtray.scene.objects import Cylinder, Object, Plane, Sphere
 from vtray.scene.settings import RenderSettings
 from vtray.scene.spheres import Spheres
 from vtray.scene.vectors import Color, Direction, Vector
 
 __all__ = [
+    "Ambient",
+    "AnyLight",
     "Camera",
     "Color",
     "Copies",
@@ -34,13 +38,16 @@ __all__ = [
     "Object",
     "Plane",
     "Scene",
+    "Sky",
     "Sphere",
+    "SphereLight",
     "Spheres",
+    "Sun",
     "Vector",
 ]
 
 
-class Scene(msgspec.Struct, Adding, metaclass=Checked, dict=True):
+class Scene(msgspec.Struct, Adding, AddingLights, metaclass=Checked, dict=True):
     """All that a picture is made from.
 
     Its attributes may be replaced, its lists changed, and so may arrays that `Spheres`,
@@ -50,7 +57,7 @@ class Scene(msgspec.Struct, Adding, metaclass=Checked, dict=True):
     ----------
     camera : Camera
         Where the picture is taken from; None until it is set.
-    lights : list of Light
+    lights : list of Light, Sun, SphereLight, Sky or Ambient
         The lights; may be empty.
     objects : list of Sphere, Cylinder, Plane, Spheres, Cylinders or Copies
         The objects; may be empty.
@@ -66,20 +73,19 @@ class Scene(msgspec.Struct, Adding, metaclass=Checked, dict=True):
 
     if TYPE_CHECKING:  # what code may give, beside what the attributes hold
         camera: Camera  # where None is left, `check` raises
-        lights: list[Light]
         objects: list[Object]
         render: RenderSettings
 
         def __init__(
             self,
             camera: Camera | None = None,
-            lights: Sequence[Light] = (),
+            lights: Sequence[AnyLight] = (),
             objects: Sequence[Object] = (),
             render: RenderSettings = ...,
         ) -> None: ...
     else:
         camera: Camera | None = None
-        lights: list[Light] = msgspec.field(default_factory=list)
+        lights: list[AnyLight] = msgspec.field(default_factory=list)
         objects: list[Object] = msgspec.field(default_factory=list)
         render: RenderSettings = msgspec.field(default_factory=RenderSettings)
 

@@ -1,4 +1,4 @@
-"""Lights and single objects, as the scene file defines them."""
+"""Single objects, as the scene file defines them."""
 
 from types import MappingProxyType
 from typing import TYPE_CHECKING
@@ -11,29 +11,6 @@ if TYPE_CHECKING:
     from vtray.scene.vectors import Triple
 
 _SURFACE = MappingProxyType({"color": Color(255, 255, 255), "lambert": 1.0})
-
-
-class Light(Frozen, frozen=True, gc=False):
-    """A point light; its light does not fall off with distance.
-
-    In code, the intensity is 1 unless it is given.
-
-    Attributes
-    ----------
-    location : Vector
-        Position in world space.
-    intensity : float
-        Strength, relative to the other lights, ≥ 0.
-    """
-
-    location: Vector
-    intensity: NonNegative
-
-    _in_code = MappingProxyType({"intensity": 1.0})
-
-    if TYPE_CHECKING:
-
-        def __init__(self, location: "Vector | Triple", intensity: float = 1.0) -> None: ...
 
 
 class Sphere(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):

@@ -9,7 +9,8 @@ from vtray.base.errors import SceneError
 from vtray.base.exact_math import cosine, hypotenuse, sine
 from vtray.scene.camera import Camera
 from vtray.scene.checks.limits import NonNegative
-from vtray.scene.objects import Light, Object
+from vtray.scene.light_types import Light
+from vtray.scene.objects import Object
 from vtray.scene.placing.bounding_sphere import bounding_sphere
 from vtray.scene.placing.bounds import balls_of, ups_of_planes
 from vtray.scene.placing.directions import (

@@ -71,6 +71,9 @@ class Frozen(msgspec.Struct, metaclass=Checked, frozen=True):
     _in_code: ClassVar[Mapping[str, object]] = MappingProxyType({})
     """What code may leave out, although a file has to say it, and what it is then."""
 
+    _tag_left_out: ClassVar[bool] = False
+    """Whether a file may leave out the type, where others can stand in the same place."""
+
     def replace(self, **changes: Any) -> Self:  # noqa: ANN401
         """Return the same with other values in place of some.
 

@@ -28,6 +28,9 @@ SizePair = Annotated[tuple[Size, Size], Meta(description="an array of two intege
 PositivePair = Annotated[tuple[Positive, Positive], Meta(description="an array of two numbers > 0")]
 Projection = Literal["perspective", "orthographic"]
 Margin = Annotated[float, Meta(ge=0, lt=0.5, description="a number from 0 to less than 0.5")]
+AngularSize = Annotated[float, Meta(ge=0, le=180, description="a number of degrees from 0 to 180")]
+# Infinite only in code: JSON has no infinity.
+Reach = Annotated[float, Meta(gt=0, description="a number > 0", extra={"may_be_infinite": True})]
 FieldOfView = Annotated[float, Meta(gt=0, lt=180, description="a number of degrees > 0 and < 180")]
 # The end, in the words of Python and of JavaScript: a $ of Python's may stand before a newline.
 END = r"(?![\s\S])"
@@ -52,6 +55,12 @@ def limits_alone(kind: Any) -> Any:  # noqa: ANN401
         return kind
     limits = tuple(item for item in kind.__metadata__ if isinstance(item, Meta))
     return Annotated[(kind.__origin__, *limits)] if limits else kind.__origin__
+
+
+def may_be_infinite(kind: Any) -> bool:  # noqa: ANN401
+    """Tell whether a kind allows infinity, where it is given in code."""
+    limits = getattr(kind, "__metadata__", ())
+    return any((limit.extra or {}).get("may_be_infinite", False) for limit in limits)
 
 
 class FieldError(ValueError):

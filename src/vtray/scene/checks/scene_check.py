@@ -15,7 +15,7 @@ import msgspec
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import CLEAN, Members, Tree, Written
-from vtray.scene.checks.limits import FieldError, limits_alone
+from vtray.scene.checks.limits import FieldError, limits_alone, may_be_infinite
 from vtray.scene.checks.scene_words import (
     Struct,
     Unknown,
@@ -31,6 +31,7 @@ from vtray.scene.checks.scene_words import (
     struct_options,
     tag_field,
     tags,
+    untagged,
 )
 
 # A type as an annotation says it: a class, a union, an Annotated, list[...] or tuple[...].
@@ -173,7 +174,8 @@ def from_code(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401
         return _struct_from_code(found, structs, kind, place)
     origin = origin_of(kind)
     if origin not in (list, tuple):
-        if isinstance(found, float) and not math.isfinite(found):
+        is_number = not isinstance(found, float) or math.isfinite(found) or may_be_infinite(kind)
+        if not is_number:
             raise SceneError(f"{place}: expected a finite number, got {found!r}")
         return _convert_leaf(found, kind, place)
     kinds = typing.get_args(plain_kind(kind))
@@ -258,7 +260,7 @@ def _by_tag(found: Members, structs: tuple[Struct, ...], place: str) -> Struct:
     where = join(place, field)
     written = next((member.value for member in found if member.key == field), None)
     if written is None:
-        raise SceneError(f"{where}: missing; expected {words}")
+        return _without_tag(found, structs, where, words)
     try:
         tag = msgspec.json.decode(written, type=str) if isinstance(written, Written) else ""
     except msgspec.ValidationError:
@@ -268,6 +270,19 @@ def _by_tag(found: Members, structs: tuple[Struct, ...], place: str) -> Struct:
     close = nearest(tag, list(by_tag), cutoff=0.6)
     hint = f"; did you mean {close}?" if close else ""
     raise SceneError(f"{where}: expected {words}, got {show(written)}{hint}")
+
+
+def _without_tag(found: Members, structs: tuple[Struct, ...], place: str, words: str) -> Struct:
+    """Choose the type of an object that does not name it, or raise SceneError."""
+    keys = {member.key for member in found}
+    plain = untagged(structs)
+    if plain is not None and required_keys(plain) <= keys:
+        return plain
+    meant = [cls for cls in structs if keys and keys <= set(hints_of(cls))]
+    if plain is not None and (plain in meant or not meant):
+        return plain
+    hint = f"; is it {either(map(quoted, tags(meant)))}?" if meant and plain else ""
+    raise SceneError(f"{place}: missing; expected {words}{hint}")
 
 
 def _convert_leaf(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401

@@ -3,7 +3,7 @@
 import re
 import types
 import typing
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any, TypeAlias
 
 import msgspec
@@ -38,12 +38,14 @@ def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
         names = either(cls.__name__ for cls in structs)
         triple = len(structs) == 1 and len(structs[0].__struct_fields__) == 3
         return f"{names} or three numbers" if triple else names
-    if tags(structs):
-        (field,) = tag_field(structs[0])
-        return f"an object with {quoted(field)}: {either(map(quoted, tags(structs)))}"
-    fields = structs[0].__struct_fields__
-    *most, last = fields[: len(fields) - len(structs[0].__struct_defaults__)] or fields
-    return f"an object with the keys {', '.join(most)} and {last}"
+    plain = untagged(structs)
+    if plain is None:
+        return f"an object with {_tags_of(structs)}"
+    others = [cls for cls in structs if cls is not plain]
+    fields = plain.__struct_fields__
+    *most, last = fields[: len(fields) - len(plain.__struct_defaults__)] or fields
+    keys = f"an object with the keys {', '.join(most)} and {last}"
+    return f"{keys}, or with {_tags_of(others)}" if others else keys
 
 
 def either(words: Iterable[str]) -> str:
@@ -86,6 +88,19 @@ def tags(structs: Iterable[Struct]) -> list[str]:
     """Give the tags by which a file tells the Structs apart; empty if it need not."""
     found = (cls.__struct_config__.tag for cls in structs)
     return [str(tag) for tag in found if tag is not None]
+
+
+def untagged(structs: Sequence[Struct]) -> Struct | None:
+    """Give the Struct that an object is which does not say its type; None if it has to."""
+    if not tags(structs):
+        return structs[0]
+    return next((cls for cls in structs if getattr(cls, "_tag_left_out", False)), None)
+
+
+def _tags_of(structs: Sequence[Struct]) -> str:
+    """Say what the key may hold by which a file tells the Structs apart."""
+    (field,) = tag_field(structs[0])
+    return f"{quoted(field)}: {either(map(quoted, tags(structs)))}"
 
 
 def tag_field(cls: Struct) -> list[str]:

@@ -12,7 +12,8 @@ from vtray.scene.camera import Camera
 from vtray.scene.checks.limits import DataPath, FieldError, Fraction, NonNegative, NpzPath
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.objects import Cylinder, Light, Plane, Sphere
+from vtray.scene.light_types import AnyLight
+from vtray.scene.objects import Cylinder, Plane, Sphere
 from vtray.scene.settings import RenderSettings
 from vtray.scene.spheres import Spheres
 from vtray.scene.vectors import Color, Vector
@@ -156,7 +157,7 @@ class SceneInFile(msgspec.Struct, omit_defaults=True):
     ----------
     camera : Camera
         Where the picture is taken from.
-    lights : list of Light
+    lights : list of Light, Sun, SphereLight, Sky or Ambient
         The lights; may be empty.
     objects : list of Sphere, Cylinder, Plane, SpheresInFile, CylindersInFile or CopiesInFile
         The objects; may be empty.
@@ -165,6 +166,6 @@ class SceneInFile(msgspec.Struct, omit_defaults=True):
     """
 
     camera: Camera
-    lights: list[Light]
+    lights: list[AnyLight]
     objects: list[ObjectInFile]
     render: RenderSettings | UnsetType = UNSET

@@ -16,6 +16,7 @@ from vtray.scene.copies import Copies
 from vtray.scene.files.in_file import HOLDERS_IN_FILE, HolderInFile, SceneInFile
 from vtray.scene.settings import RenderSettings
 from vtray.scene.vectors import Color
+from vtray.scene.written_lights import as_written
 
 if TYPE_CHECKING:
     from vtray.scene.scene import Scene
@@ -39,7 +40,8 @@ def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
         return entry
 
     objects = [in_file(item) for item in scene.objects]
-    found = SceneInFile(scene.camera, scene.lights, objects)
+    lights: list[Any] = [as_written(light) for light in scene.lights]
+    found = SceneInFile(scene.camera, lights, objects)
     if scene.render != RenderSettings():
         found.render = scene.render
     data = msgspec.json.format(_encode(found, target), indent=2) + b"\n"

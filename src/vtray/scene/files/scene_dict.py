@@ -15,6 +15,7 @@ from vtray.scene.copies import Copies
 from vtray.scene.files.scene_file import Warn, loads
 from vtray.scene.objects import ARRAY_KINDS, Object
 from vtray.scene.scene import Scene
+from vtray.scene.written_lights import as_written
 
 # Stands in the text for objects whose arrays stand in the dictionary.
 _PLACEHOLDER = msgspec.Raw(
@@ -82,7 +83,7 @@ def to_dict(scene: Scene) -> dict[str, Any]:
     """Return a valid scene as `Scene.to_dict` does."""
     data: dict[str, Any] = {
         "camera": msgspec.to_builtins(scene.camera),
-        "lights": [msgspec.to_builtins(light) for light in scene.lights],
+        "lights": [msgspec.to_builtins(as_written(light)) for light in scene.lights],
         "objects": [_object_to_dict(item) for item in scene.objects],
     }
     settings = msgspec.to_builtins(scene.render)

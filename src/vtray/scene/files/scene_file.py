@@ -11,21 +11,33 @@ from functools import cache
 from typing import Any
 
 import msgspec
-from msgspec import UNSET
+from msgspec import UNSET, UnsetType
 
 from vtray.base.errors import SceneError, why_unreadable
 from vtray.base.input_file import is_given, read_input
+from vtray.scene.camera import Camera
 from vtray.scene.checks.checked import make_unchecked
 from vtray.scene.files.in_file import KINDS, HolderInFile, ObjectInFile, SceneInFile
-from vtray.scene.objects import Light, Object
+from vtray.scene.files.light_reader import count_known, count_least, read_light, read_lights
+from vtray.scene.objects import Object
 from vtray.scene.scene import Scene
+from vtray.scene.settings import RenderSettings
 from vtray.scene.vectors import Color, Direction, Vector
 
 Warn = Callable[[str], None]
 
+
+class _Found(msgspec.Struct):
+    """What a scene file holds, its lights as they stand there."""
+
+    camera: Camera
+    lights: msgspec.Raw
+    objects: list[ObjectInFile]
+    render: RenderSettings | UnsetType = UNSET
+
+
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
-_DECODER = msgspec.json.Decoder(SceneInFile)
-_LIGHT = msgspec.json.Decoder(Light)
+_DECODER = msgspec.json.Decoder(_Found)
 _OBJECT = msgspec.json.Decoder(ObjectInFile)
 
 
@@ -104,21 +116,24 @@ def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
         raw = raw.removeprefix(_BYTE_ORDER_MARK)
     try:
         found = _DECODER.decode(raw)
+        lights = read_lights(found.lights)
     except (msgspec.MsgspecError, RecursionError) as error:
         _explain(raw, name, warn)
         # The slow look should have raised; if it saw nothing, msgspec's own words have to do.
         raise SceneError(f"{name}: {error}") from None
     keys, in_files = _count_keys(found.objects)
+    others = raw.count(b":") - _count_others(found) - keys
     # A colon of a path that is written as an escape is not in the file, and one inside any other
     # string is that of an unknown key or its value.
-    if raw.count(b":") != _count_others(found) + keys or (in_files and b"\\u003" in raw):
+    are_known = others == count_least(lights) or others == count_known(found.lights, lights)
+    if not are_known or (in_files and b"\\u003" in raw):
         _explain(raw, name, warn)
     objects: list[Any] = found.objects
     if in_files:
         objects = _read_arrays(found, name, folder, warn)
     parts: dict[str, object] = {} if found.render is UNSET else {"render": found.render}
     scene: Scene = make_unchecked(
-        Scene, camera=found.camera, lights=found.lights, objects=objects, **parts
+        Scene, camera=found.camera, lights=lights, objects=objects, **parts
     )
     return scene
 
@@ -150,12 +165,11 @@ def _keys_within(cls: type[msgspec.Struct]) -> int:
 
 
 # Those of other kinds are counted one by one, as most are optional.
-_PARTS: tuple[type[msgspec.Struct], ...] = (Light, *KINDS)
-_KEYS_OF = {kind: _keys_within(kind) for kind in _PARTS if not issubclass(kind, HolderInFile)}
+_KEYS_OF = {kind: _keys_within(kind) for kind in KINDS if not issubclass(kind, HolderInFile)}
 
 
 def _count_keys(objects: Sequence[Any]) -> tuple[int, bool]:
-    """Count the colons of lights or objects of a file, and tell whether any may name a file."""
+    """Count the colons of objects of a file, and tell whether any may name a file."""
     kinds = Counter(map(type, objects))
     keys = sum(_KEYS_OF.get(kind, 0) * count for kind, count in kinds.items())
     in_files = any(issubclass(kind, HolderInFile) for kind in kinds)
@@ -164,8 +178,8 @@ def _count_keys(objects: Sequence[Any]) -> tuple[int, bool]:
     return keys, in_files
 
 
-def _count_others(found: SceneInFile) -> int:
-    """Count the colons of a file but for those of its objects.
+def _count_others(found: _Found) -> int:
+    """Count the colons of a file but for those of its lights and objects.
 
     Of the optional keys those that are given with their default are not counted. With such a key
     there are more colons, which costs a slow look, but misses nothing.
@@ -174,11 +188,11 @@ def _count_others(found: SceneInFile) -> int:
     keys = (camera.projection != "perspective") + (camera.up is not None) * (1 + _keys(Direction))
     if found.render is not UNSET:
         keys += 1 + _colons_in(msgspec.to_builtins(found.render))
-    return _KEYS_ONCE + keys + _count_keys(found.lights)[0]
+    return _KEYS_ONCE + keys
 
 
 def _count_colons(item: msgspec.Struct) -> int:
-    """Count the colons of a light or an object of a file: those of its keys, and of a path."""
+    """Count the colons of an object of a file: those of its keys, and of a path."""
     if type(item) in _KEYS_OF:
         return _KEYS_OF[type(item)]
     values = [getattr(item, key) for key in item.__struct_fields__]
@@ -226,7 +240,7 @@ def _explain(raw: bytes, name: str, warn: Warn) -> None:
         warn(f"{name}: {line}")
 
 
-def _read_arrays(found: SceneInFile, name: str, folder: str, warn: Warn) -> list[Object]:
+def _read_arrays(found: _Found, name: str, folder: str, warn: Warn) -> list[Object]:
     """Return the objects of a file with the arrays it names; warn about unknown arrays."""
     from vtray.scene.files.named_arrays import with_arrays
 
@@ -269,7 +283,9 @@ def _clean_parts(raw: bytes) -> tuple[dict[int, int] | None, int]:
         return None, 0
     clean: dict[int, int] = {}
     ignored = 0
-    for key, decoder in (("lights", _LIGHT), ("objects", _OBJECT)):
+    readers: tuple[tuple[str, Callable[[bytes], tuple[msgspec.Struct, int]]], ...]
+    readers = (("lights", read_light), ("objects", _read_object))
+    for key, read in readers:
         whole = getattr(split, key)
         end = max(raw.find(whole), 0)
         is_wrong = False
@@ -279,11 +295,11 @@ def _clean_parts(raw: bytes) -> tuple[dict[int, int] | None, int]:
             end = start + len(part)
             if not is_wrong:
                 try:
-                    value: msgspec.Struct = decoder.decode(part)
+                    value, keys = read(part)
                 except (msgspec.MsgspecError, RecursionError):
                     is_wrong = True
                     continue
-                keys, in_files = _count_colons(value), isinstance(value, HolderInFile)
+                in_files = isinstance(value, HolderInFile)
                 if part.count(b":") != keys or (in_files and b"\\u003" in part):
                     is_shown = in_files or shown < SHOWN_UNKNOWN
                     unknown = 0 if is_shown else _count_unknown(part, value)
@@ -293,6 +309,12 @@ def _clean_parts(raw: bytes) -> tuple[dict[int, int] | None, int]:
                     ignored += unknown
             clean[start] = end
     return clean, ignored
+
+
+def _read_object(part: bytes) -> tuple[msgspec.Struct, int]:
+    """Read an object, and count the colons that it has if all its keys are known."""
+    value = _OBJECT.decode(part)
+    return value, _count_colons(value)
 
 
 def _count_unknown(part: bytes, value: msgspec.Struct) -> int:
@@ -310,9 +332,15 @@ def _count_unknown(part: bytes, value: msgspec.Struct) -> int:
             return 0
     except (msgspec.MsgspecError, RecursionError):
         return 0
-    inner = ((found[key], getattr(value, key)) for key in value.__struct_fields__)
+    inner = ((found[key], getattr(value, key)) for key in value.__struct_fields__ if key in found)
     pairs = [(found, value), *((one, two) for one, two in inner if isinstance(two, msgspec.Struct))]
-    return sum(len(one) - _keys(type(two)) for one, two in pairs)
+    return sum(len(one.keys() - _known_keys(type(two))) for one, two in pairs)
+
+
+@cache
+def _known_keys(cls: type[msgspec.Struct]) -> frozenset[str]:
+    """Give the keys that an object of a file may have."""
+    return frozenset([*cls.__struct_fields__, cls.__struct_config__.tag_field or ""])
 
 
 def _colons_in(found: object) -> int:

@@ -7,13 +7,14 @@ import inspect
 import json
 import re
 import sys
+import typing
 from typing import Any
 
 import msgspec
 
 from vtray.scene.camera import Camera
 from vtray.scene.files.in_file import ARRAYS_IN_FILE, KINDS, CopiesInFile, SceneInFile
-from vtray.scene.objects import Light
+from vtray.scene.light_types import Ambient, AnyLight, Light
 from vtray.scene.settings import RenderSettings
 from vtray.scene.vectors import Color, Direction, Vector
 
@@ -30,7 +31,8 @@ def scene_schema() -> dict[str, Any]:
         once, for instance, it cannot.
     """
     values = (RenderSettings, Vector, Direction, Color)
-    classes: list[type[msgspec.Struct]] = [SceneInFile, Camera, Light, *KINDS, *values]
+    lights: tuple[type[msgspec.Struct], ...] = typing.get_args(AnyLight)
+    classes: list[type[msgspec.Struct]] = [SceneInFile, Camera, *lights, *KINDS, *values]
     (_, parts) = msgspec.json.schema_components(classes, ref_template="#/$defs/{name}")
     for cls in classes:
         _describe(parts[cls.__name__], inspect.getdoc(cls) or "")
@@ -49,6 +51,11 @@ def scene_schema() -> dict[str, Any]:
     places = [key for key in CopiesInFile.__struct_fields__ if key != "objects"]
     parts[CopiesInFile.__name__]["oneOf"] = [{"required": [key]} for key in places]
     scene = parts.pop("SceneInFile")
+    # A light need not say that it is a point, and so has nothing that always tells its type.
+    parts[Light.__name__]["required"].remove("type")
+    del scene["properties"]["lights"]["items"]["discriminator"]
+    # JSON has no infinity.
+    del parts[Ambient.__name__]["properties"]["distance"]["default"]
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         **scene,

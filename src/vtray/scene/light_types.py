@@ -1,0 +1,196 @@
+"""Lights, as the scene file defines them: points, and what throws softer shadows.
+
+All are measured alike: a white surface that scatters all light (`lambert` 1) shows 1, which with an
+exposure of 1 becomes 255, where one light of strength 1 shines on it squarely and unhindered. That
+holds for a point, for a sun or a sphere of any size, for a sky around all of the scene, and for
+ambient light with nothing near.
+"""
+
+import math
+from types import MappingProxyType
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
+
+from vtray.scene.checks.checked import Frozen
+from vtray.scene.checks.limits import AngularSize, NonNegative, Reach
+from vtray.scene.vectors import Color, Direction, Vector
+
+if TYPE_CHECKING:
+    from vtray.scene.vectors import Triple
+
+WHITE = Color(255, 255, 255)
+
+SUN_DEGREES = 0.53
+"""How large the sun appears from the earth."""
+
+
+class Light(Frozen, frozen=True, gc=False, tag_field="type", tag="point"):
+    """A point light; it throws hard shadows, and its light does not fall off with distance.
+
+    In code, the intensity is 1 unless it is given.
+
+    Attributes
+    ----------
+    location : Vector
+        Position in world space.
+    intensity : float
+        Strength, ≥ 0: a white, fully scattering surface that a light of intensity 1 shines on
+        squarely shows 1.
+    color : Color, optional
+        Colour of the light, in linear light: each channel of a surface is multiplied by that of
+        the light over 255. White, the default, changes none.
+    """
+
+    location: Vector
+    intensity: NonNegative
+    color: Color = WHITE
+
+    _in_code = MappingProxyType({"intensity": 1.0})
+    _tag_left_out = True
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            location: "Vector | Triple",
+            intensity: float = 1.0,
+            color: "Color | Triple" = ...,
+        ) -> None: ...
+
+
+class Sun(Frozen, frozen=True, gc=False, tag_field="type", tag="sun"):
+    """A disc in the sky, infinitely far away; the larger it is, the softer are its shadows.
+
+    Attributes
+    ----------
+    direction : Direction
+        Where its light goes, in world space: (0, 0, -1) from straight above, if z is up.
+    intensity : float, optional
+        Strength, ≥ 0, 1 by default: a white, fully scattering surface that a sun of intensity 1
+        shines on squarely, with nothing in between, shows 1, whatever the angle.
+    angle : float, optional
+        Diameter in degrees, as seen from the scene, from 0 to 180; 0.53 by default, that of the
+        sun seen from the earth. 0 gives hard shadows.
+    color : Color, optional
+        Colour of the light, as for Light.
+    """
+
+    direction: Direction
+    intensity: NonNegative = 1.0
+    angle: AngularSize = SUN_DEGREES
+    color: Color = WHITE
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            direction: "Direction | Vector | Triple",
+            intensity: float = 1.0,
+            angle: float = SUN_DEGREES,
+            color: "Color | Triple" = ...,
+        ) -> None: ...
+
+
+class SphereLight(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
+    """A shining ball, itself unseen; the larger it is, the softer are its shadows.
+
+    Its light does not fall off with distance, as that of points.
+
+    Attributes
+    ----------
+    location : Vector
+        Its centre in world space.
+    radius : float
+        Radius in scene units, ≥ 0; 0 is a point.
+    intensity : float, optional
+        Strength, ≥ 0, 1 by default: a white, fully scattering surface that a ball of intensity 1
+        shines on squarely, with nothing in between, shows 1, whatever the radius.
+    color : Color, optional
+        Colour of the light, as for Light.
+    """
+
+    location: Vector
+    radius: NonNegative
+    intensity: NonNegative = 1.0
+    color: Color = WHITE
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            location: "Vector | Triple",
+            radius: float,
+            intensity: float = 1.0,
+            color: "Color | Triple" = ...,
+        ) -> None: ...
+
+
+class Sky(Frozen, frozen=True, gc=False, tag_field="type", tag="sky"):
+    """Light from all directions, of one colour.
+
+    Attributes
+    ----------
+    radiance : float, optional
+        Strength, ≥ 0, 1 by default: a white, fully scattering surface that sees nothing but a sky
+        of radiance 1 shows 1.
+    color : Color, optional
+        Colour of the light, as for Light.
+    """
+
+    radiance: NonNegative = 1.0
+    color: Color = WHITE
+
+    @property
+    def intensity(self) -> float:
+        """Strength, as other lights call it: the radiance."""
+        return self.radiance
+
+    if TYPE_CHECKING:
+
+        def __init__(self, radiance: float = 1.0, color: "Color | Triple" = ...) -> None: ...
+
+
+class Ambient(Frozen, frozen=True, gc=False, tag_field="type", tag="ambient"):
+    """Light from all directions that only what is near keeps off: ambient occlusion.
+
+    Attributes
+    ----------
+    intensity : float, optional
+        Strength, ≥ 0, 1 by default: a white, fully scattering surface with nothing near shows 1 in
+        ambient light of intensity 1.
+    distance : float, optional
+        How far away something still darkens a surface, in scene units, > 0. By default it is
+        infinite, for which a file leaves it out.
+    color : Color, optional
+        Colour of the light, as for Light.
+    """
+
+    intensity: NonNegative = 1.0
+    distance: Reach = math.inf
+    color: Color = WHITE
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            intensity: float = 1.0,
+            distance: float = math.inf,
+            color: "Color | Triple" = ...,
+        ) -> None: ...
+
+
+AnyLight: TypeAlias = Light | Sun | SphereLight | Sky | Ambient
+
+OneLight = TypeVar("OneLight", Light, Sun, SphereLight, Sky, Ambient)
+
+
+def with_intensity(light: AnyLight, intensity: float) -> AnyLight:
+    """Return the same light with another strength.
+
+    Raises
+    ------
+    SceneError
+        If it is not right.
+    """
+    if isinstance(light, Sky):
+        return light.replace(radiance=intensity)
+    return light.replace(intensity=intensity)

@@ -1,0 +1,30 @@
+"""What a scene file, a dictionary and the hash of a scene say of lights: no more than is needed."""
+
+from functools import cache
+from typing import Any
+
+import msgspec
+
+from vtray.scene.light_types import WHITE, AnyLight, Light
+
+
+def as_written(light: AnyLight) -> dict[str, Any]:
+    """Return the keys of a light: neither those with their default, nor the type of a point.
+
+    So the files and the hashes of scenes with nothing but white points are those of the versions
+    that knew no other lights.
+    """
+    kind = type(light)
+    if (
+        isinstance(light, Light) and light.color == WHITE
+    ):  # in a third of the time, as there may be many
+        return {"location": light.location, "intensity": light.intensity}
+    tag = {} if kind is Light else {"type": kind.__struct_config__.tag}
+    values = ((name, getattr(light, name), default) for name, default in _defaults(kind))
+    return {**tag, **{name: value for name, value, default in values if value != default}}
+
+
+@cache
+def _defaults(kind: type[AnyLight]) -> tuple[tuple[str, object], ...]:
+    """Return the keys of a kind of lights with their defaults, which required ones do not have."""
+    return tuple((field.name, field.default) for field in msgspec.structs.fields(kind))
