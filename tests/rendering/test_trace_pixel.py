@@ -258,6 +258,44 @@ def test_lights_that_do_not_exist() -> None:
             tree.draw(light=number)
 
 
+def test_lights_that_are_no_points_are_left_out_and_counted() -> None:
+    plain, world = lit_floor(), lit_floor()
+    lights = plain.lights
+    soft = [vtray.Sky(0.5), vtray.Sun((0, 1, 0)), vtray.SphereLight((0, -9, 5), 1), vtray.Ambient()]
+    world.lights = [soft[0], lights[0], soft[1], soft[2], lights[1], lights[2], soft[3]]
+    tree, alone = (vtray.trace_pixel(one, *floor_pixel()) for one in (world, plain))
+    assert [ray.light for ray in tree.lights] == [1, 4, 5]
+    assert [dataclasses.replace(ray, light=k) for k, ray in enumerate(tree.lights)] == [
+        *alone.lights
+    ]
+    assert (tree.light, tree.hit, alone.left_out) == (alone.light, alone.hit, 0)
+    *_, light_line, last = str(tree).splitlines()
+    assert light_line.endswith(", the sum over the points")
+    assert last == "not shown    4 lights: only points are shown ray by ray"
+    ax = tree.draw(light=4)
+    assert any("lights[4]" in text.get_text() for text in ax.texts)
+    assert any("Of 7 lights, only points are shown." in text.get_text() for text in ax.texts)
+    with pytest.raises(vtray.RenderError, match="expected one of the 3 shadow rays, got 2, which"):
+        tree.draw(light=2)
+    world.lights = [*lights, soft[0]]
+    assert "not shown    1 light: only" in str(vtray.trace_pixel(world, *floor_pixel()))
+    world.lights = soft
+    tree = vtray.trace_pixel(world, *floor_pixel())
+    assert (tree.lights, tree.light, tree.hit) == ((), (0, 0, 0), alone.hit)
+    tree.draw().figure.draw_without_rendering()
+    assert "not shown" not in str(vtray.trace_pixel(world, 0, 0))
+
+
+def test_light_in_the_picture_is_that_of_all_lights() -> None:
+    world = lit_floor()
+    tree = vtray.trace_pixel(vtray.render(world), *floor_pixel())
+    assert tree.exposed is not None
+    scene = vtray.Scene(world.camera, [*world.lights, vtray.Sky()], world.objects)
+    exposed = dataclasses.replace(tree.exposed, light=(1.0, 2.0, 3.0))
+    lines = str(dataclasses.replace(tree, scene=scene, exposed=exposed)).splitlines()
+    assert "all lights   (1, 2, 3), the light of the pixel in the picture" in lines
+
+
 def test_missing_matplotlib_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     with pytest.raises(vtray.VtrayError, match=r" -m pip install matplotlib$"):

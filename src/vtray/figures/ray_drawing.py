@@ -68,10 +68,13 @@ def draw(tree: TracedRays, ax: "Axes | None", light: int | None) -> "Axes":
 def _main_ray(tree: TracedRays, light: int | None) -> ShadowRay | None:
     """Return the shadow ray that lies in the plane of the drawing."""
     if light is not None:
-        if not 0 <= light < len(tree.lights):
-            message = f"light: expected one of the {len(tree.lights)} shadow rays, got {light}"
-            raise RenderError(message)
-        return tree.lights[light]
+        for ray in tree.lights:
+            if ray.light == light:
+                return ray
+        message = f"light: expected one of the {len(tree.lights)} shadow rays, got {light}"
+        if tree.left_out and 0 <= light < len(tree.scene.lights):
+            message += ", which is no point"
+        raise RenderError(message)
     # The one that adds most; if none does, one that something blocks.
     return max(
         tree.lights,
@@ -380,6 +383,8 @@ class _Drawing(Pen):
         if len(tree.lights) > MOST_LABELS:
             arriving = sum(ray.arrives for ray in tree.lights)
             text = f"{arriving} of {len(tree.lights)} lights arrive.  {text}"
+        if tree.left_out:
+            text = f"Of {len(tree.scene.lights)} lights, only points are shown.  {text}"
         style = {"transform": self.ax.transAxes, "color": FAINT, "fontsize": 7.5}
         self.ax.text(1, -0.03, text, ha="right", va="top", **style)
         length = round_length(0.2 * float(self.box[1, 0] - self.box[0, 0]))

@@ -6,6 +6,8 @@ from typing import Any
 from vtray.figures.traced_rays import Exposed, Hit, ShadowRay, Surface, TracedRays
 from vtray.scene.scene import Scene
 
+WHITE = (255.0, 255.0, 255.0)
+
 
 def describe(tree: TracedRays) -> str:
     """Return how a pixel got its value, as text of some lines."""
@@ -20,9 +22,12 @@ def describe(tree: TracedRays) -> str:
         lines += _describe_hit(tree.hit, tree.scene)
         for ray in tree.lights:
             lines += _describe_light(ray, tree.hit)
-    lines.append(f"light        {_vector(tree.light)}, the sum over all lights")
+    which = "the points" if tree.left_out else "all lights"
+    lines.append(f"light        {_vector(tree.light)}, the sum over {which}")
+    if tree.left_out:
+        lines.append(f"not shown    {_lights(tree.left_out)}: only points are shown ray by ray")
     if tree.exposed is not None:
-        lines += _describe_exposure(tree.exposed, tree.light)
+        lines += _describe_exposure(tree.exposed, tree)
     return "\n".join(lines)
 
 
@@ -56,13 +61,19 @@ def _describe_light(ray: ShadowRay, hit: Hit) -> list[str]:
         return [first, f"  adds       nothing: {ray.blocker}, is in the way"]
     factors = f"cosine {ray.cosine:.6g} x lambert {hit.surface.lambert:g}"
     factors += f" x intensity {ray.intensity:g} x color"
+    if ray.color != WHITE:
+        factors += f" x {_vector([channel / 255 for channel in ray.color])} of the light"
     return [first, f"  adds       {_vector(ray.adds)} = {factors}"]
 
 
-def _describe_exposure(exposed: Exposed, light: Sequence[float]) -> list[str]:
+def _describe_exposure(exposed: Exposed, tree: TracedRays) -> list[str]:
     """Return the lines on the value before and after exposure."""
     lines = []
-    if exposed.light != light:
+    if tree.left_out:
+        lines.append(
+            f"all lights   {_vector(exposed.light)}, the light of the pixel in the picture"
+        )
+    elif exposed.light != tree.light:
         lines.append(f"samples      {_vector(exposed.light)}, the mean of all rays of the pixel")
     what = "the brightest channel of the picture" if exposed.brightest else "what becomes 255"
     white = f"{exposed.white:.10g}"
@@ -71,6 +82,11 @@ def _describe_exposure(exposed: Exposed, light: Sequence[float]) -> list[str]:
     behind = f", {100 * exposed.background:.3g} % of it background" if exposed.background else ""
     lines.append(f"value        ({', '.join(map(str, exposed.value))}){behind}")
     return lines
+
+
+def _lights(count: int) -> str:
+    """Return a number of lights in words."""
+    return "1 light" if count == 1 else f"{count} lights"
 
 
 def _vector(vector: Sequence[float]) -> str:

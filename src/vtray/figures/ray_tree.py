@@ -28,9 +28,10 @@ class RayTree(TracedRays):
     hit
         What it hits, or None.
     lights
-        The shadow rays to all lights in the order of ``scene.lights``; none if nothing is hit.
+        The shadow rays to all point lights in the order of ``scene.lights``; none if nothing is
+        hit. Other lights are not a ray each, and are left out.
     light
-        The sum of what the lights add: linear red, green and blue.
+        The sum of what the point lights add: linear red, green and blue.
     view
         The camera in world space.
     exposed
@@ -61,8 +62,9 @@ class RayTree(TracedRays):
         ax
             Where to draw; None for a new figure, which is ``ax.figure`` of the result.
         light
-            The light whose shadow ray lies in the plane; None for the one that adds most. If
-            nothing is hit or there are no lights, the plane is upright in the image.
+            The place in ``scene.lights`` of the one whose shadow ray lies in the plane; None for
+            that which adds most. If nothing is hit or there are no point lights, the plane is
+            upright in the image.
 
         Returns
         -------
@@ -74,7 +76,7 @@ class RayTree(TracedRays):
         ExtraError
             Matplotlib is not installed.
         RenderError
-            There is no such light.
+            There is no such light, or it is no point.
         """
         from vtray.figures.ray_drawing import draw
 

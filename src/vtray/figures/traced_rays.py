@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 from vtray.geometry.vector import Vec
+from vtray.scene.light_types import Light
 from vtray.scene.scene import Scene
 
 
@@ -77,7 +78,7 @@ class Hit:
 
 @dataclass(frozen=True)
 class ShadowRay:
-    """The ray from a hit to a light.
+    """The ray from a hit to a point light.
 
     Attributes
     ----------
@@ -97,6 +98,8 @@ class ShadowRay:
         A surface between the hit and the light, or None.
     adds
         The red, green and blue that the light adds to the pixel.
+    color
+        The red, green and blue of the light, from 0 to 255.
     """
 
     light: int
@@ -107,6 +110,7 @@ class ShadowRay:
     cosine: float
     blocker: Surface | None
     adds: Vec
+    color: Vec
 
     @property
     def arrives(self) -> bool:
@@ -180,3 +184,8 @@ class TracedRays:
     view: View
     exposed: Exposed | None
     scene: Scene = field(repr=False, compare=False)
+
+    @property
+    def left_out(self) -> int:
+        """How many lights are not shown where something is hit, as they are no points."""
+        return sum(not isinstance(light, Light) for light in self.scene.lights if self.hit)

@@ -20,6 +20,7 @@ from vtray.rendering.shape_kinds import KINDS
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import Arrays
 from vtray.scene.copies import Copies
+from vtray.scene.light_types import Light
 from vtray.scene.objects import Plane
 from vtray.scene.placing.directions import unit
 from vtray.scene.scene import Scene
@@ -43,7 +44,7 @@ def trace_pixel(scene: "Scene | Image", x: SupportsIndex, y: SupportsIndex) -> R
     Returns
     -------
     RayTree
-        The ray through the middle of the pixel, what it hits, and the rays to the lights.
+        The ray through the middle of the pixel, what it hits, and the rays to the point lights.
 
     Raises
     ------
@@ -80,9 +81,12 @@ def trace_rays(
         raise RenderError(message)
     kept = accelerate(scene)  # which the given scene may have already
     scene = Scene(camera, list(scene.lights), list(scene.objects))
-    packed, numbering = pack(scene, kept), number_objects(scene.objects)
-    cosines = np.zeros(len(scene.lights))
-    blockers = np.full(len(scene.lights), NOTHING)
+    # Other lights than points are not a ray each.
+    points = {k: light for k, light in enumerate(scene.lights) if isinstance(light, Light)}
+    shown = Scene(camera, list(points.values()), scene.objects)
+    packed, numbering = pack(shown, kept), number_objects(scene.objects)
+    cosines = np.zeros(len(points))
+    blockers = np.full(len(points), NOTHING)
     traced = trace_one(packed.arrays, column, row, new_stack(), cosines, blockers)
     start, direction = _world(scene, packed, traced.ray.origin), traced.ray.direction
     eye = uncompiled(add)(start, uncompiled(scale)(-packed.before, direction))
@@ -96,8 +100,8 @@ def trace_rays(
             traced.interaction.normal,
         )
         lights = [
-            _shadow_ray(scene, numbering, hit, k, float(cosines[k]), int(blockers[k]))
-            for k in range(len(scene.lights))
+            _shadow_ray(scene, numbering, hit, (k, light), float(cosine), int(blocker))
+            for (k, light), cosine, blocker in zip(points.items(), cosines, blockers, strict=True)
         ]
     return RayTree(
         (column, row),
@@ -113,10 +117,15 @@ def trace_rays(
 
 
 def _shadow_ray(
-    scene: Scene, numbering: Numbering, hit: Hit, number: int, cosine: float, primitive: int
+    scene: Scene,
+    numbering: Numbering,
+    hit: Hit,
+    numbered: tuple[int, Light],
+    cosine: float,
+    primitive: int,
 ) -> ShadowRay:
-    """Return the ray from a hit to a light; `primitive` is the number of what blocks it."""
-    light, point = scene.lights[number], hit.point
+    """Return the ray from a hit to a point light; `primitive` is the number of what blocks it."""
+    (number, light), point = numbered, hit.point
     place = (light.location.x, light.location.y, light.location.z)
     way = (place[0] - point[0], place[1] - point[1], place[2] - point[2])
     distance = hypotenuse(*way)
@@ -126,8 +135,13 @@ def _shadow_ray(
     # In the order of the kernels, so that the sum has the same bits.
     strength = cosine * hit.surface.lambert * light.intensity if blocker is None else 0.0
     red, green, blue = hit.surface.color
-    adds = (strength * red, strength * green, strength * blue)
-    return ShadowRay(number, place, light.intensity, way, distance, cosine, blocker, adds)
+    tint = _rgb(light.color)
+    adds = (
+        strength * red * (tint[0] / 255),
+        strength * green * (tint[1] / 255),
+        strength * blue * (tint[2] / 255),
+    )
+    return ShadowRay(number, place, light.intensity, way, distance, cosine, blocker, adds, tint)
 
 
 def _blocker(scene: Scene, numbering: Numbering, primitive: int, start: Vec, way: Vec) -> Surface:
