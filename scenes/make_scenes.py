@@ -15,7 +15,6 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-import msgspec
 from PIL import Image as PillowImage
 
 import vtray
@@ -281,7 +280,7 @@ MAKERS: list[Callable[[], Scene]] = [first, room, molecule, spiral, packing, ins
 
 def to_text(scene: Scene) -> str:
     """Return a scene as JSON with one light or object on each line."""
-    data = json.loads(msgspec.json.encode(scene), parse_float=rounded)
+    data = json.loads(json.dumps(scene.to_dict()), parse_float=rounded)
     view = ",\n".join(
         f"    {json.dumps(key)}: {json.dumps(data['camera'][key])}" for key in data["camera"]
     )

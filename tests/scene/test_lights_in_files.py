@@ -14,6 +14,9 @@ from strategies import colors, directions, places
 
 import vtray
 from vtray import Ambient, Color, Light, Sky, SphereLight, Sun
+from vtray.scene.checks.json_tree import JsonTree
+from vtray.scene.checks.scene_check import FileChecker
+from vtray.scene.files.in_file import SceneInFile
 from vtray.scene.files.schema import scene_schema
 from vtray.scene.fingerprint import scene_hash
 from vtray.scene.light_types import AnyLight
@@ -233,6 +236,35 @@ def test_lights_saved_and_loaded_again_are_the_same(
     again.save(path.with_name("again.json"))
     assert path.read_bytes() == path.with_name("again.json").read_bytes()
     assert vtray.load_dict(scene.to_dict()) == scene
+
+
+@st.composite
+def spoilt_lights(draw: st.DrawFn) -> list[dict[str, Any]]:
+    """Lights of which some lack a key, or have one that is unknown, of another kind or wrong."""
+    lights = draw(st.lists(all_lights(), max_size=3))
+    keys = st.sampled_from(["type", "intensity", "radius", "direction", "color", "note", "Type"])
+    values = st.sampled_from([0, 1.0, -1, "sky", "a:b", None, [], PLACE, RED, {**PLACE, "w": "::"}])
+    for light in lights:
+        if draw(st.booleans()):
+            light[draw(keys)] = draw(values)
+        if draw(st.integers(0, 4)) == 0:
+            light.pop(draw(keys), None)
+    return lights
+
+
+@given(written=spoilt_lights())
+def test_a_quick_look_finds_what_a_close_one_finds(written: list[dict[str, Any]]) -> None:
+    text = lit_by(*written)
+    tree = JsonTree(text.encode(), {}, SceneInFile.__struct_fields__)
+    checker = FileChecker(tree.line)
+    warnings: list[str] = []
+    try:
+        checker.check(tree.read(), SceneInFile)
+    except vtray.SceneError as problem:
+        assert message_of(text) == str(problem)
+    else:
+        vtray.loads(text, "room.json", warn=warnings.append)
+        assert warnings == [f"room.json: {line}" for line in checker.unknown.lines()]
 
 
 def test_plain_points_are_written_as_before(tmp_path: Path) -> None:
