@@ -34,6 +34,7 @@ from vtray.transport.film import (
     write_middles,
     write_pixels,
 )
+from vtray.transport.integrators.soft import add_soft_lights
 from vtray.transport.interaction import gather_interactions
 from vtray.transport.light_buffer import KeptLight, keep_cosines
 from vtray.transport.lights.light import light_count, light_target, load_power
@@ -43,7 +44,6 @@ from vtray.transport.lights.lighting import (
     find_facing,
     note_shadows,
 )
-from vtray.transport.lights.soft_lighting import add_soft_lights
 from vtray.transport.sampling.pixel_samples import Sampling, list_pixels, place_samples
 from vtray.transport.scene_arrays import SceneArrays
 

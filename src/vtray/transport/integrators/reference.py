@@ -22,12 +22,11 @@ from vtray.transport.lights.light import light_count, light_target, load_power
 from vtray.transport.lights.soft_light import (
     SoftLights,
     aim_at,
-    arriving_share,
-    spread_fan,
 )
 from vtray.transport.materials.lambert import lambert_cosine
 from vtray.transport.materials.material import load_material, scattered
 from vtray.transport.sampling.fans import Fans, fan_keys
+from vtray.transport.sampling.light_rays import arriving_share, spread_fan
 from vtray.transport.scene_arrays import SceneArrays
 
 

@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.occlusion import Target
-from vtray.geometry.vector import Vec, pick
+from vtray.geometry.vector import pick
 from vtray.transport.lights.soft_light import SoftLights
+from vtray.transport.materials.material import Power
 
 Floats = NDArray[np.float64]
 
@@ -42,13 +43,6 @@ class Lights(NamedTuple):
     soft: SoftLights | None
     intensity: Floats
     color: Floats
-
-
-class Power(NamedTuple):
-    """How strong a light is, and its colour, 1 for white."""
-
-    intensity: float
-    color: Vec
 
 
 @device

@@ -17,9 +17,8 @@ from vtray.geometry.packets.packet import (
 )
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import add, sub
-from vtray.transport.lights.light import Power
 from vtray.transport.materials.lambert import cosine_of, is_above
-from vtray.transport.materials.material import Material, scattered
+from vtray.transport.materials.material import Material, Power, scattered
 
 MANTISSA = 53
 """Bits of a double that can stand for a light each."""

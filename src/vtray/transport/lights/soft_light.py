@@ -1,9 +1,4 @@
-"""Lights that are no points: where the rays of a fan go, and what each of them counts.
-
-A fan of rays goes from a point on a surface to many places of one light. What the light adds there
-is the mean of the weights of those rays that arrive, so that it is one number, as the cosine of a
-point light is.
-"""
+"""Lights that are no points, and how they are seen from a point of a surface."""
 
 import math
 from typing import NamedTuple
@@ -12,19 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.fan import (
-    BLOCKED,
-    DIRECTION,
-    END,
-    END_PLANE_DEPTH,
-    FAN,
-    WEIGHT,
-    Fan,
-    Start,
-)
-from vtray.geometry.vector import Vec, add, dot, scale, sub
-from vtray.transport.sampling.fans import fan_point
-from vtray.transport.sampling.warps import cone_direction, cosine_direction
+from vtray.geometry.vector import Vec, dot, scale, sub
 
 Floats = NDArray[np.float64]
 
@@ -111,104 +94,3 @@ def aim_at(soft: SoftLights, light: int, point: Vec, normal: Vec) -> Aim:
         # Inside, its light comes from all sides.
         return Aim(SPHERE, place, size, normal, ALL_AROUND, 1.0)
     return Aim(AROUND, place, size, normal, ALL_AROUND, 1.0)
-
-
-@device
-def spread_fan(
-    fan: Fan,
-    rays: int,
-    aim: Aim,
-    start: Start,
-    normal: Vec,
-    forward: Vec,
-    points: NDArray[np.int64],
-    first: int,
-    keys: tuple[int, int],
-) -> int:
-    """Set the rays of a fan to a light; return how many of them count.
-
-    Parameters
-    ----------
-    fan, rays
-        Out: so many rays.
-    aim, start, normal
-        The light, and the point with its unit normal.
-    forward
-        The unit direction in which the camera looks.
-    points, first, keys
-        The points that choose the rays, from the first on, and what they are scrambled by.
-    """
-    # A loop for each step: only so are they vectorised.
-    for ray in range(rays):
-        fan[DIRECTION + ray], fan[DIRECTION + FAN + ray] = fan_point(points, first + ray, keys)
-    if aim.spread == ALL_AROUND:
-        for ray in range(rays):
-            u, v = fan[DIRECTION + ray], fan[DIRECTION + FAN + ray]
-            _set_direction(fan, ray, cosine_direction(u, v, normal))
-    else:
-        for ray in range(rays):
-            u, v = fan[DIRECTION + ray], fan[DIRECTION + FAN + ray]
-            _set_direction(fan, ray, cone_direction(u, v, aim.axis, aim.spread))
-    for ray in range(rays):
-        _set_weight(fan, ray, aim, normal)
-    for ray in range(rays):
-        _set_end(fan, ray, aim, start, forward)
-    cast = 0
-    for ray in range(rays):
-        cast += 1 if fan[BLOCKED + ray] == 0.0 else 0
-    return cast
-
-
-@device
-def _set_direction(fan: Fan, ray: int, direction: Vec) -> None:
-    """Set the direction of a ray."""
-    fan[DIRECTION + ray] = direction[0]
-    fan[DIRECTION + FAN + ray] = direction[1]
-    fan[DIRECTION + 2 * FAN + ray] = direction[2]
-
-
-@device
-def _load_direction(fan: Fan, ray: int) -> Vec:
-    """Return the direction of a ray."""
-    return fan[DIRECTION + ray], fan[DIRECTION + FAN + ray], fan[DIRECTION + 2 * FAN + ray]
-
-
-@device
-def _set_weight(fan: Fan, ray: int, aim: Aim, normal: Vec) -> None:
-    """Set what a ray counts; one that counts nothing is not cast."""
-    cosine = max(dot(normal, _load_direction(fan, ray)), 0.0)
-    weight = 1.0 if aim.spread == ALL_AROUND else aim.share * cosine
-    fan[WEIGHT + ray] = weight
-    fan[BLOCKED + ray] = 0.0 if weight > 0.0 else 1.0
-
-
-@device
-def _set_end(fan: Fan, ray: int, aim: Aim, start: Start, forward: Vec) -> None:
-    """Set where a ray ends."""
-    direction = _load_direction(fan, ray)
-    way = scale(_length(aim, start.point, direction), direction)
-    x, y, z = add(start.point, way)
-    fan[END + ray] = x
-    fan[END + FAN + ray] = y
-    fan[END + 2 * FAN + ray] = z
-    fan[END_PLANE_DEPTH + ray] = start.plane_depth + dot(way, forward)
-
-
-@device
-def _length(aim: Aim, point: Vec, direction: Vec) -> float:
-    """Return how long a ray is: up to the near side of a sphere, or the far one from inside."""
-    way = sub(aim.place, point)
-    middle = dot(way, direction)
-    approach = sub(way, scale(middle, direction))
-    half_chord = math.sqrt(max(aim.size * aim.size - dot(approach, approach), 0.0))
-    side = middle + half_chord if aim.spread == ALL_AROUND else middle - half_chord
-    return side if aim.kind == SPHERE else aim.size
-
-
-@device
-def arriving_share(fan: Fan, rays: int) -> float:
-    """Return the mean weight of the rays of a fan, 0 for one that something stops."""
-    total = 0.0
-    for ray in range(rays):
-        total += fan[WEIGHT + ray] if fan[BLOCKED + ray] == 0.0 else 0.0
-    return total / rays

@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.vector import Vec
-from vtray.transport.lights.light import Power
 from vtray.transport.materials.lambert import lambert_light
 
 Integers = NDArray[np.int64]
@@ -55,6 +54,13 @@ class Material(NamedTuple):
 
     color: Vec
     lambert: float
+
+
+class Power(NamedTuple):
+    """How strong a light is, and its colour, 1 for white."""
+
+    intensity: float
+    color: Vec
 
 
 @device

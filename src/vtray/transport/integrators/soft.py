@@ -3,7 +3,7 @@
 import numpy as np
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.fan import Start, find_stopped
+from vtray.geometry.packets.fan import Start
 from vtray.geometry.packets.packet import (
     BLOCK,
     COLOR,
@@ -21,18 +21,18 @@ from vtray.geometry.packets.packet import (
     store,
 )
 from vtray.geometry.packets.workspace import Workspace
+from vtray.geometry.stopped import find_stopped
 from vtray.geometry.vector import add
 from vtray.transport.light_buffer import KeptLight
 from vtray.transport.lights.light import Lights, light_count, load_power
 from vtray.transport.lights.soft_light import (
     SoftLights,
     aim_at,
-    arriving_share,
     soft_count,
-    spread_fan,
 )
 from vtray.transport.materials.material import Material, scattered
 from vtray.transport.sampling.fans import Fans, fan_keys
+from vtray.transport.sampling.light_rays import arriving_share, spread_fan
 from vtray.transport.scene_arrays import SceneArrays
 
 NARROW = 0.1
