@@ -1,4 +1,4 @@
-"""Ready-made lights, as photographers set them up, made of point lights.
+"""Ready-made lights, as photographers set them up.
 
 Each function looks at a scene's camera and at the sphere around its spheres, the subject, and
 returns a list of lights for ``scene.lights``. Angles are seen from the subject: 0 degrees is the
@@ -8,6 +8,8 @@ when the camera has moved. Key is the light that makes the shadows, fill the one
 them; there is no fall-off with distance, so that the ratio of their intensities is that of the
 light they throw.
 
+`studio` is what a scene gets whose lights were never set; `none` leaves it dark.
+
 `cloudy` and `lightbox` are the light of a place, and go by what is up in the world: `up`, if it is
 given. Else it is the normal of the scene's first plane, on the side of the spheres, as for
 `Camera.fit`, unless the camera's `up` is the normal of another one. Without planes it is the
@@ -16,6 +18,26 @@ camera's `up`, or where it has none, up in the picture.
 >>> scene.lights = vtray.lights.rembrandt(scene)
 """
 
-from vtray.scene.light_presets import butterfly, cloudy, lightbox, loop, rembrandt, ring, split
+from vtray.scene.light_presets import (
+    butterfly,
+    cloudy,
+    lightbox,
+    loop,
+    none,
+    rembrandt,
+    ring,
+    split,
+    studio,
+)
 
-__all__ = ["butterfly", "cloudy", "lightbox", "loop", "rembrandt", "ring", "split"]
+__all__ = [
+    "butterfly",
+    "cloudy",
+    "lightbox",
+    "loop",
+    "none",
+    "rembrandt",
+    "ring",
+    "split",
+    "studio",
+]

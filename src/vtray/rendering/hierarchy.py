@@ -30,6 +30,7 @@ from vtray.rendering.placed import Placed, place_copies
 from vtray.rendering.shape_kinds import KINDS, Kind, Source, collect
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.copies import Copies
+from vtray.scene.default_light import has_default_light
 from vtray.scene.fingerprint import hash_arrays
 from vtray.scene.light_types import Light
 from vtray.scene.objects import Plane
@@ -52,7 +53,7 @@ def accelerate(scene: Scene, threads: int = 1, progress: Progress | None = None)
         There are more than a hierarchy or the memory can hold.
     """
     items = [item for item in scene.objects if not isinstance(item, Plane)]
-    few = FEW if all(isinstance(light, Light) for light in scene.lights) else LEAF
+    few = LEAF if _has_soft_light(scene) else FEW
     fingerprint = _fingerprint(items, threads) + bytes([few])
     kept: Acceleration | None = scene.__dict__.get(_KEPT)
     if kept and kept.fingerprint == fingerprint and _are_same(kept.items, items):
@@ -63,6 +64,11 @@ def accelerate(scene: Scene, threads: int = 1, progress: Progress | None = None)
 
 
 _KEPT = "_acceleration"
+
+
+def _has_soft_light(scene: Scene) -> bool:
+    """Tell whether a scene has lights that are no points, its own or by default."""
+    return has_default_light(scene) or not all(isinstance(light, Light) for light in scene.lights)
 
 
 def _are_same(these: list[Any], those: list[Any]) -> bool:

@@ -20,6 +20,7 @@ from vtray.rendering.shape_kinds import KINDS
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import Arrays
 from vtray.scene.copies import Copies
+from vtray.scene.default_light import lights_of
 from vtray.scene.light_types import Light
 from vtray.scene.objects import Plane
 from vtray.scene.placing.directions import unit
@@ -80,7 +81,7 @@ def trace_rays(
         message = f"{caller}: expected 0,0 to {width - 1},{height - 1}, got {column},{row}"
         raise RenderError(message)
     kept = accelerate(scene)  # which the given scene may have already
-    scene = Scene(camera, list(scene.lights), list(scene.objects))
+    scene = Scene(camera, lights_of(scene), list(scene.objects))
     # Other lights than points are not a ray each.
     points = {k: light for k, light in enumerate(scene.lights) if isinstance(light, Light)}
     shown = Scene(camera, list(points.values()), scene.objects)

@@ -20,7 +20,9 @@ from vtray.rendering.passes import Tracer, compile_kernels
 from vtray.rendering.relighting import Relighting
 from vtray.rendering.surfaces import Look
 from vtray.scene.checks.unknown_names import explain_unknown
+from vtray.scene.default_light import default_settings, has_default_light, lights_of
 from vtray.scene.files.scene_file import Warn
+from vtray.scene.light_types import AnyLight
 from vtray.scene.scene import Camera, Scene
 from vtray.scene.settings import RenderSettings, overridden
 
@@ -80,6 +82,7 @@ def render(
     exposure
         ``"max"``, the default: the brightest channel becomes 255. A number: light is multiplied by
         it, so that for 1 a surface that a light of intensity 1 shines on squarely gets its colour.
+        1 is also the default of scenes whose lights were never set.
     background
         What is seen where nothing is: ``"black"``, the default, ``"transparent"``, or a colour in
         any of the ways of `vtray.colors.to_rgb`.
@@ -116,11 +119,12 @@ def render(
     if lock is not None:
         locked_white(lock, exposure)
     scene.check()
-    problem = _darkness(scene, keep_lights=keep_lights)
+    lights = lights_of(scene)
+    settings = overridden(_settings_of(scene), locals())
+    shown = _snapshot(scene, lights, _camera(scene, settings))
+    problem = _darkness(shown, keep_lights=keep_lights)
     if problem:
         (warn or _warn)(problem)
-    settings = overridden(scene.render, locals())
-    shown = _snapshot(scene, _camera(scene, settings))
     width, height = shown.camera.size
     behind = 0 if settings.background == "black" else BYTES_PER_PIXEL_AND_MORE
     check_memory(int(width), int(height), int(settings.samples), behind)
@@ -157,7 +161,7 @@ def render(
         if keep_lights
         else None,
         threads=threads,
-        original=_snapshot(scene, scene.camera),
+        original=_snapshot(scene, lights, scene.camera),
         locked=lock is not None,
     )
     image.develop()
@@ -188,6 +192,12 @@ def _warn(message: str) -> None:
     warnings.warn(message, stacklevel=4)
 
 
+def _settings_of(scene: Scene) -> RenderSettings:
+    """Return the settings of a scene, with those for its light if that is the default one."""
+    look = default_settings(scene.render) if has_default_light(scene) else {}
+    return scene.render.replace(**look)
+
+
 def _camera(scene: Scene, settings: RenderSettings) -> Camera:
     """Return the camera of a scene in the size asked for."""
     size = settings.size
@@ -196,9 +206,9 @@ def _camera(scene: Scene, settings: RenderSettings) -> Camera:
     return scene.camera.resized((int(size[0]), int(size[1])))
 
 
-def _snapshot(scene: Scene, camera: Camera) -> Scene:
+def _snapshot(scene: Scene, lights: list[AnyLight], camera: Camera) -> Scene:
     """Return the scene as it is now, with a camera."""
-    return Scene(camera, list(scene.lights), list(scene.objects), scene.render)
+    return Scene(camera, lights, list(scene.objects), scene.render)
 
 
 def _step_of(progress: Progress | None, step: str) -> StepProgress | None:

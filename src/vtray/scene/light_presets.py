@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta
 
 from vtray.base.exact_math import cosine, sine
-from vtray.scene.light_types import Light
+from vtray.scene.checks.limits import NonNegative
+from vtray.scene.light_types import Ambient, AnyLight, Light
 from vtray.scene.placing.directions import Vec, along, cross, unit
 from vtray.scene.studio import HasCamera, Side, direction, studio_of
 from vtray.scene.vectors import Direction
@@ -22,6 +23,49 @@ SKY = 1000.0
 
 GOLDEN_ANGLE = 180 * (3 - math.sqrt(5))
 """In degrees: points that turn by it from one to the next never line up."""
+
+
+KEY, FILL, RIM, AROUND = 0.45, 0.25, 0.3, 0.5
+"""The parts of studio light: with all of them, a surface that faces the key shows about 1."""
+
+
+def studio(scene: HasCamera, intensity: float = 1.0) -> list[AnyLight]:
+    """Return the light of a studio: soft, and from all sides; that of scenes without lights.
+
+    A large lamp, the key, is 40 degrees to the left and 45 above, a weaker one to the right fills
+    its shadows, and one from behind draws rims; ambient light shows what is deep and what is open.
+    With an exposure of 1, a surface that faces the key shows its own colour.
+
+    Parameters
+    ----------
+    scene
+        A scene with a camera and at least one sphere.
+    intensity
+        How bright a white surface is that faces the key.
+
+    Returns
+    -------
+    list
+        Three `SphereLight` and an `Ambient`.
+
+    Raises
+    ------
+    SceneError
+        If the scene has no camera or no sphere, or an argument is not right.
+    """
+    studio = studio_of("studio", scene)
+    strength = studio.checked("intensity", intensity, NonNegative)
+    return [
+        studio.ball(direction(-40, 45), 1.2, KEY * strength),
+        studio.ball(direction(50, 15), 2.0, FILL * strength),
+        studio.ball(direction(140, 40), 1.0, RIM * strength),
+        Ambient(AROUND * strength),
+    ]
+
+
+def none(scene: HasCamera | None = None) -> list[AnyLight]:  # noqa: ARG001 - as all others
+    """Return no lights at all, so that a scene is black on purpose."""
+    return []
 
 
 def rembrandt(

@@ -183,6 +183,10 @@ AnyLight: TypeAlias = Light | Sun | SphereLight | Sky | Ambient
 OneLight = TypeVar("OneLight", Light, Sun, SphereLight, Sky, Ambient)
 
 
+class NeverSet(list[AnyLight]):
+    """The lights of a new scene: none yet, which is not the same as none on purpose."""
+
+
 def with_intensity(light: AnyLight, intensity: float) -> AnyLight:
     """Return the same light with another strength.
 

@@ -19,7 +19,7 @@ from vtray.scene.checks.checked import Checked
 from vtray.scene.checks.unknown_names import unknown_attribute
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.light_types import Ambient, AnyLight, Light, Sky, SphereLight, Sun
+from vtray.scene.light_types import Ambient, AnyLight, Light, NeverSet, Sky, SphereLight, Sun
 from vtray.scene.objects import Cylinder, Object, Plane, Sphere
 from vtray.scene.settings import RenderSettings
 from vtray.scene.spheres import Spheres
@@ -58,7 +58,8 @@ class Scene(msgspec.Struct, Adding, AddingLights, metaclass=Checked, dict=True):
     camera : Camera
         Where the picture is taken from; None until it is set.
     lights : list of Light, Sun, SphereLight, Sky or Ambient
-        The lights; may be empty.
+        The lights. Where they were never set and none was added, those of `vtray.lights.studio`
+        are used; ``[]``, or `vtray.lights.none`, leaves a scene dark.
     objects : list of Sphere, Cylinder, Plane, Spheres, Cylinders or Copies
         The objects; may be empty.
     render : RenderSettings
@@ -85,7 +86,7 @@ class Scene(msgspec.Struct, Adding, AddingLights, metaclass=Checked, dict=True):
         ) -> None: ...
     else:
         camera: Camera | None = None
-        lights: list[AnyLight] = msgspec.field(default_factory=list)
+        lights: list[AnyLight] = msgspec.field(default_factory=NeverSet)
         objects: list[Object] = msgspec.field(default_factory=list)
         render: RenderSettings = msgspec.field(default_factory=RenderSettings)
 

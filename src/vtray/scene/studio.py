@@ -9,7 +9,7 @@ from vtray.base.errors import SceneError
 from vtray.base.exact_math import cosine, hypotenuse, sine
 from vtray.scene.camera import Camera
 from vtray.scene.checks.limits import NonNegative
-from vtray.scene.light_types import Light
+from vtray.scene.light_types import Light, SphereLight
 from vtray.scene.objects import Object
 from vtray.scene.placing.bounding_sphere import bounding_sphere
 from vtray.scene.placing.bounds import balls_of, ups_of_planes
@@ -78,6 +78,11 @@ class Studio(NamedTuple):
         for part, axis in zip(direction, (self.right, self.up, self.back), strict=True):
             place = along(place, part * self.reach, axis)
         return Light(place, intensity)
+
+    def ball(self, direction: Vec, radius: float, intensity: float) -> SphereLight:
+        """Return a shining ball; the radius is in radii of the subject."""
+        place = self.light(direction, intensity).location
+        return SphereLight(place, radius * self.reach / DISTANCE, intensity)
 
     def key_and_fill(
         self,

@@ -13,6 +13,7 @@ from vtray.base.errors import OutputError
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.checks.limits import Byte
 from vtray.scene.copies import Copies
+from vtray.scene.default_light import lights_of
 from vtray.scene.files.in_file import HOLDERS_IN_FILE, HolderInFile, SceneInFile
 from vtray.scene.settings import RenderSettings
 from vtray.scene.vectors import Color
@@ -40,7 +41,7 @@ def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
         return entry
 
     objects = [in_file(item) for item in scene.objects]
-    lights: list[Any] = [as_written(light) for light in scene.lights]
+    lights: list[Any] = [as_written(light) for light in lights_of(scene)]
     found = SceneInFile(scene.camera, lights, objects)
     if scene.render != RenderSettings():
         found.render = scene.render

@@ -12,6 +12,7 @@ from vtray.scene.checks.columns import array_words
 from vtray.scene.checks.limits import Byte
 from vtray.scene.checks.scene_words import Unknown, join, nearest, show
 from vtray.scene.copies import Copies
+from vtray.scene.default_light import lights_of
 from vtray.scene.files.scene_file import Warn, loads
 from vtray.scene.objects import ARRAY_KINDS, Object
 from vtray.scene.scene import Scene
@@ -83,7 +84,7 @@ def to_dict(scene: Scene) -> dict[str, Any]:
     """Return a valid scene as `Scene.to_dict` does."""
     data: dict[str, Any] = {
         "camera": msgspec.to_builtins(scene.camera),
-        "lights": [msgspec.to_builtins(as_written(light)) for light in scene.lights],
+        "lights": [msgspec.to_builtins(as_written(light)) for light in lights_of(scene)],
         "objects": [_object_to_dict(item) for item in scene.objects],
     }
     settings = msgspec.to_builtins(scene.render)

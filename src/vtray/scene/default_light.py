@@ -1,0 +1,48 @@
+"""How scenes look whose lights were never set: as in a studio, with a white wall behind."""
+
+from typing import Any, Protocol
+
+from vtray.scene.light_presets import studio
+from vtray.scene.light_types import Ambient, AnyLight, NeverSet
+from vtray.scene.objects import Plane
+from vtray.scene.settings import RenderSettings
+from vtray.scene.studio import HasCamera
+from vtray.scene.vectors import Color
+
+
+class HasLights(HasCamera, Protocol):
+    """A scene, as far as its light is concerned."""
+
+    @property
+    def lights(self) -> list[AnyLight]: ...  # noqa: D102
+
+
+def has_default_light(scene: HasLights) -> bool:
+    """Tell whether the lights of a scene were never set, and none was added."""
+    return isinstance(scene.lights, NeverSet) and not scene.lights
+
+
+def lights_of(scene: HasLights) -> list[AnyLight]:
+    """Return the lights of a checked scene; those of `vtray.lights.studio` if none were ever set.
+
+    Without anything for a studio to be built around, planes alone, all light is ambient.
+    """
+    if not has_default_light(scene) or not scene.objects:
+        return list(scene.lights)
+    if all(isinstance(item, Plane) for item in scene.objects):
+        return [Ambient()]
+    return studio(scene)
+
+
+def default_settings(settings: RenderSettings) -> dict[str, Any]:
+    """Return the settings of a scene in default light, but for those that were set.
+
+    Its light is made for an exposure of 1, with which colours are what they were given as, and its
+    rims for a bright background.
+    """
+    look: dict[str, Any] = {}
+    if settings.exposure == "max":
+        look["exposure"] = 1.0
+    if settings.background == "black":
+        look["background"] = Color(255, 255, 255)
+    return look
