@@ -49,6 +49,7 @@ def pack_lights(
         z,
         plane_depth=_dot((x, y, z), camera.forward),
         error_scale=_magnitude(x, y, z) + _magnitude(*origin),
+        points=len(hard) if hard or not soft else None,
         soft=_pack_soft(soft, origin, unit) if soft else None,
         intensity=np.array([light.intensity for light in ordered], float),
         color=np.array(colors, float).reshape(-1, 3) / 255.0,

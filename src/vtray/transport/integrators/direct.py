@@ -37,7 +37,7 @@ from vtray.transport.film import (
 from vtray.transport.integrators.soft import add_soft_lights
 from vtray.transport.interaction import gather_interactions
 from vtray.transport.light_buffer import KeptLight, keep_cosines
-from vtray.transport.lights.light import light_count, light_target, load_power
+from vtray.transport.lights.light import light_target, load_power
 from vtray.transport.lights.lighting import (
     add_light,
     clear_shadows,
@@ -128,7 +128,16 @@ def _trace_pixels(
         if hits > 0:
             is_noted = sampling.rays == 1
             rays += _light_hits(
-                scene, hits, film.linear, film.shadows, film.kept, is_noted, packet, work, stop
+                scene,
+                scene.lights.points,
+                hits,
+                film.linear,
+                film.shadows,
+                film.kept,
+                is_noted,
+                packet,
+                work,
+                stop,
             )
             rays += _light_softly(
                 scene,
@@ -169,6 +178,7 @@ def _find_surfaces(
 @device
 def _light_hits(
     scene: SceneArrays,
+    points: int | None,
     hits: int,
     linear: Rows,
     shadows: Rows,
@@ -178,17 +188,19 @@ def _light_hits(
     work: Workspace,
     stop: NDArray[np.bool_],
 ) -> int:
-    """Add all lights to the hits of a packet; return how many shadow rays were cast."""
+    """Add all points to the hits of a packet; return how many shadow rays were cast."""
     rays = 0
     if linear is None:
+        return rays
+    if shadows is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_noted:
+            clear_shadows(packet, hits)
+    if points is None:
         return rays
     bounds = bound_points(packet, hits)
     find_sides(packet, hits, scene.world, work)
     own = -1 if has_trees(scene.world) else own_sphere(packet, hits, scene.world)
-    if shadows is not None:  # noqa: SIM102 - by itself, it is known to the compiler
-        if is_noted:
-            clear_shadows(packet, hits)
-    for light in range(light_count(scene.lights)):
+    for light in range(points):
         if stop[0]:
             break
         target = light_target(scene.lights, light)

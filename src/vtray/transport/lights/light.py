@@ -26,6 +26,9 @@ class Lights(NamedTuple):
     error_scale
         What the rounding of a light's place is relative to: its coordinates in world space, where
         it was worked out, by hand or by a program, (n,).
+    points
+        How many points there are; None where there are none, but other lights, so that no code is
+        compiled for them.
     soft
         The lights that are no points; None where there are none, so that no code is compiled for
         them.
@@ -40,6 +43,7 @@ class Lights(NamedTuple):
     z: Floats
     plane_depth: Floats
     error_scale: Floats
+    points: int | None
     soft: SoftLights | None
     intensity: Floats
     color: Floats
