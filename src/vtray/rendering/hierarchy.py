@@ -54,7 +54,7 @@ def accelerate(scene: Scene, threads: int = 1, progress: Progress | None = None)
     """
     items = [item for item in scene.objects if not isinstance(item, Plane)]
     few = LEAF if _has_soft_light(scene) else FEW
-    fingerprint = _fingerprint(items, threads) + bytes([few])
+    fingerprint = _fingerprint(items, threads) + few.to_bytes(8, "little")
     kept: Acceleration | None = scene.__dict__.get(_KEPT)
     if kept and kept.fingerprint == fingerprint and _are_same(kept.items, items):
         return kept

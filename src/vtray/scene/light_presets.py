@@ -25,8 +25,8 @@ GOLDEN_ANGLE = 180 * (3 - math.sqrt(5))
 """In degrees: points that turn by it from one to the next never line up."""
 
 
-KEY, FILL, RIM, AROUND = 0.45, 0.25, 0.3, 0.5
-"""The parts of studio light: with all of them, a surface that faces the key shows about 1."""
+KEY, FILL, RIM, AROUND = 0.42, 0.22, 0.26, 0.45
+"""The parts of studio light: with all of them, what is brightest shows about 1."""
 
 
 def studio(scene: HasCamera, intensity: float = 1.0) -> list[AnyLight]:
@@ -34,14 +34,14 @@ def studio(scene: HasCamera, intensity: float = 1.0) -> list[AnyLight]:
 
     A large lamp, the key, is 40 degrees to the left and 45 above, a weaker one to the right fills
     its shadows, and one from behind draws rims; ambient light shows what is deep and what is open.
-    With an exposure of 1, a surface that faces the key shows its own colour.
+    With an exposure of 1, the brightest surfaces show their own colour.
 
     Parameters
     ----------
     scene
         A scene with a camera and at least one sphere.
     intensity
-        How bright a white surface is that faces the key.
+        How bright the brightest white surface is, about.
 
     Returns
     -------
