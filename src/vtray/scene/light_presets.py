@@ -46,7 +46,7 @@ def studio(scene: HasCamera, intensity: float = 1.0) -> list[AnyLight]:
     Returns
     -------
     list
-        Three `SphereLight` and an `Ambient`.
+        Three `Sun`, so that a floor is lit evenly as far as it goes, and an `Ambient`.
 
     Raises
     ------
@@ -56,9 +56,9 @@ def studio(scene: HasCamera, intensity: float = 1.0) -> list[AnyLight]:
     studio = studio_of("studio", scene)
     strength = studio.checked("intensity", intensity, NonNegative)
     return [
-        studio.ball(direction(-40, 45), 1.2, KEY * strength),
-        studio.ball(direction(50, 15), 2.0, FILL * strength),
-        studio.ball(direction(140, 40), 1.0, RIM * strength),
+        studio.sun(direction(-40, 45), 20.0, KEY * strength),
+        studio.sun(direction(50, 15), 40.0, FILL * strength),
+        studio.sun(direction(140, 40), 20.0, RIM * strength),
         Ambient(AROUND * strength),
     ]
 

@@ -9,7 +9,7 @@ from vtray.base.errors import SceneError
 from vtray.base.exact_math import cosine, hypotenuse, sine
 from vtray.scene.camera import Camera
 from vtray.scene.checks.limits import NonNegative
-from vtray.scene.light_types import Light, SphereLight
+from vtray.scene.light_types import Light, Sun
 from vtray.scene.objects import Object
 from vtray.scene.placing.bounding_sphere import bounding_sphere
 from vtray.scene.placing.bounds import balls_of, ups_of_planes
@@ -79,10 +79,12 @@ class Studio(NamedTuple):
             place = along(place, part * self.reach, axis)
         return Light(place, intensity)
 
-    def ball(self, direction: Vec, radius: float, intensity: float) -> SphereLight:
-        """Return a shining ball; the radius is in radii of the subject."""
-        place = self.light(direction, intensity).location
-        return SphereLight(place, radius * self.reach / DISTANCE, intensity)
+    def sun(self, direction: Vec, angle: float, intensity: float) -> Sun:
+        """Return a lamp far away, of an angle in degrees; the direction is that of `light`."""
+        place: Vec = (0.0, 0.0, 0.0)
+        for part, axis in zip(direction, (self.right, self.up, self.back), strict=True):
+            place = along(place, -part, axis)
+        return Sun(place, intensity, angle)
 
     def key_and_fill(
         self,
