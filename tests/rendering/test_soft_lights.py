@@ -15,7 +15,7 @@ from vtray.geometry.queries import NOTHING
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
 from vtray.transport.integrators import reference
-from vtray.transport.sampling.fans import new_fans
+from vtray.transport.sampling.fans import fans_of_middles
 
 SIZE = 40, 30
 
@@ -53,7 +53,7 @@ def scene_of(kind: str) -> vtray.Scene:
 def test_bundles_tell_what_each_ray_alone_would(kind: str) -> None:
     scene = scene_of(kind)
     image = render(scene, seed=5)
-    arrays, fans, fan = pack(scene, accelerate(scene)).arrays, new_fans(1), new_fan()
+    arrays, fans, fan = pack(scene, accelerate(scene)).arrays, fans_of_middles(1), new_fan()
     soft = arrays.lights.soft
     assert soft is not None
     stack, cosines, blockers = new_stack(), np.zeros(1), np.full(1, NOTHING)

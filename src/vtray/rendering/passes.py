@@ -1,5 +1,6 @@
 """From the arrays of a scene to a film: which rays are cast, tile by tile, in one pass or two."""
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +15,7 @@ from vtray.scene.settings import RenderSettings
 from vtray.transport.film import Film, new_film
 from vtray.transport.light_buffer import KeptLight, new_kept_light
 from vtray.transport.sampling.adaptive import mark_rows
-from vtray.transport.sampling.fans import Fans, new_fans
+from vtray.transport.sampling.fans import Fans, fans_of_middles, fans_of_samples
 from vtray.transport.sampling.filters import FILTERS
 from vtray.transport.sampling.pixel_samples import (
     Sampling,
@@ -99,29 +100,28 @@ class Tracer:
             Whether to keep what each ray hits and which lights reach it.
         """
         if settings.samples == 1:
-            fans = self._fans(1)
-            return self._middles(middle_rays(fans=fans, seed=int(settings.seed)), keep, *ONE_RAY)
+            rays = middle_rays(fans=self._fans(fans_of_middles, 1), seed=int(settings.seed))
+            return self._middles(rays, keep, *ONE_RAY)
         self._passes = 2
         footprint = filter_footprint(settings, self._scene.camera)
-        middles = middle_rays(
-            footprint, before_samples=True, fans=self._fans(1), seed=int(settings.seed)
-        )
+        samples, seed = int(settings.samples), int(settings.seed)
+        fans = self._fans(fans_of_middles, samples)
+        middles = middle_rays(footprint, before_samples=True, fans=fans, seed=seed)
         found = self._middles(middles, keep, *SAMPLES)
         film = found.film
         marks, peak = self._mark(film, settings)
         np.greater_equal(film.primitive, 0, out=film.coverage)
         kept = found.kept
         if keep:
-            kept = (*kept, self._keep(marks, int(settings.samples)))
+            kept = (*kept, self._keep(marks, samples))
             film = film._replace(kept=kept[-1])
-        sampled = self._trace(
-            filter_samples(settings, marks, self._fans(int(settings.samples))), film
-        )
+        sampling = filter_samples(settings, marks, self._fans(fans_of_samples, samples))
+        sampled = self._trace(sampling, film)
         return Traced(film, max(peak, sampled.peak), found.rays + sampled.rays, kept)
 
-    def _fans(self, samples: int) -> Fans | None:
+    def _fans(self, make: Callable[[int], Fans], samples: int) -> Fans | None:
         """Return which rays are cast to soft lights, if there are any."""
-        return None if self._scene.lights.soft is None else new_fans(samples)
+        return None if self._scene.lights.soft is None else make(samples)
 
     def _middles(self, sampling: Sampling, keep: bool, *wanted: str) -> Traced:
         """Trace one ray for each pixel."""
@@ -175,5 +175,5 @@ def compile_kernels(scene: SceneArrays, settings: RenderSettings, *, keep: bool 
         mark_rows(film, 0, 0, 0, np.zeros((0, 0), np.bool_))
     if keep:
         film = film._replace(kept=new_kept_light(np.zeros((0, 0), np.int64), 0, 0))
-    fans = None if scene.lights.soft is None else new_fans(1)
+    fans = None if scene.lights.soft is None else fans_of_middles(1)
     trace_to(film, scene, middle_rays(before_samples=has_samples, fans=fans), Tile(0, 0, 0, 0))

@@ -148,6 +148,7 @@ def _trace_pixels(
                 last,
                 hits,
                 film.linear,
+                film.shadows,
                 film.kept,
                 packet,
                 work,
@@ -223,6 +224,7 @@ def _light_softly(
     last: int,
     hits: int,
     linear: Rows,
+    shadows: Rows,
     kept: KeptLight | None,
     packet: Packet,
     work: Workspace,
@@ -232,7 +234,19 @@ def _light_softly(
         return 0
     soft, fans, seed = scene.lights.soft, sampling.fans, sampling.seed
     return add_soft_lights(
-        packet, hits, last - first, first, block, begin, scene, soft, fans, seed, kept, work
+        packet,
+        hits,
+        last - first,
+        first,
+        block,
+        begin,
+        scene,
+        soft,
+        fans,
+        seed,
+        shadows,
+        kept,
+        work,
     )
 
 

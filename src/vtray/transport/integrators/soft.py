@@ -1,5 +1,7 @@
 """What soft lights add to the hits of a packet: a fan of rays from each hit to each of them."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from vtray.base.compiler.compiled import device
@@ -13,6 +15,7 @@ from vtray.geometry.packets.packet import (
     NORMAL,
     PLANE_DEPTH,
     POINT,
+    SHADOWS,
     SOURCE,
     VALUE,
     Block,
@@ -23,8 +26,10 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.stopped import find_stopped
 from vtray.geometry.vector import add
+from vtray.transport.film import Rows
 from vtray.transport.light_buffer import KeptLight
 from vtray.transport.lights.light import Lights, light_count, load_power
+from vtray.transport.lights.lighting import light_bit
 from vtray.transport.lights.soft_light import (
     SoftLights,
     aim_at,
@@ -32,11 +37,30 @@ from vtray.transport.lights.soft_light import (
 )
 from vtray.transport.materials.material import Material, scattered
 from vtray.transport.sampling.fans import Fans, fan_keys
-from vtray.transport.sampling.light_rays import arriving_share, spread_fan
+from vtray.transport.sampling.light_rays import arriving_share, count_open, spread_fan
 from vtray.transport.scene_arrays import SceneArrays
 
 NARROW = 0.1
 """Up to this spread, which a lamp has that is seen under 50 degrees, its rays are kept together."""
+
+
+class Arriving(NamedTuple):
+    """What arrives of a light at a hit.
+
+    Attributes
+    ----------
+    share
+        The mean weight of all rays.
+    cast, arrived
+        How many rays were cast, and how many arrive.
+    is_narrow
+        Whether the light is seen under a small angle, so that its shadows have edges.
+    """
+
+    share: float
+    cast: int
+    arrived: int
+    is_narrow: bool
 
 
 @device
@@ -51,6 +75,7 @@ def add_soft_lights(
     soft: SoftLights | None,
     fans: Fans | None,
     seed: int,
+    shadows: Rows,
     kept: KeptLight | None,
     work: Workspace,
 ) -> int:
@@ -68,6 +93,8 @@ def add_soft_lights(
         The scene, and its soft lights.
     fans, seed
         Which rays are cast.
+    shadows
+        Not None if it is wanted which lights something keeps from the hits.
     kept
         Out: what each light adds, if that is kept.
     work
@@ -81,15 +108,14 @@ def add_soft_lights(
                 lane = packet.view(np.int64)[SOURCE + hit]
                 pixel = work.pixels[begin + lane // samples]
                 column, row = block.left + (pixel & (BLOCK - 1)), block.top + pixel // BLOCK
-                point = (first + lane % samples) * fans.rays
+                point = (first + lane % samples) * fans.rays * fans.rounds
                 for light in range(soft_count(soft)):
                     keys = fan_keys(column, row, light, seed)
-                    share, rays = _arriving(
-                        packet, hit, scene, soft, light, fans, point, keys, work
-                    )
-                    _add_share(packet, hit, scene.lights, light, share)
-                    _keep_share(packet, lane, scene.lights, light, share, kept)
-                    cast += rays
+                    arriving = _arriving(packet, hit, scene, soft, light, fans, point, keys, work)
+                    _add_share(packet, hit, scene.lights, light, arriving.share)
+                    _keep_share(packet, lane, scene.lights, light, arriving.share, kept)
+                    _note_shadow(packet, hit, scene.lights, light, arriving, shadows)
+                    cast += arriving.cast
     return cast
 
 
@@ -104,17 +130,23 @@ def _arriving(
     first: int,
     keys: tuple[int, int],
     work: Workspace,
-) -> tuple[float, int]:
-    """Return what arrives of a light at a hit, and how many rays tell."""
+) -> Arriving:
+    """Return what arrives of a light at a hit, after one round if all its rays tell the same."""
     point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
     start = Start(point, packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
     aim = aim_at(soft, light, point, normal)
-    fan, forward = work.fan, scene.camera.forward
-    rays = spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, first, keys)
-    end_scale = soft.error_scale[light] + start.error_scale
     is_narrow = aim.spread < NARROW
-    find_stopped(fan, fans.rays, is_narrow, start, end_scale, scene.world, work.stack)
-    return arriving_share(fan, fans.rays), rays
+    fan, forward = work.fan, scene.camera.forward
+    end_scale = soft.error_scale[light] + start.error_scale
+    total, cast, arrived, rounds = 0.0, 0, 0, 0
+    while rounds < fans.rounds and (rounds == 0 or 0 < arrived < cast):
+        place = first + rounds * fans.rays
+        cast += spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, place, keys)
+        find_stopped(fan, fans.rays, is_narrow, start, end_scale, scene.world, work.stack)
+        total += arriving_share(fan, fans.rays)
+        arrived += count_open(fan, fans.rays)
+        rounds += 1
+    return Arriving(total / rounds, cast, arrived, is_narrow)
 
 
 @device
@@ -134,3 +166,15 @@ def _keep_share(
     if kept is not None:
         place = packet.view(np.int64)[KEPT + lane]
         kept.cosines[light_count(lights) + light, place] = share
+
+
+@device
+def _note_shadow(
+    packet: Packet, hit: int, lights: Lights, light: int, arriving: Arriving, shadows: Rows
+) -> None:
+    """Note whether a light that throws shadows with edges is hidden, in part or as a whole."""
+    if shadows is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if arriving.is_narrow and arriving.arrived < arriving.cast:
+            number = light_count(lights) + 2 * light
+            packet[SHADOWS + hit] += light_bit(number)
+            packet[SHADOWS + hit] += light_bit(number + 1) if arriving.arrived == 0 else 0.0

@@ -86,9 +86,15 @@ def clear_shadows(packet: Packet, hits: int) -> None:
 
 
 @device
+def light_bit(light: int) -> float:
+    """Return a number of a light's own, as far as doubles have bits for all."""
+    return float(1 << light % MANTISSA)
+
+
+@device
 def note_shadows(packet: Packet, hits: int, target: Target, light: int) -> None:
     """Add a number of a light's own in field ``SHADOWS`` where something blocks it."""
-    bit = float(1 << light % MANTISSA)
+    bit = light_bit(light)
     for lane in range(hits):
         blocked = (packet[BLOCKED + lane] != 0.0) & _is_lane_above(packet, lane, target)
         packet[SHADOWS + lane] += bit if blocked else 0.0

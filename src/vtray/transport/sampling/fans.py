@@ -27,8 +27,14 @@ RUN = 8
 """Points in a row that share a cell."""
 
 
-MOST_RAYS = 64
-"""Rays from a hit to a light where a pixel has one sample."""
+WHOLE_FAN = 64
+"""Rays from a hit to a light at a time, where a pixel has one sample."""
+
+LEAST_FAN = 16
+"""Rays of each of many samples of a pixel."""
+
+MOST_ROUNDS = 8
+"""Fans from the one hit of a pixel to one light at the most."""
 
 
 class Fans(NamedTuple):
@@ -37,21 +43,30 @@ class Fans(NamedTuple):
     Attributes
     ----------
     rays
-        Rays from one hit to one light.
+        Rays from a hit to a light at a time.
+    rounds
+        How often that is repeated where some of them arrive and others do not.
     points
         What `fan_points` returns.
     """
 
     rays: int
+    rounds: int
     points: Integers
 
 
-def new_fans(samples: int) -> Fans:
-    """Return the fans of pixels with so many samples, which share their rays."""
-    rays = MOST_RAYS
-    while rays > RUN and rays * samples > MOST_RAYS:
-        rays //= 2
-    return Fans(rays, fan_points(rays, samples))
+def fans_of_middles(samples: int) -> Fans:
+    """Return the fans of middle rays in a picture with so many samples."""
+    rounds = min(max(samples // 4, 1), MOST_ROUNDS)
+    return Fans(WHOLE_FAN, rounds, fan_points(WHOLE_FAN, rounds))
+
+
+def fans_of_samples(samples: int) -> Fans:
+    """Return the fans of pixels with so many samples, more than 1, which share their rays."""
+    rays = LEAST_FAN
+    while 2 * rays * samples <= WHOLE_FAN:
+        rays *= 2
+    return Fans(rays, 1, fan_points(rays, samples))
 
 
 def fan_points(fan: int, samples: int) -> Integers:

@@ -67,10 +67,7 @@ def spread_fan(
         _set_weight(fan, ray, aim, normal)
     for ray in range(rays):
         _set_end(fan, ray, aim, start, forward)
-    cast = 0
-    for ray in range(rays):
-        cast += 1 if fan[BLOCKED + ray] == 0.0 else 0
-    return cast
+    return count_open(fan, rays)
 
 
 @device
@@ -126,3 +123,12 @@ def arriving_share(fan: Fan, rays: int) -> float:
     for ray in range(rays):
         total += fan[WEIGHT + ray] if fan[BLOCKED + ray] == 0.0 else 0.0
     return total / rays
+
+
+@device
+def count_open(fan: Fan, rays: int) -> int:
+    """Return how many rays of a fan nothing stops so far."""
+    count = 0
+    for ray in range(rays):
+        count += 1 if fan[BLOCKED + ray] == 0.0 else 0
+    return count
