@@ -438,6 +438,18 @@ def test_drawing_of_a_light_that_is_no_point(kind: str) -> None:
         assert math.dist(place, eye) == pytest.approx(math.hypot(2, 4, 9))
 
 
+def test_drawing_of_lights_of_which_nothing_arrives() -> None:
+    world = lit_floor()
+    world.lights = [vtray.Sun((0, 1, 0), angle=5), vtray.Sun((0, -1, 0))]
+    ax = vtray.trace_pixel(world, *floor_pixel()).draw()
+    assert "lights[0], sun: blocked by objects[1], a sphere" in texts(ax)
+    assert "lights[1], sun: behind the surface" in texts(ax)
+    assert [len(ends) for ends in lines_from_hit(ax)] == [0, 64, 0, 0]
+    world.objects[1:] = [vtray.Sphere((x, -3, 5), 1.1) for x in (-1, 1)]
+    ax = vtray.trace_pixel(world, *floor_pixel()).draw()
+    assert "lights[0], sun: blocked by 2 surfaces" in texts(ax)
+
+
 def test_the_light_that_adds_most_chooses_the_drawing() -> None:
     weak, strong = vtray.Light((3, -2, 5), 0.1), vtray.Ambient(2.0)
     tree = vtray.trace_pixel(softly_lit(weak, strong), *floor_pixel())

@@ -44,14 +44,14 @@ class Pen:
         ends: Floats,
         color: str,
         style: str | tuple[float, tuple[float, ...]],
-        alpha: float,
+        alpha: Floats,
     ) -> None:
-        """Draw thin lines from one place to many, (n, 2)."""
+        """Draw thin lines from one place to many, (n, 2), each with an opacity of its own, (n,)."""
         from matplotlib.collections import LineCollection
 
         segments = np.stack([np.broadcast_to(start, ends.shape), ends], axis=1)
         lines = LineCollection(list(segments), colors=color, linewidths=0.7, linestyles=[style])
-        lines.set(alpha=alpha, zorder=4.5)
+        lines.set(alpha=alpha if len(alpha) else None, zorder=4.5)
         self.ax.add_collection(lines, autolim=False)
 
     def arrow(self, start: Floats, tip: Floats, color: str, lw: float) -> None:

@@ -222,21 +222,34 @@ class _Drawing(Stage):
                 if blocker not in self.drawn:
                     self.surface(blocker, filled=False)
             self.ax.plot(*self.section(lines.stops).T, ".", ms=4, color=BLOCKED, zorder=6)
-        if fan.is_behind:
+        if not fan.arrives:
             self.line(self.end, goal, BLOCKED, lw=1.1, ls=(0, (1, 2.5)), alpha=strength)
-        self.lines(self.end, self.section(lines.arriving), LIT, "solid", 0.8 * strength)
-        self.lines(self.end, self.section(lines.stopped), BLOCKED, (0, (4, 2.2)), 0.8 * strength)
+        self._fan_lines(lines.arriving, LIT, "solid", strength)
+        self._fan_lines(lines.stopped, BLOCKED, (0, (4, 2.2)), strength)
         ball = ball_of(self.tree.scene, fan) if shown else None
         if ball is not None:
             self.ball(goal, ball[1], LIT, strength)
         if not thin:
-            text = f"lights[{fan.light}], {fan.kind}: "
-            if fan.is_behind:
-                text += "behind the surface"
-            else:
-                text += f"{fan.arriving} of {len(fan.rays)} rays arrive\nadds {_numbers(fan.adds)}"
+            text = f"{fan.arriving} of {len(fan.rays)} rays arrive\nadds {_numbers(fan.adds)}"
+            if not fan.arrives:
+                text = "behind the surface" if fan.is_behind else _blocked_by(fan)
+            text = f"lights[{fan.light}], {fan.kind}: {text}"
             radius = 0.0 if ball is None else ball[1]
             self.light_label(text, goal, LIT if fan.arrives else BLOCKED, radius)
+
+    def _fan_lines(
+        self,
+        ends: Floats,
+        color: str,
+        style: str | tuple[float, tuple[float, ...]],
+        strength: float,
+    ) -> None:
+        """Draw lines from the hit to places, (n, 3); those that leave the plane are fainter."""
+        assert self.tree.hit is not None  # noqa: S101
+        ways = ends - np.array(self.tree.hit.point)
+        lengths = np.maximum(np.linalg.norm(ways, axis=1), 1e-300)
+        leaving = np.abs(ways @ self.section.normal) / lengths
+        self.lines(self.end, self.section(ends), color, style, strength * (0.9 - 0.7 * leaving))
 
     def _fan_place(self, fan: ShadowFan) -> tuple[Floats, bool, FanLines]:
         """Return where the middle of a fan ends, whether the light is there, and its lines."""
@@ -343,6 +356,14 @@ class _Drawing(Stage):
 def _label(surface: Surface) -> str:
     """Return the name of a surface, in two lines if it is long."""
     return str(surface) if surface.copy is None else str(surface).replace(", ", ",\n")
+
+
+def _blocked_by(fan: ShadowFan) -> str:
+    """Return what blocks a fan of which no ray arrives."""
+    blockers = fan.blockers
+    return (
+        f"blocked by {_label(blockers[0]) if len(blockers) == 1 else f'{len(blockers)} surfaces'}"
+    )
 
 
 def _shade(color: Vec) -> Vec:
