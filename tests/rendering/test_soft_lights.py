@@ -57,6 +57,7 @@ def test_bundles_tell_what_each_ray_alone_would(kind: str) -> None:
     soft = arrays.lights.soft
     assert soft is not None
     stack, cosines, blockers = new_stack(), np.zeros(1), np.full(1, NOTHING)
+    on_ways = np.full(fans.rays, NOTHING)
     hits = 0
     for y in range(1, SIZE[1], 6):
         for x in range(1, SIZE[0], 5):
@@ -65,7 +66,7 @@ def test_bundles_tell_what_each_ray_alone_would(kind: str) -> None:
                 hits += 1
                 for light in range(len(soft.kind)):
                     _, value = reference.trace_fan(
-                        arrays, soft, traced, x, y, light, fans, 5, stack, fan
+                        arrays, soft, traced, x, y, light, fans, 5, stack, fan, on_ways
                     )
                     traced = traced._replace(value=value)
             assert tuple(image.linear[y, x]) == traced.value

@@ -18,7 +18,7 @@ from test_documents import ROOT, blocks
 
 import vtray
 from vtray.commands.explain import explain_pixel
-from vtray.figures.ray_tree import RayTree
+from vtray.figures.ray_tree import RayTree, ShadowFan
 
 figure = pytest.importorskip("matplotlib.figure", reason="needs the extra vtray[figure]")
 
@@ -254,46 +254,235 @@ def test_unusual_scenes_can_be_drawn(change: Callable[[vtray.Scene], None]) -> N
 def test_lights_that_do_not_exist() -> None:
     tree: RayTree = vtray.trace_pixel(lit_floor(), *floor_pixel())
     for number in (-1, 3):
-        with pytest.raises(vtray.RenderError, match="light: expected one of the 3 shadow rays"):
+        with pytest.raises(vtray.RenderError, match="light: expected one of the 3 lights of the"):
             tree.draw(light=number)
 
 
-def test_lights_that_are_no_points_are_left_out_and_counted() -> None:
-    plain, world = lit_floor(), lit_floor()
-    lights = plain.lights
-    soft = [vtray.Sky(0.5), vtray.Sun((0, 1, 0)), vtray.SphereLight((0, -9, 5), 1), vtray.Ambient()]
-    world.lights = [soft[0], lights[0], soft[1], soft[2], lights[1], lights[2], soft[3]]
-    tree, alone = (vtray.trace_pixel(one, *floor_pixel()) for one in (world, plain))
-    assert [ray.light for ray in tree.lights] == [1, 4, 5]
-    assert [dataclasses.replace(ray, light=k) for k, ray in enumerate(tree.lights)] == [
-        *alone.lights
-    ]
-    assert (tree.light, tree.hit, alone.left_out) == (alone.light, alone.hit, 0)
-    *_, light_line, last = str(tree).splitlines()
-    assert light_line.endswith(", the sum over the points")
-    assert last == "not shown    4 lights: only points are shown ray by ray"
-    ax = tree.draw(light=4)
-    assert any("lights[4]" in text.get_text() for text in ax.texts)
-    assert any("Of 7 lights, only points are shown." in text.get_text() for text in ax.texts)
-    with pytest.raises(vtray.RenderError, match="expected one of the 3 shadow rays, got 2, which"):
-        tree.draw(light=2)
-    world.lights = [*lights, soft[0]]
-    assert "not shown    1 light: only" in str(vtray.trace_pixel(world, *floor_pixel()))
-    world.lights = soft
-    tree = vtray.trace_pixel(world, *floor_pixel())
-    assert (tree.lights, tree.light, tree.hit) == ((), (0, 0, 0), alone.hit)
-    tree.draw().figure.draw_without_rendering()
-    assert "not shown" not in str(vtray.trace_pixel(world, 0, 0))
+POINT = vtray.Light((3, -2, 5), 0.5, color=(255, 208, 160))
+SOFT: dict[str, Any] = {
+    "sun": vtray.Sun((0.3, 1, 0.2), 0.7, angle=40, color=(255, 224, 192)),
+    "sphere": vtray.SphereLight((2, -4, 4), 1.5, 0.4),
+    "sky": vtray.Sky(0.2, color=(160, 192, 255)),
+    "ambient": vtray.Ambient(0.4),
+    "near": vtray.Ambient(0.3, distance=3.5),
+}
 
 
-def test_light_in_the_picture_is_that_of_all_lights() -> None:
+def softly_lit(*lights: Any) -> vtray.Scene:
+    """Return the floor below spheres, a bond and copies, in light of any kind."""
     world = lit_floor()
-    tree = vtray.trace_pixel(vtray.render(world), *floor_pixel())
-    assert tree.exposed is not None
-    scene = vtray.Scene(world.camera, [*world.lights, vtray.Sky()], world.objects)
-    exposed = dataclasses.replace(tree.exposed, light=(1.0, 2.0, 3.0))
-    lines = str(dataclasses.replace(tree, scene=scene, exposed=exposed)).splitlines()
-    assert "all lights   (1, 2, 3), the light of the pixel in the picture" in lines
+    world.add_cylinders([(-1.5, 0, 4)], [(1.5, -1, 6)], 0.2, color="tomato", color_end="#4a90d9")
+    world.add_copies([vtray.Sphere((0, 0, 0), 0.3)], at=[(-1, 0.5, 5), (1, 0.4, 4.5)])
+    world.lights = list(lights)
+    return world
+
+
+@pytest.mark.parametrize(
+    "lights",
+    [
+        (SOFT["ambient"],),
+        (SOFT["sun"], POINT, SOFT["sky"]),
+        (POINT, *SOFT.values(), vtray.Light((0, 5, 5))),
+        (*SOFT.values(), SOFT["sky"]),
+    ],
+    ids=["one", "around a point", "after a point", "no point"],
+)
+def test_light_of_all_lights_is_that_of_the_picture(lights: tuple[Any, ...]) -> None:
+    world = softly_lit(*lights)
+    image = vtray.render(world, seed=7)
+    world.render = vtray.RenderSettings(seed=7)
+    for x, y in [floor_pixel(), (20, 27), (35, 25), (50, 40), (30, 20), (0, 0)]:
+        tree = vtray.trace_pixel(image, x, y)
+        assert tree.light == tuple(image.linear[y, x])
+        alone = vtray.trace_pixel(world, x, y)
+        assert (alone.lights, alone.light) == (tree.lights, tree.light)
+        # In the order of the sum: points come first.
+        total = (0.0, 0.0, 0.0)
+        for way in sorted(tree.lights, key=lambda way: isinstance(way, ShadowFan)):
+            total = (total[0] + way.adds[0], total[1] + way.adds[1], total[2] + way.adds[2])
+        assert total == tree.light
+        if tree.hit is not None:
+            assert [way.light for way in tree.lights] == list(range(len(lights)))
+            lines = str(tree).splitlines()
+            assert sum(line.startswith("lights[") for line in lines) == len(lights)
+
+
+def fan_of(world: vtray.Scene, number: int = 0) -> ShadowFan:
+    """Return the rays to a light from the floor below a sphere."""
+    way = vtray.trace_pixel(world, *floor_pixel()).lights[number]
+    assert isinstance(way, ShadowFan)
+    return way
+
+
+@pytest.mark.parametrize("kind", SOFT)
+def test_rays_to_lights_that_are_no_points(kind: str) -> None:
+    light = SOFT[kind]
+    fan = fan_of(softly_lit(POINT, light), 1)
+    assert (fan.kind, fan.light) == ("ambient" if kind == "near" else kind, 1)
+    color = light.color
+    assert (fan.intensity, fan.color) == (light.intensity, (color.r, color.g, color.b))
+    assert len(fan.rays) == 64
+    directions = np.array([ray.direction for ray in fan.rays])
+    np.testing.assert_allclose(np.linalg.norm(directions, axis=1), 1)
+    cosines = directions @ (0, -1, 0)
+    weights = np.array([ray.weight for ray in fan.rays])
+    arrives = np.array([ray.arrives for ray in fan.rays])
+    assert fan.arriving == arrives.sum() > 0
+    assert fan.share == pytest.approx((weights * arrives).sum() / 64)
+    ends = (0, 1, 5) + directions * [[ray.length] for ray in fan.rays]
+    if kind == "sphere":
+        np.testing.assert_allclose(np.linalg.norm(ends - (2, -4, 4), axis=1), 1.5)
+        to_middle = np.array([2, -5, -1]) / math.hypot(2, 5, 1)
+    elif kind == "sun":
+        assert np.isinf(ends).any(axis=1).all()
+        to_middle = -np.array([0.3, 1, 0.2]) / math.hypot(0.3, 1, 0.2)
+        assert (directions @ to_middle >= math.cos(math.radians(20)) - 1e-12).all()
+    else:
+        assert {ray.length for ray in fan.rays} == {3.5 if kind == "near" else math.inf}
+        to_middle = np.array([0, -1, 0])
+        assert (weights == 1).all()
+        assert (cosines >= 0).all()
+    np.testing.assert_allclose(fan.direction, to_middle, atol=1e-15)
+    if kind in ("sun", "sphere"):
+        np.testing.assert_allclose(weights / cosines, weights[0] / cosines[0])
+    # What is named as blocking a ray is on its way.
+    for ray in fan.rays:
+        if ray.blocker is not None and ray.blocker.radius is not None and ray.blocker.end is None:
+            way = np.array(ray.blocker.center) - (0, 1, 5)
+            along = np.dot(way, ray.direction)
+            assert 0 < along < ray.length + ray.blocker.radius
+            assert np.linalg.norm(way - along * np.array(ray.direction)) <= ray.blocker.radius
+    if kind == "near":
+        assert 1 in {surface.object for surface in fan.blockers}
+    assert len(set(fan.blockers)) == len(fan.blockers)
+
+
+def test_words_on_lights_that_are_no_points() -> None:
+    world = lit_floor()
+    world.objects[2:] = []
+    world.lights = [
+        vtray.Sun((0, 1, 0), angle=5),
+        vtray.Light((3, -2, 5), 0.5),
+        vtray.Sky(0.5, color=(255, 51, 0)),
+        vtray.Sun((0, -1, 0)),
+        vtray.Ambient(distance=2.5),
+    ]
+    image = vtray.render(world, seed=1)
+    tree = vtray.trace_pixel(image, *floor_pixel())
+    sky = tree.lights[2]
+    assert isinstance(sky, ShadowFan)
+    assert sky.adds == (0.25 * sky.share * 255, 0.25 * sky.share * 255 * 0.2, 0)
+    share, adds = f"{sky.share:.6g}", ", ".join(f"{part:.6g}" for part in sky.adds)
+    text, tint = str(tree), " x (1, 0.2, 0) of the light"
+    assert (
+        f"""
+lights[0]    sun: 0 of 64 rays arrive, 0 of its light
+  adds       nothing: objects[1], a sphere, is in the way
+lights[1]    towards (0.707107, -0.707107, 0), 4.242640687 away
+  adds       (45.0781, 45.0781, 45.0781) = cosine 0.707107 x lambert 0.5 x intensity 0.5 x color
+lights[2]    sky: {sky.arriving} of 64 rays arrive, {share} of its light
+  adds       ({adds}) = share {share} x lambert 0.5 x radiance 0.5 x color{tint}
+lights[3]    sun: 0 of 64 rays arrive, 0 of its light
+  adds       nothing: it is behind the surface
+lights[4]    ambient: 64 of 64 rays arrive, 1 of its light
+  adds       (127.5, 127.5, 127.5) = share 1 x lambert 0.5 x intensity 1 x color
+light        """
+        in text
+    )
+    assert "the sum over all lights\nexposure " in text
+    assert explain_pixel(world, image, *floor_pixel()) == f"{text}\n"
+
+
+def test_several_surfaces_in_the_way() -> None:
+    world = lit_floor()
+    world.objects[1:] = [vtray.Sphere((x, -3, 5), 1.1) for x in (-1, 1)]
+    world.lights = [vtray.Sun((0, 1, 0), angle=5)]
+    fan = fan_of(world)
+    assert (fan.share, fan.arriving, fan.adds) == (0, 0, (0, 0, 0))
+    assert sorted(surface.object for surface in fan.blockers) == [1, 2]
+    text = str(vtray.trace_pixel(world, *floor_pixel()))
+    assert "  adds       nothing: 2 surfaces are in the way" in text
+
+
+def lines_from_hit(ax: Any) -> list[np.ndarray]:
+    """Return the ends of the thin lines of each bundle, (n, 2)."""
+    collections = [item for item in ax.collections if type(item).__name__ == "LineCollection"]
+    return [np.array([path.vertices[-1] for path in item.get_paths()]) for item in collections]
+
+
+@pytest.mark.parametrize("kind", SOFT)
+def test_drawing_of_a_light_that_is_no_point(kind: str) -> None:
+    tree = vtray.trace_pixel(softly_lit(POINT, SOFT[kind]), *floor_pixel())
+    _, fan = tree.lights
+    assert isinstance(fan, ShadowFan)
+    ax = tree.draw(light=1)
+    ax.figure.draw_without_rendering()
+    arriving, stopped = lines_from_hit(ax)
+    assert len(arriving) == fan.arriving
+    assert len(stopped) == sum(ray.blocker is not None for ray in fan.rays)
+    low, high = np.array([ax.get_xlim(), ax.get_ylim()]).T
+    ends = np.concatenate([ends.reshape(-1, 2) for ends in (arriving, stopped)])
+    assert ((low <= ends) & (ends <= high)).all()
+    assert any(
+        text.startswith(f"lights[1], {fan.kind}: {fan.arriving} of 64") for text in texts(ax)
+    )
+    assert any("lights[0]" in text for text in texts(ax))
+    is_around = fan.kind in ("sky", "ambient")
+    plane = "the normal" if is_around else "the middle of lights[1]"
+    assert any(f"along the camera ray and {plane};" in text for text in texts(ax))
+    if kind == "sphere":
+        circles = [patch for patch in ax.patches if type(patch).__name__ == "Circle"]
+        (place,) = {tuple(circle.center) for circle in circles if circle.radius == 1.5}
+        # The plane of the drawing holds the eye and the middle of the ball.
+        (eye, *_) = marks(ax, "o")
+        assert math.dist(place, eye) == pytest.approx(math.hypot(2, 4, 9))
+
+
+def test_drawing_of_lights_of_which_nothing_arrives() -> None:
+    world = lit_floor()
+    world.lights = [vtray.Sun((0, 1, 0), angle=5), vtray.Sun((0, -1, 0))]
+    ax = vtray.trace_pixel(world, *floor_pixel()).draw()
+    assert "lights[0], sun: blocked by objects[1], a sphere" in texts(ax)
+    assert "lights[1], sun: behind the surface" in texts(ax)
+    assert [len(ends) for ends in lines_from_hit(ax)] == [0, 64, 0, 0]
+    world.objects[1:] = [vtray.Sphere((x, -3, 5), 1.1) for x in (-1, 1)]
+    ax = vtray.trace_pixel(world, *floor_pixel()).draw()
+    assert "lights[0], sun: blocked by 2 surfaces" in texts(ax)
+
+
+def test_the_light_that_adds_most_chooses_the_drawing() -> None:
+    weak, strong = vtray.Light((3, -2, 5), 0.1), vtray.Ambient(2.0)
+    tree = vtray.trace_pixel(softly_lit(weak, strong), *floor_pixel())
+    assert any("and the normal;" in text for text in texts(tree.draw()))
+    tree = vtray.trace_pixel(softly_lit(strong, vtray.Light((3, -2, 5), 9.0)), *floor_pixel())
+    assert any("and the ray to lights[1];" in text for text in texts(tree.draw()))
+
+
+@pytest.mark.parametrize(
+    "light",
+    [
+        vtray.Ambient(distance=1e-300),
+        vtray.Sun((0, -1, 0)),
+        vtray.Sun((1, 0, 0), angle=180),
+        vtray.Sun((0, 0, 1), angle=0),
+        vtray.SphereLight((0, 0, 5), 50),
+        vtray.SphereLight((0, 1, 5), 0.5),
+        vtray.SphereLight((0, 1, 5), 0.0),
+        vtray.SphereLight((0, -1e9, 0), 1e6),
+        vtray.SphereLight((9, 3, 5), 1),
+    ],
+)
+def test_unusual_lights_can_be_drawn(light: Any) -> None:
+    for others in ((), (vtray.Light((0, -9, 2)),), (vtray.Sky(),) * 5):
+        world = softly_lit(light, *others)
+        for pixel in (floor_pixel(), (0, 0), (32, 20)):
+            tree = vtray.trace_pixel(world, *pixel)
+            for number in {0, len(others)} if tree.hit else {None}:
+                ax = tree.draw(light=number)
+                ax.figure.draw_without_rendering()
+                assert all(np.isfinite([*ax.get_xlim(), *ax.get_ylim()]))
+                assert all(np.isfinite(ends).all() for ends in lines_from_hit(ax))
+            assert str(tree)
 
 
 def test_missing_matplotlib_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -38,6 +38,22 @@ class Pen:
         if arrow is not None:
             self.arrow(start, start + arrow * (end - start), color, lw=0)
 
+    def lines(
+        self,
+        start: Floats,
+        ends: Floats,
+        color: str,
+        style: str | tuple[float, tuple[float, ...]],
+        alpha: Floats,
+    ) -> None:
+        """Draw thin lines from one place to many, (n, 2), each with an opacity of its own, (n,)."""
+        from matplotlib.collections import LineCollection
+
+        segments = np.stack([np.broadcast_to(start, ends.shape), ends], axis=1)
+        lines = LineCollection(list(segments), colors=color, linewidths=0.7, linestyles=[style])
+        lines.set(alpha=alpha if len(alpha) else None, zorder=4.5)
+        self.ax.add_collection(lines, autolim=False)
+
     def arrow(self, start: Floats, tip: Floats, color: str, lw: float) -> None:
         """Draw an arrow, whose shaft has the width `lw`."""
         shape = {"arrowstyle": "-|>", "color": color, "lw": lw, "mutation_scale": 14}
@@ -81,6 +97,15 @@ class Pen:
         """Draw a light."""
         self.ax.plot(*place, marker=(12, 1, 0), ms=17 * size, mfc=color, mec="none", zorder=7)
         self.ax.plot(*place, "o", ms=8 * size, mfc="#fff3cf", mec=color, mew=1.2 * size, zorder=8)
+
+    def ball(self, place: Floats, radius: float, color: str, alpha: float) -> None:
+        """Draw a light that is a ball."""
+        from matplotlib.patches import Circle
+
+        inside = Circle(tuple(place), radius, fc="#fff3cf", ec="none", alpha=0.6, zorder=0.5)
+        edge = Circle(tuple(place), radius, fill=False, ec=color, lw=1.2, alpha=alpha, zorder=6)
+        self.ax.add_patch(inside)
+        self.ax.add_patch(edge)
 
     def scale(self, start: float, length: float) -> None:
         """Draw a scale bar below the axes, from `start` in their coordinates."""

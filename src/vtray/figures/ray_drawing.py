@@ -12,14 +12,15 @@ from vtray.base.extras import need
 from vtray.figures.drawn.objects import (
     colored_parts,
     cut_shapes,
-    placed_shapes,
     shape_of,
     where_met,
 )
-from vtray.figures.pen import BLOCKED, FAINT, INK, LIT, RAY, Pen
+from vtray.figures.fan_lines import DOME, FanLines, ball_of, fan_lines, is_around
+from vtray.figures.pen import BLOCKED, FAINT, INK, LIT, RAY
 from vtray.figures.scale_bar import is_orthographic, round_length
-from vtray.figures.section import Section, choose_section, widen
-from vtray.figures.traced_rays import ShadowRay, Surface, TracedRays
+from vtray.figures.section import Section, choose_section
+from vtray.figures.stage import SUN, Stage
+from vtray.figures.traced_rays import ShadowFan, ShadowRay, Surface, TracedRays, WayToLight
 from vtray.geometry.vector import Vec
 from vtray.scene.scene import Plane
 
@@ -37,19 +38,22 @@ NEAR = 0.02
 WHOLE = 0.97
 """Outlines are not drawn of what the drawing cuts through in so much of their width."""
 
-FAR = 1.3
-"""Lights farther away than this many camera rays are not drawn, only the way to them."""
+NORMAL = 0.13
+"""How long a normal is drawn, as a share of the drawing."""
+
+MOST_BLOCKERS = 3
+"""Of so many surfaces that stop rays of a fan, outlines are drawn."""
 
 
 def draw(tree: TracedRays, ax: "Axes | None", light: int | None) -> "Axes":
     """Draw the rays of a pixel; see `RayTree.draw`."""
     need("matplotlib", "figure", "RayTree.draw")
-    ray = _main_ray(tree, light)
+    way = _main_way(tree, light)
     if ax is None:
         from vtray.figures.shown_figure import ShownFigure
 
         ax = ShownFigure.new(8, 5.5, dpi=150).add_axes((0.02, 0.08, 0.96, 0.82))
-    drawing = _Drawing(tree, choose_section(tree, ray), ax)
+    drawing = _Drawing(tree, choose_section(tree, way), ax)
     drawing.frame()
     drawing.surroundings()
     drawing.camera()
@@ -59,128 +63,35 @@ def draw(tree: TracedRays, ax: "Axes | None", light: int | None) -> "Axes":
         drawing.surface(tree.hit.surface, filled=True)
         few = len(tree.lights) <= MOST_LABELS
         for other in tree.lights:
-            drawing.shadow_ray(other, thin=not few and other is not ray)
+            thin = not few and other is not way
+            if isinstance(other, ShadowFan):
+                drawing.shadow_fan(other, thin=thin, main=other is way)
+            else:
+                drawing.shadow_ray(other, thin=thin)
         drawing.hit()
-    drawing.captions(ray)
+    drawing.captions(way)
     return ax
 
 
-def _main_ray(tree: TracedRays, light: int | None) -> ShadowRay | None:
-    """Return the shadow ray that lies in the plane of the drawing."""
+def _main_way(tree: TracedRays, light: int | None) -> WayToLight | None:
+    """Return the way to a light that lies in the plane of the drawing."""
     if light is not None:
-        for ray in tree.lights:
-            if ray.light == light:
-                return ray
-        message = f"light: expected one of the {len(tree.lights)} shadow rays, got {light}"
-        if tree.left_out and 0 <= light < len(tree.scene.lights):
-            message += ", which is no point"
+        for way in tree.lights:
+            if way.light == light:
+                return way
+        message = f"light: expected one of the {len(tree.lights)} lights of the hit, got {light}"
         raise RenderError(message)
     # The one that adds most; if none does, one that something blocks.
-    return max(
-        tree.lights,
-        key=lambda ray: (sum(ray.adds), ray.blocker is not None and ray.cosine > 0),
-        default=None,
-    )
+    return max(tree.lights, key=lambda way: (sum(way.adds), bool(way.blockers)), default=None)
 
 
-class _Drawing(Pen):
+class _Drawing(Stage):
     """A drawing of rays while it is made."""
 
     def __init__(self, tree: TracedRays, section: Section, ax: "Axes") -> None:
-        self.tree = tree
-        super().__init__(ax)
-        self.section = section
-        self.origin = section(tree.origin)
-        self.ray = section.turn(tree.direction)
-        view = tree.view
-        steep = float(np.dot(tree.direction, view.forward))
-        self.pixel = self.origin + self.ray * (view.focus / steep)
-        self.end = self.origin + self.ray * self._ray_length()
-        self.box = self._find_box()
-        self.size = float(np.hypot(*(self.box[1] - self.box[0])))
+        super().__init__(tree, section, ax)
         self.labels: list[Floats] = []
         self.drawn: set[Surface] = set()
-
-    def _ray_length(self) -> float:
-        """Return how long the camera ray is drawn."""
-        tree = self.tree
-        if tree.hit is not None:
-            return tree.hit.distance
-        steep = float(np.dot(tree.direction, tree.view.forward))
-        reach = 3 * tree.view.focus
-        forward = np.array(tree.view.forward)
-        for shapes, at in placed_shapes(tree.scene.objects):
-            ahead = (shapes.middle - np.array(tree.origin)) @ forward
-            # Not the median of all sums, of which there may be too many.
-            middle = float(np.median(ahead)) + float(np.median(at @ forward))
-            reach = max(reach, 1.15 * middle)
-        return reach / steep
-
-    def _find_box(self) -> Floats:
-        """Return the corners of what is shown: lower left, upper right."""
-        points = [self.origin, self.pixel, self.end, *self._image_plane()]
-        length = float(np.hypot(*(self.end - self.origin)))
-        hit = self.tree.hit
-        if hit is not None:
-            shape = shape_of(self.tree.scene, hit.surface)
-            if shape is not None:
-                low, high = shape.bounds(self.section)
-                if (high - low).max() > length:
-                    low, high = self.end - 0.5 * length, self.end + 0.5 * length
-                points += [low, high]
-            for ray in self.tree.lights:
-                way = self.section(ray.location) - self.end
-                points.append(self.end + way * min(1.0, 0.6 * length / max(np.hypot(*way), 1e-300)))
-                if np.hypot(*way) < FAR * length:
-                    points.append(self.section(ray.location))
-        corners = np.array(points)
-        low, high = corners.min(0), corners.max(0)
-        margin = 0.06 * float(np.hypot(*(high - low)))
-        return widen(
-            np.array([low - margin, high + np.array([2 * margin, margin])]), self._aspect()
-        )
-
-    def _aspect(self) -> float:
-        """Return the width of the axes over their height."""
-        area = self.ax.get_window_extent()
-        return float(area.width / area.height)
-
-    def _image_plane(self) -> tuple[Floats, Floats]:
-        """Return the ends of the image in the drawing."""
-        view, tree = self.tree.view, self.tree
-        up = self.section.up
-        along = np.array([up @ view.right, up @ view.down])
-        steep = float(np.dot(tree.direction, view.forward))
-        place = (
-            np.array(tree.origin) + np.array(tree.direction) * (view.focus / steep) - view.center
-        )
-        pixel = np.array([place @ view.right, place @ view.down])
-        half = np.array(view.size) * view.resolution / 2
-        with np.errstate(divide="ignore", invalid="ignore"):
-            ends = np.stack([(-half - pixel) / along, (half - pixel) / along])
-        first = np.nanmax(np.where(along == 0, -np.inf, ends.min(0)))
-        last = np.nanmin(np.where(along == 0, np.inf, ends.max(0)))
-        straight = np.array([0.0, 1.0])
-        return self.pixel + first * straight, self.pixel + last * straight
-
-    def frame(self) -> None:
-        """Set up the axes."""
-        self.ax.set_aspect("equal")
-        self.ax.set_xlim(*map(float, self.box[:, 0]))
-        self.ax.set_ylim(*map(float, self.box[:, 1]))
-        self.ax.set_axis_off()
-
-    def front(self, artist: Any) -> Any:  # noqa: ANN401
-        """Show an artist only in front of the image plane, where objects exist."""
-        from matplotlib.patches import Rectangle
-
-        (left, bottom), (right, top) = self.box
-        start = max(left, min(self.pixel[0], right))
-        region = Rectangle(
-            (start, bottom), right - start, top - bottom, transform=self.ax.transData
-        )
-        artist.set_clip_path(region)
-        return artist
 
     def surroundings(self) -> None:
         """Draw what the plane of the drawing cuts, apart from what rays meet."""
@@ -231,7 +142,7 @@ class _Drawing(Pen):
 
     def camera(self) -> None:
         """Draw the eye, the image plane with its pixel, and the camera ray."""
-        ends = self._image_plane()
+        ends = self.image_plane()
         name = "start of the ray" if is_orthographic(self.tree.scene.camera) else "eye"
         self.ax.plot(*self.origin, "o", ms=7, color=INK, zorder=7)
         if np.hypot(*(self.pixel - self.origin)) > NEAR * self.size:
@@ -273,7 +184,7 @@ class _Drawing(Pen):
 
     def shadow_ray(self, ray: ShadowRay, *, thin: bool) -> None:
         """Draw the ray to a light: solid if it arrives, dashed up to what blocks it."""
-        goal, shown = self._light_place(ray)
+        goal, shown = self.light_place(ray)
         color = LIT if ray.arrives else BLOCKED
         strength = 0.3 if thin else 1.0
         if ray.arrives:
@@ -302,19 +213,65 @@ class _Drawing(Pen):
             away = "" if shown else f", {ray.distance:.3g} away"
             self.light_label(f"lights[{ray.light}]{away}\n{text}", goal, color)
 
-    def _light_place(self, ray: ShadowRay) -> tuple[Floats, bool]:
-        """Return where a shadow ray ends in the drawing, and whether the light is there."""
-        place = self.section(ray.location)
-        low, high = self.box
-        if (low <= place).all() and (place <= high).all():
-            return place, True
-        way = place - self.end
-        inner = np.array([low, high]) * 0.78 + self.box.mean(0) * 0.22  # room for the text
-        with np.errstate(divide="ignore", invalid="ignore"):
-            steps = np.where(way > 0, (inner[1] - self.end) / way, (inner[0] - self.end) / way)
-        return self.end + way * float(np.nanmin(steps)), False
+    def shadow_fan(self, fan: ShadowFan, *, thin: bool, main: bool) -> None:
+        """Draw the rays to a light that is no point, as `shadow_ray` draws one."""
+        goal, shown, lines = self._fan_place(fan)
+        strength = 1.0 if main else 0.35
+        if main:
+            for blocker in fan.blockers[:MOST_BLOCKERS]:
+                if blocker not in self.drawn:
+                    self.surface(blocker, filled=False)
+            self.ax.plot(*self.section(lines.stops).T, ".", ms=4, color=BLOCKED, zorder=6)
+        if not fan.arrives:
+            self.line(self.end, goal, BLOCKED, lw=1.1, ls=(0, (1, 2.5)), alpha=strength)
+        self._fan_lines(lines.arriving, LIT, "solid", strength)
+        self._fan_lines(lines.stopped, BLOCKED, (0, (4, 2.2)), strength)
+        ball = ball_of(self.tree.scene, fan) if shown else None
+        if ball is not None:
+            self.ball(goal, ball[1], LIT, strength)
+        if not thin:
+            text = f"{fan.arriving} of {len(fan.rays)} rays arrive\nadds {_numbers(fan.adds)}"
+            if not fan.arrives:
+                text = "behind the surface" if fan.is_behind else _blocked_by(fan)
+            text = f"lights[{fan.light}], {fan.kind}: {text}"
+            radius = 0.0 if ball is None else ball[1]
+            self.light_label(text, goal, LIT if fan.arrives else BLOCKED, radius)
 
-    def light_label(self, text: str, place: Floats, color: str) -> None:
+    def _fan_lines(
+        self,
+        ends: Floats,
+        color: str,
+        style: str | tuple[float, tuple[float, ...]],
+        strength: float,
+    ) -> None:
+        """Draw lines from the hit to places, (n, 3); those that leave the plane are fainter."""
+        assert self.tree.hit is not None  # noqa: S101
+        ways = ends - np.array(self.tree.hit.point)
+        lengths = np.maximum(np.linalg.norm(ways, axis=1), 1e-300)
+        leaving = np.abs(ways @ self.section.normal) / lengths
+        self.lines(self.end, self.section(ends), color, style, strength * (0.9 - 0.7 * leaving))
+
+    def _fan_place(self, fan: ShadowFan) -> tuple[Floats, bool, FanLines]:
+        """Return where the middle of a fan ends, whether the light is there, and its lines."""
+        scene, hit = self.tree.scene, self.tree.hit
+        assert hit is not None  # noqa: S101
+        if is_around(fan):
+            lines = fan_lines(scene, hit, fan, 1.0, DOME * hit.distance)
+            up = self.section.turn(fan.direction)
+            up /= max(float(np.hypot(*up)), 1e-9)
+            ends = self.section(np.concatenate([lines.arriving, lines.stopped])) - self.end
+            # Beyond what is written at the normal.
+            reach = max(float((ends @ up).max(initial=0.0)), (NORMAL + 0.05) * self.size)
+            return self.end + up * reach, False, lines
+        goal, shown = self.light_place(fan)
+        if shown and ball_of(scene, fan) is not None:
+            return goal, True, fan_lines(scene, hit, fan, 1.0, math.inf)
+        whole, part = self.place_of(fan) - self.end, goal - self.end
+        share = float(np.hypot(*part) / max(np.hypot(*whole), 1e-300))
+        longest = hit.distance * min(SUN * share, 1.0)
+        return goal, False, fan_lines(scene, hit, fan, share, longest)
+
+    def light_label(self, text: str, place: Floats, color: str, radius: float = 0.0) -> None:
         """Write beside a light, away from its ray and from other labels."""
         extent = self.box[1] - self.box[0]
         share = (place - self.box[0]) / extent
@@ -327,14 +284,15 @@ class _Drawing(Pen):
         side = "left" if share[0] < 0.25 else "right" if share[0] > 0.75 else "center"
         shift = ({"left": -8, "right": 8, "center": 0}[side], 12 if above else -12)
         dark = "#8a5d00" if color == LIT else color
-        self.note(text, place, shift, color=dark, ha=side, va="bottom" if above else "top")
+        beside = place + np.array([0.0, radius if above else -radius])
+        self.note(text, beside, shift, color=dark, ha=side, va="bottom" if above else "top")
 
     def hit(self) -> None:
         """Draw the hit and the normal there."""
         hit = self.tree.hit
         assert hit is not None  # noqa: S101
         normal = self.section.turn(hit.normal)
-        tip = self.end + normal * 0.13 * self.size
+        tip = self.end + normal * NORMAL * self.size
         self.arrow(self.end, tip, INK, lw=1.6)
         away = normal / max(float(np.hypot(*normal)), 1e-9)
         self.note(
@@ -350,6 +308,8 @@ class _Drawing(Pen):
         middle, half = (low + high) / 2, (high - low) / 2
         if shape is None or not ((self.box[0] < middle) & (middle < self.box[1])).all():
             side, level = _side(-away[0]), _level(-away[1])
+            if side == "left" and self.end[0] + 1.1 * self.width(text) > self.box[1, 0]:
+                side = "right"
             self.note(text, self.end, _points(-14 * away), ha=side, va=level)
             return
         room = max(0.18 * (self.box[1, 0] - self.box[0, 0]), 1.1 * self.width(text))
@@ -363,7 +323,7 @@ class _Drawing(Pen):
             level = "bottom" if above else "top"
             self.note(text, place, (0, 3 if above else -3), ha="right", va=level)
 
-    def captions(self, ray: ShadowRay | None) -> None:
+    def captions(self, way: WayToLight | None) -> None:
         """Write what is shown, and how long a unit is."""
         tree = self.tree
         column, row = tree.pixel
@@ -378,13 +338,15 @@ class _Drawing(Pen):
         left = 0.0 if tree.exposed is None else 0.028
         style = {"transform": self.ax.transAxes, "color": INK, "fontsize": 10.5}
         self.ax.text(left, 1.03, title, va="center", **style)
-        other = "upright in the image" if ray is None else f"and the ray to lights[{ray.light}]"
+        other = "upright in the image"
+        if isinstance(way, ShadowFan):
+            other = f"and the {'normal' if is_around(way) else f'middle of lights[{way.light}]'}"
+        elif way is not None:
+            other = f"and the ray to lights[{way.light}]"
         text = f"A cut along the camera ray {other}; what lies off this plane is projected onto it."
         if len(tree.lights) > MOST_LABELS:
             arriving = sum(ray.arrives for ray in tree.lights)
             text = f"{arriving} of {len(tree.lights)} lights arrive.  {text}"
-        if tree.left_out:
-            text = f"Of {len(tree.scene.lights)} lights, only points are shown.  {text}"
         style = {"transform": self.ax.transAxes, "color": FAINT, "fontsize": 7.5}
         self.ax.text(1, -0.03, text, ha="right", va="top", **style)
         length = round_length(0.2 * float(self.box[1, 0] - self.box[0, 0]))
@@ -394,6 +356,14 @@ class _Drawing(Pen):
 def _label(surface: Surface) -> str:
     """Return the name of a surface, in two lines if it is long."""
     return str(surface) if surface.copy is None else str(surface).replace(", ", ",\n")
+
+
+def _blocked_by(fan: ShadowFan) -> str:
+    """Return what blocks a fan of which no ray arrives."""
+    blockers = fan.blockers
+    return (
+        f"blocked by {_label(blockers[0]) if len(blockers) == 1 else f'{len(blockers)} surfaces'}"
+    )
 
 
 def _shade(color: Vec) -> Vec:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from vtray.figures.traced_rays import Exposed, Hit, ShadowRay, Surface, TracedRays
+from vtray.figures.traced_rays import Exposed, Hit, ShadowFan, Surface, TracedRays, WayToLight
 from vtray.scene.scene import Scene
 
 WHITE = (255.0, 255.0, 255.0)
@@ -22,10 +22,7 @@ def describe(tree: TracedRays) -> str:
         lines += _describe_hit(tree.hit, tree.scene)
         for ray in tree.lights:
             lines += _describe_light(ray, tree.hit)
-    which = "the points" if tree.left_out else "all lights"
-    lines.append(f"light        {_vector(tree.light)}, the sum over {which}")
-    if tree.left_out:
-        lines.append(f"not shown    {_lights(tree.left_out)}: only points are shown ray by ray")
+    lines.append(f"light        {_vector(tree.light)}, the sum over all lights")
     if tree.exposed is not None:
         lines += _describe_exposure(tree.exposed, tree)
     return "\n".join(lines)
@@ -51,29 +48,40 @@ def _describe_copy(surface: Surface, scene: Scene) -> list[str]:
     )
 
 
-def _describe_light(ray: ShadowRay, hit: Hit) -> list[str]:
+def _describe_light(way: WayToLight, hit: Hit) -> list[str]:
     """Return the lines on a light: its direction, what blocks it or what it adds."""
-    name = f"lights[{ray.light}]"
-    first = f"{name:12} towards {_vector(ray.direction)}, {ray.distance:.10g} away"
-    if ray.cosine == 0.0:
-        return [first, "  adds       nothing: it is behind the surface"]
-    if ray.blocker is not None:
-        return [first, f"  adds       nothing: {ray.blocker}, is in the way"]
-    factors = f"cosine {ray.cosine:.6g} x lambert {hit.surface.lambert:g}"
-    factors += f" x intensity {ray.intensity:g} x color"
-    if ray.color != WHITE:
-        factors += f" x {_vector([channel / 255 for channel in ray.color])} of the light"
-    return [first, f"  adds       {_vector(ray.adds)} = {factors}"]
+    name = f"lights[{way.light}]"
+    if isinstance(way, ShadowFan):
+        first = f"{name:12} {way.kind}: {way.arriving} of {len(way.rays)} rays arrive"
+        first += f", {way.share:.6g} of its light"
+        factor, strength = "share", "radiance" if way.kind == "sky" else "intensity"
+        amount = way.share
+    else:
+        first = f"{name:12} towards {_vector(way.direction)}, {way.distance:.10g} away"
+        factor, strength, amount = "cosine", "intensity", way.cosine
+    if not way.arrives:
+        return [first, f"  adds       nothing: {_obstacle(way)}"]
+    factors = f"{factor} {amount:.6g} x lambert {hit.surface.lambert:g}"
+    factors += f" x {strength} {way.intensity:g} x color"
+    if way.color != WHITE:
+        factors += f" x {_vector([channel / 255 for channel in way.color])} of the light"
+    return [first, f"  adds       {_vector(way.adds)} = {factors}"]
+
+
+def _obstacle(way: WayToLight) -> str:
+    """Return why nothing of a light arrives."""
+    if way.is_behind:
+        return "it is behind the surface"
+    blockers = way.blockers
+    if len(blockers) == 1:
+        return f"{blockers[0]}, is in the way"
+    return f"{len(blockers)} surfaces are in the way"
 
 
 def _describe_exposure(exposed: Exposed, tree: TracedRays) -> list[str]:
     """Return the lines on the value before and after exposure."""
     lines = []
-    if tree.left_out:
-        lines.append(
-            f"all lights   {_vector(exposed.light)}, the light of the pixel in the picture"
-        )
-    elif exposed.light != tree.light:
+    if exposed.light != tree.light:
         lines.append(f"samples      {_vector(exposed.light)}, the mean of all rays of the pixel")
     what = "the brightest channel of the picture" if exposed.brightest else "what becomes 255"
     white = f"{exposed.white:.10g}"
@@ -82,11 +90,6 @@ def _describe_exposure(exposed: Exposed, tree: TracedRays) -> list[str]:
     behind = f", {100 * exposed.background:.3g} % of it background" if exposed.background else ""
     lines.append(f"value        ({', '.join(map(str, exposed.value))}){behind}")
     return lines
-
-
-def _lights(count: int) -> str:
-    """Return a number of lights in words."""
-    return "1 light" if count == 1 else f"{count} lights"
 
 
 def _vector(vector: Sequence[float]) -> str:

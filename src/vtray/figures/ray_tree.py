@@ -3,12 +3,21 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from vtray.figures.traced_rays import Exposed, Hit, ShadowRay, Surface, TracedRays, View
+from vtray.figures.traced_rays import (
+    Exposed,
+    FanRay,
+    Hit,
+    ShadowFan,
+    ShadowRay,
+    Surface,
+    TracedRays,
+    View,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["Exposed", "Hit", "RayTree", "ShadowRay", "Surface", "View"]
+__all__ = ["Exposed", "FanRay", "Hit", "RayTree", "ShadowFan", "ShadowRay", "Surface", "View"]
 
 
 @dataclass(frozen=True)
@@ -28,10 +37,10 @@ class RayTree(TracedRays):
     hit
         What it hits, or None.
     lights
-        The shadow rays to all point lights in the order of ``scene.lights``; none if nothing is
-        hit. Other lights are not a ray each, and are left out.
+        The ways to all lights in the order of ``scene.lights``: a `ShadowRay` for each point, a
+        `ShadowFan` for each other light. None if nothing is hit.
     light
-        The sum of what the point lights add: linear red, green and blue.
+        The sum of what all lights add: linear red, green and blue.
     view
         The camera in world space.
     exposed
@@ -51,7 +60,7 @@ class RayTree(TracedRays):
         return f"```text\n{self}\n```"
 
     def draw(self, ax: "Axes | None" = None, *, light: int | None = None) -> "Axes":
-        """Draw the rays in the plane in which the camera ray and one shadow ray lie.
+        """Draw the rays in the plane in which the camera ray and the way to one light lie.
 
         What this plane cuts of the scene is drawn as it is there; what lies outside of it (normal,
         other lights, whole outlines) is projected squarely onto it. Needs matplotlib:
@@ -62,9 +71,9 @@ class RayTree(TracedRays):
         ax
             Where to draw; None for a new figure, which is ``ax.figure`` of the result.
         light
-            The place in ``scene.lights`` of the one whose shadow ray lies in the plane; None for
-            that which adds most. If nothing is hit or there are no point lights, the plane is
-            upright in the image.
+            The place in ``scene.lights`` of the one in whose plane the drawing lies: that of its
+            middle, or of the normal where light comes from all sides. None for the light that adds
+            most. If nothing is hit or there are no lights, the plane is upright in the image.
 
         Returns
         -------
@@ -76,7 +85,7 @@ class RayTree(TracedRays):
         ExtraError
             Matplotlib is not installed.
         RenderError
-            There is no such light, or it is no point.
+            There is no such light.
         """
         from vtray.figures.ray_drawing import draw
 

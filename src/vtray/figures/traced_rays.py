@@ -1,9 +1,10 @@
 """The rays of one pixel as plain data: the camera ray, what it hits, and the rays to all lights."""
 
+from collections import Counter
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 from vtray.geometry.vector import Vec
-from vtray.scene.light_types import Light
 from vtray.scene.scene import Scene
 
 
@@ -117,6 +118,103 @@ class ShadowRay:
         """Whether the light reaches the side of the surface that is seen."""
         return self.cosine > 0.0 and self.blocker is None
 
+    @property
+    def is_behind(self) -> bool:
+        """Whether the light is behind the surface."""
+        return self.cosine == 0.0
+
+    @property
+    def blockers(self) -> list[Surface]:
+        """What is in the way: at most one surface."""
+        return [] if self.blocker is None else [self.blocker]
+
+
+@dataclass(frozen=True)
+class FanRay:
+    """One of the rays from a hit to a light that is no point.
+
+    Attributes
+    ----------
+    direction
+        Unit vector away from the hit, in world space.
+    length
+        How far away the light is that way, in scene units; ``inf`` if it is without end.
+    weight
+        What the ray counts if nothing stops it: 1 on average for a light that the surface faces
+        squarely, 0 for a ray that goes below the surface.
+    blocker
+        A surface on its way, or None.
+    """
+
+    direction: Vec
+    length: float
+    weight: float
+    blocker: Surface | None
+
+    @property
+    def arrives(self) -> bool:
+        """Whether light comes to the side of the surface that is seen."""
+        return self.weight > 0.0 and self.blocker is None
+
+
+@dataclass(frozen=True)
+class ShadowFan:
+    """The rays from a hit to a light that is no point.
+
+    Attributes
+    ----------
+    light
+        Place in ``scene.lights``.
+    kind
+        What light it is, in the words of scene files: "sun", "sphere", "sky" or "ambient".
+    intensity
+        The strength of the light; of a sky its radiance.
+    direction
+        Unit vector from the hit to the middle of the light, in world space; where light comes from
+        all sides, the normal of the hit.
+    rays
+        The rays. With one sample a pixel, those of the picture.
+    share
+        How much of the light arrives: the mean weight of its rays, 0 for those that do not.
+    adds
+        The red, green and blue that the light adds to the pixel.
+    color
+        The red, green and blue of the light, from 0 to 255.
+    """
+
+    light: int
+    kind: str
+    intensity: float
+    direction: Vec
+    rays: tuple[FanRay, ...]
+    share: float
+    adds: Vec
+    color: Vec
+
+    @property
+    def arriving(self) -> int:
+        """How many of its rays arrive."""
+        return sum(ray.arrives for ray in self.rays)
+
+    @property
+    def arrives(self) -> bool:
+        """Whether any of its light reaches the side of the surface that is seen."""
+        return self.share > 0.0
+
+    @property
+    def is_behind(self) -> bool:
+        """Whether all of the light is behind the surface."""
+        return all(ray.weight == 0.0 for ray in self.rays)
+
+    @property
+    def blockers(self) -> list[Surface]:
+        """What is in the way, each surface once, first those that stop most rays."""
+        found = Counter(ray.blocker for ray in self.rays if ray.blocker is not None)
+        return [surface for surface, _ in found.most_common()]
+
+
+WayToLight: TypeAlias = ShadowRay | ShadowFan
+
 
 @dataclass(frozen=True)
 class View:
@@ -179,13 +277,8 @@ class TracedRays:
     origin: Vec
     direction: Vec
     hit: Hit | None
-    lights: tuple[ShadowRay, ...]
+    lights: tuple[WayToLight, ...]
     light: Vec
     view: View
     exposed: Exposed | None
     scene: Scene = field(repr=False, compare=False)
-
-    @property
-    def left_out(self) -> int:
-        """How many lights are not shown where something is hit, as they are no points."""
-        return sum(not isinstance(light, Light) for light in self.scene.lights if self.hit)

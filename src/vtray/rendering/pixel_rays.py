@@ -1,32 +1,26 @@
 """Tracing the rays of one pixel, to be looked at."""
 
 import operator
-from typing import TYPE_CHECKING, Any, SupportsIndex
+from typing import TYPE_CHECKING, SupportsIndex
 
 import numpy as np
 
 from vtray.base.compiler.compiled import uncompiled
 from vtray.base.errors import RenderError
-from vtray.base.exact_math import hypotenuse
-from vtray.figures.drawn.objects import where_met
-from vtray.figures.ray_tree import Exposed, Hit, RayTree, ShadowRay, Surface, View
+from vtray.figures.ray_tree import Exposed, Hit, RayTree, View
+from vtray.figures.traced_rays import WayToLight
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, scale
 from vtray.rendering.hierarchy import accelerate
-from vtray.rendering.numbering import Numbering, find, number_objects
+from vtray.rendering.numbering import number_objects
 from vtray.rendering.pack import Packed, pack
-from vtray.rendering.shape_kinds import KINDS
-from vtray.scene.array_holder import ArrayHolder
-from vtray.scene.arrays import Arrays
-from vtray.scene.copies import Copies
+from vtray.rendering.pixel_lights import Lit, shadow_rays, trace_fans
+from vtray.rendering.pixel_surfaces import find_surface
 from vtray.scene.default_light import lights_of
-from vtray.scene.light_types import Light
-from vtray.scene.objects import Plane
-from vtray.scene.placing.directions import unit
 from vtray.scene.scene import Scene
-from vtray.scene.vectors import Color, Vector
 from vtray.transport.integrators.reference import trace_pixel as trace_one
+from vtray.transport.lights.light import light_count
 
 if TYPE_CHECKING:
     from vtray.image.image import Image
@@ -45,7 +39,7 @@ def trace_pixel(scene: "Scene | Image", x: SupportsIndex, y: SupportsIndex) -> R
     Returns
     -------
     RayTree
-        The ray through the middle of the pixel, what it hits, and the rays to the point lights.
+        The ray through the middle of the pixel, what it hits, and the rays to all lights.
 
     Raises
     ------
@@ -80,137 +74,40 @@ def trace_rays(
     if not (0 <= column < width and 0 <= row < height):
         message = f"{caller}: expected 0,0 to {width - 1},{height - 1}, got {column},{row}"
         raise RenderError(message)
+    seed = int((scene.render if image is None else image.settings).seed)
     kept = accelerate(scene)  # which the given scene may have already
     scene = Scene(camera, lights_of(scene), list(scene.objects))
-    # Other lights than points are not a ray each.
-    points = {k: light for k, light in enumerate(scene.lights) if isinstance(light, Light)}
-    shown = Scene(camera, list(points.values()), scene.objects)
-    packed, numbering = pack(shown, kept), number_objects(scene.objects)
-    cosines = np.zeros(len(points))
-    blockers = np.full(len(points), NOTHING)
+    packed, numbering = pack(scene, kept), number_objects(scene.objects)
+    points = uncompiled(light_count)(packed.arrays.lights)
+    cosines, blockers = np.zeros(points), np.full(points, NOTHING)
     traced = trace_one(packed.arrays, column, row, new_stack(), cosines, blockers)
     start, direction = _world(scene, packed, traced.ray.origin), traced.ray.direction
     eye = uncompiled(add)(start, uncompiled(scale)(-packed.before, direction))
-    hit = None
-    lights: list[ShadowRay] = []
+    hit, light = None, traced.value
+    ways: list[WayToLight] = []
     if traced.primitive != NOTHING:
         hit = Hit(
-            _surface(scene, numbering, traced.primitive, is_second=traced.interaction.is_second),
+            find_surface(
+                scene, numbering, traced.primitive, is_second=traced.interaction.is_second
+            ),
             traced.distance * packed.unit + packed.before,
             _world(scene, packed, traced.interaction.point),
             traced.interaction.normal,
         )
-        lights = [
-            _shadow_ray(scene, numbering, hit, (k, light), float(cosine), int(blocker))
-            for (k, light), cosine, blocker in zip(points.items(), cosines, blockers, strict=True)
-        ]
+        lit = Lit(scene, numbering, hit)
+        fans, light = trace_fans(lit, packed, traced, (column, row), seed)
+        ways = [*shadow_rays(lit, cosines, blockers), *fans]
     return RayTree(
         (column, row),
         eye,
         direction,
         hit,
-        tuple(lights),
-        traced.value,
+        tuple(sorted(ways, key=lambda way: way.light)),
+        light,
         _view(scene, packed),
         None if image is None else _exposed(image, column, row),
         scene,
     )
-
-
-def _shadow_ray(
-    scene: Scene,
-    numbering: Numbering,
-    hit: Hit,
-    numbered: tuple[int, Light],
-    cosine: float,
-    primitive: int,
-) -> ShadowRay:
-    """Return the ray from a hit to a point light; `primitive` is the number of what blocks it."""
-    (number, light), point = numbered, hit.point
-    place = (light.location.x, light.location.y, light.location.z)
-    way = (place[0] - point[0], place[1] - point[1], place[2] - point[2])
-    distance = hypotenuse(*way)
-    if distance:
-        way = (way[0] / distance, way[1] / distance, way[2] / distance)
-    blocker = None if primitive == NOTHING else _blocker(scene, numbering, primitive, point, way)
-    # In the order of the kernels, so that the sum has the same bits.
-    strength = cosine * hit.surface.lambert * light.intensity if blocker is None else 0.0
-    red, green, blue = hit.surface.color
-    tint = _rgb(light.color)
-    adds = (
-        strength * red * (tint[0] / 255),
-        strength * green * (tint[1] / 255),
-        strength * blue * (tint[2] / 255),
-    )
-    return ShadowRay(number, place, light.intensity, way, distance, cosine, blocker, adds, tint)
-
-
-def _blocker(scene: Scene, numbering: Numbering, primitive: int, start: Vec, way: Vec) -> Surface:
-    """Return what blocks a ray, its colour as where the ray meets it."""
-    surface = _surface(scene, numbering, primitive)
-    if surface.end is None:
-        return surface
-    place = where_met(scene, surface, start, way)
-    to_end, to_start = (
-        (place[0] - end[0], place[1] - end[1], place[2] - end[2])
-        for end in (surface.end, surface.center)
-    )
-    is_second = hypotenuse(*to_end) < hypotenuse(*to_start)
-    return _surface(scene, numbering, primitive, is_second=is_second)
-
-
-def _surface(
-    scene: Scene, numbering: Numbering, primitive: int, *, is_second: bool = False
-) -> Surface:
-    """Return the primitive of a number, its colour as on its first or its second half."""
-    found = find(scene.objects, numbering, primitive)
-    item: Any = scene.objects[found.place]
-    copy = part = None
-    shift, member = (0.0, 0.0, 0.0), found.member
-    if isinstance(item, Copies):
-        copy, shift = found.copy, _row(item, "at", found.copy)
-        part, member = item.locate(member)
-        item = item.objects[part]
-    if isinstance(item, Plane):
-        center, normal = _vec(item.center), unit(item.normal)
-        return Surface(found.place, None, center, None, normal, _rgb(item.color), item.lambert)
-    (kind,) = (kind for kind in KINDS if isinstance(item, (kind.single, kind.arrays)))
-    single = isinstance(item, kind.single)
-    if single:
-        points = [_vec(getattr(item, name)) for name in kind.points]
-        color, radius, lambert, number = _rgb(item.color), item.radius, item.lambert, None
-    else:
-        points = [_row(item, name, member) for name in kind.points]
-        halves = is_second and getattr(item, "color_end", None) is not None
-        color = _row(item, "color_end" if halves else "color", member)
-        radius, lambert = _number(item, "radius", member), _number(item, "lambert", member)
-        number = member
-    if copy is not None:
-        points = [uncompiled(add)(point, shift) for point in points]
-    end = points[1] if len(points) > 1 else None
-    return Surface(found.place, number, points[0], radius, None, color, lambert, end, copy, part)
-
-
-def _vec(point: Vector) -> Vec:
-    """Return a point as a tuple."""
-    return point.x, point.y, point.z
-
-
-def _rgb(color: Color) -> Vec:
-    """Return a colour as a tuple."""
-    return float(color.r), float(color.g), float(color.b)
-
-
-def _row(item: ArrayHolder, name: str, index: int) -> Vec:
-    """Return a row of an array, in which one may stand for all."""
-    column = getattr(item, name)
-    x, y, z = map(float, column if column.ndim == 1 else column[index])
-    return x, y, z
-
-
-def _number(item: Arrays, name: str, index: int) -> float:
-    """Return a number of an array, or the one that stands for all."""
-    return float(np.broadcast_to(getattr(item, name), len(item))[index])
 
 
 def _view(scene: Scene, packed: Packed) -> View:

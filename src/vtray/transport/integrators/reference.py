@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import kernel
-from vtray.geometry.between import first_between, is_occluded
+from vtray.geometry.between import first_between
 from vtray.geometry.packets.fan import BLOCKED, Fan, Start, fan_segment
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.queries import NOTHING, nearest_hit
@@ -19,10 +19,7 @@ from vtray.geometry.vector import Vec, add, dot, sub
 from vtray.transport.camera_rays import camera_ray
 from vtray.transport.interaction import Interaction, interact
 from vtray.transport.lights.light import light_count, light_target, load_power
-from vtray.transport.lights.soft_light import (
-    SoftLights,
-    aim_at,
-)
+from vtray.transport.lights.soft_light import SoftLights, aim_at
 from vtray.transport.materials.lambert import lambert_cosine
 from vtray.transport.materials.material import load_material, scattered
 from vtray.transport.sampling.fans import Fans, fan_keys
@@ -119,6 +116,7 @@ def trace_fan(
     seed: int,
     stack: Stack,
     fan: Fan,
+    blockers: NDArray[np.int64],
 ) -> tuple[float, Vec]:
     """Trace the rays from the hit of a pixel to one soft light, one by one.
 
@@ -138,6 +136,8 @@ def trace_fan(
         Scratch memory.
     fan
         Out: the rays.
+    blockers
+        Out: for each ray the first primitive on its way, or ``NOTHING``.
 
     Returns
     -------
@@ -151,9 +151,11 @@ def trace_fan(
     spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, 0, keys)
     end_scale = soft.error_scale[light] + error_scale
     for ray in range(fans.rays):
-        segment = fan_segment(fan, ray, start, end_scale)
-        if fan[BLOCKED + ray] == 0.0 and is_occluded(scene.world, segment, stack):
-            fan[BLOCKED + ray] = 1.0
+        blockers[ray] = NOTHING
+        if fan[BLOCKED + ray] == 0.0:
+            segment = fan_segment(fan, ray, start, end_scale)
+            blockers[ray] = first_between(scene.world, segment, stack)
+            fan[BLOCKED + ray] = 0.0 if blockers[ray] == NOTHING else 1.0
     share = arriving_share(fan, fans.rays)
     material = load_material(scene.materials, traced.primitive, is_second)
     power = load_power(scene.lights, light_count(scene.lights) + light)

@@ -1,0 +1,172 @@
+"""The rays from what the ray of a pixel hits to the lights, as users get them."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.compiler.compiled import uncompiled
+from vtray.base.exact_math import hypotenuse
+from vtray.figures.traced_rays import FanRay, Hit, ShadowFan, ShadowRay, WayToLight
+from vtray.geometry.packets.fan import DIRECTION, END, FAN, WEIGHT, Fan, new_fan
+from vtray.geometry.packets.stack import new_stack
+from vtray.geometry.queries import NOTHING
+from vtray.geometry.vector import Vec, scale, sub
+from vtray.rendering.numbering import Numbering
+from vtray.rendering.pack import Packed
+from vtray.rendering.pixel_surfaces import find_blocker, rgb
+from vtray.scene.light_types import Ambient, AnyLight, Light, SphereLight, Sun
+from vtray.scene.placing.directions import unit
+from vtray.scene.scene import Scene
+from vtray.transport.integrators.reference import TracedPixel, trace_fan
+from vtray.transport.sampling.fans import fans_of_middles
+
+
+class Lit(NamedTuple):
+    """A hit to which light comes.
+
+    Attributes
+    ----------
+    scene, numbering
+        The scene, and the numbers of its primitives.
+    hit
+        The hit.
+    """
+
+    scene: Scene
+    numbering: Numbering
+    hit: Hit
+
+
+def shadow_rays(
+    lit: Lit, cosines: NDArray[np.float64], blockers: NDArray[np.int64]
+) -> list[WayToLight]:
+    """Return the rays to all point lights, given what `reference.trace_pixel` writes."""
+    points = [(k, light) for k, light in enumerate(lit.scene.lights) if isinstance(light, Light)]
+    return [
+        _shadow_ray(lit, number, light, float(cosine), int(blocker))
+        for (number, light), cosine, blocker in zip(points, cosines, blockers, strict=True)
+    ]
+
+
+def trace_fans(
+    lit: Lit, packed: Packed, traced: TracedPixel, pixel: tuple[int, int], seed: int
+) -> tuple[list[WayToLight], Vec]:
+    """Trace the rays to all lights that are no points.
+
+    Parameters
+    ----------
+    lit
+        The hit.
+    packed
+        The arrays of its scene.
+    traced
+        The pixel with the light of the points.
+    pixel
+        Its column and row.
+    seed
+        The seed of the picture.
+
+    Returns
+    -------
+    fans, light
+        The rays, and the pixel's light with all that they add.
+    """
+    soft = packed.arrays.lights.soft
+    ways: list[WayToLight] = []
+    if soft is None:
+        return ways, traced.value
+    fans, fan, stack = fans_of_middles(1), new_fan(), new_stack()
+    blockers = np.full(fans.rays, NOTHING)
+    for k, light in enumerate(lit.scene.lights):
+        if not isinstance(light, Light):
+            share, value = trace_fan(
+                packed.arrays, soft, traced, *pixel, len(ways), fans, seed, stack, fan, blockers
+            )
+            traced = traced._replace(value=value)
+            start, length = traced.interaction.point, packed.unit
+            rays = tuple(
+                _fan_ray(lit, light, _Ray(fan, ray, start, length), int(blocker))
+                for ray, blocker in enumerate(blockers)
+            )
+            ways.append(_shadow_fan(lit, k, light, rays, share))
+    return ways, traced.value
+
+
+def _shadow_ray(lit: Lit, number: int, light: Light, cosine: float, primitive: int) -> ShadowRay:
+    """Return the ray from a hit to a point light; `primitive` is the number of what blocks it."""
+    point, place = lit.hit.point, (light.location.x, light.location.y, light.location.z)
+    way = (place[0] - point[0], place[1] - point[1], place[2] - point[2])
+    distance = hypotenuse(*way)
+    if distance:
+        way = (way[0] / distance, way[1] / distance, way[2] / distance)
+    is_free = primitive == NOTHING
+    blocker = None if is_free else find_blocker(lit.scene, lit.numbering, primitive, point, way)
+    adds = _added(lit.hit, light, cosine if is_free else 0.0)
+    color = rgb(light.color)
+    return ShadowRay(number, place, light.intensity, way, distance, cosine, blocker, adds, color)
+
+
+def _shadow_fan(
+    lit: Lit, number: int, light: AnyLight, rays: tuple[FanRay, ...], share: float
+) -> ShadowFan:
+    """Return the rays from a hit to a light that is no point."""
+    kind = str(type(light).__struct_config__.tag)
+    adds, color = _added(lit.hit, light, share), rgb(light.color)
+    middle = _middle(lit.hit, light)
+    return ShadowFan(number, kind, light.intensity, middle, rays, share, adds, color)
+
+
+class _Ray(NamedTuple):
+    """A ray of a fan in the kernels' space, its start, and the length of a unit there."""
+
+    fan: Fan
+    ray: int
+    start: Vec
+    unit: float
+
+    def vector(self, field: int) -> Vec:
+        """Return a field that is a vector."""
+        x, y, z = map(float, self.fan[field + self.ray : field + self.ray + 3 * FAN : FAN])
+        return x, y, z
+
+
+def _fan_ray(lit: Lit, light: AnyLight, ray: _Ray, primitive: int) -> FanRay:
+    """Return a ray of a fan; `primitive` is the number of what blocks it."""
+    direction = ray.vector(DIRECTION)
+    length = math.inf
+    if isinstance(light, SphereLight):
+        length = hypotenuse(*uncompiled(sub)(ray.vector(END), ray.start)) * ray.unit
+    elif isinstance(light, Ambient):
+        length = light.distance
+    blocker = None
+    if primitive != NOTHING:
+        blocker = find_blocker(lit.scene, lit.numbering, primitive, lit.hit.point, direction)
+    return FanRay(direction, length, float(ray.fan[WEIGHT + ray.ray]), blocker)
+
+
+def _middle(hit: Hit, light: AnyLight) -> Vec:
+    """Return the direction from a hit to the middle of a light."""
+    if isinstance(light, Sun):
+        return uncompiled(scale)(-1.0, unit(light.direction))
+    if isinstance(light, SphereLight):
+        place = (light.location.x, light.location.y, light.location.z)
+        way = uncompiled(sub)(place, hit.point)
+        distance = hypotenuse(*way)
+        if distance > light.radius:
+            return way[0] / distance, way[1] / distance, way[2] / distance
+    return hit.normal
+
+
+def _added(hit: Hit, light: AnyLight, share: float) -> Vec:
+    """Return what a light adds to a pixel, of which a share arrives."""
+    # In the order of the kernels, so that the sum has the same bits.
+    strength = share * hit.surface.lambert * light.intensity
+    red, green, blue = hit.surface.color
+    tint = rgb(light.color)
+    return (
+        strength * red * (tint[0] / 255),
+        strength * green * (tint[1] / 255),
+        strength * blue * (tint[2] / 255),
+    )
