@@ -81,7 +81,9 @@ def compare_fans(
             expected = by_rules.fan(hit, light, column, row, seed)
             keys = fan_keys(column, row, light, seed)
             order = _order(fans.points, keys, expected.points)
-            _compare(fan, order, hit, expected, unit)
+            is_lamp = by_rules.lights[light]["type"] == "sphere"
+            longest = np.inf if is_lamp else FAR * unit
+            _compare(fan, order, hit, expected, unit, longest)
             bound = expected.doubted_share + 1e-9
             assert abs(share - expected.share) <= bound, (column, row, light)
             rays += len(order)
@@ -110,7 +112,9 @@ def _order(points: np.ndarray, keys: tuple[int, int], expected: np.ndarray) -> n
     return order
 
 
-def _compare(fan: np.ndarray, order: np.ndarray, hit: Hit, expected: Fan, unit: float) -> None:
+def _compare(
+    fan: np.ndarray, order: np.ndarray, hit: Hit, expected: Fan, unit: float, longest: float
+) -> None:
     """Compare the rays of a fan, of which `order` says which of those expected they are."""
     rays = len(order)
     directions = np.stack([fan[DIRECTION + k * FAN :][:rays] for k in range(3)], axis=-1)
@@ -120,9 +124,8 @@ def _compare(fan: np.ndarray, order: np.ndarray, hit: Hit, expected: Fan, unit: 
     turn = np.maximum(expected.turns[order], 1e-15)
     off = np.abs(directions - expected.directions[order]).max(axis=-1)
     assert (off <= turn).all(), f"direction off by {off.max()}"
-    beyond = FAR * unit  # so long are rays that end nowhere
-    off = np.abs(lengths - np.minimum(expected.lengths[order], beyond))
-    bound = expected.length_errors[order] + 1e-12 * lengths * (lengths > beyond / 2)
+    off = np.abs(lengths - np.minimum(expected.lengths[order], longest))
+    bound = expected.length_errors[order] + 1e-12 * lengths * (lengths > longest / 2)
     assert (off <= bound).all(), f"length off by {off.max()}"
     off = np.abs(weights - expected.weights[order])
     assert (off <= 2 * turn + 1e-12).all(), f"weight off by {off.max()}"
