@@ -15,6 +15,18 @@ from fuzz.promises import run_quietly
 MOST_PIXELS = 10_000
 """Of a picture that is rendered; larger ones would take all the time."""
 
+LIGHTS: list[dict[str, Any]] = [
+    light(5, -5, 0),
+    {**light(0, -1, 5), "type": "point", "color": {"r": 255, "g": 200, "b": 9}},
+    {"type": "sun", "direction": xyz(1, 2, 0.5), "angle": 9},
+    {"type": "sun", "direction": xyz(0, 1, 0), "intensity": 0.5, "color": {"r": 1, "g": 2, "b": 3}},
+    {"type": "sphere", "location": xyz(1, -4, 3), "radius": 2},
+    {"type": "sky", "radiance": 0.5, "color": {"r": 160, "g": 192, "b": 255}},
+    {"type": "ambient", "intensity": 0.3, "distance": 2},
+    {"type": "ambient"},
+]
+"""Lights of all kinds, with all of their keys and with few."""
+
 
 def attempt(random: Random, folder: Path) -> None:
     """Render a scene file that is wrong, or strange."""
@@ -36,7 +48,7 @@ def _document(random: Random, folder: Path) -> dict[str, Any]:
         objects.append({"type": "copies", "objects": [objects[0], many], **places})
     found = scene(
         [item for item in objects if random.random() < 0.8],
-        [light(5, -5, 0), light(0, -1, 5)],
+        random.sample(LIGHTS, random.randrange(1, 5)),
         size=[12, 9],
         resolution=[0.4, 0.4],
     )

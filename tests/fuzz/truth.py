@@ -17,19 +17,23 @@ from typing import Any
 import numpy as np
 import oracle
 from cylinder_pictures import assert_near_oracle, load
+from soft_pictures import compare_fans
 from written_out import written_out_file
 
 import vtray
-from fuzz import copies
+from fuzz import copies, lights
 from vtray.rendering import hierarchy as acceleration
 
 Scene = dict[str, Any]
 Random = np.random.Generator
 
-FEW, ALL = 10**9, 0
+FEW, ALL = 255, 0
 """For ``acceleration.FEW``: no hierarchy, or always one."""
 
 WIDTH, HEIGHT = 12, 9
+
+SEED = 3
+"""What chooses the rays to soft lights."""
 
 
 def attempt(random: python_random.Random, folder: Path) -> None:
@@ -39,6 +43,8 @@ def attempt(random: python_random.Random, folder: Path) -> None:
         scene = with_cylinders(np.random.default_rng(random.randrange(2**63)), scene)
     if copies.SHARE and random.random() < copies.SHARE:
         scene = copies.with_copies(np.random.default_rng(random.randrange(2**63)), scene)
+    if lights.SHARE and random.random() < lights.SHARE:
+        scene = lights.with_soft_lights(np.random.default_rng(random.randrange(2**63)), scene)
     (folder / "scene.json").write_text(json.dumps(scene))
     fault = fault_of(scene)
     if fault is not None:
@@ -48,6 +54,8 @@ def attempt(random: python_random.Random, folder: Path) -> None:
 
 def fault_of(scene: Scene) -> str | None:
     """Return what is wrong with the picture of a scene."""
+    if any(item.get("type", "point") != "point" for item in scene["lights"]):
+        return _fault_of_soft_lights(scene)
     if any(item["type"] == "copies" for item in scene["objects"]):
         return _fault_of_copies(scene)
     if any(item["type"] == "cylinder" for item in scene["objects"]):
@@ -61,6 +69,28 @@ def fault_of(scene: Scene) -> str | None:
             how = "hierarchy" if few == ALL else "few spheres"
             return f"{how}: {len(wrong)} pixels are not the oracle's, first {column},{row}"
     return _off_the_truth(scene, exact)
+
+
+def _fault_of_soft_lights(scene: Scene) -> str | None:
+    """Return what is wrong with the picture of a scene with lights that are no points."""
+    plain = written_out_file(scene)
+    for samples in (1, 2):
+        first = _render(plain, FEW, samples=samples, seed=SEED)
+        if not np.isfinite(first.linear).all() or (first.linear < 0).any():
+            return "light is not finite, or below 0"
+        for item, few in ((plain, ALL), (scene, FEW), (scene, ALL)):
+            other = _render(item, few, samples=samples, seed=SEED)
+            if not np.array_equal(first.linear, other.linear):
+                return "soft lights: not the picture of few objects written out"
+    image = _render(scene, ALL, seed=SEED)
+    hits = np.argwhere(image.ids[..., 0] >= 0)
+    pixels = [(int(column), int(row)) for row, column in hits[:: max(len(hits) // 3, 1)]]
+    try:
+        compare_fans(scene, pixels, SEED, image)
+    except AssertionError as error:
+        return f"soft lights: not the oracle's: {error}"
+    only_points = [item for item in scene["lights"] if item.get("type", "point") == "point"]
+    return fault_of({**scene, "lights": only_points}) if only_points else None
 
 
 def _fault_of_copies(scene: Scene) -> str | None:
@@ -101,11 +131,13 @@ def smaller(scene: Scene) -> Scene:
 
 def _render(scene: Scene, few: int, **settings: Any) -> vtray.Image:
     """Return the picture of a scene, rendered with a hierarchy from so many shapes on."""
-    before, acceleration.FEW = acceleration.FEW, few
+    # Where there are soft lights, LEAF says from how many shapes on there is a hierarchy.
+    before = acceleration.FEW, acceleration.LEAF
+    acceleration.FEW = acceleration.LEAF = few
     try:
         return vtray.render(load(scene), threads=1, warn=str, **settings)
     finally:
-        acceleration.FEW = before
+        acceleration.FEW, acceleration.LEAF = before
 
 
 def _off_the_truth(scene: Scene, exact: oracle.Seen) -> str | None:
@@ -166,13 +198,13 @@ def random_scene(random: Random) -> Scene:
     for item in spheres[1:]:
         _bring_together(random, item, spheres[0])
     objects = [*spheres, *planes]
-    lights = [_light(random, size, objects) for _ in range(random.integers(1, 4))]
-    scene = {"camera": _camera(random, size, objects), "lights": lights, "objects": objects}
+    points = [_light(random, size, objects) for _ in range(random.integers(1, 4))]
+    scene = {"camera": _camera(random, size, objects), "lights": points, "objects": objects}
     for place in _places(scene):
         np.add(place, world, out=place)
     return {
         "camera": _written(scene["camera"]),
-        "lights": [_written(item) for item in lights],
+        "lights": [_written(item) for item in points],
         "objects": [_written(objects[k]) for k in random.permutation(len(objects))],
     }
 
@@ -186,14 +218,14 @@ def with_cylinders(random: Random, scene: Scene) -> Scene:
     for _ in range(random.choice([1, 2, 5, 20])):
         item = _cylinder(random, size, center, [*objects, *cylinders])
         cylinders += [item, item] if random.random() < 0.15 else [item]
-    lights = [
+    points = [
         {**light, "location": _beside(random, size, center, cylinders)} for light in scene["lights"]
     ]
     start = _array(cylinders[0]["start"])
     if random.random() < 0.6 and np.any(start != center):
         camera = {**camera, **_written({"normal": start - center})}
         camera.pop("up", None)
-    return {"camera": camera, "lights": lights, "objects": [*objects, *cylinders]}
+    return {"camera": camera, "lights": points, "objects": [*objects, *cylinders]}
 
 
 def _array(xyz: dict[str, float]) -> np.ndarray:

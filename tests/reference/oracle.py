@@ -18,6 +18,7 @@ import numpy as np
 from oracle_cylinder import Cylinder
 
 ROUNDING = 2.0**-47
+WHITE = {"r": 255, "g": 255, "b": 255}
 Scene = dict[str, Any]
 Array = np.ndarray
 
@@ -36,7 +37,7 @@ class Seen(NamedTuple):
     ids
         The place in ``scene["objects"]``, -1 where nothing is, (...).
     shadows
-        Whether something is between the hit and a light that it faces, (..., lights).
+        Whether something is between the hit and a point light that it faces, (..., lights).
     parts
         What part of a cylinder is hit: its face, and 3 more in its second half; else 0, (...).
     """
@@ -176,7 +177,7 @@ class _Render:
         kinds = ["sphere", "cylinder", "plane"]
         self.order = sorted(range(len(objects)), key=lambda k: kinds.index(objects[k]["type"]))
         self.objects = [objects[k] for k in self.order]
-        self.lights = scene["lights"]
+        self.lights = [item for item in scene["lights"] if item.get("type", "point") == "point"]
         # By how much of the bound on rounding each object is enlarged, if it is a cylinder.
         self.growth = np.zeros(len(objects))
         self.cylinders = [self.cylinder(item) for item in self.objects]
@@ -199,6 +200,9 @@ class _Render:
 
     def color(self, item: Scene, name: str = "color") -> Array:
         return np.array([item.get(name, item["color"])[c] for c in "rgb"], self.dtype)
+
+    def light_color(self, light: Scene) -> Array:
+        return np.array([light.get("color", WHITE)[c] for c in "rgb"], self.dtype) / self.dtype(255)
 
     def magnitude(self, item: Scene) -> Any:
         if item["type"] == "cylinder":
@@ -332,7 +336,7 @@ class _Render:
             shadows[:, k] = (cosine > 0) & self.blocked(points, error, place)
             cosine[shadows[:, k]] = 0
             strength = cosine * self.dtype(item["lambert"]) * self.dtype(light["intensity"])
-            total = total + strength[:, None] * color
+            total = total + strength[:, None] * color * self.light_color(light)
         return total, normal, shadows, parts
 
     def blocked(self, points: Array, error: Array, light: Array) -> Array:

@@ -1,0 +1,144 @@
+"""Soft lights of pictures beside those of the oracle, ray by ray."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from cylinder_pictures import load
+from oracle import WHITE
+from oracle_lights import Fan, Hit, SoftOracle
+from written_out import written_out_file
+
+import vtray
+from vtray.geometry.packets.fan import (
+    BLOCKED,
+    DIRECTION,
+    END,
+    FAN,
+    WEIGHT,
+    new_fan,
+)
+from vtray.geometry.packets.stack import new_stack
+from vtray.geometry.queries import NOTHING
+from vtray.rendering.hierarchy import accelerate
+from vtray.rendering.pack import pack
+from vtray.rendering.pack_lights import FAR
+from vtray.transport.integrators import reference
+from vtray.transport.sampling.fans import fan_keys, fan_point, new_fans
+
+Scene = dict[str, Any]
+
+
+class Compared(NamedTuple):
+    """How many rays were compared, how many of them arrive, and how many were in doubt."""
+
+    rays: int
+    arrive: int
+    doubtful: int
+
+
+def compare_fans(
+    document: Scene, pixels: list[tuple[int, int]], seed: int, image: vtray.Image | None = None
+) -> Compared:
+    """Compare all rays from some pixels to the soft lights with those of the oracle.
+
+    Parameters
+    ----------
+    document
+        The scene, as a file says it.
+    pixels
+        The pixels, each its column and row.
+    seed
+        What chooses the rays.
+    image
+        A picture of the scene, with this seed and one sample, which is compared as well.
+    """
+    by_rules = SoftOracle(written_out_file(document))
+    scene = load(document)
+    packed, fans = pack(scene, accelerate(scene)), new_fans(1)
+    arrays, unit = packed.arrays, packed.unit
+    soft = arrays.lights.soft
+    if soft is None:
+        return Compared(0, 0, 0)
+    points = sum(item.get("type", "point") == "point" for item in document["lights"])
+    stack, fan = new_stack(), new_fan()
+    cosines, blockers = np.zeros(points), np.full(points, NOTHING)
+    rays = arrive = doubtful = 0
+    for column, row in pixels:
+        hit = by_rules.hit(column, row)
+        traced = reference.trace_pixel(arrays, column, row, stack, cosines, blockers)
+        if hit is None or traced.primitive == NOTHING:
+            continue
+        point = np.array(traced.interaction.point) * unit
+        if not is_same(hit, point, np.array(traced.interaction.normal)):
+            continue
+        hit = hit._replace(point=point, normal=np.array(traced.interaction.normal))
+        shares = []
+        for light in range(len(by_rules.lights)):
+            share, _ = reference.trace_fan(
+                arrays, soft, traced, column, row, light, fans, seed, stack, fan
+            )
+            shares.append(share)
+            expected = by_rules.fan(hit, light, column, row, seed)
+            keys = fan_keys(column, row, light, seed)
+            order = _order(fans.points, keys, expected.points)
+            is_lamp = by_rules.lights[light]["type"] == "sphere"
+            longest = np.inf if is_lamp else FAR * unit
+            _compare(fan, order, hit, expected, unit, longest)
+            bound = expected.doubted_share + 1e-9
+            assert abs(share - expected.share) <= bound, (column, row, light)
+            rays += len(order)
+            arrive += int(expected.arrives.sum())
+            doubtful += int(expected.doubt.sum())
+        if image is not None:
+            light_of_all = _light_of(hit, traced.interaction.is_second, shares, by_rules.lights)
+            total = traced.value + light_of_all
+            np.testing.assert_allclose(image.linear[row, column], total, rtol=1e-12, atol=1e-12)
+    return Compared(rays, arrive, doubtful)
+
+
+def is_same(hit: Hit, point: np.ndarray, normal: np.ndarray) -> bool:
+    """Tell whether two hits are the same as far as rounding allows."""
+    away = np.abs(hit.point - point).max()
+    return bool(away <= 2.0**-30 * hit.error and hit.normal @ normal > 1 - 2.0**-20)
+
+
+def _order(points: np.ndarray, keys: tuple[int, int], expected: np.ndarray) -> np.ndarray:
+    """Return which of the points expected vtray's rays have, (rays,): the same, in any order."""
+    found = np.array([fan_point(points, k, keys) for k in range(len(expected))])
+    one, other = (np.lexsort(item.T) for item in (found, expected))
+    np.testing.assert_array_equal(found[one], expected[other])
+    order = np.empty(len(one), int)
+    order[one] = other
+    return order
+
+
+def _compare(
+    fan: np.ndarray, order: np.ndarray, hit: Hit, expected: Fan, unit: float, longest: float
+) -> None:
+    """Compare the rays of a fan, of which `order` says which of those expected they are."""
+    rays = len(order)
+    directions = np.stack([fan[DIRECTION + k * FAN :][:rays] for k in range(3)], axis=-1)
+    ends = np.stack([fan[END + k * FAN :][:rays] for k in range(3)], axis=-1) * unit
+    lengths = np.sqrt(np.square(ends - hit.point).sum(axis=-1))
+    weights, arrives = fan[WEIGHT:][:rays], fan[BLOCKED:][:rays] == 0
+    turn = np.maximum(expected.turns[order], 1e-15)
+    off = np.abs(directions - expected.directions[order]).max(axis=-1)
+    assert (off <= turn).all(), f"direction off by {off.max()}"
+    off = np.abs(lengths - np.minimum(expected.lengths[order], longest))
+    bound = expected.length_errors[order] + 1e-12 * lengths * (lengths > longest / 2)
+    assert (off <= bound).all(), f"length off by {off.max()}"
+    off = np.abs(weights - expected.weights[order])
+    assert (off <= 2 * turn + 1e-12).all(), f"weight off by {off.max()}"
+    wrong = (arrives != expected.arrives[order]) & ~expected.doubt[order]
+    assert not wrong.any(), f"{wrong.sum()} of {rays} rays, {arrives.sum()} arrive"
+
+
+def _light_of(hit: Hit, is_second: bool, shares: list[float], lights: list[Scene]) -> np.ndarray:
+    """Return what soft lights add to a pixel, if so much of them arrives, (3,)."""
+    color = hit.item.get("color_end", hit.item["color"]) if is_second else hit.item["color"]
+    surface = np.array([color[c] for c in "rgb"]) * hit.item["lambert"]
+    total = np.zeros(3)
+    for share, light in zip(shares, lights, strict=True):
+        tint = np.array([light.get("color", WHITE)[c] for c in "rgb"]) / 255
+        total += share * light.get("radiance", light.get("intensity", 1.0)) * tint * surface
+    return total
