@@ -23,7 +23,7 @@ from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
 from vtray.rendering.pack_lights import FAR
 from vtray.transport.integrators import reference
-from vtray.transport.sampling.fans import fan_keys, fan_point, new_fans
+from vtray.transport.sampling.fans import fan_keys, fan_point, fans_of_middles
 
 Scene = dict[str, Any]
 
@@ -54,7 +54,7 @@ def compare_fans(
     """
     by_rules = SoftOracle(written_out_file(document))
     scene = load(document)
-    packed, fans = pack(scene, accelerate(scene)), new_fans(1)
+    packed, fans = pack(scene, accelerate(scene)), fans_of_middles(1)
     arrays, unit = packed.arrays, packed.unit
     soft = arrays.lights.soft
     if soft is None:
