@@ -159,7 +159,8 @@ def _unit_length(scene: Scene, planes: list[Plane], kept: Acceleration) -> float
     camera = scene.camera
     places = [camera.center, *(plane.center for plane in planes)]
     places += [light.location for light in scene.lights if isinstance(light, Light | SphereLight)]
-    coordinates = max(max(abs(p.x), abs(p.y), abs(p.z)) for p in places)
+    lengths = [light.radius for light in scene.lights if isinstance(light, SphereLight)]
+    coordinates = max(max(abs(p.x), abs(p.y), abs(p.z), *lengths) for p in places)
     highest = max(_start_exponent(camera), _exponent(coordinates), _exponent(kept.largest))
     # The unit itself and its inverse must be ordinary doubles.
     return math.ldexp(1.0, max(highest - 200, -1000))

@@ -18,7 +18,7 @@ from vtray.transport.lights.soft_light import AROUND, SPHERE, SUN, SoftLights
 Floats = NDArray[np.float64]
 
 FAR = 2.0**221
-"""How long shadow rays are that end nowhere: a million times as far as all else can be."""
+"""How long shadow rays are that end nowhere: two million times as far as all that is given."""
 
 
 def pack_lights(

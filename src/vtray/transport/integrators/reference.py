@@ -146,7 +146,7 @@ def trace_fan(
     """
     point, normal, error_scale, is_second = traced.interaction
     start = Start(point, dot(point, scene.camera.forward), error_scale)
-    aim = aim_at(soft, light, point, normal)
+    aim = aim_at(soft, light, start, normal)
     keys, forward = fan_keys(column, row, light, seed), scene.camera.forward
     spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, 0, keys)
     end_scale = soft.error_scale[light] + error_scale

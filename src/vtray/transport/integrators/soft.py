@@ -134,7 +134,7 @@ def _arriving(
     """Return what arrives of a light at a hit, after one round if all its rays tell the same."""
     point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
     start = Start(point, packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
-    aim = aim_at(soft, light, point, normal)
+    aim = aim_at(soft, light, start, normal)
     is_narrow = aim.spread < NARROW
     fan, forward = work.fan, scene.camera.forward
     end_scale = soft.error_scale[light] + start.error_scale

@@ -7,6 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.fan import Start
+from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, dot, scale, sub
 
 Floats = NDArray[np.float64]
@@ -76,17 +78,22 @@ def soft_count(soft: SoftLights) -> int:
 
 
 @device
-def aim_at(soft: SoftLights, light: int, point: Vec, normal: Vec) -> Aim:
-    """Return a light as it is seen from a point of a surface."""
+def aim_at(soft: SoftLights, light: int, start: Start, normal: Vec) -> Aim:
+    """Return a light as it is seen from where rays start on a surface.
+
+    On the surface of a sphere, as near as rounding can tell, is inside: a ball that has a lamp of its
+    own size shines.
+    """
     kind, size = soft.kind[light], soft.size[light]
     place = soft.x[light], soft.y[light], soft.z[light]
     if kind == SUN:
         # The mean of the cosine over a cone around the normal is 1 - spread / 2.
         return Aim(SUN, scale(soft.far, place), soft.far, place, size, 1.0 / (1.0 - 0.5 * size))
     if kind == SPHERE:
-        way = sub(place, point)
+        way = sub(place, start.point)
         distance2 = dot(way, way)
-        if distance2 > size * size:
+        outside = size + ROUNDING * (soft.error_scale[light] + start.error_scale)
+        if distance2 > outside * outside:
             sine2 = size * size / distance2
             spread = sine2 / (1.0 + math.sqrt(1.0 - sine2))
             axis = scale(1.0 / math.sqrt(distance2), way)
