@@ -60,7 +60,7 @@ def compare_fans(
     if soft is None:
         return Compared(0, 0, 0)
     points = sum(item.get("type", "point") == "point" for item in document["lights"])
-    stack, fan = new_stack(), new_fan()
+    stack, fan, stopped = new_stack(), new_fan(), np.zeros(FAN, np.int64)
     cosines, blockers = np.zeros(points), np.full(points, NOTHING)
     rays = arrive = doubtful = 0
     for column, row in pixels:
@@ -75,7 +75,7 @@ def compare_fans(
         shares = []
         for light in range(len(by_rules.lights)):
             share, _ = reference.trace_fan(
-                arrays, soft, traced, column, row, light, fans, seed, stack, fan
+                arrays, soft, traced, column, row, light, fans, seed, stack, fan, stopped
             )
             shares.append(share)
             expected = by_rules.fan(hit, light, column, row, seed)

@@ -207,3 +207,29 @@ def test_odd_lights_give_finite_light(light: Any) -> None:
     linear = render(scene).linear
     assert np.isfinite(linear).all()
     assert (linear >= 0).all()
+
+
+@pytest.mark.parametrize("place", [(0.0, 0.0, 2.0), (1e6, -1e6, 1e6)])
+def test_a_ball_with_a_lamp_of_its_own_size_shines(place: tuple[float, float, float]) -> None:
+    scene = vtray.Scene()
+    scene.add_sphere(place, 0.5)
+    scene.camera = vtray.Camera.fit(scene, direction=(0.3, 1, -0.6), size=(40, 30))
+    scene.lights = [vtray.SphereLight(place, 0.5)]
+    image = render(scene, exposure=1.0)
+    np.testing.assert_array_equal(image.linear[image.ids[..., 0] == 0], 255.0)
+
+
+@compiled_only
+def test_edges_of_the_shadow_of_a_small_sun_get_samples() -> None:
+    scene = vtray.Scene()
+    scene.add_sphere((0, 0, 2), 0.7)
+    scene.add_plane((0, 0, 0), normal=(0, 0, 1))
+    scene.camera = vtray.Camera((0, 0, 9), (0, 0, -1), 1.0, (48, 36), (0.01, 0.01), up=(0, 1, 0))
+    scene.lights = [vtray.Sun((0, -1, -1), angle=0.53)]
+    soft = render(scene, samples=64, exposure=1.0).linear
+    stairs = render(scene, exposure=1.0).linear
+    scene.lights = [vtray.Light((0, 1e6, 1e6))]
+    hard = render(scene, samples=64, exposure=1.0).linear
+    # Its half-shadows are a fifth of a pixel wide here.
+    assert np.abs(soft - hard).max() < 0.1 * 255
+    assert np.abs(stairs - hard).max() > 0.15 * 255

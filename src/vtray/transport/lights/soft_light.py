@@ -81,8 +81,8 @@ def soft_count(soft: SoftLights) -> int:
 def aim_at(soft: SoftLights, light: int, start: Start, normal: Vec) -> Aim:
     """Return a light as it is seen from where rays start on a surface.
 
-    On the surface of a sphere, as near as rounding can tell, is inside: a ball that has a lamp of its
-    own size shines.
+    On the surface of a sphere, as near as rounding can tell, is inside: a ball that has a lamp of
+    its own size shines.
     """
     kind, size = soft.kind[light], soft.size[light]
     place = soft.x[light], soft.y[light], soft.z[light]
