@@ -220,7 +220,7 @@ two, as the compiler takes what calls itself for recursion, whatever it is given
 
 @device
 def _bundle_beam(bundle: Bundle, to_boxes: ToBoxes) -> Beam:
-    """Return the beam of those rays of an bundle that nothing stops so far."""
+    """Return the beam of those rays of a bundle that nothing stops so far."""
     low = math.inf, math.inf, math.inf
     high = -math.inf, -math.inf, -math.inf
     for ray in range(bundle.rays):

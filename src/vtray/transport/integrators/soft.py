@@ -30,11 +30,7 @@ from vtray.transport.film import Rows
 from vtray.transport.light_buffer import KeptLight
 from vtray.transport.lights.light import Lights, light_count, load_power
 from vtray.transport.lights.lighting import light_bit
-from vtray.transport.lights.soft_light import (
-    SoftLights,
-    aim_at,
-    soft_count,
-)
+from vtray.transport.lights.soft_light import SoftLights, aim_at, soft_count
 from vtray.transport.materials.material import Material, scattered
 from vtray.transport.sampling.fans import Fans, fan_keys
 from vtray.transport.sampling.light_rays import arriving_share, count_open, spread_fan
