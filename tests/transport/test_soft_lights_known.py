@@ -14,6 +14,9 @@ from vtray import render
 SIDE = 32 if JIT else 8
 SEEDS = 200 if JIT else 20
 
+NEAR = 1e-3 if JIT else 8e-3
+"""How near means over so many pixels come to integrals."""
+
 Point = tuple[float, float, float]
 UP = (0, 0, 1)
 
@@ -67,7 +70,7 @@ def test_ambient_light_in_the_corner_of_three_planes(light: Any) -> None:
     scene = at_point(light, (1e-3, 2e-3, 0), (3, 3, 5))
     for normal in ((1, 0, 0), (0, 1, 0), UP):
         scene.add_plane((0, 0, 0), normal=normal)
-    assert share(scene) == pytest.approx(0.25, abs=1e-3)
+    assert share(scene) == pytest.approx(0.25, abs=NEAR)
 
 
 @pytest.mark.parametrize("distance", [0.5, 1.5, 4.0])
@@ -77,7 +80,7 @@ def test_ambient_light_near_a_wall_is_what_is_not_near_it(distance: float) -> No
     scene.add_plane((0, 0, 0), normal=UP)
     # The wall is met within the distance where -x * distance > 1.
     expected = integral(lambda ways: ways[:, 2] / math.pi * (ways[:, 0] * distance >= -1))
-    assert share(scene) == pytest.approx(expected, abs=1e-3)
+    assert share(scene) == pytest.approx(expected, abs=NEAR)
 
 
 @pytest.mark.parametrize("height", [-0.9, -0.3, 0.0, 0.4, 0.9])
@@ -94,7 +97,7 @@ def test_a_ball_partly_below_the_horizon(height: float) -> None:
         return np.maximum(turned(ways, axis)[:, 2], 0)
 
     expected = integral(cosine, cone) / integral(lambda ways: ways[:, 2], cone)
-    assert share(scene) == pytest.approx(expected, abs=1e-3)
+    assert share(scene) == pytest.approx(expected, abs=NEAR)
 
 
 @pytest.mark.parametrize("beside", [0.0, 0.5, 1.1, 1.6])
@@ -112,7 +115,7 @@ def test_a_large_sun_partly_behind_a_ball(beside: float) -> None:
 
     expected = integral(arriving, cone) / integral(lambda ways: ways[:, 2], cone)
     assert 0.2 < expected < 0.8
-    assert share(scene) == pytest.approx(expected, abs=1e-3)
+    assert share(scene) == pytest.approx(expected, abs=NEAR)
 
 
 def test_a_ball_light_partly_behind_a_ball() -> None:
@@ -131,7 +134,7 @@ def test_a_ball_light_partly_behind_a_ball() -> None:
 
     expected = integral(arriving, cone) / integral(lambda ways: ways[:, 2], cone)
     assert 0.2 < expected < 0.7
-    assert share(scene) == pytest.approx(expected, abs=1e-3)
+    assert share(scene) == pytest.approx(expected, abs=NEAR)
 
 
 def balls(count: int, radius: float) -> vtray.Scene:
