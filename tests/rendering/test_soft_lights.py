@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import vtray
-from conftest import compiled_only
+from conftest import JIT, compiled_only
 from vtray import render
 from vtray.geometry.packets.fan import new_fan
 from vtray.geometry.packets.stack import new_stack
@@ -17,7 +17,8 @@ from vtray.rendering.pack import pack
 from vtray.transport.integrators import reference
 from vtray.transport.sampling.fans import fans_of_middles
 
-SIZE = 40, 30
+SIZE = (40, 30) if JIT else (12, 9)
+STEP = 5 if JIT else 2
 
 
 def soft_lights() -> list[Any]:
@@ -51,6 +52,8 @@ def scene_of(kind: str) -> vtray.Scene:
 
 @pytest.mark.parametrize("kind", ["few", "many", "bonds", "copies"])
 def test_bundles_tell_what_each_ray_alone_would(kind: str) -> None:
+    if kind in ("many", "bonds") and not JIT:
+        pytest.skip("takes minutes without the compiler")
     scene = scene_of(kind)
     image = render(scene, seed=5)
     arrays, fans, fan = pack(scene, accelerate(scene)).arrays, fans_of_middles(1), new_fan()
@@ -59,8 +62,8 @@ def test_bundles_tell_what_each_ray_alone_would(kind: str) -> None:
     stack, cosines, blockers = new_stack(), np.zeros(1), np.full(1, NOTHING)
     on_ways = np.full(fans.rays, NOTHING)
     hits = 0
-    for y in range(1, SIZE[1], 6):
-        for x in range(1, SIZE[0], 5):
+    for y in range(1, SIZE[1], STEP):
+        for x in range(1, SIZE[0], STEP):
             traced = reference.trace_pixel(arrays, x, y, stack, cosines, blockers)
             if traced.primitive != NOTHING:
                 hits += 1
