@@ -176,6 +176,7 @@ def _first_in_tree(
             if is_any and first != NOTHING:
                 return first
             continue
+        # In any order: the nearest first, by `push_met`, is a quarter slower in packed spheres.
         met = children_met(bvh, node, beam, near, far, stack.entered)
         place = node * WIDTH
         while met > 0:

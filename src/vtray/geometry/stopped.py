@@ -13,7 +13,7 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.between import is_occluded
 from vtray.geometry.dispatch import Shape, Verbs, with_any
 from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_margin, upper_limit
-from vtray.geometry.packets.fan import BLOCKED, Fan, Start, fan_segment, load_end
+from vtray.geometry.packets.fan import BLOCKED, Fan, Start, count_open, fan_segment, load_end
 from vtray.geometry.packets.stack import Stack, push_met
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import add, lower, scale, sub, upper
@@ -84,7 +84,7 @@ def find_stopped(
     """
     if is_narrow:
         bundle = Bundle(fan, rays, start, end_scale)
-        if _any_open(bundle) and _stop_bundle(bundle, world, stack) != MANY:
+        if count_open(fan, rays) > 0 and _stop_bundle(bundle, world, stack) != MANY:
             return
     for ray in range(rays):
         if fan[BLOCKED + ray] == 0.0:
@@ -146,7 +146,7 @@ def _stop_by_slots(
     """Mark the rays that the shapes of a range of slots stop; return which are left."""
     for slot in range(begin, end):
         with_any(world, group, slot, _stop_by_shape, bundle)
-    return SOME if _any_open(bundle) else NONE
+    return SOME if count_open(bundle.fan, bundle.rays) > 0 else NONE
 
 
 @device
@@ -157,15 +157,6 @@ def _stop_by_shape(shape: Shape, verbs: Verbs, number: int, bundle: Bundle) -> i
         segment = fan_segment(fan, ray, start, end_scale)
         fan[BLOCKED + ray] = 1.0 if verbs.hides(shape, segment) else fan[BLOCKED + ray]
     return number
-
-
-@device
-def _any_open(bundle: Bundle) -> bool:
-    """Tell whether nothing so far stops any of the rays."""
-    count = 0
-    for ray in range(bundle.rays):
-        count += 1 if bundle.fan[BLOCKED + ray] == 0.0 else 0
-    return count > 0
 
 
 def _search(

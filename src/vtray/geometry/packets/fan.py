@@ -68,3 +68,12 @@ def fan_segment(fan: Fan, ray: int, start: Start, end_scale: float) -> Segment:
         start.error_scale,
         end_scale,
     )
+
+
+@device
+def count_open(fan: Fan, rays: int) -> int:
+    """Return how many rays of a fan nothing stops so far."""
+    count = 0
+    for ray in range(rays):
+        count += 1 if fan[BLOCKED + ray] == 0.0 else 0
+    return count

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.fan import Start
+from vtray.geometry.packets.fan import Start, count_open
 from vtray.geometry.packets.packet import (
     BLOCK,
     COLOR,
@@ -33,7 +33,7 @@ from vtray.transport.lights.lighting import light_bit
 from vtray.transport.lights.soft_light import SoftLights, aim_at, soft_count
 from vtray.transport.materials.material import Material, scattered
 from vtray.transport.sampling.fans import Fans, fan_keys
-from vtray.transport.sampling.light_rays import arriving_share, count_open, spread_fan
+from vtray.transport.sampling.light_rays import arriving_share, spread_fan
 from vtray.transport.scene_arrays import SceneArrays
 
 NARROW = 0.1

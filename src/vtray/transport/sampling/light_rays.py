@@ -20,6 +20,7 @@ from vtray.geometry.packets.fan import (
     WEIGHT,
     Fan,
     Start,
+    count_open,
 )
 from vtray.geometry.vector import Vec, add, dot, scale, sub
 from vtray.transport.lights.soft_light import ALL_AROUND, SPHERE, Aim
@@ -123,12 +124,3 @@ def arriving_share(fan: Fan, rays: int) -> float:
     for ray in range(rays):
         total += fan[WEIGHT + ray] if fan[BLOCKED + ray] == 0.0 else 0.0
     return total / rays
-
-
-@device
-def count_open(fan: Fan, rays: int) -> int:
-    """Return how many rays of a fan nothing stops so far."""
-    count = 0
-    for ray in range(rays):
-        count += 1 if fan[BLOCKED + ray] == 0.0 else 0
-    return count
