@@ -45,7 +45,7 @@ def test_what_may_be_left_out() -> None:
     assert SphereLight((1, 2, 3), 4) == SphereLight(Vector(1, 2, 3), 4.0, 1.0, white)
     assert Sky() == Sky(1.0, white)
     assert Ambient() == Ambient(1.0, INF, white)
-    for kind, count in ((Light, 2), (Sun, 3), (SphereLight, 2), (Sky, 2), (Ambient, 3)):
+    for kind, count in ((Light, 2), (Sun, 3), (SphereLight, 2), (Sky, 5), (Ambient, 3)):
         parameters = inspect.signature(kind).parameters.values()
         assert sum(one.default is not one.empty for one in parameters) == count
 
@@ -76,6 +76,16 @@ def test_what_may_be_left_out() -> None:
         (lambda: SphereLight((0, 0, 0), -1), "SphereLight.radius: expected a number ≥ 0, got -1"),
         (lambda: SphereLight((0, 0, 0), INF), "SphereLight.radius: expected a finite number"),
         (lambda: Sky(-1), "Sky.radiance: expected a number ≥ 0, got -1"),
+        (lambda: Sky(gradient=(1, 2, 3)), "Sky.gradient: expected Gradient, got (1, 2, 3)"),  # type: ignore[arg-type]
+        (
+            lambda: Scene().add_sky(gradient={"zenit": "red"}),
+            "add_sky: gradient: expected a Gradient, or a dictionary of some of zenith, horizon, "
+            "ground, got {'zenit': 'red'}",
+        ),
+        (
+            lambda: Scene().add_sky(gradient={"zenith": "redd"}),
+            "add_sky: gradient: zenith: ",
+        ),
         (lambda: Sky(color="red"), "Sky.color: expected Color or three numbers, got 'red'"),  # type: ignore[arg-type]
         (lambda: Ambient(-1), "Ambient.intensity: expected a number ≥ 0, got -1"),
         (lambda: Ambient(distance=0), "Ambient.distance: expected a number > 0, got 0"),

@@ -53,15 +53,16 @@ def _describe_light(way: WayToLight, hit: Hit) -> list[str]:
     name = f"lights[{way.light}]"
     if isinstance(way, ShadowFan):
         first = f"{name:12} {way.kind}: {way.arriving} of {len(way.rays)} rays arrive"
-        first += f", {way.share:.6g} of its light"
+        shown = f"{way.share:.6g}" if way.shares is None else _vector(way.shares)
+        first += f", {shown} of its light"
         factor, strength = "share", "radiance" if way.kind == "sky" else "intensity"
-        amount = way.share
+        amount = shown
     else:
         first = f"{name:12} towards {_vector(way.direction)}, {way.distance:.10g} away"
-        factor, strength, amount = "cosine", "intensity", way.cosine
+        factor, strength, amount = "cosine", "intensity", f"{way.cosine:.6g}"
     if not way.arrives:
         return [first, f"  adds       nothing: {_obstacle(way)}"]
-    factors = f"{factor} {amount:.6g} x lambert {hit.surface.lambert:g}"
+    factors = f"{factor} {amount} x lambert {hit.surface.lambert:g}"
     factors += f" x {strength} {way.intensity:g} x color"
     if way.color != WHITE:
         factors += f" x {_vector([channel / 255 for channel in way.color])} of the light"

@@ -141,7 +141,8 @@ class FanRay:
         How far away the light is that way, in scene units; ``inf`` if it is without end.
     weight
         What the ray counts if nothing stops it: 1 on average for a light that the surface faces
-        squarely, 0 for a ray that goes below the surface.
+        squarely, 0 for a ray that goes below the surface. Of a sky whose colour changes with the
+        direction, the mean of what it counts for red, green and blue.
     blocker
         A surface on its way, or None.
     """
@@ -175,11 +176,15 @@ class ShadowFan:
     rays
         The rays. With one sample a pixel, those of the picture.
     share
-        How much of the light arrives: the mean weight of its rays, 0 for those that do not.
+        How much of the light arrives: the mean weight of its rays, 0 for those that do not. Of a
+        sky whose colour changes with the direction, the mean over red, green and blue.
     adds
         The red, green and blue that the light adds to the pixel.
     color
         The red, green and blue of the light, from 0 to 255.
+    shares
+        How much arrives of red, green and blue of a sky whose colour changes with the direction;
+        None for other lights.
     """
 
     light: int
@@ -190,6 +195,7 @@ class ShadowFan:
     share: float
     adds: Vec
     color: Vec
+    shares: Vec | None = None
 
     @property
     def arriving(self) -> int:

@@ -8,12 +8,13 @@ from numpy.typing import NDArray
 
 from vtray.base.exact_math import sine
 from vtray.geometry.vector import Vec
-from vtray.scene.light_types import Ambient, AnyLight, Light, SphereLight, Sun
+from vtray.rendering.pack_skies import changes_color, pack_skies
+from vtray.scene.light_types import Ambient, AnyLight, Light, Sky, SphereLight, Sun
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.vectors import Vector
 from vtray.transport.camera_rays import CameraFrame
 from vtray.transport.lights.light import Lights
-from vtray.transport.lights.soft_light import AROUND, SPHERE, SUN, SoftLights
+from vtray.transport.lights.soft_light import AROUND, NO_SKY, SPHERE, SUN, SoftLights
 
 Floats = NDArray[np.float64]
 
@@ -22,7 +23,7 @@ FAR = 2.0**221
 
 
 def pack_lights(
-    lights: Sequence[AnyLight], origin: Floats, unit: float, camera: CameraFrame
+    lights: Sequence[AnyLight], origin: Floats, unit: float, camera: CameraFrame, up: Vec
 ) -> Lights:
     """Return the arrays of all lights.
 
@@ -36,13 +37,15 @@ def pack_lights(
         The length in scene units of length 1 in the arrays.
     camera
         The camera.
+    up
+        What is up for skies that do not say it, a unit vector in world space.
     """
     hard = [light for light in lights if isinstance(light, Light)]
     soft = [light for light in lights if not isinstance(light, Light)]
     points = points_of([light.location for light in hard], unit) - origin
     x, y, z = _columns(points)
     ordered = *hard, *soft
-    colors = [(light.color.r, light.color.g, light.color.b) for light in ordered]
+    parts = [part for light in ordered for part in _components_of(light)]
     return Lights(
         x,
         y,
@@ -50,14 +53,25 @@ def pack_lights(
         plane_depth=_dot((x, y, z), camera.forward),
         error_scale=_magnitude(x, y, z) + _magnitude(*origin),
         points=len(hard) if hard or not soft else None,
-        soft=_pack_soft(soft, origin, unit) if soft else None,
-        intensity=np.array([light.intensity for light in ordered], float),
-        color=np.array(colors, float).reshape(-1, 3) / 255.0,
+        soft=_pack_soft(soft, len(hard), origin, unit, up) if soft else None,
+        intensity=np.array([intensity for intensity, _ in parts], float),
+        color=np.array([color for _, color in parts], float).reshape(-1, 3) / 255.0,
     )
 
 
-def _pack_soft(lights: Sequence[AnyLight], origin: Floats, unit: float) -> SoftLights:
-    """Return the arrays of the lights that are no points."""
+def _components_of(light: AnyLight) -> list[tuple[float, Vec]]:
+    """Return the intensities and colours, 255 for white, of the components of a light."""
+    color = float(light.color.r), float(light.color.g), float(light.color.b)
+    if not changes_color(light):
+        return [(light.intensity, color)]
+    parts = (color[0], 0.0, 0.0), (0.0, color[1], 0.0), (0.0, 0.0, color[2])
+    return [(light.intensity, part) for part in parts]
+
+
+def _pack_soft(
+    lights: Sequence[AnyLight], first: int, origin: Floats, unit: float, up: Vec
+) -> SoftLights:
+    """Return the arrays of the lights that are no points; `first` is the row of the first."""
     x, y, z, size = np.zeros((4, len(lights)))
     kind, error_scale = np.zeros(len(lights), np.int64), np.zeros(len(lights))
     for k, light in enumerate(lights):
@@ -74,7 +88,12 @@ def _pack_soft(lights: Sequence[AnyLight], origin: Floats, unit: float) -> SoftL
             distance = light.distance if isinstance(light, Ambient) else math.inf
             kind[k], size[k] = AROUND, min(distance / unit, FAR)
         x[k], y[k], z[k] = place
-    return SoftLights(kind, x, y, z, size, error_scale, FAR)
+    skies = [light for light in lights if isinstance(light, Sky) and changes_color(light)]
+    changes = np.array([changes_color(light) for light in lights])
+    sky = np.where(changes, np.cumsum(changes) - 1, NO_SKY)
+    counts = np.where(changes, 3, 1)
+    row = first + np.cumsum(counts) - counts
+    return SoftLights(kind, x, y, z, size, error_scale, sky, row, FAR, pack_skies(skies, up))
 
 
 def points_of(places: list[Vector], unit: float) -> Floats:

@@ -11,7 +11,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from vtray.scene.checks.checked import Frozen
-from vtray.scene.checks.limits import AngularSize, NonNegative, Reach
+from vtray.scene.checks.limits import AngularSize, NonNegative, Reach, Real
+from vtray.scene.sky_types import Gradient
 from vtray.scene.vectors import Color, Direction, Vector
 
 if TYPE_CHECKING:
@@ -125,7 +126,7 @@ class SphereLight(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere")
 
 
 class Sky(Frozen, frozen=True, gc=False, tag_field="type", tag="sky"):
-    """Light from all directions, of one colour.
+    """Light from all directions: of one colour, or of colours that change with the direction.
 
     Attributes
     ----------
@@ -133,11 +134,21 @@ class Sky(Frozen, frozen=True, gc=False, tag_field="type", tag="sky"):
         Strength, ≥ 0, 1 by default: a white, fully scattering surface that sees nothing but a sky
         of radiance 1 shows 1.
     color : Color, optional
-        Colour of the light, as for Light.
+        Colour of the light, as for Light; that of a gradient is multiplied by it.
+    gradient : Gradient, optional
+        Colours by the height above the horizon.
+    up : Direction, optional
+        What is up in the world; by default the camera's `up`, or where it has none, up in the
+        picture.
+    rotation : float, optional
+        By how many degrees the sky is turned around `up`, counterclockwise as seen from above.
     """
 
     radiance: NonNegative = 1.0
     color: Color = WHITE
+    gradient: Gradient | None = None
+    up: Direction | None = None
+    rotation: Real = 0.0
 
     @property
     def intensity(self) -> float:
@@ -146,7 +157,14 @@ class Sky(Frozen, frozen=True, gc=False, tag_field="type", tag="sky"):
 
     if TYPE_CHECKING:
 
-        def __init__(self, radiance: float = 1.0, color: "Color | Triple" = ...) -> None: ...
+        def __init__(
+            self,
+            radiance: float = 1.0,
+            color: "Color | Triple" = ...,
+            gradient: Gradient | None = None,
+            up: "Direction | Vector | Triple | None" = None,
+            rotation: float = 0.0,
+        ) -> None: ...
 
 
 class Ambient(Frozen, frozen=True, gc=False, tag_field="type", tag="ambient"):

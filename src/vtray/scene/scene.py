@@ -22,6 +22,7 @@ from vtray.scene.cylinders import Cylinders
 from vtray.scene.light_types import Ambient, AnyLight, Light, NeverSet, Sky, SphereLight, Sun
 from vtray.scene.objects import Cylinder, Object, Plane, Sphere
 from vtray.scene.settings import RenderSettings
+from vtray.scene.sky_types import Gradient
 from vtray.scene.spheres import Spheres
 from vtray.scene.vectors import Color, Direction, Vector
 
@@ -34,6 +35,7 @@ __all__ = [
     "Cylinder",
     "Cylinders",
     "Direction",
+    "Gradient",
     "Light",
     "Object",
     "Plane",

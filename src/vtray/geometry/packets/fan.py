@@ -16,13 +16,13 @@ END = 0
 """Where a ray ends, a vector."""
 END_PLANE_DEPTH = 3 * FAN
 """How far before the image plane that is."""
-WEIGHT = 4 * FAN
-"""What the ray counts, if nothing stops it; 0 for a ray that is not cast."""
-BLOCKED = 5 * FAN
-"""1 where something stops it, else 0."""
-DIRECTION = 6 * FAN
+BLOCKED = 4 * FAN
+"""1 where something stops the ray, or where it is not cast, else 0."""
+DIRECTION = 5 * FAN
 """A unit vector."""
-SIZE = 9 * FAN
+WEIGHT = 8 * FAN
+"""What the ray counts, if nothing stops it: one number, or three for red, green and blue."""
+SIZE = 11 * FAN
 
 Fan = NDArray[np.float64]
 """The fields of all rays, one after the other, as those of a packet."""
@@ -49,6 +49,20 @@ class Start(NamedTuple):
 def new_fan() -> Fan:
     """Return the fan of one thread."""
     return np.zeros(SIZE)
+
+
+@device
+def set_direction(fan: Fan, ray: int, direction: Vec) -> None:
+    """Set the direction of a ray."""
+    fan[DIRECTION + ray] = direction[0]
+    fan[DIRECTION + FAN + ray] = direction[1]
+    fan[DIRECTION + 2 * FAN + ray] = direction[2]
+
+
+@device
+def direction_of(fan: Fan, ray: int) -> Vec:
+    """Return the direction of a ray."""
+    return fan[DIRECTION + ray], fan[DIRECTION + FAN + ray], fan[DIRECTION + 2 * FAN + ray]
 
 
 @device

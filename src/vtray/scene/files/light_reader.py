@@ -80,8 +80,15 @@ def _read_one(written: bytes) -> AnyLight:
 
 def _count_known(light: AnyLight, found: Mapping[str, object]) -> int:
     """Count the colons of those keys of a light, given as it was read, that are known."""
-    values = [getattr(light, key) for key in light.__struct_fields__ if key in found]
-    return ("type" in found) + sum(1 + _keys_within(type(value)) for value in values)
+    return ("type" in found) + _count_within(light, found)
+
+
+def _count_within(value: object, found: object) -> int:
+    """Count the colons within a value, given as it was read, but for those of unknown keys."""
+    if not isinstance(value, msgspec.Struct) or not isinstance(found, Mapping):
+        return 0
+    known = (key for key in value.__struct_fields__ if key in found)
+    return sum(1 + _count_within(getattr(value, key), found[key]) for key in known)
 
 
 def _keys_within(kind: Any) -> int:  # noqa: ANN401

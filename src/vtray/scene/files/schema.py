@@ -16,6 +16,7 @@ from vtray.scene.camera import Camera
 from vtray.scene.files.in_file import ARRAYS_IN_FILE, KINDS, CopiesInFile, SceneInFile
 from vtray.scene.light_types import Ambient, AnyLight, Light
 from vtray.scene.settings import RenderSettings
+from vtray.scene.sky_types import Gradient
 from vtray.scene.vectors import Color, Direction, Vector
 
 _FIELD = re.compile(r"^(\w+(?:, \w+)*) : .*\n((?:    .+\n?)+)", re.MULTILINE)
@@ -30,7 +31,7 @@ def scene_schema() -> dict[str, Any]:
         A schema of draft 2020-12. It checks all that a schema can; that a key is given only
         once, for instance, it cannot.
     """
-    values = (RenderSettings, Vector, Direction, Color)
+    values = (RenderSettings, Gradient, Vector, Direction, Color)
     lights: tuple[type[msgspec.Struct], ...] = typing.get_args(AnyLight)
     classes: list[type[msgspec.Struct]] = [SceneInFile, Camera, *lights, *KINDS, *values]
     (_, parts) = msgspec.json.schema_components(classes, ref_template="#/$defs/{name}")

@@ -19,11 +19,11 @@ from vtray.geometry.vector import Vec, add, dot, sub
 from vtray.transport.camera_rays import camera_ray
 from vtray.transport.interaction import Interaction, interact
 from vtray.transport.lights.light import light_count, light_target, load_power
-from vtray.transport.lights.soft_light import SoftLights, aim_at
+from vtray.transport.lights.soft_light import SoftLights, aim_at, component_count
 from vtray.transport.materials.lambert import lambert_cosine
 from vtray.transport.materials.material import load_material, scattered
 from vtray.transport.sampling.fans import Fans, fan_keys
-from vtray.transport.sampling.light_rays import arriving_share, spread_fan
+from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
 from vtray.transport.scene_arrays import SceneArrays
 
 
@@ -117,7 +117,7 @@ def trace_fan(
     stack: Stack,
     fan: Fan,
     blockers: NDArray[np.int64],
-) -> tuple[float, Vec]:
+) -> tuple[Vec, Vec]:
     """Trace the rays from the hit of a pixel to one soft light, one by one.
 
     Parameters
@@ -141,14 +141,14 @@ def trace_fan(
 
     Returns
     -------
-    share, value
-        How much of the light arrives, and the pixel's value with it.
+    shares, value
+        How much of each component of the light arrives, and the pixel's value with them.
     """
     point, normal, error_scale, is_second = traced.interaction
     start = Start(point, dot(point, scene.camera.forward), error_scale)
     aim = aim_at(soft, light, start, normal)
     keys, forward = fan_keys(column, row, light, seed), scene.camera.forward
-    spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, 0, keys)
+    spread_fan(fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, 0, keys)
     end_scale = soft.error_scale[light] + error_scale
     for ray in range(fans.rays):
         blockers[ray] = NOTHING
@@ -156,7 +156,10 @@ def trace_fan(
             segment = fan_segment(fan, ray, start, end_scale)
             blockers[ray] = first_between(scene.world, segment, stack)
             fan[BLOCKED + ray] = 0.0 if blockers[ray] == NOTHING else 1.0
-    share = arriving_share(fan, fans.rays)
+    components, value = component_count(soft, light), traced.value
+    shares = arriving_shares(fan, fans.rays, components)
     material = load_material(scene.materials, traced.primitive, is_second)
-    power = load_power(scene.lights, light_count(scene.lights) + light)
-    return share, add(traced.value, scattered(material, share, power))
+    for component in range(components):
+        power = load_power(scene.lights, soft.row[light] + component)
+        value = add(value, scattered(material, shares[component], power))
+    return shares, value

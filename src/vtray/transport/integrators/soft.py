@@ -25,15 +25,15 @@ from vtray.geometry.packets.packet import (
 )
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.stopped import find_stopped
-from vtray.geometry.vector import add
+from vtray.geometry.vector import Vec, add
 from vtray.transport.film import Rows
 from vtray.transport.light_buffer import KeptLight
 from vtray.transport.lights.light import Lights, light_count, load_power
 from vtray.transport.lights.lighting import light_bit
-from vtray.transport.lights.soft_light import SoftLights, aim_at, soft_count
+from vtray.transport.lights.soft_light import SoftLights, aim_at, component_count, soft_count
 from vtray.transport.materials.material import Material, scattered
 from vtray.transport.sampling.fans import Fans, fan_keys
-from vtray.transport.sampling.light_rays import arriving_share, spread_fan
+from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
 from vtray.transport.scene_arrays import SceneArrays
 
 NARROW = 0.1
@@ -45,15 +45,15 @@ class Arriving(NamedTuple):
 
     Attributes
     ----------
-    share
-        The mean weight of all rays.
+    shares
+        The mean weights of all rays, one for each component of the light.
     cast, arrived
         How many rays were cast, and how many arrive.
     is_narrow
         Whether the light is seen under a small angle, so that its shadows have edges.
     """
 
-    share: float
+    shares: Vec
     cast: int
     arrived: int
     is_narrow: bool
@@ -108,8 +108,10 @@ def add_soft_lights(
                 for light in range(soft_count(soft)):
                     keys = fan_keys(column, row, light, seed)
                     arriving = _arriving(packet, hit, scene, soft, light, fans, point, keys, work)
-                    _add_share(packet, hit, scene.lights, light, arriving.share)
-                    _keep_share(packet, lane, scene.lights, light, arriving.share, kept)
+                    for component in range(component_count(soft, light)):
+                        part, share = soft.row[light] + component, arriving.shares[component]
+                        _add_share(packet, hit, scene.lights, part, share)
+                        _keep_share(packet, lane, part, share, kept)
                     _note_shadow(packet, hit, scene.lights, light, arriving, shadows)
                     cast += arriving.cast
     return cast
@@ -132,36 +134,38 @@ def _arriving(
     start = Start(point, packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
     aim = aim_at(soft, light, start, normal)
     is_narrow = aim.spread < NARROW
-    fan, forward = work.fan, scene.camera.forward
+    fan, forward, components = work.fan, scene.camera.forward, component_count(soft, light)
     end_scale = soft.error_scale[light] + start.error_scale
-    total, cast, arrived, rounds = 0.0, 0, 0, 0
+    total = 0.0, 0.0, 0.0
+    cast, arrived, rounds = 0, 0, 0
     while rounds < fans.rounds and (rounds == 0 or 0 < arrived < cast):
         place = first + rounds * fans.rays
-        cast += spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, place, keys)
+        cast += spread_fan(
+            fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, place, keys
+        )
         find_stopped(fan, fans.rays, is_narrow, start, end_scale, scene.world, work.stack)
-        total += arriving_share(fan, fans.rays)
+        total = add(total, arriving_shares(fan, fans.rays, components))
         arrived += count_open(fan, fans.rays)
         rounds += 1
-    return Arriving(total / rounds, cast, arrived, is_narrow)
+    shares = total[0] / rounds, total[1] / rounds, total[2] / rounds
+    return Arriving(shares, cast, arrived, is_narrow)
 
 
 @device
-def _add_share(packet: Packet, hit: int, lights: Lights, light: int, share: float) -> None:
-    """Add what arrives of a soft light to a hit."""
-    power = load_power(lights, light_count(lights) + light)
+def _add_share(packet: Packet, hit: int, lights: Lights, row: int, share: float) -> None:
+    """Add what arrives of a component of a soft light to a hit."""
+    power = load_power(lights, row)
     material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
     added = scattered(material, share, power)
     store(packet, VALUE, hit, add(load(packet, VALUE, hit), added))
 
 
 @device
-def _keep_share(
-    packet: Packet, lane: int, lights: Lights, light: int, share: float, kept: KeptLight | None
-) -> None:
-    """Keep what arrives of a soft light at the hit of a lane, after the point lights."""
+def _keep_share(packet: Packet, lane: int, row: int, share: float, kept: KeptLight | None) -> None:
+    """Keep what arrives of a component of a soft light at the hit of a lane."""
     if kept is not None:
         place = packet.view(np.int64)[KEPT + lane]
-        kept.cosines[light_count(lights) + light, place] = share
+        kept.cosines[row, place] = share
 
 
 @device

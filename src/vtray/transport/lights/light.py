@@ -15,7 +15,10 @@ Floats = NDArray[np.float64]
 
 
 class Lights(NamedTuple):
-    """Lights: the points first, and then the soft ones.
+    """Lights: the points first, and then the soft ones, component by component.
+
+    A light whose colour changes with the direction has three components, of red, of green and of
+    blue light, each with a row of intensity and colour; all others have one.
 
     Attributes
     ----------
@@ -33,9 +36,9 @@ class Lights(NamedTuple):
         The lights that are no points; None where there are none, so that no code is compiled for
         them.
     intensity
-        The intensities of all, (all,).
+        The intensities of all components, (components,).
     color
-        Their colours, 1 for white, (all, 3).
+        Their colours, 1 for white, (components, 3).
     """
 
     x: Floats
@@ -57,11 +60,11 @@ def light_count(lights: Lights) -> int:
 
 
 @device
-def load_power(lights: Lights, light: int) -> Power:
-    """Return how strong one of all lights is."""
+def load_power(lights: Lights, row: int) -> Power:
+    """Return how strong one of all components is."""
     color = lights.color
-    red, green, blue = color[light, 0], color[light, 1], color[light, 2]
-    return Power(lights.intensity[light], (red, green, blue))
+    red, green, blue = color[row, 0], color[row, 1], color[row, 2]
+    return Power(lights.intensity[row], (red, green, blue))
 
 
 @device

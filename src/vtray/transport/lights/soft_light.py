@@ -10,18 +10,23 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.fan import Start
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, dot, scale, sub
+from vtray.transport.lights.sky import Skies
 
 Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
 
 SUN, SPHERE, AROUND = 0, 1, 2
 """The kinds: far away in a cone of directions, a sphere, and light from all sides."""
+
+NO_SKY = -1
+"""Stands for the number of a sky, where a light is none whose colour changes."""
 
 ALL_AROUND = 2.0
 """The spread of light from all directions."""
 
 
 class SoftLights(NamedTuple):
-    """Lights that are no points, all (n,) but for the last.
+    """Lights that are no points, all (n,) but for the last two.
 
     Attributes
     ----------
@@ -34,17 +39,27 @@ class SoftLights(NamedTuple):
         sides how far away something can be that stops it.
     error_scale
         What the rounding of the ends of rays to them is relative to, beside their starts.
+    sky
+        Their number among the skies whose colour changes with the direction, ``NO_SKY`` for others.
+    row
+        The first row of their components in `Lights.intensity` and `Lights.color`.
     far
         How long rays are that end nowhere: much longer than all in the scene.
+    skies
+        The skies whose colour changes with the direction; None where there are none, so that no
+        code is compiled for them.
     """
 
-    kind: NDArray[np.int64]
+    kind: Integers
     x: Floats
     y: Floats
     z: Floats
     size: Floats
     error_scale: Floats
+    sky: Integers
+    row: Integers
     far: float
+    skies: Skies | None
 
 
 class Aim(NamedTuple):
@@ -60,6 +75,8 @@ class Aim(NamedTuple):
         1 minus the cosine of half the angle under which it is seen.
     share
         What makes the mean weight 1 on a surface that faces it squarely.
+    sky
+        As in `SoftLights`.
     """
 
     kind: int
@@ -68,6 +85,7 @@ class Aim(NamedTuple):
     axis: Vec
     spread: float
     share: float
+    sky: int
 
 
 @device
@@ -75,6 +93,12 @@ def soft_count(soft: SoftLights) -> int:
     """Return how many there are."""
     count: int = soft.kind.shape[0]
     return count
+
+
+@device
+def component_count(soft: SoftLights, light: int) -> int:
+    """Return how many numbers say what a light adds: 3 for one whose colour changes, else 1."""
+    return 1 if soft.sky[light] == NO_SKY else 3
 
 
 @device
@@ -88,7 +112,8 @@ def aim_at(soft: SoftLights, light: int, start: Start, normal: Vec) -> Aim:
     place = soft.x[light], soft.y[light], soft.z[light]
     if kind == SUN:
         # The mean of the cosine over a cone around the normal is 1 - spread / 2.
-        return Aim(SUN, scale(soft.far, place), soft.far, place, size, 1.0 / (1.0 - 0.5 * size))
+        share = 1.0 / (1.0 - 0.5 * size)
+        return Aim(SUN, scale(soft.far, place), soft.far, place, size, share, NO_SKY)
     if kind == SPHERE:
         way = sub(place, start.point)
         distance2 = dot(way, way)
@@ -97,7 +122,7 @@ def aim_at(soft: SoftLights, light: int, start: Start, normal: Vec) -> Aim:
             sine2 = size * size / distance2
             spread = sine2 / (1.0 + math.sqrt(1.0 - sine2))
             axis = scale(1.0 / math.sqrt(distance2), way)
-            return Aim(SPHERE, place, size, axis, spread, 1.0 / (1.0 - 0.5 * spread))
+            return Aim(SPHERE, place, size, axis, spread, 1.0 / (1.0 - 0.5 * spread), NO_SKY)
         # Inside, its light comes from all sides.
-        return Aim(SPHERE, place, size, normal, ALL_AROUND, 1.0)
-    return Aim(AROUND, place, size, normal, ALL_AROUND, 1.0)
+        return Aim(SPHERE, place, size, normal, ALL_AROUND, 1.0, NO_SKY)
+    return Aim(AROUND, place, size, normal, ALL_AROUND, 1.0, soft.sky[light])

@@ -1,8 +1,8 @@
 """Where the rays of a fan go within a light, and what each of them counts.
 
 A fan of rays goes from a point on a surface to many places of one light. What the light adds there
-is the mean of the weights of those rays that arrive, so that it is one number, as the cosine of a
-point light is.
+is the mean of the weights of those rays that arrive: one number, as the cosine of a point light is,
+or three for a light whose colour changes with the direction.
 """
 
 import math
@@ -21,10 +21,14 @@ from vtray.geometry.packets.fan import (
     Fan,
     Start,
     count_open,
+    direction_of,
+    set_direction,
 )
 from vtray.geometry.vector import Vec, add, dot, scale, sub
+from vtray.transport.lights.sky import Skies
 from vtray.transport.lights.soft_light import ALL_AROUND, SPHERE, Aim
 from vtray.transport.sampling.fans import fan_point
+from vtray.transport.sampling.sky_rays import spread_to_sky
 from vtray.transport.sampling.warps import cone_direction, cosine_direction
 
 
@@ -36,6 +40,7 @@ def spread_fan(
     start: Start,
     normal: Vec,
     forward: Vec,
+    skies: Skies | None,
     points: NDArray[np.int64],
     first: int,
     keys: tuple[int, int],
@@ -50,45 +55,40 @@ def spread_fan(
         The light, and the point with its unit normal.
     forward
         The unit direction in which the camera looks.
+    skies
+        The skies whose colour changes with the direction.
     points, first, keys
         The points that choose the rays, from the first on, and what they are scrambled by.
     """
     # A loop for each step: only so are they vectorised.
     for ray in range(rays):
         fan[DIRECTION + ray], fan[DIRECTION + FAN + ray] = fan_point(points, first + ray, keys)
-    if aim.spread == ALL_AROUND:
-        for ray in range(rays):
-            u, v = fan[DIRECTION + ray], fan[DIRECTION + FAN + ray]
-            _set_direction(fan, ray, cosine_direction(u, v, normal))
-    else:
-        for ray in range(rays):
-            u, v = fan[DIRECTION + ray], fan[DIRECTION + FAN + ray]
-            _set_direction(fan, ray, cone_direction(u, v, aim.axis, aim.spread))
-    for ray in range(rays):
-        _set_weight(fan, ray, aim, normal)
+    if not spread_to_sky(fan, rays, skies, aim.sky, normal):
+        _spread_evenly(fan, rays, aim, normal)
     for ray in range(rays):
         _set_end(fan, ray, aim, start, forward)
     return count_open(fan, rays)
 
 
 @device
-def _set_direction(fan: Fan, ray: int, direction: Vec) -> None:
-    """Set the direction of a ray."""
-    fan[DIRECTION + ray] = direction[0]
-    fan[DIRECTION + FAN + ray] = direction[1]
-    fan[DIRECTION + 2 * FAN + ray] = direction[2]
-
-
-@device
-def _load_direction(fan: Fan, ray: int) -> Vec:
-    """Return the direction of a ray."""
-    return fan[DIRECTION + ray], fan[DIRECTION + FAN + ray], fan[DIRECTION + 2 * FAN + ray]
+def _spread_evenly(fan: Fan, rays: int, aim: Aim, normal: Vec) -> None:
+    """Turn points into directions to a light of one colour, and set what the rays count."""
+    if aim.spread == ALL_AROUND:
+        for ray in range(rays):
+            u, v, _ = direction_of(fan, ray)
+            set_direction(fan, ray, cosine_direction(u, v, normal))
+    else:
+        for ray in range(rays):
+            u, v, _ = direction_of(fan, ray)
+            set_direction(fan, ray, cone_direction(u, v, aim.axis, aim.spread))
+    for ray in range(rays):
+        _set_weight(fan, ray, aim, normal)
 
 
 @device
 def _set_weight(fan: Fan, ray: int, aim: Aim, normal: Vec) -> None:
     """Set what a ray counts; one that counts nothing is not cast."""
-    cosine = max(dot(normal, _load_direction(fan, ray)), 0.0)
+    cosine = max(dot(normal, direction_of(fan, ray)), 0.0)
     weight = 1.0 if aim.spread == ALL_AROUND else aim.share * cosine
     fan[WEIGHT + ray] = weight
     fan[BLOCKED + ray] = 0.0 if weight > 0.0 else 1.0
@@ -97,7 +97,7 @@ def _set_weight(fan: Fan, ray: int, aim: Aim, normal: Vec) -> None:
 @device
 def _set_end(fan: Fan, ray: int, aim: Aim, start: Start, forward: Vec) -> None:
     """Set where a ray ends."""
-    direction = _load_direction(fan, ray)
+    direction = direction_of(fan, ray)
     way = scale(_length(aim, start.point, direction), direction)
     x, y, z = add(start.point, way)
     fan[END + ray] = x
@@ -118,9 +118,26 @@ def _length(aim: Aim, point: Vec, direction: Vec) -> float:
 
 
 @device
-def arriving_share(fan: Fan, rays: int) -> float:
-    """Return the mean weight of the rays of a fan, 0 for one that something stops."""
-    total = 0.0
+def arriving_shares(fan: Fan, rays: int, components: int) -> Vec:
+    """Return the mean weights of the rays of a fan, 0 for one that something stops.
+
+    Parameters
+    ----------
+    fan, rays
+        The rays, so many.
+    components
+        How many weights each of them has: 1, which comes first, or 3.
+    """
+    first = _mean_weight(fan, rays, 0)
+    if components == 1:
+        return first, 0.0, 0.0
+    return first, _mean_weight(fan, rays, 1), _mean_weight(fan, rays, 2)
+
+
+@device
+def _mean_weight(fan: Fan, rays: int, component: int) -> float:
+    """Return the mean of one of the weights of the rays."""
+    total, begin = 0.0, WEIGHT + component * FAN
     for ray in range(rays):
-        total += fan[WEIGHT + ray] if fan[BLOCKED + ray] == 0.0 else 0.0
+        total += fan[begin + ray] if fan[BLOCKED + ray] == 0.0 else 0.0
     return total / rays
