@@ -45,7 +45,7 @@ def test_what_may_be_left_out() -> None:
     assert SphereLight((1, 2, 3), 4) == SphereLight(Vector(1, 2, 3), 4.0, 1.0, white)
     assert Sky() == Sky(1.0, white)
     assert Ambient() == Ambient(1.0, INF, white)
-    for kind, count in ((Light, 2), (Sun, 3), (SphereLight, 2), (Sky, 5), (Ambient, 3)):
+    for kind, count in ((Light, 2), (Sun, 3), (SphereLight, 2), (Sky, 6), (Ambient, 3)):
         parameters = inspect.signature(kind).parameters.values()
         assert sum(one.default is not one.empty for one in parameters) == count
 

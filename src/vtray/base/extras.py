@@ -10,6 +10,7 @@ PACKAGES = {
     "diff": ("flip-evaluator",),
     "figure": ("matplotlib",),
     "formats": ("OpenEXR", "tifffile"),
+    "sky": ("OpenImageIO",),
 }
 """What the extras install."""
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from vtray.base.exact_math import cosine, sine
 from vtray.geometry.vector import Vec
+from vtray.rendering.pack_brightness import pack_brightness, starts_of
 from vtray.scene.camera import Camera
 from vtray.scene.light_types import AnyLight, Sky
 from vtray.scene.placing.directions import along, camera_axes, cross, unit, view_axes
@@ -24,7 +25,7 @@ ROWS = 1025
 
 def changes_color(light: AnyLight) -> bool:
     """Tell whether the colour of a light changes with the direction from which it comes."""
-    return isinstance(light, Sky) and light.gradient is not None
+    return isinstance(light, Sky) and (light.gradient is not None or light.image is not None)
 
 
 def pack_skies(skies: Sequence[Sky], up: Vec) -> Skies | None:
@@ -41,13 +42,13 @@ def pack_skies(skies: Sequence[Sky], up: Vec) -> Skies | None:
         return None
     pictures = [_picture_of(sky) for sky in skies]
     nodes = [_nodes_of(picture) for picture in pictures]
-    counts = np.array([len(rows) for rows in nodes])
     return Skies(
         np.array([_axes_of(sky, up) for sky in skies]),
         np.array([picture.shape[1] for picture in pictures]),
         np.array([picture.shape[0] for picture in pictures]),
-        np.cumsum(counts) - counts,
-        np.concatenate(nodes),
+        starts_of([rows.shape[0] * rows.shape[1] for rows in nodes]),
+        np.concatenate([rows.reshape(-1, 3) for rows in nodes]),
+        pack_brightness(nodes),
     )
 
 
@@ -61,8 +62,9 @@ def up_of(camera: Camera) -> Vec:
 
 def _picture_of(sky: Sky) -> Pictures:
     """Return the light of a sky as a picture, (height, width, 3)."""
-    gradient = sky.gradient or Gradient()
-    return _gradient_picture(gradient)
+    if sky.image is not None:
+        return sky.image.pixels
+    return _gradient_picture(sky.gradient or Gradient())
 
 
 def _gradient_picture(gradient: Gradient) -> Pictures:
@@ -92,9 +94,9 @@ def _light_of(color: Color) -> Floats:
 
 
 def _nodes_of(picture: Pictures) -> Pictures:
-    """Return the nodes of a picture's map, row by row, (nodes, 3)."""
+    """Return the nodes of a picture's map, (height + 2, width + 1, 3)."""
     rows = np.concatenate([picture[:1], picture, picture[-1:]])
-    return np.concatenate([rows, rows[:, :1]], axis=1).reshape(-1, 3)
+    return np.concatenate([rows, rows[:, :1]], axis=1)
 
 
 def _axes_of(sky: Sky, up: Vec) -> tuple[float, ...]:

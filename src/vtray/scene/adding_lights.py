@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, Any, overload
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.argument import argument
@@ -18,11 +18,15 @@ from vtray.scene.light_types import (
     SphereLight,
     Sun,
 )
+from vtray.scene.sky_image import SkyImage, sky_image
 from vtray.scene.sky_types import Gradient
 from vtray.scene.vectors import Color, Direction, Vector
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Sequence
+
+    from numpy.typing import NDArray
 
     from vtray.scene.colors.names import AnyColor
     from vtray.scene.vectors import Triple
@@ -149,6 +153,7 @@ class AddingLights:
         radiance: float = 1.0,
         color: "AnyColor" = "white",
         gradient: "Gradient | Mapping[str, AnyColor] | None" = None,
+        image: "SkyImage | NDArray[Any] | str | os.PathLike[str] | None" = None,
         up: "Direction | Vector | Triple | None" = None,
         rotation: float = 0.0,
     ) -> Sky:
@@ -159,11 +164,15 @@ class AddingLights:
         radiance
             Strength, ≥ 0: a white surface that sees nothing but a sky of radiance 1 shows 1.
         color
-            Colour of the light, in any of the ways of `vtray.colors.to_rgb`; that of a gradient is
-            multiplied by it.
+            Colour of the light, in any of the ways of `vtray.colors.to_rgb`; that of a gradient
+            or a picture is multiplied by it.
         gradient
             Colours by the height above the horizon: a `Gradient`, or a dictionary of some of
             ``"zenith"``, ``"horizon"`` and ``"ground"`` in any of the ways to write a colour.
+        image
+            A picture of the light from all directions, as a map of the globe: an array (height,
+            width, 3) of floats, 1 for the radiance of the sky, or the path of an .exr, .hdr, .png,
+            .jpg, .npy or .npz file. Not beside a gradient.
         up
             What is up in the world; None for the camera's `up`, or where it has none, up in the
             picture.
@@ -176,8 +185,10 @@ class AddingLights:
             If an argument is not right.
         """
         way = None if up is None else argument("add_sky", "up", up, Direction)
+        picture = None if image is None else sky_image(image, "add_sky: image")
         colors = _gradient(gradient)
-        return self._added(Sky(radiance, _color("add_sky", color), colors, way, rotation))
+        rgb = _color("add_sky", color)
+        return self._added(Sky(radiance, rgb, colors, picture, way, rotation))
 
     @explain_unknown
     def add_ambient(

@@ -8,14 +8,20 @@ ambient light with nothing near.
 
 import math
 from types import MappingProxyType
-from typing import TYPE_CHECKING, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
-from vtray.scene.checks.checked import Frozen
+from vtray.scene.checks.checked import Checked, Frozen, bind
 from vtray.scene.checks.limits import AngularSize, NonNegative, Reach, Real
-from vtray.scene.sky_types import Gradient
+from vtray.scene.sky_image import SkyImage, sky_image
+from vtray.scene.sky_types import Gradient, check_one_of
 from vtray.scene.vectors import Color, Direction, Vector
 
 if TYPE_CHECKING:
+    import os
+    from collections.abc import Iterable
+
+    from numpy.typing import NDArray
+
     from vtray.scene.vectors import Triple
 
 WHITE = Color(255, 255, 255)
@@ -125,7 +131,18 @@ class SphereLight(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere")
         ) -> None: ...
 
 
-class Sky(Frozen, frozen=True, gc=False, tag_field="type", tag="sky"):
+class _CheckedSky(Checked):
+    """Makes construction in code take a picture in all ways that `Sky` says."""
+
+    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
+        """Bind the arguments, check and convert them, and make the object."""
+        values = bind(cls, args, kwargs)
+        if values.get("image") is not None:
+            values["image"] = sky_image(values["image"], f"{cls.__name__}.image")
+        return super().__call__(**values)
+
+
+class Sky(Frozen, metaclass=_CheckedSky, frozen=True, gc=False, tag_field="type", tag="sky"):
     """Light from all directions: of one colour, or of colours that change with the direction.
 
     Attributes
@@ -134,9 +151,14 @@ class Sky(Frozen, frozen=True, gc=False, tag_field="type", tag="sky"):
         Strength, ≥ 0, 1 by default: a white, fully scattering surface that sees nothing but a sky
         of radiance 1 shows 1.
     color : Color, optional
-        Colour of the light, as for Light; that of a gradient is multiplied by it.
+        Colour of the light, as for Light; that of a gradient or a picture is multiplied
+        by it.
     gradient : Gradient, optional
         Colours by the height above the horizon.
+    image : SkyImage, optional
+        A picture of the light from all directions, as a map of the globe; not beside a gradient. In
+        code, it may be given as an array (height, width, 3) of floats, 1 for the radiance of the
+        sky, or as the path of a file.
     up : Direction, optional
         What is up in the world; by default the camera's `up`, or where it has none, up in the
         picture.
@@ -147,8 +169,13 @@ class Sky(Frozen, frozen=True, gc=False, tag_field="type", tag="sky"):
     radiance: NonNegative = 1.0
     color: Color = WHITE
     gradient: Gradient | None = None
+    image: SkyImage | None = None
     up: Direction | None = None
     rotation: Real = 0.0
+
+    def __post_init__(self) -> None:
+        """Refuse two answers to what the colours are."""
+        check_one_of(self.gradient, self.image)
 
     @property
     def intensity(self) -> float:
@@ -162,6 +189,7 @@ class Sky(Frozen, frozen=True, gc=False, tag_field="type", tag="sky"):
             radiance: float = 1.0,
             color: "Color | Triple" = ...,
             gradient: Gradient | None = None,
+            image: "SkyImage | NDArray[Any] | str | os.PathLike[str] | None" = None,
             up: "Direction | Vector | Triple | None" = None,
             rotation: float = 0.0,
         ) -> None: ...
@@ -203,6 +231,17 @@ OneLight = TypeVar("OneLight", Light, Sun, SphereLight, Sky, Ambient)
 
 class NeverSet(list[AnyLight]):
     """The lights of a new scene: none yet, which is not the same as none on purpose."""
+
+
+def images_of(lights: "Iterable[AnyLight]") -> list[SkyImage]:
+    """Return the pictures of skies."""
+    return [light.image for light in lights if isinstance(light, Sky) and light.image is not None]
+
+
+def brightest(light: AnyLight) -> float:
+    """Return the intensity of a light, of a picture that of its brightest channel."""
+    image = light.image if isinstance(light, Sky) else None
+    return light.intensity * (max(image.peak, 1.0) if image else 1.0)
 
 
 def with_intensity(light: AnyLight, intensity: float) -> AnyLight:

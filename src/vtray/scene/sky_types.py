@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from vtray.scene.checks.checked import Frozen
+from vtray.scene.checks.limits import FieldError
 from vtray.scene.vectors import Color
 
 if TYPE_CHECKING:
@@ -38,3 +39,10 @@ class Gradient(Frozen, frozen=True, gc=False, omit_defaults=True):
             horizon: "Color | Triple" = ...,
             ground: "Color | Triple" = ...,
         ) -> None: ...
+
+
+def check_one_of(gradient: object, image: object) -> None:
+    """Raise FieldError if a sky has both a gradient and a picture."""
+    if gradient is not None and image is not None:
+        field, message = "image", "no picture beside a gradient; leave out one of them"
+        raise FieldError(field, message)

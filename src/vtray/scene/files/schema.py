@@ -13,8 +13,15 @@ from typing import Any
 import msgspec
 
 from vtray.scene.camera import Camera
-from vtray.scene.files.in_file import ARRAYS_IN_FILE, KINDS, CopiesInFile, SceneInFile
-from vtray.scene.light_types import Ambient, AnyLight, Light
+from vtray.scene.files.in_file import (
+    ARRAYS_IN_FILE,
+    KINDS,
+    CopiesInFile,
+    LightInFile,
+    SceneInFile,
+    SkyInFile,
+)
+from vtray.scene.light_types import Ambient, Light
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient
 from vtray.scene.vectors import Color, Direction, Vector
@@ -32,7 +39,7 @@ def scene_schema() -> dict[str, Any]:
         once, for instance, it cannot.
     """
     values = (RenderSettings, Gradient, Vector, Direction, Color)
-    lights: tuple[type[msgspec.Struct], ...] = typing.get_args(AnyLight)
+    lights: tuple[type[msgspec.Struct], ...] = typing.get_args(LightInFile)
     classes: list[type[msgspec.Struct]] = [SceneInFile, Camera, *lights, *KINDS, *values]
     (_, parts) = msgspec.json.schema_components(classes, ref_template="#/$defs/{name}")
     for cls in classes:
@@ -48,6 +55,11 @@ def scene_schema() -> dict[str, Any]:
                 "if": {"properties": {"data": {"pattern": r"\.npy$"}}},
                 "then": {"required": keys},
             }
+    # What SkyInFile.__post_init__ checks.
+    colors = {"required": ["gradient", "image"]}
+    either = {name: {"type": "null"} for name in colors["required"]}
+    absent = [{"properties": {name: null}} for name, null in either.items()]
+    parts[SkyInFile.__name__] |= {"if": colors, "then": {"anyOf": absent}}
     # What CopiesInFile.__post_init__ checks.
     places = [key for key in CopiesInFile.__struct_fields__ if key != "objects"]
     parts[CopiesInFile.__name__]["oneOf"] = [{"required": [key]} for key in places]

@@ -1,4 +1,4 @@
-"""Where directions are on the map of a sky: turns around, and from straight above to below.
+"""Where directions are on the map of a sky, and which there are at its places.
 
 References
 ----------
@@ -6,15 +6,33 @@ Remez, 1934, as for the sines: the polynomial of the arctangent is that of least
 """
 
 import math
+from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.vector import Vec, dot
+from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.transport.lights.sky import Skies, light_at, sky_axis
+from vtray.transport.sampling.circle import cosine_sine
+
+
+class MapPlace(NamedTuple):
+    """A place on the map of a sky.
+
+    Attributes
+    ----------
+    across, down
+        As `light_at` takes them.
+    aside
+        The sine of the angle from straight above.
+    """
+
+    across: float
+    down: float
+    aside: float
 
 
 @device
-def map_place(skies: Skies, sky: int, direction: Vec) -> tuple[float, float]:
-    """Return where a direction is on the map of a sky, as `light_at` takes it."""
+def map_place(skies: Skies, sky: int, direction: Vec) -> MapPlace:
+    """Return where a direction, a unit vector, is on the map of a sky."""
     behind = dot(direction, sky_axis(skies, sky, 0))
     left = dot(direction, sky_axis(skies, sky, 1))
     height = dot(direction, sky_axis(skies, sky, 2))
@@ -22,14 +40,37 @@ def map_place(skies: Skies, sky: int, direction: Vec) -> tuple[float, float]:
     # The light of a column of the picture is that in its middle.
     across = eighths_of_turn(left, behind) * (0.125 * skies.columns[sky]) - 0.5
     across = across + skies.columns[sky] if across < 0.0 else across
-    return across, eighths_of_turn(aside, height) * (0.25 * skies.rows[sky]) + 0.5
+    down = eighths_of_turn(aside, height) * (0.25 * skies.rows[sky]) + 0.5
+    return MapPlace(across, down, aside)
 
 
 @device
 def light_towards(skies: Skies, sky: int, direction: Vec) -> Vec:
     """Return red, green and blue of a sky in a direction, a unit vector."""
-    across, down = map_place(skies, sky, direction)
-    return light_at(skies, sky, across, down)
+    place = map_place(skies, sky, direction)
+    return light_at(skies, sky, place.across, place.down)
+
+
+@device
+def direction_at(skies: Skies, sky: int, across: float, down: float) -> Vec:
+    """Return the direction, a unit vector, at a place of the map of a sky."""
+    around, outwards = cosine_sine_of_turn(8.0 * (across + 0.5) / skies.columns[sky])
+    height, aside = cosine_sine_of_turn(4.0 * (down - 0.5) / skies.rows[sky])
+    level = add(
+        scale(aside * around, sky_axis(skies, sky, 0)),
+        scale(aside * outwards, sky_axis(skies, sky, 1)),
+    )
+    return add(level, scale(height, sky_axis(skies, sky, 2)))
+
+
+@device
+def cosine_sine_of_turn(eighths: float) -> tuple[float, float]:
+    """Return cosine and sine of so many eighths of a turn, ≥ 0."""
+    quarters = int(0.5 * (eighths + 1.0))
+    cosine, sine = cosine_sine(eighths - 2.0 * quarters)
+    if quarters % 2 == 1:
+        cosine, sine = -sine, cosine
+    return (-cosine, -sine) if quarters // 2 % 2 == 1 else (cosine, sine)
 
 
 @device
