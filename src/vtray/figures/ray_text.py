@@ -81,14 +81,17 @@ def _obstacle(way: WayToLight) -> str:
 
 def _describe_exposure(exposed: Exposed, tree: TracedRays) -> list[str]:
     """Return the lines on the value before and after exposure."""
-    lines = []
+    lines, share = [], f"{100 * exposed.background:.3g}"
     if exposed.light != tree.light:
         lines.append(f"samples      {_vector(exposed.light)}, the mean of all rays of the pixel")
+    if exposed.sky is not None:
+        lines.append(f"sky          {_vector(exposed.sky)}, seen in {share} % of the pixel")
     what = "the brightest channel of the picture" if exposed.brightest else "what becomes 255"
     white = f"{exposed.white:.10g}"
     formula = f"floor(255 x light / {white}), {white} is {what}"
     lines.append(f"exposure     {formula if exposed.white > 0.0 else 'the whole picture is black'}")
-    behind = f", {100 * exposed.background:.3g} % of it background" if exposed.background else ""
+    is_color = exposed.background and exposed.sky is None
+    behind = f", {share} % of it background" if is_color else ""
     lines.append(f"value        ({', '.join(map(str, exposed.value))}){behind}")
     return lines
 

@@ -264,6 +264,8 @@ class Exposed:
         Whether that is the brightest channel of the picture.
     background
         The share of the pixel that shows the background, from 0 to 1; 0 if that is black.
+    sky
+        The red, green and blue that the sky adds where it is the background, else None.
     value
         The pixel's channels in the picture, from 0 to 255.
     """
@@ -272,6 +274,7 @@ class Exposed:
     white: float
     brightest: bool
     background: float
+    sky: Vec | None
     value: tuple[int, ...]
 
 

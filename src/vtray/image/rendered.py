@@ -37,6 +37,9 @@ class Rendered:
         How many threads to use at the most.
     original
         The scene with its camera as it was given, whatever size was asked for.
+    sky
+        Gives the light of the skies of a scene where its pixels are not covered; called where that
+        is the background.
     """
 
     def __init__(
@@ -54,6 +57,7 @@ class Rendered:
         threads: int = 1,
         original: Scene | None = None,
         locked: bool = False,
+        sky: Callable[[Scene, Floats], Floats] | None = None,
     ) -> None:
         self.linear = linear
         self.white = white
@@ -68,6 +72,7 @@ class Rendered:
         self._threads = threads
         self._original = original or scene
         self.locked = locked
+        self._sky = sky
 
     def __repr__(self) -> str:
         height, width = self.linear.shape[:2]
@@ -89,7 +94,7 @@ class Rendered:
             return self._pixels
         background = self.settings.background
         pixels = develop(
-            self.linear, self.white, background, lambda: self.alpha, self._threads, bits
+            self.with_sky, self.white, background, lambda: self.alpha, self._threads, bits
         )
         if bits == 8:
             self._pixels = pixels
@@ -138,6 +143,14 @@ class Rendered:
         return (self.ids[..., 0] >= 0).astype(np.float64)
 
     @cached_property
+    def with_sky(self) -> Floats:
+        """Light before exposure with that of the sky, if it is the background, (h, w, 3)."""
+        if self._sky is None or self.settings.background != "sky":
+            return self.linear
+        behind = self._sky(self.scene, self.alpha)
+        return self.linear + (1.0 - self.alpha[..., None]) * behind
+
+    @cached_property
     def scene_hash(self) -> str:
         """A hash of the scene, 32 hexadecimal digits: that of the same scene loaded again."""
         return scene_hash(self._original)
@@ -155,7 +168,8 @@ class Rendered:
     def _again(self, lock: object, **changes: object) -> Self:
         """Return a picture of the same view with other attributes, exposed anew."""
         other = copy.copy(self)
-        vars(other).pop("scene_hash", None)
+        for name in ("scene_hash", "with_sky"):
+            vars(other).pop(name, None)
         vars(other).update(changes, _pixels=None, locked=lock is not None)
         other.white = white_of(other.settings.exposure, max(float(other.linear.max()), 0.0), lock)
         return other

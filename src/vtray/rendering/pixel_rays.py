@@ -121,12 +121,17 @@ def _view(scene: Scene, packed: Packed) -> View:
 def _exposed(image: "Image", column: int, row: int) -> Exposed:
     """Return what a picture made of the light of a pixel."""
     red, green, blue = map(float, image.linear[row, column])
+    sky = None
+    if image.settings.background == "sky":
+        x, y, z = map(float, image.with_sky[row, column] - image.linear[row, column])
+        sky = x, y, z
     white = float(image.white)
     return Exposed(
         light=(red, green, blue),
         white=white,
         brightest=white == float(image.linear.max()),
         background=0.0 if image.settings.background == "black" else 1 - image.alpha[row, column],
+        sky=sky,
         value=tuple(int(channel) for channel in image.pixels[row, column]),
     )
 

@@ -18,6 +18,7 @@ from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
 from vtray.rendering.passes import Tracer, compile_kernels
 from vtray.rendering.relighting import Relighting
+from vtray.rendering.seen_sky import SeenSky, check_sky
 from vtray.rendering.surfaces import Look
 from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.default_light import default_settings, has_default_light, lights_of
@@ -84,8 +85,8 @@ def render(
         it, so that for 1 a surface that a light of intensity 1 shines on squarely gets its colour.
         1 is also the default of scenes whose lights were never set.
     background
-        What is seen where nothing is: ``"black"``, the default, ``"transparent"``, or a colour in
-        any of the ways of `vtray.colors.to_rgb`.
+        What is seen where nothing is: ``"black"``, the default, ``"transparent"``, ``"sky"`` for
+        the skies among the lights, or a colour in any of the ways of `vtray.colors.to_rgb`.
     lock
         A picture whose exposure is taken, so that a sequence does not flicker; not together with
         `exposure`.
@@ -108,7 +109,7 @@ def render(
         The scene or a setting holds something that none may hold.
     RenderError
         The image does not fit into memory, its light is too bright for a double, `lock` is no
-        picture, or `exposure` is given too.
+        picture, or `exposure` is given too; or the background is the sky, and there is none.
     ValueError
         `threads` or `tile` is not an integer of at least 1.
     KeyboardInterrupt
@@ -129,6 +130,7 @@ def render(
     behind = 0 if settings.background == "black" else BYTES_PER_PIXEL_AND_MORE
     check_memory(int(width), int(height), int(settings.samples), behind)
     check_brightness(shown.lights)
+    check_sky(shown.lights, settings)
     clock = Stopwatch()
     loaded = loading_seconds()
     kept = accelerate(scene, threads, _step_of(progress, "build"))
@@ -138,6 +140,9 @@ def render(
     clock.lap("pack")
     compile_kernels(packed.arrays, settings, keep=keep_lights)
     warm_up()
+    sky = SeenSky(packed.arrays.camera, settings, threads)
+    if settings.background == "sky":
+        sky.warm_up(shown)
     clock.lap("compile")
     tracer = Tracer(packed.arrays, threads, tile, _step_of(progress, "trace"))
     traced = tracer.light(settings, keep=keep_lights)
@@ -163,6 +168,7 @@ def render(
         threads=threads,
         original=_snapshot(scene, lights, scene.camera),
         locked=lock is not None,
+        sky=sky,
     )
     image.develop()
     clock.lap("develop")
