@@ -56,6 +56,6 @@ def linear_point(u: float, first: float, last: float) -> float:
     first, last
         How often 0 and 1 are beside each other, ≥ 0.
     """
-    both = first + last
     root = math.sqrt(first * first + u * (last * last - first * first))
-    return min(u * both / (first + root), 1.0) if both > 0.0 else u
+    ends = first + root
+    return min(u * (first + last) / ends, 1.0) if ends > 0.0 else u
