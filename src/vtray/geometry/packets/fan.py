@@ -22,7 +22,9 @@ BLOCKED = 5 * FAN
 """1 where something stops it, else 0."""
 DIRECTION = 6 * FAN
 """A unit vector."""
-SIZE = 9 * FAN
+LENGTH = 9 * FAN
+"""How long it is."""
+SIZE = 10 * FAN
 
 Fan = NDArray[np.float64]
 """The fields of all rays, one after the other, as those of a packet."""
@@ -55,6 +57,12 @@ def new_fan() -> Fan:
 def load_end(fan: Fan, ray: int) -> Vec:
     """Return where a ray ends."""
     return fan[END + ray], fan[END + FAN + ray], fan[END + 2 * FAN + ray]
+
+
+@device
+def load_direction(fan: Fan, ray: int) -> Vec:
+    """Return the direction of a ray."""
+    return fan[DIRECTION + ray], fan[DIRECTION + FAN + ray], fan[DIRECTION + 2 * FAN + ray]
 
 
 @device

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.geometry.packets.cone import Touching, new_touching
 from vtray.geometry.packets.fan import Fan, new_fan
 from vtray.geometry.packets.packet import BLOCK, LANES
 from vtray.geometry.packets.ray_bounds import Cones, new_cones
@@ -50,8 +51,8 @@ class Workspace(NamedTuple):
         Those that are traced.
     sums
         The sums of the samples of the pixels of a packet.
-    fan
-        The shadow rays of one hit to one light.
+    fan, touching
+        The shadow rays of one hit to one light, and the shapes that touch their cone.
     table, owner, member, size
         The hash table of what is hit: a number for each, what it is, which lanes hit it, how many.
     """
@@ -67,6 +68,7 @@ class Workspace(NamedTuple):
     pixels: Pixels
     sums: Sums
     fan: Fan
+    touching: Touching
     table: NDArray[np.int64]
     owner: NDArray[np.int64]
     member: NDArray[np.int64]
@@ -106,6 +108,7 @@ def new_workspace(world: World) -> Workspace:
         pixels=integers(LANES),
         sums=Sums(np.zeros(3 * LANES), np.zeros(LANES), np.zeros(LANES)),
         fan=new_fan(),
+        touching=new_touching(),
         table=integers(TABLE),
         owner=integers(LANES),
         member=integers(LANES),

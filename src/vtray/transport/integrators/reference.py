@@ -156,7 +156,7 @@ def trace_fan(
             segment = fan_segment(fan, ray, start, end_scale)
             blockers[ray] = first_between(scene.world, segment, stack)
             fan[BLOCKED + ray] = 0.0 if blockers[ray] == NOTHING else 1.0
-    share = arriving_share(fan, fans.rays)
+    share = arriving_share(fan, fans.rays, aim, normal)
     material = load_material(scene.materials, traced.primitive, is_second)
     power = load_power(scene.lights, light_count(scene.lights) + light)
     return share, add(traced.value, scattered(material, share, power))

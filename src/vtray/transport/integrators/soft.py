@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.cone import CLOSED, MANY, find_touching
 from vtray.geometry.packets.fan import Start, count_open
 from vtray.geometry.packets.packet import (
     BLOCK,
@@ -24,13 +25,20 @@ from vtray.geometry.packets.packet import (
     store,
 )
 from vtray.geometry.packets.workspace import Workspace
-from vtray.geometry.stopped import find_stopped
-from vtray.geometry.vector import add
+from vtray.geometry.stopped import Bundle, stop_by_all, stop_by_touching
+from vtray.geometry.vector import add, dot
 from vtray.transport.film import Rows
 from vtray.transport.light_buffer import KeptLight
 from vtray.transport.lights.light import Lights, light_count, load_power
 from vtray.transport.lights.lighting import light_bit
-from vtray.transport.lights.soft_light import SoftLights, aim_at, soft_count
+from vtray.transport.lights.soft_light import (
+    SoftLights,
+    aim_at,
+    cone_of,
+    is_above,
+    is_below,
+    soft_count,
+)
 from vtray.transport.materials.material import Material, scattered
 from vtray.transport.sampling.fans import Fans, fan_keys
 from vtray.transport.sampling.light_rays import arriving_share, spread_fan
@@ -131,15 +139,28 @@ def _arriving(
     point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
     start = Start(point, packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
     aim = aim_at(soft, light, start, normal)
-    is_narrow = aim.spread < NARROW
-    fan, forward = work.fan, scene.camera.forward
-    end_scale = soft.error_scale[light] + start.error_scale
+    is_narrow, forward = aim.spread < NARROW, scene.camera.forward
+    touching, count = work.touching, MANY
+    if is_below(aim, normal):
+        return Arriving(0.0, 0, 0, is_narrow)
+    if is_narrow:
+        count = find_touching(cone_of(aim, start, forward), scene.world, touching, work.stack)
+        # What a cone as a whole tells is what all its rays would.
+        if count == 0 and is_above(aim, normal):
+            return Arriving(dot(normal, aim.axis), fans.rays, fans.rays, is_narrow)
+        if count == CLOSED and is_above(aim, normal):
+            return Arriving(0.0, fans.rays, 0, is_narrow)
+    fan = work.fan
+    bundle = Bundle(fan, fans.rays, start, soft.error_scale[light] + start.error_scale)
     total, cast, arrived, rounds = 0.0, 0, 0, 0
     while rounds < fans.rounds and (rounds == 0 or 0 < arrived < cast):
         place = first + rounds * fans.rays
         cast += spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, place, keys)
-        find_stopped(fan, fans.rays, is_narrow, start, end_scale, scene.world, work.stack)
-        total += arriving_share(fan, fans.rays)
+        if count >= 0:
+            stop_by_touching(bundle, scene.world, touching, count)
+        else:
+            stop_by_all(bundle, scene.world, work.stack)
+        total += arriving_share(fan, fans.rays, aim, normal)
         arrived += count_open(fan, fans.rays)
         rounds += 1
     return Arriving(total / rounds, cast, arrived, is_narrow)

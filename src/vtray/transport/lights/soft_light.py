@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.cone import Cone
 from vtray.geometry.packets.fan import Start
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, dot, scale, sub
@@ -18,6 +19,10 @@ SUN, SPHERE, AROUND = 0, 1, 2
 
 ALL_AROUND = 2.0
 """The spread of light from all directions."""
+
+
+CLEARLY = 1e-9
+"""By so much a cone is above the horizon, or below it, if no rounding can change that."""
 
 
 class SoftLights(NamedTuple):
@@ -101,3 +106,42 @@ def aim_at(soft: SoftLights, light: int, start: Start, normal: Vec) -> Aim:
         # Inside, its light comes from all sides.
         return Aim(SPHERE, place, size, normal, ALL_AROUND, 1.0)
     return Aim(AROUND, place, size, normal, ALL_AROUND, 1.0)
+
+
+@device
+def is_above(aim: Aim, normal: Vec) -> bool:
+    """Tell whether all of a cone is above the horizon of a surface."""
+    is_cone = aim.spread < 1.0
+    return is_cone and dot(normal, aim.axis) > _sine(aim) + CLEARLY
+
+
+@device
+def is_below(aim: Aim, normal: Vec) -> bool:
+    """Tell whether all of a cone is below the horizon of a surface."""
+    is_cone = aim.spread < 1.0
+    return is_cone and dot(normal, aim.axis) < -_sine(aim) - CLEARLY
+
+
+@device
+def _sine(aim: Aim) -> float:
+    """Return the sine of half the angle of a cone."""
+    return math.sqrt(aim.spread * (2.0 - aim.spread))
+
+
+@device
+def cone_of(aim: Aim, start: Start, forward: Vec) -> Cone:
+    """Return the cone of the rays to a light that is not all around.
+
+    Parameters
+    ----------
+    aim, start
+        The light, and where the rays start.
+    forward
+        The unit direction in which the camera looks.
+    """
+    shortest = longest = aim.size
+    if aim.kind == SPHERE:
+        way = sub(aim.place, start.point)
+        longest = math.sqrt(dot(way, way))
+        shortest = longest - aim.size
+    return Cone(start, aim.axis, 1.0 - aim.spread, _sine(aim), shortest, longest, forward)

@@ -17,13 +17,15 @@ from vtray.geometry.packets.fan import (
     END,
     END_PLANE_DEPTH,
     FAN,
+    LENGTH,
     WEIGHT,
     Fan,
     Start,
     count_open,
+    load_direction,
 )
 from vtray.geometry.vector import Vec, add, dot, scale, sub
-from vtray.transport.lights.soft_light import ALL_AROUND, SPHERE, Aim
+from vtray.transport.lights.soft_light import ALL_AROUND, SPHERE, Aim, is_above
 from vtray.transport.sampling.fans import fan_point
 from vtray.transport.sampling.warps import cone_direction, cosine_direction
 
@@ -80,15 +82,9 @@ def _set_direction(fan: Fan, ray: int, direction: Vec) -> None:
 
 
 @device
-def _load_direction(fan: Fan, ray: int) -> Vec:
-    """Return the direction of a ray."""
-    return fan[DIRECTION + ray], fan[DIRECTION + FAN + ray], fan[DIRECTION + 2 * FAN + ray]
-
-
-@device
 def _set_weight(fan: Fan, ray: int, aim: Aim, normal: Vec) -> None:
     """Set what a ray counts; one that counts nothing is not cast."""
-    cosine = max(dot(normal, _load_direction(fan, ray)), 0.0)
+    cosine = max(dot(normal, load_direction(fan, ray)), 0.0)
     weight = 1.0 if aim.spread == ALL_AROUND else aim.share * cosine
     fan[WEIGHT + ray] = weight
     fan[BLOCKED + ray] = 0.0 if weight > 0.0 else 1.0
@@ -97,12 +93,14 @@ def _set_weight(fan: Fan, ray: int, aim: Aim, normal: Vec) -> None:
 @device
 def _set_end(fan: Fan, ray: int, aim: Aim, start: Start, forward: Vec) -> None:
     """Set where a ray ends."""
-    direction = _load_direction(fan, ray)
-    way = scale(_length(aim, start.point, direction), direction)
+    direction = load_direction(fan, ray)
+    length = _length(aim, start.point, direction)
+    way = scale(length, direction)
     x, y, z = add(start.point, way)
     fan[END + ray] = x
     fan[END + FAN + ray] = y
     fan[END + 2 * FAN + ray] = z
+    fan[LENGTH + ray] = length
     fan[END_PLANE_DEPTH + ray] = start.plane_depth + dot(way, forward)
 
 
@@ -118,8 +116,13 @@ def _length(aim: Aim, point: Vec, direction: Vec) -> float:
 
 
 @device
-def arriving_share(fan: Fan, rays: int) -> float:
-    """Return the mean weight of the rays of a fan, 0 for one that something stops."""
+def arriving_share(fan: Fan, rays: int, aim: Aim, normal: Vec) -> float:
+    """Return how much of a light arrives: the mean weight of all rays, 0 for those stopped.
+
+    Of a cone of which all arrives, that is known without noise: the cosine at its middle.
+    """
+    if is_above(aim, normal) and count_open(fan, rays) == rays:
+        return dot(normal, aim.axis)
     total = 0.0
     for ray in range(rays):
         total += fan[WEIGHT + ray] if fan[BLOCKED + ray] == 0.0 else 0.0
