@@ -49,6 +49,10 @@ class Hit(NamedTuple):
     error: float
 
 
+CLEARLY = 1e-9
+"""How far above the horizon the whole of a lamp must be, as a sine."""
+
+
 class Fan(NamedTuple):
     """The rays from a hit to a light, all (rays, ...).
 
@@ -66,6 +70,8 @@ class Fan(NamedTuple):
         Whether rounding decides that.
     turns, length_errors
         By how much rounding may change directions, and lengths.
+    middle
+        The cosine at the middle of a lamp that is above the horizon as a whole, else None.
     """
 
     points: Array
@@ -76,16 +82,23 @@ class Fan(NamedTuple):
     doubt: Array
     turns: Array
     length_errors: Array
+    middle: float | None
 
     @property
     def share(self) -> float:
         """What arrives of the light."""
+        if self.middle is not None and self.arrives.all():
+            return self.middle
         return float(np.where(self.arrives, self.weights, 0).mean())
 
     @property
     def doubted_share(self) -> float:
         """What rays in doubt may make of it more, or less."""
-        return float(np.where(self.doubt, np.maximum(self.weights, 0), 0).mean())
+        doubted = float(np.where(self.doubt, np.maximum(self.weights, 0), 0).mean())
+        if self.middle is None or not doubted or not (self.arrives | self.doubt).all():
+            return doubted
+        # With all rays, the share is that at the middle, and not the mean of so few.
+        return doubted + abs(self.middle - float(self.weights.mean()))
 
 
 class _Rays(NamedTuple):
@@ -185,7 +198,12 @@ class SoftOracle:
         grazes = (np.abs(cosines) <= 2 * turn) & (not is_around)
         doubt = aim.is_doubtful | (faces & maybe & ~sure) | grazes
         turns = np.broadcast_to(turn, lengths.shape)
-        return Fan(points, ways, lengths, weights, arrives, doubt, turns, length_errors)
+        middle = None
+        if aim.spread is not None and aim.spread < 1:
+            rise = dot(aim.axis, normal)
+            is_above = rise > np.sqrt(aim.spread * (2 - aim.spread)) + Long(CLEARLY)
+            middle = float(rise) if is_above else None
+        return Fan(points, ways, lengths, weights, arrives, doubt, turns, length_errors, middle)
 
     def _aim(self, hit: Hit, light: Scene) -> _Aim:
         """Return where rays to a light go."""

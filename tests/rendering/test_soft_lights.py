@@ -56,24 +56,27 @@ def test_bundles_tell_what_each_ray_alone_would(kind: str) -> None:
         pytest.skip("takes minutes without the compiler")
     scene = scene_of(kind)
     image = render(scene, seed=5)
-    arrays, fans, fan = pack(scene, accelerate(scene)).arrays, fans_of_middles(1), new_fan()
+    arrays, fan = pack(scene, accelerate(scene)).arrays, new_fan()
+    fans = fans_of_middles(image.noise)
     soft = arrays.lights.soft
     assert soft is not None
     stack, cosines, blockers = new_stack(), np.zeros(1), np.full(1, NOTHING)
     on_ways = np.full(fans.rays, NOTHING)
-    hits = 0
+    hits = most = 0
     for y in range(1, SIZE[1], STEP):
         for x in range(1, SIZE[0], STEP):
             traced = reference.trace_pixel(arrays, x, y, stack, cosines, blockers)
             if traced.primitive != NOTHING:
-                hits += 1
+                hits, spent = hits + 1, 0.0
                 for light in range(len(soft.kind)):
-                    _, value = reference.trace_fan(
-                        arrays, soft, traced, x, y, light, fans, 5, stack, fan, on_ways
+                    lamp = reference.trace_lamp(
+                        arrays, soft, traced, x, y, light, fans, spent, 5, stack, fan, on_ways
                     )
-                    traced = traced._replace(value=value)
+                    traced, spent = traced._replace(value=lamp.value), spent + lamp.counted
+                    most = max(most, lamp.fans)
             assert tuple(image.linear[y, x]) == traced.value
     assert hits > 10
+    assert most > 2
 
 
 @compiled_only

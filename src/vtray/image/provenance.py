@@ -27,7 +27,7 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
         The version of vtray.
     scene : str
         The hash of the scene.
-    samples, filter, seed, exposure, background
+    samples, filter, seed, tolerance, exposure, background
         As in the settings of the render, those that were left out too.
     size : tuple of int or None
         Width and height of the picture in pixels; None for those of the camera.

@@ -31,6 +31,10 @@ class Rendered:
         Gives what the middle rays meet; called once, when it is first asked for.
     alpha
         How much of each pixel is covered, if that is known; None for what `look` says.
+    error
+        The standard error of light, if it is not 0 everywhere.
+    noise
+        How noisy soft light was allowed to be, which says what rays were cast, if there is any.
     relighting
         Gives the light of the same view of a scene with other lights or colours, if that was kept.
     threads
@@ -50,6 +54,8 @@ class Rendered:
         *,
         look: Callable[[], Surfaces],
         alpha: Floats | None = None,
+        error: Floats | None = None,
+        noise: Any = None,  # noqa: ANN401
         relighting: Callable[[Scene], Floats] | None = None,
         threads: int = 1,
         original: Scene | None = None,
@@ -64,6 +70,8 @@ class Rendered:
         self._seen: list[Surfaces] = []  # what it gave; shared with other exposures of the view
         self._pixels = pixels
         self._alpha = alpha
+        self._error = error
+        self.noise = noise
         self._relighting = relighting
         self._threads = threads
         self._original = original or scene
@@ -138,6 +146,18 @@ class Rendered:
         return (self.ids[..., 0] >= 0).astype(np.float64)
 
     @cached_property
+    def error(self) -> Floats:
+        """The estimated standard error of `linear`, (height, width): that of the worst channel.
+
+        Of a pixel with one ray it says how noisy soft light is; of one with samples, how much those
+        differ, whatever they show. It is rather too large than too small. For pictures that were
+        relit or recoloured it is not known: NaN.
+        """
+        if self._error is not None:
+            return self._error
+        return np.zeros(self.linear.shape[:2])
+
+    @cached_property
     def scene_hash(self) -> str:
         """A hash of the scene, 32 hexadecimal digits: that of the same scene loaded again."""
         return scene_hash(self._original)
@@ -150,12 +170,15 @@ class Rendered:
         check_brightness(scene.lights)
         # The camera may have another size now, and the hash is that of the scene as it was given.
         given = Scene(self._original.camera, scene.lights, scene.objects, scene.render)
-        return self._again(lock, linear=self._relighting(scene), scene=scene, _original=given)
+        unknown = np.full(self.linear.shape[:2], np.nan)
+        linear = self._relighting(scene)
+        return self._again(lock, linear=linear, scene=scene, _error=unknown, _original=given)
 
     def _again(self, lock: object, **changes: object) -> Self:
         """Return a picture of the same view with other attributes, exposed anew."""
         other = copy.copy(self)
-        vars(other).pop("scene_hash", None)
+        for name in ("scene_hash", "error"):
+            vars(other).pop(name, None)
         vars(other).update(changes, _pixels=None, locked=lock is not None)
         other.white = white_of(other.settings.exposure, max(float(other.linear.max()), 0.0), lock)
         return other

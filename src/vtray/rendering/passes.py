@@ -1,6 +1,6 @@
 """From the arrays of a scene to a film: which rays are cast, tile by tile, in one pass or two."""
 
-from collections.abc import Callable
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ from vtray.scene.settings import RenderSettings
 from vtray.transport.film import Film, new_film
 from vtray.transport.light_buffer import KeptLight, new_kept_light
 from vtray.transport.sampling.adaptive import mark_rows
-from vtray.transport.sampling.fans import Fans, fans_of_middles, fans_of_samples
+from vtray.transport.sampling.fans import Noise, fans_of_middles, fans_of_samples
 from vtray.transport.sampling.filters import FILTERS
 from vtray.transport.sampling.pixel_samples import (
     Sampling,
@@ -28,8 +28,14 @@ from vtray.transport.scene_arrays import SceneArrays
 ONE_RAY = ("linear",)
 """What is wanted of a picture with one ray a pixel."""
 
-SAMPLES = ("linear", "coverage", "primitive", "half", "shadows", "rims")
+SOFT = (*ONE_RAY, "error")
+"""The same with soft lights."""
+
+SAMPLES = (*SOFT, "coverage", "primitive", "half", "shadows", "rims")
 """What is wanted of one with samples."""
+
+SPARSE = 8
+"""Each so many pixels, both ways, tell about how bright a picture will be."""
 
 
 class Traced(NamedTuple):
@@ -43,6 +49,8 @@ class Traced(NamedTuple):
         The largest channel of its light.
     rays
         How many rays were cast.
+    noise
+        How noisy soft light may be, if there is any.
     kept
         What was kept of the rays of each pass; nothing unless asked for.
     """
@@ -50,6 +58,7 @@ class Traced(NamedTuple):
     film: Film
     peak: float
     rays: int
+    noise: Noise | None = None
     kept: tuple[KeptLight, ...] = ()
 
 
@@ -89,23 +98,27 @@ class Tracer:
         wanted = new_film(*self._size, "distance", "normal", "primitive", "half")
         return self._trace(middle_rays(), wanted).film
 
-    def light(self, settings: RenderSettings, *, keep: bool = False) -> Traced:
+    def light(self, settings: RenderSettings, white: float | None, *, keep: bool = False) -> Traced:
         """Return the light of all pixels, and their coverage if they have samples.
 
         Parameters
         ----------
         settings
-            How many samples, and which.
+            How many samples, and which, and how noisy soft light may be.
+        white
+            The light that becomes 255; None if it is that of the brightest channel.
         keep
             Whether to keep what each ray hits and which lights reach it.
         """
-        if settings.samples == 1:
-            rays = middle_rays(fans=self._fans(fans_of_middles, 1), seed=int(settings.seed))
-            return self._middles(rays, keep, *ONE_RAY)
+        samples, seed = int(settings.samples), int(settings.seed)
+        noise = self.noise(settings, white, keep=keep)
+        fans = None if noise is None else fans_of_middles(noise)
+        if samples == 1:
+            rays = middle_rays(fans=fans, seed=seed)
+            wanted = ONE_RAY if fans is None else SOFT
+            return self._middles(rays, keep, *wanted)._replace(noise=noise)
         self._passes = 2
         footprint = filter_footprint(settings, self._scene.camera)
-        samples, seed = int(settings.samples), int(settings.seed)
-        fans = self._fans(fans_of_middles, samples)
         middles = middle_rays(footprint, before_samples=True, fans=fans, seed=seed)
         found = self._middles(middles, keep, *SAMPLES)
         film = found.film
@@ -115,13 +128,35 @@ class Tracer:
         if keep:
             kept = (*kept, self._keep(marks, samples))
             film = film._replace(kept=kept[-1])
-        sampling = filter_samples(settings, marks, self._fans(fans_of_samples, samples))
-        sampled = self._trace(sampling, film)
-        return Traced(film, max(peak, sampled.peak), found.rays + sampled.rays, kept)
+        fans = None if noise is None else fans_of_samples(samples, noise)
+        sampled = self._trace(filter_samples(settings, marks, fans), film)
+        return Traced(film, max(peak, sampled.peak), found.rays + sampled.rays, noise, kept)
 
-    def _fans(self, make: Callable[[int], Fans], samples: int) -> Fans | None:
-        """Return which rays are cast to soft lights, if there are any."""
-        return None if self._scene.lights.soft is None else make(samples)
+    def noise(self, settings: RenderSettings, white: float | None, *, keep: bool) -> Noise | None:
+        """Return how noisy soft light may be, if there is any; the parameters are those of `light`.
+
+        Where light is kept to be changed later, it has no say in how many rays are cast: each of n
+        lights counts as if it gave one n-th of white.
+        """
+        soft = self._scene.lights.soft
+        if soft is None:
+            return None
+        if keep:
+            return Noise(settings.tolerance * len(soft.kind), by_light=False)
+        if white is None:
+            white = self._about_peak(settings)
+        return Noise(settings.tolerance * white or math.inf, by_light=True)
+
+    def _about_peak(self, settings: RenderSettings) -> float:
+        """Return the largest channel of some pixels, with as few rays as there can be."""
+        marks = np.zeros(self._size[::-1], np.bool_)
+        marks[SPARSE // 2 :: SPARSE, SPARSE // 2 :: SPARSE] = True
+        has_samples = settings.samples > 1
+        fans = fans_of_middles(Noise(math.inf, by_light=True))
+        rays = middle_rays(before_samples=has_samples, fans=fans, seed=int(settings.seed))
+        film = new_film(*self._size, *(SAMPLES if has_samples else SOFT))
+        tiles = split_into_tiles(*self._size, self._tile)
+        return self._engine.trace(self._scene, rays._replace(marks=marks), tiles, film, None).peak
 
     def _middles(self, sampling: Sampling, keep: bool, *wanted: str) -> Traced:
         """Trace one ray for each pixel."""
@@ -170,10 +205,11 @@ class Tracer:
 def compile_kernels(scene: SceneArrays, settings: RenderSettings, *, keep: bool = False) -> None:
     """Compile what is needed to trace a scene, or load it from disk; see `Tracer.light`."""
     has_samples = settings.samples > 1
-    film = new_film(0, 0, *(SAMPLES if has_samples else ONE_RAY))
+    soft = scene.lights.soft
+    film = new_film(0, 0, *(SAMPLES if has_samples else ONE_RAY if soft is None else SOFT))
     if has_samples:
         mark_rows(film, 0, 0, 0, np.zeros((0, 0), np.bool_))
     if keep:
         film = film._replace(kept=new_kept_light(np.zeros((0, 0), np.int64), 0, 0))
-    fans = None if scene.lights.soft is None else fans_of_middles(1)
+    fans = None if soft is None else fans_of_middles(Noise(math.inf, by_light=True))
     trace_to(film, scene, middle_rays(before_samples=has_samples, fans=fans), Tile(0, 0, 0, 0))

@@ -19,8 +19,8 @@ from vtray.rendering.pixel_surfaces import find_blocker, rgb
 from vtray.scene.light_types import Ambient, AnyLight, Light, SphereLight, Sun
 from vtray.scene.placing.directions import unit
 from vtray.scene.scene import Scene
-from vtray.transport.integrators.reference import TracedPixel, trace_fan
-from vtray.transport.sampling.fans import fans_of_middles
+from vtray.transport.integrators.reference import TracedPixel, trace_fan, trace_lamp
+from vtray.transport.sampling.fans import Noise, fans_of_middles
 
 
 class Lit(NamedTuple):
@@ -51,7 +51,12 @@ def shadow_rays(
 
 
 def trace_fans(
-    lit: Lit, packed: Packed, traced: TracedPixel, pixel: tuple[int, int], seed: int
+    lit: Lit,
+    packed: Packed,
+    traced: TracedPixel,
+    pixel: tuple[int, int],
+    noise: Noise | None,
+    seed: int,
 ) -> tuple[list[WayToLight], Vec]:
     """Trace the rays to all lights that are no points.
 
@@ -65,6 +70,8 @@ def trace_fans(
         The pixel with the light of the points.
     pixel
         Its column and row.
+    noise
+        How noisy soft light may be, if there is any.
     seed
         The seed of the picture.
 
@@ -73,24 +80,29 @@ def trace_fans(
     fans, light
         The rays, and the pixel's light with all that they add.
     """
-    soft = packed.arrays.lights.soft
     ways: list[WayToLight] = []
-    if soft is None:
+    if noise is None:
         return ways, traced.value
-    fans, fan, stack = fans_of_middles(1), new_fan(), new_stack()
-    blockers = np.full(fans.rays, NOTHING)
+    arrays = packed.arrays
+    if arrays.lights.soft is None:
+        return ways, traced.value
+    fans, spent = fans_of_middles(noise), 0.0
+    fan, stack, blockers = new_fan(), new_stack(), np.full(fans.rays, NOTHING)
+    start, length = traced.interaction.point, packed.unit
     for k, light in enumerate(lit.scene.lights):
         if not isinstance(light, Light):
-            share, value = trace_fan(
-                packed.arrays, soft, traced, *pixel, len(ways), fans, seed, stack, fan, blockers
-            )
-            traced = traced._replace(value=value)
-            start, length = traced.interaction.point, packed.unit
-            rays = tuple(
-                _fan_ray(lit, light, _Ray(fan, ray, start, length), int(blocker))
-                for ray, blocker in enumerate(blockers)
-            )
-            ways.append(_shadow_fan(lit, k, light, rays, share))
+            known = arrays, arrays.lights.soft, traced, *pixel, len(ways), fans
+            lamp = trace_lamp(*known, spent, seed, stack, fan, blockers)
+            rays: list[FanRay] = []
+            for number in range(lamp.fans):
+                trace_fan(*known, number, seed, stack, fan, blockers)
+                rays += [
+                    _fan_ray(lit, light, _Ray(fan, ray, start, length), int(blocker))
+                    for ray, blocker in enumerate(blockers)
+                ]
+            ways.append(_shadow_fan(lit, k, light, tuple(rays), lamp.share))
+            traced = traced._replace(value=lamp.value)
+            spent += lamp.counted
     return ways, traced.value
 
 

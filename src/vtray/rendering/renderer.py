@@ -12,7 +12,7 @@ from vtray.base.pool import Progress as StepProgress
 from vtray.base.pool import available_cores
 from vtray.base.stopwatch import Stopwatch
 from vtray.base.tiles import TILE
-from vtray.image.exposure import check_brightness, locked_white, warm_up, white_of
+from vtray.image.exposure import check_brightness, known_white, locked_white, warm_up, white_of
 from vtray.image.image import Image
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
@@ -20,7 +20,7 @@ from vtray.rendering.passes import Tracer, compile_kernels
 from vtray.rendering.relighting import Relighting
 from vtray.rendering.surfaces import Look
 from vtray.scene.checks.unknown_names import explain_unknown
-from vtray.scene.default_light import default_settings, has_default_light, lights_of
+from vtray.scene.default_light import lights_of, settings_of
 from vtray.scene.files.scene_file import Warn
 from vtray.scene.light_types import AnyLight
 from vtray.scene.scene import Camera, Scene
@@ -46,6 +46,7 @@ def render(
     samples: int | None = None,
     filter: str | None = None,  # noqa: A002 - as in the scene file
     seed: int | None = None,
+    tolerance: float | None = None,
     size: tuple[int, int] | None = None,
     exposure: Literal["max"] | float | None = None,
     background: Any = None,  # noqa: ANN401
@@ -77,6 +78,11 @@ def render(
         ``"mitchell"`` or ``"blackman-harris"``, the default.
     seed
         Chooses among equally good places of the samples.
+    tolerance
+        How noisy soft light may be: the standard error of a pixel, 1 for white; 0.008 by default,
+        two steps of 255. From each point that is seen, rays are cast to each lamp with a size until
+        what they tell is estimated to be as exact as that. With `keep_lights`, that does not look
+        at light: each of n soft lights counts as if it gave one n-th of white.
     size
         Width and height of the picture in pixels, of the same view, instead of the camera's.
     exposure
@@ -120,7 +126,7 @@ def render(
         locked_white(lock, exposure)
     scene.check()
     lights = lights_of(scene)
-    settings = overridden(_settings_of(scene), locals())
+    settings = overridden(settings_of(scene), locals())
     shown = _snapshot(scene, lights, _camera(scene, settings))
     problem = _darkness(shown, keep_lights=keep_lights)
     if problem:
@@ -140,7 +146,8 @@ def render(
     warm_up()
     clock.lap("compile")
     tracer = Tracer(packed.arrays, threads, tile, _step_of(progress, "trace"))
-    traced = tracer.light(settings, keep=keep_lights)
+    white = known_white(settings.exposure, lock)
+    traced = tracer.light(settings, white, keep=keep_lights)
     clock.lap("trace")
     stats = {
         "rays": traced.rays,
@@ -151,12 +158,14 @@ def render(
     image = Image(
         traced.film.linear,
         None,
-        white_of(settings.exposure, traced.peak) if lock is None else locked_white(lock),
+        white_of(settings.exposure, traced.peak) if white is None else white,
         shown,
         settings,
         {},
         look=Look(shown, packed, threads),
         alpha=traced.film.coverage if settings.samples > 1 else None,
+        error=traced.film.error,
+        noise=traced.noise,
         relighting=Relighting(kept, traced.kept, int(settings.samples), threads)
         if keep_lights
         else None,
@@ -190,12 +199,6 @@ def _warn(message: str) -> None:
     import warnings
 
     warnings.warn(message, stacklevel=4)
-
-
-def _settings_of(scene: Scene) -> RenderSettings:
-    """Return the settings of a scene, with those for its light if that is the default one."""
-    look = default_settings(scene.render) if has_default_light(scene) else {}
-    return scene.render.replace(**look)
 
 
 def _camera(scene: Scene, settings: RenderSettings) -> Camera:

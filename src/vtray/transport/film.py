@@ -14,6 +14,7 @@ from vtray.geometry.packets.packet import (
     LANES,
     LIGHT,
     NO_PRIMITIVE,
+    NOISE,
     NORMAL,
     PRIMITIVE,
     RIM,
@@ -46,6 +47,8 @@ class Film(NamedTuple):
         Linear light, (height, width, 3).
     coverage
         Share of the pixel in which something is hit, (height, width); None for one ray a pixel.
+    error
+        The standard error of light, that of the channel that has the largest, (height, width).
     distance
         Along the middle ray, in the unit of the arrays, infinite for no hit, (height, width).
     normal
@@ -66,6 +69,7 @@ class Film(NamedTuple):
     top: int
     linear: Rows
     coverage: Rows
+    error: Rows
     distance: Rows
     normal: Rows
     primitive: Rows
@@ -86,6 +90,7 @@ def new_film(width: int, height: int, *wanted: str, left: int = 0, top: int = 0)
         top=top,
         linear=rows("linear", np.float64, 3),
         coverage=rows("coverage"),
+        error=rows("error"),
         distance=rows("distance"),
         normal=rows("normal", np.float64, 3),
         primitive=rows("primitive", np.int32),
@@ -127,6 +132,8 @@ def clear_sums(sums: Sums, pixels: int, coverage: Rows) -> None:
         sums.light[k + 2 * LANES] = 0.0
         sums.covered[k] = 0.0
         sums.weight[k] = 0.0
+        store(sums.plain, 0, k, (0.0, 0.0, 0.0))
+        store(sums.squares, 0, k, (0.0, 0.0, 0.0))
 
 
 @device
@@ -142,14 +149,20 @@ def add_samples(
         light = load(sums.light, 0, k)
         covered = sums.covered[k]
         total = sums.weight[k]
+        plain, squares = load(sums.plain, 0, k), load(sums.squares, 0, k)
         for lane in range(k * samples, (k + 1) * samples):
             weight = packet[WEIGHT + lane]
-            light = add(light, scale(weight, load(packet, LIGHT, lane)))
+            value = load(packet, LIGHT, lane)
+            light = add(light, scale(weight, value))
+            plain = add(plain, value)
+            squares = add(squares, (value[0] * value[0], value[1] * value[1], value[2] * value[2]))
             covered += weight if numbers[PRIMITIVE + lane] != NO_PRIMITIVE else 0.0
             total += weight
         store(sums.light, 0, k, light)
         sums.covered[k] = covered
         sums.weight[k] = total
+        store(sums.plain, 0, k, plain)
+        store(sums.squares, 0, k, squares)
 
 
 @device
@@ -169,8 +182,10 @@ def write_pixels(
     end: int,
     pixels: Pixels,
     sums: Sums,
+    samples: int,
     linear: Rows,
     coverage: Rows,
+    error: Rows,
 ) -> float:
     """Write the sums of pixels of a block's list to the film; return their largest channel."""
     peak = 0.0
@@ -184,9 +199,29 @@ def write_pixels(
         linear[row, column, 1] = green / weight
         linear[row, column, 2] = blue / weight
         peak = max(peak, red / weight, green / weight, blue / weight)
+        _write_error(row, column, sums, k, samples, error)
         # Filters with negative sides go a little beyond.
         coverage[row, column] = min(max(sums.covered[k] / weight, 0.0), 1.0)
     return peak
+
+
+@device
+def _write_error(row: int, column: int, sums: Sums, k: int, samples: int, error: Rows) -> None:
+    """Write the standard error of a pixel: that of independent samples, which is too much.
+
+    Each sample x with the weight w, which is 1 or -1, adds ``w * (x - mean) / weights`` to what the
+    mean is wrong by, so all add the sum of the squares of ``x - mean`` to its variance.
+    """
+    if error is None:
+        return
+    weight = sums.weight[k]
+    most = 0.0
+    for channel in range(3):
+        place = channel * LANES + k
+        mean = sums.light[place] / weight
+        plain, squares = sums.plain[place], sums.squares[place]
+        most = max(most, squares - 2.0 * mean * plain + samples * mean * mean)
+    error[row, column] = math.sqrt(most) / abs(weight)
 
 
 @device
@@ -201,6 +236,7 @@ def write_middles(
     _write_halves(packet, block, begin, end, pixels, film.half)
     _write_rims(packet, block, begin, end, pixels, film.rims)
     _write_shadows(packet, block, begin, end, hits, pixels, film.shadows)
+    _write_noise(packet, block, begin, end, hits, pixels, film.error)
     return peak
 
 
@@ -343,3 +379,25 @@ def _write_shadows(
     for hit in range(hits):
         row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
         shadows[row, column] = packet[SHADOWS + hit]
+
+
+@device
+def _write_noise(
+    packet: Packet,
+    block: Block,
+    begin: int,
+    end: int,
+    hits: int,
+    pixels: Pixels,
+    error: Rows,
+) -> None:
+    """Write the standard errors of the light of the hits, 0 for the others."""
+    if error is None:
+        return
+    numbers = packet.view(np.int64)
+    for lane in range(end - begin):
+        row, column = _place(block, pixels[begin + lane])
+        error[row, column] = 0.0
+    for hit in range(hits):
+        row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
+        error[row, column] = math.sqrt(packet[NOISE + hit])

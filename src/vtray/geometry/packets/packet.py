@@ -96,6 +96,8 @@ LAMBERT = _fields.scalar()
 COLOR = _fields.vector()
 VALUE = _fields.vector()
 """The light from the hit."""
+NOISE = _fields.scalar()
+"""The variance of that, which soft lights have."""
 
 # Its shadow rays to one light.
 BLOCKED = _fields.scalar()

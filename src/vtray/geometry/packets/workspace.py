@@ -21,11 +21,21 @@ Pixels = NDArray[np.int64]
 
 
 class Sums(NamedTuple):
-    """What the samples of pixels add up to: light in three rows, coverage, and weight."""
+    """What the samples of pixels add up to.
+
+    Attributes
+    ----------
+    light, covered, weight
+        Light times weight in three rows, coverage times weight, and weight.
+    plain, squares
+        Light and its squares without weights, in three rows, from which its error is estimated.
+    """
 
     light: NDArray[np.float64]
     covered: NDArray[np.float64]
     weight: NDArray[np.float64]
+    plain: NDArray[np.float64]
+    squares: NDArray[np.float64]
 
 
 class Workspace(NamedTuple):
@@ -106,7 +116,7 @@ def new_workspace(world: World) -> Workspace:
         cluster=integers(LANES + 2),
         curve=curve_of_block(),
         pixels=integers(LANES),
-        sums=Sums(np.zeros(3 * LANES), np.zeros(LANES), np.zeros(LANES)),
+        sums=Sums(*(np.zeros(size * LANES) for size in (3, 1, 1, 3, 3))),
         fan=new_fan(),
         touching=new_touching(),
         table=integers(TABLE),

@@ -34,7 +34,7 @@ from vtray.transport.film import (
     write_middles,
     write_pixels,
 )
-from vtray.transport.integrators.soft import add_soft_lights
+from vtray.transport.integrators.soft import add_soft_lights, clear_noise
 from vtray.transport.interaction import gather_interactions
 from vtray.transport.light_buffer import KeptLight, keep_cosines
 from vtray.transport.lights.light import light_target, load_power
@@ -149,6 +149,7 @@ def _trace_pixels(
                 hits,
                 film.linear,
                 film.shadows,
+                film.error,
                 film.kept,
                 packet,
                 work,
@@ -159,7 +160,17 @@ def _trace_pixels(
         else:
             peak = write_middles(packet, block, begin, end, hits, work.pixels, film)
     if sampling.rays > 1:
-        peak = write_pixels(block, begin, end, work.pixels, work.sums, film.linear, film.coverage)
+        peak = write_pixels(
+            block,
+            begin,
+            end,
+            work.pixels,
+            work.sums,
+            sampling.rays,
+            film.linear,
+            film.coverage,
+            film.error,
+        )
     return peak, rays
 
 
@@ -225,6 +236,7 @@ def _light_softly(
     hits: int,
     linear: Rows,
     shadows: Rows,
+    error: Rows,
     kept: KeptLight | None,
     packet: Packet,
     work: Workspace,
@@ -232,6 +244,8 @@ def _light_softly(
     """Add the lights that are no points; return how many shadow rays were cast."""
     if linear is None:
         return 0
+    if error is not None:
+        clear_noise(packet, hits)
     soft, fans, seed = scene.lights.soft, sampling.fans, sampling.seed
     return add_soft_lights(
         packet,
@@ -245,6 +259,7 @@ def _light_softly(
         fans,
         seed,
         shadows,
+        error,
         kept,
         work,
     )

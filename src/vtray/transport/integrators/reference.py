@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import kernel
+from vtray.base.compiler.compiled import device, kernel
 from vtray.geometry.between import first_between
 from vtray.geometry.packets.fan import BLOCKED, Fan, Start, fan_segment
 from vtray.geometry.packets.stack import Stack
@@ -19,9 +19,16 @@ from vtray.geometry.vector import Vec, add, dot, sub
 from vtray.transport.camera_rays import camera_ray
 from vtray.transport.interaction import Interaction, interact
 from vtray.transport.lights.light import light_count, light_target, load_power
-from vtray.transport.lights.soft_light import SoftLights, aim_at
+from vtray.transport.lights.soft_light import SoftLights, aim_at, soft_count
 from vtray.transport.materials.lambert import lambert_cosine
 from vtray.transport.materials.material import load_material, scattered
+from vtray.transport.sampling.estimate import (
+    counted_variance,
+    needs_more,
+    no_estimate,
+    share_of,
+    with_fan,
+)
 from vtray.transport.sampling.fans import Fans, fan_keys
 from vtray.transport.sampling.light_rays import arriving_share, spread_fan
 from vtray.transport.scene_arrays import SceneArrays
@@ -104,8 +111,7 @@ def trace_pixel(
     return TracedPixel(ray, hit.distance, hit.primitive, found, value)
 
 
-@kernel
-def trace_fan(
+def _trace_fan(
     scene: SceneArrays,
     soft: SoftLights,
     traced: TracedPixel,
@@ -113,25 +119,26 @@ def trace_fan(
     row: int,
     light: int,
     fans: Fans,
+    number: int,
     seed: int,
     stack: Stack,
     fan: Fan,
     blockers: NDArray[np.int64],
-) -> tuple[float, Vec]:
-    """Trace the rays from the hit of a pixel to one soft light, one by one.
+) -> tuple[float, float]:
+    """Trace the rays of a fan from the hit of a pixel to one soft light, one by one.
 
     Parameters
     ----------
     scene, soft
         The scene, and its soft lights.
     traced
-        The pixel, with the light of all lights before this one.
+        The pixel.
     column, row
         The pixel, from the left and from the top.
     light
         The light, counted among the soft ones.
-    fans, seed
-        Which rays are cast.
+    fans, number, seed
+        Which rays are cast: those of the fan of this number, from 0.
     stack
         Scratch memory.
     fan
@@ -141,14 +148,15 @@ def trace_fan(
 
     Returns
     -------
-    share, value
-        How much of the light arrives, and the pixel's value with it.
+    share, spread
+        How much of the light arrives, and the variance of that, as the fan alone tells it.
     """
-    point, normal, error_scale, is_second = traced.interaction
+    point, normal, error_scale, _ = traced.interaction
     start = Start(point, dot(point, scene.camera.forward), error_scale)
     aim = aim_at(soft, light, start, normal)
     keys, forward = fan_keys(column, row, light, seed), scene.camera.forward
-    spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, 0, keys)
+    place = number * fans.rays
+    spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, place, keys)
     end_scale = soft.error_scale[light] + error_scale
     for ray in range(fans.rays):
         blockers[ray] = NOTHING
@@ -156,7 +164,71 @@ def trace_fan(
             segment = fan_segment(fan, ray, start, end_scale)
             blockers[ray] = first_between(scene.world, segment, stack)
             fan[BLOCKED + ray] = 0.0 if blockers[ray] == NOTHING else 1.0
-    share = arriving_share(fan, fans.rays, aim, normal)
-    material = load_material(scene.materials, traced.primitive, is_second)
+    return arriving_share(fan, fans.rays, aim, normal)
+
+
+trace_fan, _trace_any_fan = kernel(_trace_fan), device(_trace_fan)
+"""What traces one fan, for Python and for kernels."""
+
+
+class TracedLamp(NamedTuple):
+    """What all fans from a hit to a soft light tell.
+
+    Attributes
+    ----------
+    share
+        How much of the light arrives.
+    counted
+        The variance of that, as it is compared with what it may be.
+    fans
+        How many fans that took.
+    value
+        The light of the pixel with all that arrives.
+    """
+
+    share: float
+    counted: float
+    fans: int
+    value: Vec
+
+
+@kernel
+def trace_lamp(
+    scene: SceneArrays,
+    soft: SoftLights,
+    traced: TracedPixel,
+    column: int,
+    row: int,
+    light: int,
+    fans: Fans,
+    spent: float,
+    seed: int,
+    stack: Stack,
+    fan: Fan,
+    blockers: NDArray[np.int64],
+) -> TracedLamp:
+    """Trace all fans from the hit of a pixel to one soft light.
+
+    Parameters
+    ----------
+    scene, soft, column, row, light, fans, seed, stack, fan, blockers
+        As for `trace_fan`.
+    traced
+        The pixel, with the light of all lights before this one.
+    spent
+        The variance that these have.
+    """
+    material = load_material(scene.materials, traced.primitive, traced.interaction.is_second)
     power = load_power(scene.lights, light_count(scene.lights) + light)
-    return share, add(traced.value, scattered(material, share, power))
+    red, green, blue = scattered(material, 1.0, power)
+    worth, estimate = max(red, green, blue), no_estimate()
+    while needs_more(estimate, fans, worth, spent, light, soft_count(soft)):
+        number = estimate.fans
+        share, spread = _trace_any_fan(
+            scene, soft, traced, column, row, light, fans, number, seed, stack, fan, blockers
+        )
+        estimate = with_fan(estimate, share, spread)
+    share = share_of(estimate)
+    counted = counted_variance(estimate, fans, worth)
+    value = add(traced.value, scattered(material, share, power))
+    return TracedLamp(share, counted, estimate.fans, value)

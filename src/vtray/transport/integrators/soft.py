@@ -13,6 +13,7 @@ from vtray.geometry.packets.packet import (
     ERROR_SCALE,
     KEPT,
     LAMBERT,
+    NOISE,
     NORMAL,
     PLANE_DEPTH,
     POINT,
@@ -40,6 +41,14 @@ from vtray.transport.lights.soft_light import (
     soft_count,
 )
 from vtray.transport.materials.material import Material, scattered
+from vtray.transport.sampling.estimate import (
+    counted_variance,
+    needs_more,
+    no_estimate,
+    share_of,
+    with_fan,
+    with_unseen,
+)
 from vtray.transport.sampling.fans import Fans, fan_keys
 from vtray.transport.sampling.light_rays import arriving_share, spread_fan
 from vtray.transport.scene_arrays import SceneArrays
@@ -55,6 +64,8 @@ class Arriving(NamedTuple):
     ----------
     share
         The mean weight of all rays.
+    variance, counted
+        That of the share, as it is estimated, and as it is compared with what it may be.
     cast, arrived
         How many rays were cast, and how many arrive.
     is_narrow
@@ -62,9 +73,18 @@ class Arriving(NamedTuple):
     """
 
     share: float
+    variance: float
+    counted: float
     cast: int
     arrived: int
     is_narrow: bool
+
+
+@device
+def clear_noise(packet: Packet, hits: int) -> None:
+    """Start with light of no variance."""
+    for hit in range(hits):
+        packet[NOISE + hit] = 0.0
 
 
 @device
@@ -80,6 +100,7 @@ def add_soft_lights(
     fans: Fans | None,
     seed: int,
     shadows: Rows,
+    error: Rows,
     kept: KeptLight | None,
     work: Workspace,
 ) -> int:
@@ -99,6 +120,8 @@ def add_soft_lights(
         Which rays are cast.
     shadows
         Not None if it is wanted which lights something keeps from the hits.
+    error
+        Not None if it is wanted how wrong the light may be.
     kept
         Out: what each light adds, if that is kept.
     work
@@ -112,15 +135,30 @@ def add_soft_lights(
                 lane = packet.view(np.int64)[SOURCE + hit]
                 pixel = work.pixels[begin + lane // samples]
                 column, row = block.left + (pixel & (BLOCK - 1)), block.top + pixel // BLOCK
-                point = (first + lane % samples) * fans.rays * fans.rounds
+                point = (first + lane % samples) * fans.rays * fans.fans
+                spent = 0.0
                 for light in range(soft_count(soft)):
                     keys = fan_keys(column, row, light, seed)
-                    arriving = _arriving(packet, hit, scene, soft, light, fans, point, keys, work)
+                    worth = _worth(packet, hit, scene.lights, light)
+                    arriving = _arriving(
+                        packet, hit, scene, soft, light, worth, spent, fans, point, keys, work
+                    )
+                    spent += arriving.counted
                     _add_share(packet, hit, scene.lights, light, arriving.share)
                     _keep_share(packet, lane, scene.lights, light, arriving.share, kept)
                     _note_shadow(packet, hit, scene.lights, light, arriving, shadows)
+                    _add_noise(packet, hit, worth, arriving.variance, error)
                     cast += arriving.cast
     return cast
+
+
+@device
+def _worth(packet: Packet, hit: int, lights: Lights, light: int) -> float:
+    """Return the largest channel of what all of a soft light adds, squarely."""
+    power = load_power(lights, light_count(lights) + light)
+    material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
+    red, green, blue = scattered(material, 1.0, power)
+    return max(red, green, blue)
 
 
 @device
@@ -130,40 +168,47 @@ def _arriving(
     scene: SceneArrays,
     soft: SoftLights,
     light: int,
+    worth: float,
+    spent: float,
     fans: Fans,
     first: int,
     keys: tuple[int, int],
     work: Workspace,
 ) -> Arriving:
-    """Return what arrives of a light at a hit, after one round if all its rays tell the same."""
+    """Return what arrives of a light at a hit, by as many fans as its variance asks for.
+
+    What the lights before it left of the variance that all may have is shared with those after it.
+    """
     point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
     start = Start(point, packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
     aim = aim_at(soft, light, start, normal)
     is_narrow, forward = aim.spread < NARROW, scene.camera.forward
     touching, count = work.touching, MANY
     if is_below(aim, normal):
-        return Arriving(0.0, 0, 0, is_narrow)
+        return Arriving(0.0, 0.0, 0.0, 0, 0, is_narrow)
     if is_narrow:
         count = find_touching(cone_of(aim, start, forward), scene.world, touching, work.stack)
         # What a cone as a whole tells is what all its rays would.
         if count == 0 and is_above(aim, normal):
-            return Arriving(dot(normal, aim.axis), fans.rays, fans.rays, is_narrow)
+            return Arriving(dot(normal, aim.axis), 0.0, 0.0, fans.rays, fans.rays, is_narrow)
         if count == CLOSED and is_above(aim, normal):
-            return Arriving(0.0, fans.rays, 0, is_narrow)
+            return Arriving(0.0, 0.0, 0.0, fans.rays, 0, is_narrow)
     fan = work.fan
     bundle = Bundle(fan, fans.rays, start, soft.error_scale[light] + start.error_scale)
-    total, cast, arrived, rounds = 0.0, 0, 0, 0
-    while rounds < fans.rounds and (rounds == 0 or 0 < arrived < cast):
-        place = first + rounds * fans.rays
+    estimate, cast, arrived, lights = no_estimate(), 0, 0, soft_count(soft)
+    while needs_more(estimate, fans, worth, spent, light, lights):
+        place = first + estimate.fans * fans.rays
         cast += spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, place, keys)
         if count >= 0:
             stop_by_touching(bundle, scene.world, touching, count)
         else:
             stop_by_all(bundle, scene.world, work.stack)
-        total += arriving_share(fan, fans.rays, aim, normal)
+        share, spread = arriving_share(fan, fans.rays, aim, normal)
+        estimate = with_fan(estimate, share, spread)
         arrived += count_open(fan, fans.rays)
-        rounds += 1
-    return Arriving(total / rounds, cast, arrived, is_narrow)
+    variance = with_unseen(estimate, fans.rays)
+    counted = counted_variance(estimate, fans, worth)
+    return Arriving(share_of(estimate), variance, counted, cast, arrived, is_narrow)
 
 
 @device
@@ -173,6 +218,13 @@ def _add_share(packet: Packet, hit: int, lights: Lights, light: int, share: floa
     material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
     added = scattered(material, share, power)
     store(packet, VALUE, hit, add(load(packet, VALUE, hit), added))
+
+
+@device
+def _add_noise(packet: Packet, hit: int, worth: float, variance: float, error: Rows) -> None:
+    """Add the variance of what a soft light adds to a hit."""
+    if error is not None:
+        packet[NOISE + hit] += worth * worth * variance
 
 
 @device

@@ -116,14 +116,25 @@ def _length(aim: Aim, point: Vec, direction: Vec) -> float:
 
 
 @device
-def arriving_share(fan: Fan, rays: int, aim: Aim, normal: Vec) -> float:
-    """Return how much of a light arrives: the mean weight of all rays, 0 for those stopped.
+def arriving_share(fan: Fan, rays: int, aim: Aim, normal: Vec) -> tuple[float, float]:
+    """Return how much of a light arrives, and the variance of that.
 
-    Of a cone of which all arrives, that is known without noise: the cosine at its middle.
+    This is the mean weight of all rays, 0 for those stopped. Of a cone of which all arrives, it is
+    known without noise: the cosine at its middle.
     """
     if is_above(aim, normal) and count_open(fan, rays) == rays:
-        return dot(normal, aim.axis)
+        return dot(normal, aim.axis), 0.0
     total = 0.0
     for ray in range(rays):
-        total += fan[WEIGHT + ray] if fan[BLOCKED + ray] == 0.0 else 0.0
-    return total / rays
+        total += _brought(fan, ray)
+    squares = 0.0
+    for pair in range(rays // 2):
+        difference = _brought(fan, 2 * pair) - _brought(fan, 2 * pair + 1)
+        squares += difference * difference
+    return total / rays, squares / (rays * rays)
+
+
+@device
+def _brought(fan: Fan, ray: int) -> float:
+    """Return what a ray brings: its weight, 0 if something stops it."""
+    return fan[WEIGHT + ray] if fan[BLOCKED + ray] == 0.0 else 0.0
