@@ -23,7 +23,7 @@ class Rendered:
 
     Parameters
     ----------
-    linear, white, scene, settings, stats, locked
+    linear, white, scene, settings, stats, locked, partial
         The attributes.
     pixels
         Light after exposure with 8 bits; None until it is asked for.
@@ -54,6 +54,7 @@ class Rendered:
         threads: int = 1,
         original: Scene | None = None,
         locked: bool = False,
+        partial: float | None = None,
     ) -> None:
         self.linear = linear
         self.white = white
@@ -68,10 +69,12 @@ class Rendered:
         self._threads = threads
         self._original = original or scene
         self.locked = locked
+        self.partial = partial
 
     def __repr__(self) -> str:
         height, width = self.linear.shape[:2]
-        return f"<Image of {width} x {height} pixels, {self.settings}>"
+        part = "" if self.partial is None else f", {self.partial:.0%} of it done"
+        return f"<Image of {width} x {height} pixels, {self.settings}{part}>"
 
     @property
     def pixels(self) -> NDArray[np.uint8]:
@@ -144,6 +147,9 @@ class Rendered:
 
     def _relit(self, scene: Scene, lock: object) -> Self:
         """Return the picture of a scene that differs in lights and colours alone."""
+        if self.partial is not None:
+            message = "image: a part of a picture has the lights and colours of its render alone"
+            raise RenderError(message)
         if self._relighting is None:
             message = "image: its lights were not kept; render it with keep_lights=True"
             raise RenderError(message)

@@ -1,19 +1,22 @@
 """From a scene to its picture: the steps in their order."""
 
 from collections.abc import Callable
-from functools import partial
+from contextlib import nullcontext
+from functools import cache, partial
 from typing import Any, Literal, Protocol
 
 import numpy as np
 
 from vtray.base.compiler.compiled import loading_seconds
-from vtray.base.memory import BYTES_PER_PIXEL_AND_MORE, check_memory
+from vtray.base.memory import BYTES_PER_PIXEL_AND_MORE, BYTES_PER_PIXEL_SHOWN, check_memory
 from vtray.base.pool import Progress as StepProgress
 from vtray.base.pool import available_cores
 from vtray.base.stopwatch import Stopwatch
 from vtray.base.tiles import TILE
-from vtray.image.exposure import check_brightness, locked_white, warm_up, white_of
+from vtray.image.exposure import check_brightness, locked_white, warm_up
 from vtray.image.image import Image
+from vtray.rendering.darkroom import Darkroom
+from vtray.rendering.growth import Growth
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
 from vtray.rendering.passes import Tracer, compile_kernels
@@ -51,6 +54,8 @@ def render(
     background: Any = None,  # noqa: ANN401
     lock: HasWhite | None = None,
     keep_lights: bool = False,
+    on_update: Callable[[Image], object] | None = None,
+    update_seconds: float = 1.0,
     tile: int = TILE,
     warn: Warn | None = None,
 ) -> Image:
@@ -91,6 +96,16 @@ def render(
         `exposure`.
     keep_lights
         Keep the light of each lamp apart, for `Image.relight` and `Image.recolor`.
+    on_update
+        Called from time to time with the picture so far, an `Image` to look at or to save whose
+        `Image.partial` says how much of it is done: first with a draft of an eighth of its width
+        and height, in whose place exact pixels come from the middle outwards, and with samples a
+        second time. It is called in the calling thread, a last time after Ctrl-C, and never with
+        the whole picture, which does not depend on it. What it raises ends the render.
+    update_seconds
+        The least time between two such calls, and before the first; ``math.inf`` for one after
+        Ctrl-C alone. If they take long, there are fewer, so that they take a tenth of the time at
+        the most.
     tile
         Side of a tile in pixels.
     warn
@@ -110,12 +125,13 @@ def render(
         The image does not fit into memory, its light is too bright for a double, `lock` is no
         picture, or `exposure` is given too.
     ValueError
-        `threads` or `tile` is not an integer of at least 1.
+        `threads` or `tile` is not an integer of at least 1, or `update_seconds` no number ≥ 0.
     KeyboardInterrupt
         After Ctrl-C; all threads have ended by then.
     """
     threads = _count("threads", threads if threads is not None else available_cores())
     tile = _count("tile", tile)
+    _check_seconds(update_seconds)
     if lock is not None:
         locked_white(lock, exposure)
     scene.check()
@@ -127,7 +143,8 @@ def render(
         (warn or _warn)(problem)
     width, height = shown.camera.size
     behind = 0 if settings.background == "black" else BYTES_PER_PIXEL_AND_MORE
-    check_memory(int(width), int(height), int(settings.samples), behind)
+    shown_too = 0 if on_update is None else BYTES_PER_PIXEL_SHOWN
+    check_memory(int(width), int(height), int(settings.samples), behind, shown_too)
     check_brightness(shown.lights)
     clock = Stopwatch()
     loaded = loading_seconds()
@@ -139,8 +156,13 @@ def render(
     compile_kernels(packed.arrays, settings, keep=keep_lights)
     warm_up()
     clock.lap("compile")
-    tracer = Tracer(packed.arrays, threads, tile, _step_of(progress, "trace"))
-    traced = tracer.light(settings, keep=keep_lights)
+    look = cache(Look(shown, packed, threads))  # once for all pictures of this render
+    original = _snapshot(scene, lights, scene.camera)
+    darkroom = Darkroom(shown, original, settings, look, lock, threads)
+    growth = _growth(darkroom, on_update, update_seconds)
+    tracer = Tracer(packed.arrays, threads, tile, _step_of(progress, "trace"), growth)
+    with growth or nullcontext():
+        traced = tracer.light(settings, keep=keep_lights)
     clock.lap("trace")
     stats = {
         "rays": traced.rays,
@@ -148,21 +170,12 @@ def render(
         "depth": kept.tree_depth,
         "memory": kept.memory,
     }
-    image = Image(
+    relighting = Relighting(kept, traced.kept, int(settings.samples), threads)
+    image = darkroom.picture(
         traced.film.linear,
-        None,
-        white_of(settings.exposure, traced.peak) if lock is None else locked_white(lock),
-        shown,
-        settings,
-        {},
-        look=Look(shown, packed, threads),
-        alpha=traced.film.coverage if settings.samples > 1 else None,
-        relighting=Relighting(kept, traced.kept, int(settings.samples), threads)
-        if keep_lights
-        else None,
-        threads=threads,
-        original=_snapshot(scene, lights, scene.camera),
-        locked=lock is not None,
+        traced.film.coverage if settings.samples > 1 else None,
+        traced.peak,
+        relighting=relighting if keep_lights else None,
     )
     image.develop()
     clock.lap("develop")
@@ -171,6 +184,15 @@ def render(
     clock.seconds["compile"] += loading
     image.stats = {**clock.seconds, **stats}
     return image
+
+
+def _growth(
+    darkroom: Darkroom, on_update: Callable[[Image], object] | None, seconds: float
+) -> Growth | None:
+    """Return what shows the picture as it grows, if somebody looks."""
+    if on_update is None:
+        return None
+    return Growth(lambda part: on_update(darkroom.part(part)), seconds)
 
 
 def _darkness(scene: Scene, *, keep_lights: bool) -> str:
@@ -214,6 +236,13 @@ def _snapshot(scene: Scene, lights: list[AnyLight], camera: Camera) -> Scene:
 def _step_of(progress: Progress | None, step: str) -> StepProgress | None:
     """Return what shows the progress of one step."""
     return None if progress is None else partial(progress, step)
+
+
+def _check_seconds(value: float) -> None:
+    """Raise ValueError if an argument that must be a number of at least 0 is none."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not value >= 0:
+        message = f"update_seconds: expected a number ≥ 0, got {value!r}"
+        raise ValueError(message)
 
 
 def _count(name: str, value: int) -> int:
