@@ -26,6 +26,9 @@ BYTES_PER_PIXEL_AND_MORE = 175
 BYTES_PER_PIXEL_SHOWN = 110
 """While a picture grows: what there is of it, and copies that are shown and written."""
 
+BYTES_PER_PIXEL_DENOISED = 300
+"""For denoising: light, what guides it, and what the library takes."""
+
 BYTES_PER_SPHERE = 80
 """The hierarchy, and what it takes to build it, beside the arrays that were given."""
 

@@ -178,7 +178,7 @@ def _print_stats(clock: "Stopwatch", image: "Image") -> None:
     from vtray.base.memory import peak_memory
 
     stats = image.stats
-    steps = ("build", "pack", "trace", "develop")
+    steps = [step for step in ("build", "pack", "trace", "denoise", "develop") if step in stats]
     # Loading NumPy and LLVM counts as compiling.
     compiling = clock.seconds["render"] - sum(stats[step] for step in steps)
     seconds = {

@@ -34,7 +34,8 @@ class Image(Rendered):
     ----------
     linear
         Light before exposure, float64, (height, width, 3): the sums of cosine, Lambert
-        coefficient, intensity and colour (0 to 255).
+        coefficient, intensity and colour (0 to 255). With ``settings.denoise``, it is
+        without grain, and `raw` is as it was traced.
     white
         The light that becomes 255; 0 if the whole picture is black.
     scene

@@ -27,7 +27,7 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
         The version of vtray.
     scene : str
         The hash of the scene.
-    samples, filter, seed, exposure, background
+    samples, filter, seed, exposure, background, denoise
         As in the settings of the render, those that were left out too.
     size : tuple of int or None
         Width and height of the picture in pixels; None for those of the camera.
@@ -62,7 +62,7 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
         return msgspec.json.encode(told).decode("ascii")
 
 
-_SELDOM = ("partial",)
+_SELDOM = ("denoise", "partial")
 """What is told only where it is not as usual: older versions refuse what they do not know."""
 
 _USUAL = Provenance(version="", scene="0" * 16)

@@ -33,6 +33,10 @@ class Rendered:
         How much of each pixel is covered, if that is known; None for what `look` says.
     relighting
         Gives the light of the same view of a scene with other lights or colours, if that was kept.
+    raw
+        Light as it was traced, if that is not `linear`.
+    denoising
+        Gives the light of a scene without grain, if that is what `linear` is.
     threads
         How many threads to use at the most.
     original
@@ -51,6 +55,8 @@ class Rendered:
         look: Callable[[], Surfaces],
         alpha: Floats | None = None,
         relighting: Callable[[Scene], Floats] | None = None,
+        raw: Floats | None = None,
+        denoising: Callable[[Scene, Floats], Floats] | None = None,
         threads: int = 1,
         original: Scene | None = None,
         locked: bool = False,
@@ -66,6 +72,8 @@ class Rendered:
         self._pixels = pixels
         self._alpha = alpha
         self._relighting = relighting
+        self._raw = raw
+        self._denoising = denoising
         self._threads = threads
         self._original = original or scene
         self.locked = locked
@@ -97,6 +105,11 @@ class Rendered:
         if bits == 8:
             self._pixels = pixels
         return pixels
+
+    @property
+    def raw(self) -> Floats:
+        """Light as it was traced, exact to the last bit: `linear` if that is not denoised."""
+        return self.linear if self._raw is None else self._raw
 
     @property
     def _surfaces(self) -> Surfaces:
@@ -156,7 +169,9 @@ class Rendered:
         check_brightness(scene.lights)
         # The camera may have another size now, and the hash is that of the scene as it was given.
         given = Scene(self._original.camera, scene.lights, scene.objects, scene.render)
-        return self._again(lock, linear=self._relighting(scene), scene=scene, _original=given)
+        raw = self._relighting(scene)
+        linear = raw if self._denoising is None else self._denoising(scene, raw)
+        return self._again(lock, _raw=raw, linear=linear, scene=scene, _original=given)
 
     def _again(self, lock: object, **changes: object) -> Self:
         """Return a picture of the same view with other attributes, exposed anew."""

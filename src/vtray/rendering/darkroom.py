@@ -55,19 +55,28 @@ class Darkroom:
         peak: float,
         *,
         relighting: Callable[[Scene], Floats] | None = None,
+        denoising: Callable[[Scene, Floats], Floats] | None = None,
         partial: float | None = None,
     ) -> Image:
         """Return the picture of some light; see `Image` and `Rendered`.
 
         Parameters
         ----------
-        linear, relighting, partial
+        linear
+            Light as it was traced.
+        relighting, partial
             What the picture has.
+        denoising
+            Gives the light of a scene without grain, if the picture shall have that.
         coverage
             How much of each pixel is covered; None for what the middle rays say.
         peak
             The largest channel of light.
         """
+        raw = linear
+        if denoising is not None:
+            linear = denoising(self.scene, raw)
+            peak = max(float(linear.max()), 0.0)
         return Image(
             linear,
             None,
@@ -78,6 +87,8 @@ class Darkroom:
             look=self.look,
             alpha=coverage,
             relighting=relighting,
+            raw=raw,
+            denoising=denoising,
             threads=self.threads,
             original=self.original,
             locked=self.lock is not None,

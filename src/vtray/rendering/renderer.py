@@ -2,20 +2,27 @@
 
 from collections.abc import Callable
 from contextlib import nullcontext
-from functools import cache, partial
+from functools import partial
 from typing import Any, Literal, Protocol
 
 import numpy as np
 
 from vtray.base.compiler.compiled import loading_seconds
-from vtray.base.memory import BYTES_PER_PIXEL_AND_MORE, BYTES_PER_PIXEL_SHOWN, check_memory
+from vtray.base.memory import (
+    BYTES_PER_PIXEL_AND_MORE,
+    BYTES_PER_PIXEL_DENOISED,
+    BYTES_PER_PIXEL_SHOWN,
+    check_memory,
+)
 from vtray.base.pool import Progress as StepProgress
 from vtray.base.pool import available_cores
 from vtray.base.stopwatch import Stopwatch
 from vtray.base.tiles import TILE
+from vtray.image.denoise import load_library
 from vtray.image.exposure import check_brightness, locked_white, warm_up
 from vtray.image.image import Image
 from vtray.rendering.darkroom import Darkroom
+from vtray.rendering.denoising import Denoising
 from vtray.rendering.growth import Growth
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
@@ -52,6 +59,7 @@ def render(
     size: tuple[int, int] | None = None,
     exposure: Literal["max"] | float | None = None,
     background: Any = None,  # noqa: ANN401
+    denoise: bool | None = None,
     lock: HasWhite | None = None,
     keep_lights: bool = False,
     on_update: Callable[[Image], object] | None = None,
@@ -91,6 +99,9 @@ def render(
     background
         What is seen where nothing is: ``"black"``, the default, ``"transparent"``, or a colour in
         any of the ways of `vtray.colors.to_rgb`.
+    denoise
+        Whether the grain of soft light is taken out by Open Image Denoise, once all is traced. The
+        picture is then no longer the same on every machine; `Image.raw` is.
     lock
         A picture whose exposure is taken, so that a sequence does not flicker; not together with
         `exposure`.
@@ -126,6 +137,8 @@ def render(
         picture, or `exposure` is given too.
     ValueError
         `threads` or `tile` is not an integer of at least 1, or `update_seconds` no number ≥ 0.
+    ExtraError
+        `denoise` is asked for, and its library is not installed.
     KeyboardInterrupt
         After Ctrl-C; all threads have ended by then.
     """
@@ -138,13 +151,12 @@ def render(
     lights = lights_of(scene)
     settings = overridden(_settings_of(scene), locals())
     shown = _snapshot(scene, lights, _camera(scene, settings))
+    if settings.denoise:
+        load_library()  # before any work is done
     problem = _darkness(shown, keep_lights=keep_lights)
     if problem:
         (warn or _warn)(problem)
-    width, height = shown.camera.size
-    behind = 0 if settings.background == "black" else BYTES_PER_PIXEL_AND_MORE
-    shown_too = 0 if on_update is None else BYTES_PER_PIXEL_SHOWN
-    check_memory(int(width), int(height), int(settings.samples), behind, shown_too)
+    _check_memory(shown.camera, settings, is_shown=on_update is not None)
     check_brightness(shown.lights)
     clock = Stopwatch()
     loaded = loading_seconds()
@@ -156,7 +168,7 @@ def render(
     compile_kernels(packed.arrays, settings, keep=keep_lights)
     warm_up()
     clock.lap("compile")
-    look = cache(Look(shown, packed, threads))  # once for all pictures of this render
+    look = Look(shown, packed, threads)
     original = _snapshot(scene, lights, scene.camera)
     darkroom = Darkroom(shown, original, settings, look, lock, threads)
     growth = _growth(darkroom, on_update, update_seconds)
@@ -171,12 +183,17 @@ def render(
         "memory": kept.memory,
     }
     relighting = Relighting(kept, traced.kept, int(settings.samples), threads)
+    coverage = traced.film.coverage if settings.samples > 1 else None
+    denoising = Denoising(kept, settings, coverage, threads)
     image = darkroom.picture(
         traced.film.linear,
-        traced.film.coverage if settings.samples > 1 else None,
+        coverage,
         traced.peak,
         relighting=relighting if keep_lights else None,
+        denoising=denoising if settings.denoise else None,
     )
+    if settings.denoise:
+        clock.lap("denoise")
     image.develop()
     clock.lap("develop")
     # Kernels are loaded when they are first called; that is no part of the build.
@@ -226,6 +243,15 @@ def _camera(scene: Scene, settings: RenderSettings) -> Camera:
     if size is None or size == scene.camera.size:
         return scene.camera
     return scene.camera.resized((int(size[0]), int(size[1])))
+
+
+def _check_memory(camera: Camera, settings: RenderSettings, *, is_shown: bool) -> None:
+    """Raise RenderError if the picture cannot be held in memory."""
+    width, height = camera.size
+    behind = 0 if settings.background == "black" else BYTES_PER_PIXEL_AND_MORE
+    more = BYTES_PER_PIXEL_SHOWN if is_shown else 0
+    more += BYTES_PER_PIXEL_DENOISED if settings.denoise else 0
+    check_memory(int(width), int(height), int(settings.samples), behind, more)
 
 
 def _snapshot(scene: Scene, lights: list[AnyLight], camera: Camera) -> Scene:
