@@ -26,6 +26,7 @@ SETTINGS = {
     "size": (9, 7),
     "exposure": 0.1 + 0.2,
     "background": vtray.Color(1, 2, 3),
+    "denoise": True,
 }
 
 

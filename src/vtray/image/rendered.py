@@ -23,7 +23,7 @@ class Rendered:
 
     Parameters
     ----------
-    linear, white, scene, settings, stats, locked
+    linear, white, scene, settings, stats, locked, partial
         The attributes.
     pixels
         Light after exposure with 8 bits; None until it is asked for.
@@ -37,6 +37,10 @@ class Rendered:
         How noisy soft light was allowed to be, which says what rays were cast, if there is any.
     relighting
         Gives the light of the same view of a scene with other lights or colours, if that was kept.
+    raw
+        Light as it was traced, if that is not `linear`.
+    denoising
+        Gives the light of a scene without grain, if that is what `linear` is.
     threads
         How many threads to use at the most.
     original
@@ -57,9 +61,12 @@ class Rendered:
         error: Floats | None = None,
         noise: Any = None,  # noqa: ANN401
         relighting: Callable[[Scene], Floats] | None = None,
+        raw: Floats | None = None,
+        denoising: Callable[[Scene, Floats], Floats] | None = None,
         threads: int = 1,
         original: Scene | None = None,
         locked: bool = False,
+        partial: float | None = None,
     ) -> None:
         self.linear = linear
         self.white = white
@@ -73,13 +80,17 @@ class Rendered:
         self._error = error
         self.noise = noise
         self._relighting = relighting
+        self._raw = raw
+        self._denoising = denoising
         self._threads = threads
         self._original = original or scene
         self.locked = locked
+        self.partial = partial
 
     def __repr__(self) -> str:
         height, width = self.linear.shape[:2]
-        return f"<Image of {width} x {height} pixels, {self.settings}>"
+        part = "" if self.partial is None else f", {self.partial:.0%} of it done"
+        return f"<Image of {width} x {height} pixels, {self.settings}{part}>"
 
     @property
     def pixels(self) -> NDArray[np.uint8]:
@@ -102,6 +113,11 @@ class Rendered:
         if bits == 8:
             self._pixels = pixels
         return pixels
+
+    @property
+    def raw(self) -> Floats:
+        """Light as it was traced, exact to the last bit: `linear` if that is not denoised."""
+        return self.linear if self._raw is None else self._raw
 
     @property
     def _surfaces(self) -> Surfaces:
@@ -164,6 +180,9 @@ class Rendered:
 
     def _relit(self, scene: Scene, lock: object) -> Self:
         """Return the picture of a scene that differs in lights and colours alone."""
+        if self.partial is not None:
+            message = "image: a part of a picture has the lights and colours of its render alone"
+            raise RenderError(message)
         if self._relighting is None:
             message = "image: its lights were not kept; render it with keep_lights=True"
             raise RenderError(message)
@@ -171,8 +190,11 @@ class Rendered:
         # The camera may have another size now, and the hash is that of the scene as it was given.
         given = Scene(self._original.camera, scene.lights, scene.objects, scene.render)
         unknown = np.full(self.linear.shape[:2], np.nan)
-        linear = self._relighting(scene)
-        return self._again(lock, linear=linear, scene=scene, _error=unknown, _original=given)
+        raw = self._relighting(scene)
+        linear = raw if self._denoising is None else self._denoising(scene, raw)
+        return self._again(
+            lock, _raw=raw, linear=linear, scene=scene, _error=unknown, _original=given
+        )
 
     def _again(self, lock: object, **changes: object) -> Self:
         """Return a picture of the same view with other attributes, exposed anew."""

@@ -11,6 +11,7 @@ from vtray.base.pool import Progress, run_tasks
 from vtray.base.tiles import TILE, Tile, split_into_tiles
 from vtray.rendering.engines.engine import Engine, trace_to
 from vtray.rendering.engines.threads import Threads
+from vtray.rendering.growth import DRAFT_TILE, Growth, draft_camera
 from vtray.scene.settings import RenderSettings
 from vtray.transport.film import Film, new_film
 from vtray.transport.light_buffer import KeptLight, new_kept_light
@@ -75,6 +76,8 @@ class Tracer:
         Side of a tile in pixels.
     progress
         Called from time to time with the tiles done and their number.
+    growth
+        Collects the light as it grows; None where nobody looks, and there is no draft.
     """
 
     def __init__(
@@ -83,6 +86,7 @@ class Tracer:
         threads: int,
         tile: int = TILE,
         progress: Progress | None = None,
+        growth: Growth | None = None,
     ) -> None:
         self._scene = scene
         self._size = scene.camera.width, scene.camera.height
@@ -90,6 +94,7 @@ class Tracer:
         self._engine: Engine = Threads(threads)
         self._tile = tile
         self._progress = progress
+        self._growth = growth
         self._passes = 1
         self._done = 0
 
@@ -160,11 +165,29 @@ class Tracer:
 
     def _middles(self, sampling: Sampling, keep: bool, *wanted: str) -> Traced:
         """Trace one ray for each pixel."""
+        if self._growth is not None:
+            self._draft(self._growth, sampling, keep, *wanted)
         film = new_film(*self._size, *wanted)
         if not keep:
             return self._trace(sampling, film)
         kept = self._keep(np.ones(self._size[::-1], np.bool_), 1)
         return self._trace(sampling, film._replace(kept=kept))._replace(kept=(kept,))
+
+    def _draft(self, growth: Growth, sampling: Sampling, keep: bool, *wanted: str) -> None:
+        """Trace what is shown of the picture until its own pixels are there."""
+        scene = self._scene._replace(camera=draft_camera(self._scene.camera))
+        width, height = scene.camera.width, scene.camera.height
+        film = new_film(width, height, *wanted)
+        growth.begin_draft(film, *self._size)
+        if keep:  # for the same kernel
+            film = film._replace(kept=self._keep(np.ones((height, width), np.bool_), 1))
+        tell = self._progress_of(len(split_into_tiles(*self._size, self._tile)))
+
+        def nothing_done(_done: int, _total: int) -> None:
+            tell(0, 0)
+
+        tiles = split_into_tiles(width, height, DRAFT_TILE)
+        self._engine.trace(scene, sampling, tiles, film, nothing_done, growth.add)
 
     def _keep(self, marks: NDArray[np.bool_], samples: int) -> KeptLight:
         """Return where to keep what the samples of the marked pixels meet."""
@@ -190,16 +213,26 @@ class Tracer:
 
     def _trace(self, sampling: Sampling, film: Film) -> Traced:
         """Cast rays, and write to a film."""
-        tiles = split_into_tiles(*self._size, self._tile)
-        progress = self._progress_of(len(tiles))
-        cast = self._engine.trace(self._scene, sampling, tiles, film, progress)
+        tiles, done = split_into_tiles(*self._size, self._tile), None
+        if self._growth is not None:
+            tiles = self._growth.begin(film, tiles, has_samples=sampling.rays > 1)
+            done = self._growth.add
+        tell = self._progress_of(len(tiles))
+        cast = self._engine.trace(self._scene, sampling, tiles, film, tell, done)
+        self._done += len(tiles)
         return Traced(film, cast.peak, cast.rays)
 
-    def _progress_of(self, tiles: int) -> Progress | None:
+    def _progress_of(self, tiles: int) -> Progress:
         """Return what shows the progress of a pass as a part of all passes."""
-        tell, before, passes = self._progress, self._done, self._passes
-        self._done += tiles
-        return tell and (lambda done, _: tell(before + done, passes * tiles))
+        before, total = self._done, self._passes * tiles
+
+        def tell(done: int, _total: int) -> None:
+            if self._progress is not None:
+                self._progress(before + done, total)
+            if self._growth is not None:
+                self._growth.update(before + done, total)
+
+        return tell
 
 
 def compile_kernels(scene: SceneArrays, settings: RenderSettings, *, keep: bool = False) -> None:

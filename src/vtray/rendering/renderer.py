@@ -1,19 +1,29 @@
 """From a scene to its picture: the steps in their order."""
 
 from collections.abc import Callable
+from contextlib import nullcontext
 from functools import partial
 from typing import Any, Literal, Protocol
 
 import numpy as np
 
 from vtray.base.compiler.compiled import loading_seconds
-from vtray.base.memory import BYTES_PER_PIXEL_AND_MORE, check_memory
+from vtray.base.memory import (
+    BYTES_PER_PIXEL_AND_MORE,
+    BYTES_PER_PIXEL_DENOISED,
+    BYTES_PER_PIXEL_SHOWN,
+    check_memory,
+)
 from vtray.base.pool import Progress as StepProgress
 from vtray.base.pool import available_cores
 from vtray.base.stopwatch import Stopwatch
 from vtray.base.tiles import TILE
-from vtray.image.exposure import check_brightness, known_white, locked_white, warm_up, white_of
+from vtray.image.denoise import load_library
+from vtray.image.exposure import check_brightness, known_white, locked_white, warm_up
 from vtray.image.image import Image
+from vtray.rendering.darkroom import Darkroom
+from vtray.rendering.denoising import Denoising
+from vtray.rendering.growth import Growth
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
 from vtray.rendering.passes import Tracer, compile_kernels
@@ -50,8 +60,11 @@ def render(
     size: tuple[int, int] | None = None,
     exposure: Literal["max"] | float | None = None,
     background: Any = None,  # noqa: ANN401
+    denoise: bool | None = None,
     lock: HasWhite | None = None,
     keep_lights: bool = False,
+    on_update: Callable[[Image], object] | None = None,
+    update_seconds: float = 1.0,
     tile: int = TILE,
     warn: Warn | None = None,
 ) -> Image:
@@ -92,11 +105,24 @@ def render(
     background
         What is seen where nothing is: ``"black"``, the default, ``"transparent"``, or a colour in
         any of the ways of `vtray.colors.to_rgb`.
+    denoise
+        Whether the grain of soft light is taken out by Open Image Denoise, once all is traced. The
+        picture is then no longer the same on every machine; `Image.raw` is.
     lock
         A picture whose exposure is taken, so that a sequence does not flicker; not together with
         `exposure`.
     keep_lights
         Keep the light of each lamp apart, for `Image.relight` and `Image.recolor`.
+    on_update
+        Called from time to time with the picture so far, an `Image` to look at or to save whose
+        `Image.partial` says how much of it is done: first with a draft of an eighth of its width
+        and height, in whose place exact pixels come from the middle outwards, and with samples a
+        second time. It is called in the calling thread, a last time after Ctrl-C, and never with
+        the whole picture, which does not depend on it. What it raises ends the render.
+    update_seconds
+        The least time between two such calls, and before the first; ``math.inf`` for one after
+        Ctrl-C alone. If they take long, there are fewer, so that they take a tenth of the time at
+        the most.
     tile
         Side of a tile in pixels.
     warn
@@ -116,24 +142,27 @@ def render(
         The image does not fit into memory, its light is too bright for a double, `lock` is no
         picture, or `exposure` is given too.
     ValueError
-        `threads` or `tile` is not an integer of at least 1.
+        `threads` or `tile` is not an integer of at least 1, or `update_seconds` no number ≥ 0.
+    ExtraError
+        `denoise` is asked for, and its library is not installed.
     KeyboardInterrupt
         After Ctrl-C; all threads have ended by then.
     """
     threads = _count("threads", threads if threads is not None else available_cores())
     tile = _count("tile", tile)
+    _check_seconds(update_seconds)
     if lock is not None:
         locked_white(lock, exposure)
     scene.check()
     lights = lights_of(scene)
     settings = overridden(settings_of(scene), locals())
     shown = _snapshot(scene, lights, _camera(scene, settings))
+    if settings.denoise:
+        load_library()  # before any work is done
     problem = _darkness(shown, keep_lights=keep_lights)
     if problem:
         (warn or _warn)(problem)
-    width, height = shown.camera.size
-    behind = 0 if settings.background == "black" else BYTES_PER_PIXEL_AND_MORE
-    check_memory(int(width), int(height), int(settings.samples), behind)
+    _check_memory(shown.camera, settings, is_shown=on_update is not None)
     check_brightness(shown.lights)
     clock = Stopwatch()
     loaded = loading_seconds()
@@ -145,9 +174,14 @@ def render(
     compile_kernels(packed.arrays, settings, keep=keep_lights)
     warm_up()
     clock.lap("compile")
-    tracer = Tracer(packed.arrays, threads, tile, _step_of(progress, "trace"))
+    look = Look(shown, packed, threads)
+    original = _snapshot(scene, lights, scene.camera)
+    darkroom = Darkroom(shown, original, settings, look, lock, threads)
+    growth = _growth(darkroom, on_update, update_seconds)
+    tracer = Tracer(packed.arrays, threads, tile, _step_of(progress, "trace"), growth)
     white = known_white(settings.exposure, lock)
-    traced = tracer.light(settings, white, keep=keep_lights)
+    with growth or nullcontext():
+        traced = tracer.light(settings, white, keep=keep_lights)
     clock.lap("trace")
     stats = {
         "rays": traced.rays,
@@ -155,24 +189,20 @@ def render(
         "depth": kept.tree_depth,
         "memory": kept.memory,
     }
-    image = Image(
+    relighting = Relighting(kept, traced.kept, int(settings.samples), threads)
+    coverage = traced.film.coverage if settings.samples > 1 else None
+    denoising = Denoising(kept, settings, coverage, threads)
+    image = darkroom.picture(
         traced.film.linear,
-        None,
-        white_of(settings.exposure, traced.peak) if white is None else white,
-        shown,
-        settings,
-        {},
-        look=Look(shown, packed, threads),
-        alpha=traced.film.coverage if settings.samples > 1 else None,
+        coverage,
+        traced.peak,
         error=traced.film.error,
         noise=traced.noise,
-        relighting=Relighting(kept, traced.kept, int(settings.samples), threads)
-        if keep_lights
-        else None,
-        threads=threads,
-        original=_snapshot(scene, lights, scene.camera),
-        locked=lock is not None,
+        relighting=relighting if keep_lights else None,
+        denoising=denoising if settings.denoise else None,
     )
+    if settings.denoise:
+        clock.lap("denoise")
     image.develop()
     clock.lap("develop")
     # Kernels are loaded when they are first called; that is no part of the build.
@@ -180,6 +210,15 @@ def render(
     clock.seconds["compile"] += loading
     image.stats = {**clock.seconds, **stats}
     return image
+
+
+def _growth(
+    darkroom: Darkroom, on_update: Callable[[Image], object] | None, seconds: float
+) -> Growth | None:
+    """Return what shows the picture as it grows, if somebody looks."""
+    if on_update is None:
+        return None
+    return Growth(lambda part: on_update(darkroom.part(part)), seconds)
 
 
 def _darkness(scene: Scene, *, keep_lights: bool) -> str:
@@ -209,6 +248,15 @@ def _camera(scene: Scene, settings: RenderSettings) -> Camera:
     return scene.camera.resized((int(size[0]), int(size[1])))
 
 
+def _check_memory(camera: Camera, settings: RenderSettings, *, is_shown: bool) -> None:
+    """Raise RenderError if the picture cannot be held in memory."""
+    width, height = camera.size
+    behind = 0 if settings.background == "black" else BYTES_PER_PIXEL_AND_MORE
+    more = BYTES_PER_PIXEL_SHOWN if is_shown else 0
+    more += BYTES_PER_PIXEL_DENOISED if settings.denoise else 0
+    check_memory(int(width), int(height), int(settings.samples), behind, more)
+
+
 def _snapshot(scene: Scene, lights: list[AnyLight], camera: Camera) -> Scene:
     """Return the scene as it is now, with a camera."""
     return Scene(camera, lights, list(scene.objects), scene.render)
@@ -217,6 +265,13 @@ def _snapshot(scene: Scene, lights: list[AnyLight], camera: Camera) -> Scene:
 def _step_of(progress: Progress | None, step: str) -> StepProgress | None:
     """Return what shows the progress of one step."""
     return None if progress is None else partial(progress, step)
+
+
+def _check_seconds(value: float) -> None:
+    """Raise ValueError if an argument that must be a number of at least 0 is none."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not value >= 0:
+        message = f"update_seconds: expected a number ≥ 0, got {value!r}"
+        raise ValueError(message)
 
 
 def _count(name: str, value: int) -> int:

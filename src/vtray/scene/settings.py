@@ -95,6 +95,10 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
             MappingProxyType({"--alpha": "transparent"}),
         ),
     ] = "black"
+    denoise: Annotated[
+        Annotated[bool, Meta(description="true or false")],
+        Option("", "take the grain of soft light out by Open Image Denoise"),
+    ] = False
 
     def __post_init__(self) -> None:
         """Hold equal settings equally: integers as such, and the colour black as "black"."""
@@ -162,6 +166,8 @@ class RenderSettings(
     background : "black", "transparent" or Color
         What is seen where there is nothing. Code may write a colour in all ways of
         `vtray.colors.to_rgb`.
+    denoise : bool
+        Whether the grain of soft light is taken out by Open Image Denoise.
     """
 
     if TYPE_CHECKING:  # what code may give, beside what the attributes hold
@@ -175,6 +181,7 @@ class RenderSettings(
             size: tuple[int, int] | None = None,
             exposure: Literal["max"] | float = "max",
             background: "str | Color | Sequence[float]" = "black",
+            denoise: bool = False,
         ) -> None: ...
 
     def replace(self, **changes: Any) -> Self:  # noqa: ANN401
