@@ -179,7 +179,7 @@ class TracedLamp(NamedTuple):
     share
         How much of the light arrives.
     counted
-        The variance of that, as it is compared with what it may be.
+        The variance of that, as a part of what all lights may have.
     fans
         How many fans that took.
     value
@@ -216,7 +216,7 @@ def trace_lamp(
     traced
         The pixel, with the light of all lights before this one.
     spent
-        The variance that these have.
+        What these have of the variance that all may have.
     """
     material = load_material(scene.materials, traced.primitive, traced.interaction.is_second)
     power = load_power(scene.lights, light_count(scene.lights) + light)

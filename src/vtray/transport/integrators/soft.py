@@ -65,7 +65,7 @@ class Arriving(NamedTuple):
     share
         The mean weight of all rays.
     variance, counted
-        That of the share, as it is estimated, and as it is compared with what it may be.
+        That of the share, as it is estimated, and as a part of what all lights may have.
     cast, arrived
         How many rays were cast, and how many arrive.
     is_narrow

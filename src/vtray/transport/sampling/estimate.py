@@ -76,22 +76,23 @@ def needs_more(
     worth
         The largest channel of what all of the light adds, shining squarely.
     spent
-        The variance that the lights before this one have; what they left is shared with the next.
+        What the lights before this one have of the variance that all may have, as
+        `counted_variance` gives it; what they left is shared with the next.
     light, lights
         The number of this light among the soft ones, and how many there are.
     """
     if estimate.fans == 0:
         return True
-    allowed = max((fans.variance - spent) / (lights - light), fans.variance * LEAST / lights)
+    allowed = max((1.0 - spent) / (lights - light), LEAST / lights)
     is_noisy = counted_variance(estimate, fans, worth) > allowed
     return is_noisy and estimate.fans < fans.fans
 
 
 @device
 def counted_variance(estimate: Estimate, fans: Fans, worth: float) -> float:
-    """Return the variance of what a light adds, as it is compared with what it may be."""
-    scale = worth * worth if fans.by_light else 1.0
-    return scale * variance_of(estimate)
+    """Return the variance of what a light adds, as a part of what all lights may have."""
+    scale = (worth if fans.by_light else 1.0) / fans.error
+    return scale * scale * variance_of(estimate)
 
 
 @device

@@ -13,6 +13,7 @@ intervals there); Owen, "Randomly permuted (t,m,s)-nets", 1995; Hilbert, "Ueber 
 Abbildung einer Linie auf ein Flächenstück", 1891 (the order of the cells).
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -51,8 +52,8 @@ class Fans(NamedTuple):
         How often that is repeated at the most, while the estimated variance is too large.
     points
         What `fan_points` returns.
-    variance
-        What the light at a hit may have.
+    error
+        The standard error that the light at a hit may have.
     by_light
         Whether that is meant of light; else of the sum of the shares of all lamps, so that nothing
         depends on intensities and colours.
@@ -61,7 +62,7 @@ class Fans(NamedTuple):
     rays: int
     fans: int
     points: Integers
-    variance: float
+    error: float
     by_light: bool
 
 
@@ -79,15 +80,15 @@ class Noise(NamedTuple):
     error: float
     by_light: bool
 
-    def variance(self, samples: int) -> float:
-        """Return the variance that the light at one of the samples of a pixel may have."""
-        return self.error * self.error * samples
+    def of_one(self, samples: int) -> float:
+        """Return the standard error that the light at one of the samples of a pixel may have."""
+        return self.error * math.sqrt(samples)
 
 
 def fans_of_middles(noise: Noise) -> Fans:
     """Return the fans of rays through the middles of pixels."""
     points = fan_points(WHOLE_FAN, MOST_FANS)
-    return Fans(WHOLE_FAN, MOST_FANS, points, noise.variance(1), noise.by_light)
+    return Fans(WHOLE_FAN, MOST_FANS, points, noise.error, noise.by_light)
 
 
 def fans_of_samples(samples: int, noise: Noise) -> Fans:
@@ -97,7 +98,7 @@ def fans_of_samples(samples: int, noise: Noise) -> Fans:
         rays *= 2
     fans = max(MOST_FANS_OF_SAMPLES // samples, 1)
     points = fan_points(rays, fans * samples)
-    return Fans(rays, fans, points, noise.variance(samples), noise.by_light)
+    return Fans(rays, fans, points, noise.of_one(samples), noise.by_light)
 
 
 def fan_points(fan: int, samples: int) -> Integers:
