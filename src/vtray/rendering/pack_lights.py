@@ -8,12 +8,22 @@ from numpy.typing import NDArray
 
 from vtray.base.exact_math import sine
 from vtray.geometry.vector import Vec
-from vtray.scene.light_types import Ambient, AnyLight, Light, SphereLight, Sun
+from vtray.rendering.pack_rectangles import join_rectangles, pack_rectangle
+from vtray.scene.light_types import (
+    Ambient,
+    AnyLight,
+    Light,
+    RectangleLight,
+    SphereLight,
+    Sun,
+    falls_off,
+    strength_of,
+)
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.vectors import Vector
 from vtray.transport.camera_rays import CameraFrame
 from vtray.transport.lights.light import Lights
-from vtray.transport.lights.soft_light import AROUND, SPHERE, SUN, SoftLights
+from vtray.transport.lights.soft_light import AROUND, RECTANGLE, SPHERE, SUN, SoftLights
 
 Floats = NDArray[np.float64]
 
@@ -51,15 +61,20 @@ def pack_lights(
         error_scale=_magnitude(x, y, z) + _magnitude(*origin),
         points=len(hard) if hard or not soft else None,
         soft=_pack_soft(soft, origin, unit) if soft else None,
-        intensity=np.array([light.intensity for light in ordered], float),
+        intensity=np.array(list(map(strength_of, ordered)), float),
         color=np.array(colors, float).reshape(-1, 3) / 255.0,
     )
 
 
 def _pack_soft(lights: Sequence[AnyLight], origin: Floats, unit: float) -> SoftLights:
     """Return the arrays of the lights that are no points."""
-    x, y, z, size = np.zeros((4, len(lights)))
-    kind, error_scale = np.zeros(len(lights), np.int64), np.zeros(len(lights))
+    x, y, z, size, error_scale = np.zeros((5, len(lights)))
+    kind = np.zeros(len(lights), np.int64)
+    rectangles = {
+        k: pack_rectangle(light, unit)
+        for k, light in enumerate(lights)
+        if isinstance(light, RectangleLight)
+    }
     for k, light in enumerate(lights):
         place: Floats | Vec = (0.0, 0.0, 0.0)
         if isinstance(light, Sun):
@@ -70,11 +85,26 @@ def _pack_soft(lights: Sequence[AnyLight], origin: Floats, unit: float) -> SoftL
             kind[k], size[k] = SPHERE, light.radius / unit
             place = points_of([light.location], unit)[0] - origin
             error_scale[k] = float(_magnitude(*place) + _magnitude(*origin)) + size[k]
+        elif isinstance(light, RectangleLight):
+            one, other = rectangles[k][-2:]
+            kind[k], size[k] = RECTANGLE, one + other
+            place = points_of([light.location], unit)[0] - origin
+            error_scale[k] = float(_magnitude(*place) + _magnitude(*origin)) + size[k]
         else:
             distance = light.distance if isinstance(light, Ambient) else math.inf
             kind[k], size[k] = AROUND, min(distance / unit, FAR)
         x[k], y[k], z[k] = place
-    return SoftLights(kind, x, y, z, size, error_scale, FAR)
+    return SoftLights(
+        kind,
+        x,
+        y,
+        z,
+        size,
+        error_scale,
+        np.array(list(map(falls_off, lights))),
+        FAR,
+        join_rectangles(len(lights), rectangles),
+    )
 
 
 def points_of(places: list[Vector], unit: float) -> Floats:
