@@ -54,7 +54,7 @@ def _describe_light(way: WayToLight, hit: Hit) -> list[str]:
     if isinstance(way, ShadowFan):
         first = f"{name:12} {way.kind}: {way.arriving} of {len(way.rays)} rays arrive"
         first += f", {way.share:.6g} of its light"
-        factor, strength = "share", "radiance" if way.kind == "sky" else "intensity"
+        factor, strength = "share", way.measure
         amount = way.share
     else:
         first = f"{name:12} towards {_vector(way.direction)}, {way.distance:.10g} away"

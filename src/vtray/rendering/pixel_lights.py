@@ -16,7 +16,16 @@ from vtray.geometry.vector import Vec, scale, sub
 from vtray.rendering.numbering import Numbering
 from vtray.rendering.pack import Packed
 from vtray.rendering.pixel_surfaces import find_blocker, rgb
-from vtray.scene.light_types import Ambient, AnyLight, Lamp, Light, SphereLight, Sun, strength_of
+from vtray.scene.light_types import (
+    Ambient,
+    AnyLight,
+    Lamp,
+    Light,
+    SphereLight,
+    Sun,
+    measure_of,
+    strength_of,
+)
 from vtray.scene.placing.directions import unit
 from vtray.scene.scene import Scene
 from vtray.transport.integrators.reference import TracedPixel, trace_fan
@@ -115,7 +124,9 @@ def _shadow_fan(
     kind = str(type(light).__struct_config__.tag)
     adds, color = _added(lit.hit, light, share), rgb(light.color)
     middle = _middle(lit.hit, light)
-    return ShadowFan(number, kind, strength_of(light), middle, rays, share, adds, color)
+    return ShadowFan(
+        number, kind, strength_of(light), middle, rays, share, adds, color, measure_of(light)
+    )
 
 
 class _Ray(NamedTuple):

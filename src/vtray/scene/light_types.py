@@ -282,6 +282,11 @@ def falls_off(light: AnyLight) -> bool:
     return isinstance(light, Lamp) and light.radiance is not None
 
 
+def measure_of(light: AnyLight) -> str:
+    """Return what the strength of a light is called: "intensity" or "radiance"."""
+    return "radiance" if isinstance(light, Sky) or falls_off(light) else "intensity"
+
+
 def with_strength(light: AnyLight, strength: float) -> AnyLight:
     """Return the same light with another intensity, or radiance if it has one.
 
@@ -290,6 +295,4 @@ def with_strength(light: AnyLight, strength: float) -> AnyLight:
     SceneError
         If it is not right.
     """
-    if isinstance(light, Sky) or falls_off(light):
-        return light.replace(radiance=strength)
-    return light.replace(intensity=strength)
+    return light.replace(**{measure_of(light): strength})
