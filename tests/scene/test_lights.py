@@ -56,8 +56,8 @@ def test_what_may_be_left_out() -> None:
     for kind, count in (
         (Light, 2),
         (Sun, 3),
-        (SphereLight, 3),
-        (RectangleLight, 3),
+        (SphereLight, 4),
+        (RectangleLight, 4),
         (Sky, 2),
         (Ambient, 3),
     ):
@@ -97,6 +97,10 @@ def test_what_may_be_left_out() -> None:
         (
             lambda: SphereLight((0, 0, 0), 1).replace(radiance=2),
             "SphereLight.radiance: expected either this or the intensity, not both, got 2",
+        ),
+        (
+            lambda: SphereLight((0, 0, 0), 1, visible=2),  # type: ignore[arg-type]
+            "SphereLight.visible: expected true or false, got 2",
         ),
         (lambda: SphereLight((0, 0, 0), 1, radiance=-1), "SphereLight.radiance: expected a number"),
         (
@@ -164,6 +168,8 @@ def test_lights_are_added() -> None:
         scene.add_rectangle_light((1, 2, 3), SIDES),
         scene.add_rectangle_light((1, 2, 3), SIDES, 5, "red"),
         scene.add_rectangle_light((1, 2, 3), [Vector(2, 0, 0), (0, 0, -3)], radiance=0),
+        scene.add_rectangle_light((1, 2, 3), SIDES, visible=True),
+        scene.add_sphere_light((1, 2, 3), 4, visible=True),
         scene.add_sky(0.5, "skyblue"),
         scene.add_ambient(0.3, 7),
         scene.add_ambient(),
@@ -178,6 +184,8 @@ def test_lights_are_added() -> None:
         RectangleLight((1, 2, 3), SIDES),
         RectangleLight((1, 2, 3), SIDES, 5, (255, 0, 0)),
         RectangleLight((1, 2, 3), SIDES, radiance=0),
+        RectangleLight((1, 2, 3), SIDES, 1.0, (255, 255, 255), None, True),
+        SphereLight((1, 2, 3), 4, 1.0, (255, 255, 255), None, True),
         Sky(0.5, (135, 206, 235)),
         Ambient(0.3, 7),
         Ambient(),

@@ -68,6 +68,14 @@ READ: list[tuple[dict[str, Any], AnyLight]] = [
         RectangleLight((1, 2, 3), ((0, 4, 0), (2, 0, 1e-3)), color=(255, 0, 0)),
     ),
     (
+        {"type": "rectangle", "location": PLACE, "edges": SIDES, "visible": True},
+        RectangleLight((1, 2, 3), ((0, 4, 0), (2, 0, 1e-3)), visible=True),
+    ),
+    (
+        {"type": "sphere", "visible": False, "location": PLACE, "radius": 2},
+        SphereLight((1, 2, 3), 2),
+    ),
+    (
         {"radiance": 7, "edges": SIDES, "location": PLACE, "type": "rectangle"},
         RectangleLight((1, 2, 3), ((0, 4, 0), (2, 0, 1e-3)), radiance=7),
     ),
@@ -146,6 +154,8 @@ BAD: list[tuple[object, str, str]] = [
     ({**BALL, "location": {"x": 1, "y": 2}}, "location.z", "missing; expected a finite number"),
     ({**BALL, "intensity": 1, "radiance": 2}, "radiance", BOTH),
     ({**PANEL, "intensity": 1, "radiance": 2}, "radiance", BOTH),
+    ({**PANEL, "visible": 1}, "visible", "expected true or false, got 1"),
+    ({**BALL, "visible": "yes"}, "visible", 'expected true or false, got "yes"'),
     ({**PANEL, "radiance": -1}, "radiance", "expected a number ≥ 0, got -1"),
     ({"type": "rectangle", "location": PLACE}, "edges", "missing; expected two vectors"),
     (
@@ -277,10 +287,14 @@ def all_lights() -> st.SearchStrategy[dict[str, Any]]:
     return st.one_of(
         st.fixed_dictionaries(point, optional={"type": st.just("point"), "color": color}),
         kind("sun", {"direction": directions()}, intensity=strength, angle=angle),
-        kind("sphere", {**place, "radius": radius}, intensity=strength),
-        kind("sphere", {**place, "radius": radius}, radiance=strength),
-        kind("rectangle", {**place, "edges": sides()}, intensity=strength),
-        kind("rectangle", {**place, "edges": sides()}, radiance=strength),
+        *(
+            kind(*lamp, visible=st.booleans(), **{measure: strength})
+            for measure in ("intensity", "radiance")
+            for lamp in (
+                ("sphere", {**place, "radius": radius}),
+                ("rectangle", {**place, "edges": sides()}),
+            )
+        ),
         kind("sky", {}, radiance=strength),
         kind("ambient", {}, intensity=strength, distance=distance),
     )
@@ -386,6 +400,7 @@ def test_hash_tells_lights_apart() -> None:
         SphereLight(place, 0),
         SphereLight(place, 1),
         SphereLight(place, 1, radiance=1),
+        SphereLight(place, 1, visible=True),
         RectangleLight(place, ((1, 0, 0), (0, 1, 0))),
         RectangleLight(place, ((0, 1, 0), (1, 0, 0))),
         RectangleLight(place, ((0, 1, 0), (1, 0, 0)), radiance=1),

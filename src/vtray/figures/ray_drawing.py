@@ -162,7 +162,9 @@ class _Drawing(Stage):
     def miss(self) -> None:
         """Say that the ray goes on."""
         self.arrow(self.pixel, self.end, RAY, lw=0)
-        self.note("hits nothing", self.end, (-6, 9), ha="right", va="bottom", color=RAY)
+        lamp = self.tree.lamp
+        text = "hits nothing" if lamp is None else f"sees lights[{lamp}]"
+        self.note(text, self.end, (-6, 9), ha="right", va="bottom", color=RAY)
 
     def surface(self, surface: Surface, *, filled: bool) -> None:
         """Draw what a ray meets."""

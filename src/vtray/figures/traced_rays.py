@@ -285,4 +285,5 @@ class TracedRays:
     light: Vec
     view: View
     exposed: Exposed | None
+    lamp: int | None
     scene: Scene = field(repr=False, compare=False)

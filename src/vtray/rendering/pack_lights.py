@@ -12,6 +12,7 @@ from vtray.rendering.pack_rectangles import join_rectangles, pack_rectangle
 from vtray.scene.light_types import (
     Ambient,
     AnyLight,
+    Lamp,
     Light,
     RectangleLight,
     SphereLight,
@@ -23,7 +24,10 @@ from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.vectors import Vector
 from vtray.transport.camera_rays import CameraFrame
 from vtray.transport.lights.light import Lights
+from vtray.transport.lights.rectangle import SIZE as RECTANGLE_SIZE
 from vtray.transport.lights.soft_light import AROUND, RECTANGLE, SPHERE, SUN, SoftLights
+from vtray.transport.lights.visible import SIZE as LAMP_SIZE
+from vtray.transport.lights.visible import VisibleLamps
 
 Floats = NDArray[np.float64]
 
@@ -53,6 +57,7 @@ def pack_lights(
     x, y, z = _columns(points)
     ordered = *hard, *soft
     colors = [(light.color.r, light.color.g, light.color.b) for light in ordered]
+    packed = _pack_soft(soft, origin, unit) if soft else None
     return Lights(
         x,
         y,
@@ -60,7 +65,8 @@ def pack_lights(
         plane_depth=_dot((x, y, z), camera.forward),
         error_scale=_magnitude(x, y, z) + _magnitude(*origin),
         points=len(hard) if hard or not soft else None,
-        soft=_pack_soft(soft, origin, unit) if soft else None,
+        soft=packed,
+        visible=_pack_visible(soft, packed, len(hard)) if packed else None,
         intensity=np.array(list(map(strength_of, ordered)), float),
         color=np.array(colors, float).reshape(-1, 3) / 255.0,
     )
@@ -105,6 +111,20 @@ def _pack_soft(lights: Sequence[AnyLight], origin: Floats, unit: float) -> SoftL
         FAR,
         join_rectangles(len(lights), rectangles),
     )
+
+
+def _pack_visible(lights: Sequence[AnyLight], soft: SoftLights, points: int) -> VisibleLamps | None:
+    """Return the lamps among the soft lights that the camera sees, if there are any."""
+    seen = [k for k, light in enumerate(lights) if isinstance(light, Lamp) and light.visible]
+    if not seen:
+        return None
+    data = np.zeros((len(seen), LAMP_SIZE))
+    for row, k in zip(data, seen, strict=True):
+        row[:3] = soft.x[k], soft.y[k], soft.z[k]
+        row[3] = soft.size[k]
+        if soft.rectangles is not None:
+            row[4:] = soft.rectangles.data[RECTANGLE_SIZE * k : RECTANGLE_SIZE * (k + 1)]
+    return VisibleLamps(np.array(seen) + points, data.reshape(-1), soft.error_scale[seen])
 
 
 def points_of(places: list[Vector], unit: float) -> Floats:

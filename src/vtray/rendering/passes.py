@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from vtray.base.memory import check_memory_of_lights
 from vtray.base.pool import Progress, run_tasks
 from vtray.base.tiles import TILE, Tile, split_into_tiles
+from vtray.geometry.packets.packet import NO_PRIMITIVE
 from vtray.rendering.engines.engine import Engine, trace_to
 from vtray.rendering.engines.threads import Threads
 from vtray.scene.settings import RenderSettings
@@ -24,9 +25,6 @@ from vtray.transport.sampling.pixel_samples import (
     middle_rays,
 )
 from vtray.transport.scene_arrays import SceneArrays
-
-ONE_RAY = ("linear",)
-"""What is wanted of a picture with one ray a pixel."""
 
 SAMPLES = ("linear", "coverage", "primitive", "half", "shadows", "rims")
 """What is wanted of one with samples."""
@@ -101,7 +99,8 @@ class Tracer:
         """
         if settings.samples == 1:
             rays = middle_rays(fans=self._fans(fans_of_middles, 1), seed=int(settings.seed))
-            return self._middles(rays, keep, *ONE_RAY)
+            found = self._middles(rays, keep, *one_ray(self._scene))
+            return found._replace(film=_covered(found.film))
         self._passes = 2
         footprint = filter_footprint(settings, self._scene.camera)
         samples, seed = int(settings.samples), int(settings.seed)
@@ -110,7 +109,7 @@ class Tracer:
         found = self._middles(middles, keep, *SAMPLES)
         film = found.film
         marks, peak = self._mark(film, settings)
-        np.greater_equal(film.primitive, 0, out=film.coverage)
+        film = _covered(film)
         kept = found.kept
         if keep:
             kept = (*kept, self._keep(marks, samples))
@@ -167,10 +166,22 @@ class Tracer:
         return tell and (lambda done, _: tell(before + done, passes * tiles))
 
 
+def one_ray(scene: SceneArrays) -> tuple[str, ...]:
+    """Return what is wanted of a picture with one ray a pixel."""
+    return ("linear",) if scene.lights.visible is None else ("linear", "primitive")
+
+
+def _covered(film: Film) -> Film:
+    """Return a film with the coverage by what the middle rays meet, if they say it."""
+    if film.primitive is None:
+        return film
+    return film._replace(coverage=(film.primitive != NO_PRIMITIVE).astype(float))
+
+
 def compile_kernels(scene: SceneArrays, settings: RenderSettings, *, keep: bool = False) -> None:
     """Compile what is needed to trace a scene, or load it from disk; see `Tracer.light`."""
     has_samples = settings.samples > 1
-    film = new_film(0, 0, *(SAMPLES if has_samples else ONE_RAY))
+    film = new_film(0, 0, *(SAMPLES if has_samples else one_ray(scene)))
     if has_samples:
         mark_rows(film, 0, 0, 0, np.zeros((0, 0), np.bool_))
     if keep:

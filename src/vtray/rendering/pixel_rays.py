@@ -18,6 +18,7 @@ from vtray.rendering.pack import Packed, pack
 from vtray.rendering.pixel_lights import Lit, shadow_rays, trace_fans
 from vtray.rendering.pixel_surfaces import find_surface
 from vtray.scene.default_light import lights_of
+from vtray.scene.light_types import Light
 from vtray.scene.scene import Scene
 from vtray.transport.integrators.reference import trace_pixel as trace_one
 from vtray.transport.lights.light import light_count
@@ -106,8 +107,15 @@ def trace_rays(
         light,
         _view(scene, packed),
         None if image is None else _exposed(image, column, row),
+        None if traced.lamp == NOTHING else _place_of(scene, int(traced.lamp)),
         scene,
     )
+
+
+def _place_of(scene: Scene, light: int) -> int:
+    """Return the place in `scene.lights` of a light, given its number among the arrays."""
+    places = range(len(scene.lights))
+    return sorted(places, key=lambda place: not isinstance(scene.lights[place], Light))[light]
 
 
 def _view(scene: Scene, packed: Packed) -> View:

@@ -156,7 +156,7 @@ def render(
         settings,
         {},
         look=Look(shown, packed, threads),
-        alpha=traced.film.coverage if settings.samples > 1 else None,
+        alpha=traced.film.coverage,
         relighting=Relighting(kept, traced.kept, int(settings.samples), threads)
         if keep_lights
         else None,

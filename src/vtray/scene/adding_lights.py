@@ -123,8 +123,9 @@ class AddingLights:
         color: "AnyColor" = "white",
         *,
         radiance: float | None = None,
+        visible: bool = False,
     ) -> SphereLight:
-        """Add a shining ball, itself unseen.
+        """Add a shining ball.
 
         Parameters
         ----------
@@ -140,6 +141,8 @@ class AddingLights:
         radiance
             Instead of an intensity: how brightly its surface shines, ≥ 0, so that its light gets
             weaker with distance.
+        visible
+            Whether the camera sees it, in its colour.
 
         Raises
         ------
@@ -148,7 +151,7 @@ class AddingLights:
         """
         place = argument("add_sphere_light", "location", location, Vector)
         rgb = _color("add_sphere_light", color)
-        return self._added(SphereLight(place, radius, intensity, rgb, radiance))
+        return self._added(SphereLight(place, radius, intensity, rgb, radiance, visible))
 
     @explain_unknown
     def add_rectangle_light(
@@ -159,8 +162,9 @@ class AddingLights:
         color: "AnyColor" = "white",
         *,
         radiance: float | None = None,
+        visible: bool = False,
     ) -> RectangleLight:
-        """Add a shining rectangle, itself unseen, which shines to both sides.
+        """Add a shining rectangle, which shines to both sides.
 
         Parameters
         ----------
@@ -176,6 +180,8 @@ class AddingLights:
         radiance
             Instead of an intensity: how brightly its surface shines, ≥ 0, so that its light gets
             weaker with distance.
+        visible
+            Whether the camera sees it, in its colour.
 
         Raises
         ------
@@ -184,7 +190,7 @@ class AddingLights:
         """
         place = argument("add_rectangle_light", "location", location, Vector)
         rgb = _color("add_rectangle_light", color)
-        return self._added(RectangleLight(place, edges, intensity, rgb, radiance))
+        return self._added(RectangleLight(place, edges, intensity, rgb, radiance, visible))
 
     @explain_unknown
     def add_sky(self, radiance: float = 1.0, color: "AnyColor" = "white") -> Sky:

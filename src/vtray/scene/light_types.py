@@ -15,7 +15,7 @@ import msgspec
 from msgspec import Meta
 
 from vtray.scene.checks.checked import Frozen
-from vtray.scene.checks.limits import AngularSize, FieldError, NonNegative, Reach
+from vtray.scene.checks.limits import AngularSize, FieldError, NonNegative, Reach, YesOrNo
 from vtray.scene.placing.directions import are_square, unit
 from vtray.scene.vectors import Color, Direction, Vector
 
@@ -102,7 +102,7 @@ class Sun(Frozen, frozen=True, gc=False, tag_field="type", tag="sun"):
 
 
 class SphereLight(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
-    """A shining ball, itself unseen; the larger it is, the softer are its shadows.
+    """A shining ball; the larger it is, the softer are its shadows.
 
     Its light does not fall off with distance, as that of points, unless its radiance is given.
 
@@ -121,6 +121,9 @@ class SphereLight(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere")
         Instead of an intensity: how brightly its surface shines, ≥ 0. A white, fully scattering
         surface that sees nothing but a ball of radiance 1 shows 1; less where the ball is
         smaller or farther away.
+    visible : bool, optional
+        Whether the camera sees it, in its colour: white if its strength and its colour are 1.
+        False by default. In any case it throws no shadow.
     """
 
     location: Vector
@@ -128,6 +131,7 @@ class SphereLight(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere")
     intensity: NonNegative | None = None
     color: Color = WHITE
     radiance: NonNegative | None = None
+    visible: YesOrNo = False
 
     if TYPE_CHECKING:
 
@@ -138,6 +142,7 @@ class SphereLight(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere")
             intensity: float | None = None,
             color: "Color | Triple" = ...,
             radiance: float | None = None,
+            visible: bool = False,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -146,7 +151,7 @@ class SphereLight(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere")
 
 
 class RectangleLight(Frozen, frozen=True, gc=False, tag_field="type", tag="rectangle"):
-    """A shining rectangle, itself unseen, which shines to both sides, and not along its plane.
+    """A shining rectangle, which shines to both sides, and not along its plane.
 
     Its light does not fall off with distance, unless its radiance is given.
 
@@ -166,6 +171,9 @@ class RectangleLight(Frozen, frozen=True, gc=False, tag_field="type", tag="recta
         Instead of an intensity: how brightly its surface shines, ≥ 0. A white, fully scattering
         surface that sees nothing but a rectangle of radiance 1 shows 1; less where the rectangle is
         smaller or farther away.
+    visible : bool, optional
+        Whether the camera sees it, in its colour: white if its strength and its colour are 1.
+        False by default. In any case it throws no shadow.
     """
 
     location: Vector
@@ -173,6 +181,7 @@ class RectangleLight(Frozen, frozen=True, gc=False, tag_field="type", tag="recta
     intensity: NonNegative | None = None
     color: Color = WHITE
     radiance: NonNegative | None = None
+    visible: YesOrNo = False
 
     if TYPE_CHECKING:
 
@@ -183,6 +192,7 @@ class RectangleLight(Frozen, frozen=True, gc=False, tag_field="type", tag="recta
             intensity: float | None = None,
             color: "Color | Triple" = ...,
             radiance: float | None = None,
+            visible: bool = False,
         ) -> None: ...
 
     def __post_init__(self) -> None:
