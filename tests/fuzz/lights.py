@@ -69,13 +69,13 @@ def _place(random: Random, scene: Scene, size: float) -> tuple[np.ndarray, float
 
 
 def _edges(random: Random, size: float) -> tuple[Scene, Scene]:
-    """Return edges of a rectangle, of any lengths."""
+    """Return edges of a rectangle of any size, not so slender that the oracle sees no width."""
     one = _way(random)
     other = np.cross(one, _way(random))
     if not other.any():
         other = np.cross(one, np.roll(one, 1))
-    lengths = size * random.choice(SIZES[2:], 2)
-    return _xyz(max(lengths[0], 1e-300) * one), _xyz(max(lengths[1], 1e-300) * other)
+    length = max(size * random.choice(SIZES[2:]), 1e-300)
+    return _xyz(length * one), _xyz(length * random.choice([1.0, 0.3, 0.01]) * other)
 
 
 def _colored(random: Random, light: Scene) -> Scene:
