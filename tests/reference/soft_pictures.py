@@ -83,7 +83,7 @@ def compare_fans(
             expected = by_rules.fan(hit, light, column, row, seed)
             keys = fan_keys(column, row, light, seed)
             order = _order(fans.points, keys, expected.points)
-            is_lamp = by_rules.lights[light]["type"] == "sphere"
+            is_lamp = by_rules.lights[light]["type"] in ("sphere", "rectangle")
             longest = np.inf if is_lamp else FAR * unit
             _compare(fan, order, hit, expected, unit, longest)
             bound = expected.doubted_share + 1e-9

@@ -166,9 +166,10 @@ class ShadowFan:
     light
         Place in ``scene.lights``.
     kind
-        What light it is, in the words of scene files: "sun", "sphere", "sky" or "ambient".
+        What light it is, in the words of scene files: "sun", "sphere", "rectangle", "sky" or
+        "ambient".
     intensity
-        The strength of the light; of a sky its radiance.
+        The strength of the light: its intensity or its radiance.
     direction
         Unit vector from the hit to the middle of the light, in world space; where light comes from
         all sides, the normal of the hit.
@@ -180,6 +181,8 @@ class ShadowFan:
         The red, green and blue that the light adds to the pixel.
     color
         The red, green and blue of the light, from 0 to 255.
+    measure
+        What its strength is called: "intensity" or "radiance".
     """
 
     light: int
@@ -190,6 +193,7 @@ class ShadowFan:
     share: float
     adds: Vec
     color: Vec
+    measure: str
 
     @property
     def arriving(self) -> int:
@@ -281,4 +285,5 @@ class TracedRays:
     light: Vec
     view: View
     exposed: Exposed | None
+    lamp: int | None
     scene: Scene = field(repr=False, compare=False)

@@ -13,7 +13,7 @@ from vtray.base.compiler.compiled import kernel
 from vtray.base.errors import RenderError
 from vtray.base.pool import run_tasks
 from vtray.base.tiles import TILE
-from vtray.scene.light_types import AnyLight
+from vtray.scene.light_types import AnyLight, strength_of
 from vtray.scene.settings import Background, Exposure
 from vtray.scene.vectors import Color
 
@@ -23,7 +23,7 @@ BRIGHTEST = sys.float_info.max / 2.0**17
 
 def check_brightness(lights: Sequence[AnyLight]) -> None:
     """Raise RenderError if the lights are so bright that a pixel could overflow."""
-    total = sum(light.intensity for light in lights)
+    total = sum(map(strength_of, lights))
     if total > BRIGHTEST:
         message = f"lights: the intensities add up to {total:g}, expected at most {BRIGHTEST:g}"
         raise RenderError(message)

@@ -8,12 +8,26 @@ from numpy.typing import NDArray
 
 from vtray.base.exact_math import sine
 from vtray.geometry.vector import Vec
-from vtray.scene.light_types import Ambient, AnyLight, Light, SphereLight, Sun
+from vtray.rendering.pack_rectangles import join_rectangles, pack_rectangle
+from vtray.scene.light_types import (
+    Ambient,
+    AnyLight,
+    Lamp,
+    Light,
+    RectangleLight,
+    SphereLight,
+    Sun,
+    falls_off,
+    strength_of,
+)
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.vectors import Vector
 from vtray.transport.camera_rays import CameraFrame
 from vtray.transport.lights.light import Lights
-from vtray.transport.lights.soft_light import AROUND, SPHERE, SUN, SoftLights
+from vtray.transport.lights.rectangle import SIZE as RECTANGLE_SIZE
+from vtray.transport.lights.soft_light import AROUND, RECTANGLE, SPHERE, SUN, SoftLights
+from vtray.transport.lights.visible import SIZE as LAMP_SIZE
+from vtray.transport.lights.visible import VisibleLamps
 
 Floats = NDArray[np.float64]
 
@@ -43,6 +57,7 @@ def pack_lights(
     x, y, z = _columns(points)
     ordered = *hard, *soft
     colors = [(light.color.r, light.color.g, light.color.b) for light in ordered]
+    packed = _pack_soft(soft, origin, unit) if soft else None
     return Lights(
         x,
         y,
@@ -50,16 +65,22 @@ def pack_lights(
         plane_depth=_dot((x, y, z), camera.forward),
         error_scale=_magnitude(x, y, z) + _magnitude(*origin),
         points=len(hard) if hard or not soft else None,
-        soft=_pack_soft(soft, origin, unit) if soft else None,
-        intensity=np.array([light.intensity for light in ordered], float),
+        soft=packed,
+        visible=_pack_visible(soft, packed, len(hard)) if packed else None,
+        intensity=np.array(list(map(strength_of, ordered)), float),
         color=np.array(colors, float).reshape(-1, 3) / 255.0,
     )
 
 
 def _pack_soft(lights: Sequence[AnyLight], origin: Floats, unit: float) -> SoftLights:
     """Return the arrays of the lights that are no points."""
-    x, y, z, size = np.zeros((4, len(lights)))
-    kind, error_scale = np.zeros(len(lights), np.int64), np.zeros(len(lights))
+    x, y, z, size, error_scale = np.zeros((5, len(lights)))
+    kind = np.zeros(len(lights), np.int64)
+    rectangles = {
+        k: pack_rectangle(light, unit)
+        for k, light in enumerate(lights)
+        if isinstance(light, RectangleLight)
+    }
     for k, light in enumerate(lights):
         place: Floats | Vec = (0.0, 0.0, 0.0)
         if isinstance(light, Sun):
@@ -70,11 +91,40 @@ def _pack_soft(lights: Sequence[AnyLight], origin: Floats, unit: float) -> SoftL
             kind[k], size[k] = SPHERE, light.radius / unit
             place = points_of([light.location], unit)[0] - origin
             error_scale[k] = float(_magnitude(*place) + _magnitude(*origin)) + size[k]
+        elif isinstance(light, RectangleLight):
+            one, other = rectangles[k][-2:]
+            kind[k], size[k] = RECTANGLE, one + other
+            place = points_of([light.location], unit)[0] - origin
+            error_scale[k] = float(_magnitude(*place) + _magnitude(*origin)) + size[k]
         else:
             distance = light.distance if isinstance(light, Ambient) else math.inf
             kind[k], size[k] = AROUND, min(distance / unit, FAR)
         x[k], y[k], z[k] = place
-    return SoftLights(kind, x, y, z, size, error_scale, FAR)
+    return SoftLights(
+        kind,
+        x,
+        y,
+        z,
+        size,
+        error_scale,
+        np.array(list(map(falls_off, lights))),
+        FAR,
+        join_rectangles(len(lights), rectangles),
+    )
+
+
+def _pack_visible(lights: Sequence[AnyLight], soft: SoftLights, points: int) -> VisibleLamps | None:
+    """Return the lamps among the soft lights that the camera sees, if there are any."""
+    seen = [k for k, light in enumerate(lights) if isinstance(light, Lamp) and light.visible]
+    if not seen:
+        return None
+    data = np.zeros((len(seen), LAMP_SIZE))
+    for row, k in zip(data, seen, strict=True):
+        row[:3] = soft.x[k], soft.y[k], soft.z[k]
+        row[3] = soft.size[k]
+        if soft.rectangles is not None:
+            row[4:] = soft.rectangles.data[RECTANGLE_SIZE * k : RECTANGLE_SIZE * (k + 1)]
+    return VisibleLamps(np.array(seen) + points, data.reshape(-1), soft.error_scale[seen])
 
 
 def points_of(places: list[Vector], unit: float) -> Floats:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from vtray.base.memory import check_memory_of_lights
 from vtray.base.pool import Progress, run_tasks
 from vtray.base.tiles import TILE, Tile, split_into_tiles
+from vtray.geometry.packets.packet import NO_PRIMITIVE
 from vtray.rendering.engines.engine import Engine, trace_to
 from vtray.rendering.engines.threads import Threads
 from vtray.rendering.growth import DRAFT_TILE, Growth, draft_camera
@@ -26,13 +27,7 @@ from vtray.transport.sampling.pixel_samples import (
 )
 from vtray.transport.scene_arrays import SceneArrays
 
-ONE_RAY = ("linear",)
-"""What is wanted of a picture with one ray a pixel."""
-
-SOFT = (*ONE_RAY, "error")
-"""The same with soft lights."""
-
-SAMPLES = (*SOFT, "coverage", "primitive", "half", "shadows", "rims")
+SAMPLES = ("linear", "error", "coverage", "primitive", "half", "shadows", "rims")
 """What is wanted of one with samples."""
 
 SPARSE = 8
@@ -120,15 +115,15 @@ class Tracer:
         fans = None if noise is None else fans_of_middles(noise)
         if samples == 1:
             rays = middle_rays(fans=fans, seed=seed)
-            wanted = ONE_RAY if fans is None else SOFT
-            return self._middles(rays, keep, *wanted)._replace(noise=noise)
+            found = self._middles(rays, keep, *one_ray(self._scene))
+            return found._replace(film=_covered(found.film), noise=noise)
         self._passes = 2
         footprint = filter_footprint(settings, self._scene.camera)
         middles = middle_rays(footprint, before_samples=True, fans=fans, seed=seed)
         found = self._middles(middles, keep, *SAMPLES)
         film = found.film
         marks, peak = self._mark(film, settings)
-        np.greater_equal(film.primitive, 0, out=film.coverage)
+        film = _covered(film)
         kept = found.kept
         if keep:
             kept = (*kept, self._keep(marks, samples))
@@ -159,7 +154,7 @@ class Tracer:
         has_samples = settings.samples > 1
         fans = fans_of_middles(Noise(math.inf, by_light=True))
         rays = middle_rays(before_samples=has_samples, fans=fans, seed=int(settings.seed))
-        film = new_film(*self._size, *(SAMPLES if has_samples else SOFT))
+        film = new_film(*self._size, *(SAMPLES if has_samples else one_ray(self._scene)))
         tiles = split_into_tiles(*self._size, self._tile)
         return self._engine.trace(self._scene, rays._replace(marks=marks), tiles, film, None).peak
 
@@ -235,11 +230,28 @@ class Tracer:
         return tell
 
 
+def one_ray(scene: SceneArrays) -> tuple[str, ...]:
+    """Return what is wanted of a picture with one ray a pixel."""
+    wanted = ["linear"]
+    if scene.lights.soft is not None:
+        wanted.append("error")
+    if scene.lights.visible is not None:
+        wanted.append("primitive")
+    return tuple(wanted)
+
+
+def _covered(film: Film) -> Film:
+    """Return a film with the coverage by what the middle rays meet, if they say it."""
+    if film.primitive is None:
+        return film
+    return film._replace(coverage=(film.primitive != NO_PRIMITIVE).astype(float))
+
+
 def compile_kernels(scene: SceneArrays, settings: RenderSettings, *, keep: bool = False) -> None:
     """Compile what is needed to trace a scene, or load it from disk; see `Tracer.light`."""
     has_samples = settings.samples > 1
     soft = scene.lights.soft
-    film = new_film(0, 0, *(SAMPLES if has_samples else ONE_RAY if soft is None else SOFT))
+    film = new_film(0, 0, *(SAMPLES if has_samples else one_ray(scene)))
     if has_samples:
         mark_rows(film, 0, 0, 0, np.zeros((0, 0), np.bool_))
     if keep:

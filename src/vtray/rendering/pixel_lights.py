@@ -16,7 +16,16 @@ from vtray.geometry.vector import Vec, scale, sub
 from vtray.rendering.numbering import Numbering
 from vtray.rendering.pack import Packed
 from vtray.rendering.pixel_surfaces import find_blocker, rgb
-from vtray.scene.light_types import Ambient, AnyLight, Light, SphereLight, Sun
+from vtray.scene.light_types import (
+    Ambient,
+    AnyLight,
+    Lamp,
+    Light,
+    SphereLight,
+    Sun,
+    measure_of,
+    strength_of,
+)
 from vtray.scene.placing.directions import unit
 from vtray.scene.scene import Scene
 from vtray.transport.integrators.reference import TracedPixel, trace_fan, trace_lamp
@@ -127,7 +136,9 @@ def _shadow_fan(
     kind = str(type(light).__struct_config__.tag)
     adds, color = _added(lit.hit, light, share), rgb(light.color)
     middle = _middle(lit.hit, light)
-    return ShadowFan(number, kind, light.intensity, middle, rays, share, adds, color)
+    return ShadowFan(
+        number, kind, strength_of(light), middle, rays, share, adds, color, measure_of(light)
+    )
 
 
 class _Ray(NamedTuple):
@@ -148,7 +159,7 @@ def _fan_ray(lit: Lit, light: AnyLight, ray: _Ray, primitive: int) -> FanRay:
     """Return a ray of a fan; `primitive` is the number of what blocks it."""
     direction = ray.vector(DIRECTION)
     length = math.inf
-    if isinstance(light, SphereLight):
+    if isinstance(light, Lamp):
         length = hypotenuse(*uncompiled(sub)(ray.vector(END), ray.start)) * ray.unit
     elif isinstance(light, Ambient):
         length = light.distance
@@ -162,11 +173,11 @@ def _middle(hit: Hit, light: AnyLight) -> Vec:
     """Return the direction from a hit to the middle of a light."""
     if isinstance(light, Sun):
         return uncompiled(scale)(-1.0, unit(light.direction))
-    if isinstance(light, SphereLight):
+    if isinstance(light, Lamp):
         place = (light.location.x, light.location.y, light.location.z)
         way = uncompiled(sub)(place, hit.point)
         distance = hypotenuse(*way)
-        if distance > light.radius:
+        if distance > (light.radius if isinstance(light, SphereLight) else 0.0):
             return way[0] / distance, way[1] / distance, way[2] / distance
     return hit.normal
 
@@ -174,7 +185,7 @@ def _middle(hit: Hit, light: AnyLight) -> Vec:
 def _added(hit: Hit, light: AnyLight, share: float) -> Vec:
     """Return what a light adds to a pixel, of which a share arrives."""
     # In the order of the kernels, so that the sum has the same bits.
-    strength = share * hit.surface.lambert * light.intensity
+    strength = share * hit.surface.lambert * strength_of(light)
     red, green, blue = hit.surface.color
     tint = rgb(light.color)
     return (

@@ -21,6 +21,7 @@ from vtray.rendering.passes import Tracer
 from vtray.rendering.pixel_lights import Lit, shadow_rays, trace_fans
 from vtray.rendering.pixel_surfaces import find_surface
 from vtray.scene.default_light import lights_of, settings_of
+from vtray.scene.light_types import Light
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 from vtray.transport.integrators.reference import trace_pixel as trace_one
@@ -112,6 +113,7 @@ def trace_rays(
         light,
         _view(scene, packed),
         None if image is None else _exposed(image, column, row),
+        None if traced.lamp == NOTHING else _place_of(scene, int(traced.lamp)),
         scene,
     )
 
@@ -120,6 +122,12 @@ def _noise(packed: Packed, settings: RenderSettings) -> Noise | None:
     """Return how noisy soft light may be in a picture with some settings."""
     tracer = Tracer(packed.arrays, available_cores())
     return tracer.noise(settings, known_white(settings.exposure), keep=False)
+
+
+def _place_of(scene: Scene, light: int) -> int:
+    """Return the place in `scene.lights` of a light, given its number among the arrays."""
+    places = range(len(scene.lights))
+    return sorted(places, key=lambda place: not isinstance(scene.lights[place], Light))[light]
 
 
 def _view(scene: Scene, packed: Packed) -> View:

@@ -32,7 +32,7 @@ from vtray.rendering.surfaces import Look
 from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.default_light import lights_of, settings_of
 from vtray.scene.files.scene_file import Warn
-from vtray.scene.light_types import AnyLight
+from vtray.scene.light_types import AnyLight, strength_of
 from vtray.scene.scene import Camera, Scene
 from vtray.scene.settings import RenderSettings, overridden
 
@@ -190,7 +190,7 @@ def render(
         "memory": kept.memory,
     }
     relighting = Relighting(kept, traced.kept, int(settings.samples), threads)
-    coverage = traced.film.coverage if settings.samples > 1 else None
+    coverage = traced.film.coverage
     denoising = Denoising(kept, settings, coverage, threads)
     image = darkroom.picture(
         traced.film.linear,
@@ -223,7 +223,7 @@ def _growth(
 
 def _darkness(scene: Scene, *, keep_lights: bool) -> str:
     """Say why all that is seen is black, if that is known before; "" if it is not."""
-    if not scene.objects or any(light.intensity > 0 for light in scene.lights):
+    if not scene.objects or any(strength_of(light) > 0 for light in scene.lights):
         return ""
     if not scene.lights:
         remedy = "add one by scene.add_light, or some of vtray.lights; in a file, under that key"

@@ -28,7 +28,7 @@ from vtray.geometry.packets.packet import (
     store,
 )
 from vtray.geometry.packets.workspace import Pixels, Sums
-from vtray.geometry.vector import add, scale
+from vtray.geometry.vector import Vec, add, scale
 from vtray.transport.light_buffer import KeptLight, keep_ray
 
 Rows = Any
@@ -167,10 +167,11 @@ def add_samples(
 
 @device
 def _bring_back(packet: Packet, lanes: int, hits: int) -> None:
-    """Bring the light of the hits back to the lanes of their rays."""
+    """Bring the light of the hits back to the lanes of their rays; that of lamps is there."""
     numbers = packet.view(np.int64)
     for lane in range(lanes):
-        store(packet, LIGHT, lane, (0.0, 0.0, 0.0))
+        if numbers[PRIMITIVE + lane] >= NO_PRIMITIVE:
+            store(packet, LIGHT, lane, (0.0, 0.0, 0.0))
     for hit in range(hits):
         store(packet, LIGHT, numbers[SOURCE + hit], load(packet, VALUE, hit))
 
@@ -275,7 +276,7 @@ def _write_halves(
     numbers = packet.view(np.int64)
     for lane in range(end - begin):
         row, column = _place(block, pixels[begin + lane])
-        is_hit = numbers[PRIMITIVE + lane] != NO_PRIMITIVE
+        is_hit = numbers[PRIMITIVE + lane] > NO_PRIMITIVE
         half[row, column] = numbers[HALF + lane] if is_hit else 0
 
 
@@ -325,17 +326,28 @@ def _write_light(
     peak = 0.0
     if linear is None:
         return peak
+    numbers = packet.view(np.int64)
     if hits < end - begin:
         _clear(block, begin, end, pixels, linear)
-    numbers = packet.view(np.int64)
+        for lane in range(end - begin):
+            if numbers[PRIMITIVE + lane] < NO_PRIMITIVE:
+                light = load(packet, LIGHT, lane)
+                peak = max(peak, _write_pixel(block, pixels[begin + lane], light, linear))
     for hit in range(hits):
-        row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
-        red, green, blue = load(packet, VALUE, hit)
-        linear[row, column, 0] = red
-        linear[row, column, 1] = green
-        linear[row, column, 2] = blue
-        peak = max(peak, red, green, blue)
+        light = load(packet, VALUE, hit)
+        pixel = pixels[begin + numbers[SOURCE + hit]]
+        peak = max(peak, _write_pixel(block, pixel, light, linear))
     return peak
+
+
+@device
+def _write_pixel(block: Block, pixel: int, light: Vec, linear: NDArray[np.float64]) -> float:
+    """Write the light of a pixel; return its largest channel."""
+    row, column = _place(block, pixel)
+    linear[row, column, 0] = light[0]
+    linear[row, column, 1] = light[1]
+    linear[row, column, 2] = light[2]
+    return max(light[0], light[1], light[2])
 
 
 @device

@@ -107,7 +107,7 @@ SHADOWS = _fields.scalar()
 SIZE = _fields.size
 
 NO_PRIMITIVE = -1
-"""In field ``PRIMITIVE``: the ray hits nothing."""
+"""In field ``PRIMITIVE``: the ray hits nothing. Lower numbers are lamps, which are no surfaces."""
 
 SLOT_BITS = 27
 """The low bits of an integer in field ``MET``, which say the slot; see `MAX_SPHERES`."""

@@ -157,7 +157,7 @@ class SceneInFile(msgspec.Struct, omit_defaults=True):
     ----------
     camera : Camera
         Where the picture is taken from.
-    lights : list of Light, Sun, SphereLight, Sky or Ambient
+    lights : list of Light, Sun, SphereLight, RectangleLight, Sky or Ambient
         The lights; may be empty.
     objects : list of Sphere, Cylinder, Plane, SpheresInFile, CylindersInFile or CopiesInFile
         The objects; may be empty.

@@ -81,18 +81,29 @@ def _read_one(written: bytes) -> AnyLight:
 def _count_known(light: AnyLight, found: Mapping[str, object]) -> int:
     """Count the colons of those keys of a light, given as it was read, that are known."""
     values = [getattr(light, key) for key in light.__struct_fields__ if key in found]
-    return ("type" in found) + sum(1 + _keys_within(type(value)) for value in values)
+    return ("type" in found) + sum(1 + _keys_within(value) for value in values)
 
 
-def _keys_within(kind: Any) -> int:  # noqa: ANN401
+def _keys_within(value: object) -> int:
+    """Count the keys of a value, all of them required."""
+    if isinstance(value, tuple):
+        return sum(map(_keys_within, value))
+    return len(value.__struct_fields__) if isinstance(value, msgspec.Struct) else 0
+
+
+def _keys_of(kind: Any) -> int:  # noqa: ANN401
     """Count the keys of a value of a kind, all of them required."""
+    if hasattr(kind, "__metadata__"):
+        return _keys_of(kind.__origin__)
+    if typing.get_origin(kind) is tuple:
+        return sum(map(_keys_of, typing.get_args(kind)))
     return len(kind.__struct_fields__) if isinstance(kind, msgspec.StructMeta) else 0
 
 
 def _least(kind: type[AnyLight]) -> int:
     """Count the colons of a light of a kind of which all keys are left out that may be."""
     required = [field.type for field in msgspec.structs.fields(kind) if field.required]
-    return (kind is not Light) + sum(1 + _keys_within(value) for value in required)
+    return (kind is not Light) + sum(1 + _keys_of(value) for value in required)
 
 
 _LEAST = {kind: _least(kind) for kind in typing.get_args(AnyLight)}

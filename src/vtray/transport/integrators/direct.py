@@ -34,6 +34,7 @@ from vtray.transport.film import (
     write_middles,
     write_pixels,
 )
+from vtray.transport.integrators.lamps import see_lamps
 from vtray.transport.integrators.soft import add_soft_lights, clear_noise
 from vtray.transport.interaction import gather_interactions
 from vtray.transport.light_buffer import KeptLight, keep_cosines
@@ -123,7 +124,7 @@ def _trace_pixels(
     for first in range(0, sampling.rays, LANES):
         last = min(first + LANES, sampling.rays)
         lanes = place_samples(packet, block, begin, end, sampling, first, last, work.pixels)
-        hits = _find_surfaces(packet, lanes, scene, sampling, work)
+        hits = _find_surfaces(packet, lanes, scene, sampling, film.linear, work)
         keep_rays(packet, block, begin, end, first, last, work.pixels, film.kept)
         if hits > 0:
             is_noted = sampling.rays == 1
@@ -176,7 +177,12 @@ def _trace_pixels(
 
 @device
 def _find_surfaces(
-    packet: Packet, lanes: int, scene: SceneArrays, sampling: Sampling, work: Workspace
+    packet: Packet,
+    lanes: int,
+    scene: SceneArrays,
+    sampling: Sampling,
+    linear: Rows,
+    work: Workspace,
 ) -> int:
     """Cast the rays of a packet, and bring what they hit together; return how many hits."""
     whole = (lanes + PART - 1) // PART * PART
@@ -184,6 +190,8 @@ def _find_surfaces(
     _cast_rays(packet, whole, scene.camera)
     part = PART if sampling.rays == 1 else LANES
     find_nearest(packet, whole, part, sheaf, sampling.footprint, scene.world, work)
+    lights, footprint = scene.lights, sampling.footprint
+    see_lamps(packet, whole, sheaf, footprint, lights, lights.visible, linear)
     return gather_interactions(packet, lanes, sampling.rays, sheaf, scene, work)
 
 

@@ -17,8 +17,9 @@ from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, add, dot, sub
 from vtray.transport.camera_rays import camera_ray
+from vtray.transport.integrators.lamps import nearest_lamp
 from vtray.transport.interaction import Interaction, interact
-from vtray.transport.lights.light import light_count, light_target, load_power
+from vtray.transport.lights.light import lamp_light, light_count, light_target, load_power
 from vtray.transport.lights.soft_light import SoftLights, aim_at, soft_count
 from vtray.transport.materials.lambert import lambert_cosine
 from vtray.transport.materials.material import load_material, scattered
@@ -42,13 +43,15 @@ class TracedPixel(NamedTuple):
     ray
         The camera ray.
     distance
-        Along the ray to the hit, ``inf`` if there is none.
+        Along the ray to the hit or to a lamp, ``inf`` if there is none.
     primitive
         What is hit, or ``NOTHING``.
     interaction
         Where it is hit; without meaning if nothing is.
     value
         Linear red, green and blue.
+    lamp
+        The number of the lamp that is seen, or ``NOTHING``; then nothing is hit.
     """
 
     ray: Ray
@@ -56,6 +59,7 @@ class TracedPixel(NamedTuple):
     primitive: int
     interaction: Interaction
     value: Vec
+    lamp: int
 
 
 @kernel
@@ -85,9 +89,12 @@ def trace_pixel(
     ray = camera_ray(scene.camera, column, row)
     hit = nearest_hit(scene.world, ray, stack)
     value = (0.0, 0.0, 0.0)
+    nowhere = Interaction(ray.origin, ray.direction, 0.0, False)
+    lamp, distance = nearest_lamp(ray, hit.distance, scene.lights.visible)
+    if lamp != NOTHING:
+        return TracedPixel(ray, distance, NOTHING, nowhere, lamp_light(scene.lights, lamp), lamp)
     if hit.primitive == NOTHING:
-        nowhere = Interaction(ray.origin, ray.direction, 0.0, False)
-        return TracedPixel(ray, hit.distance, hit.primitive, nowhere, value)
+        return TracedPixel(ray, hit.distance, hit.primitive, nowhere, value, NOTHING)
     found = interact(scene.world, ray, hit.distance, hit.group, hit.slot)
     material = load_material(scene.materials, hit.primitive, found.is_second)
     plane_depth = dot(found.point, scene.camera.forward)
@@ -108,7 +115,7 @@ def trace_pixel(
         if blockers[light] == NOTHING:
             power = load_power(scene.lights, light)
             value = add(value, scattered(material, cosines[light], power))
-    return TracedPixel(ray, hit.distance, hit.primitive, found, value)
+    return TracedPixel(ray, hit.distance, hit.primitive, found, value, NOTHING)
 
 
 def _trace_fan(

@@ -27,7 +27,7 @@ from vtray.geometry.packets.packet import (
 )
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.stopped import Bundle, stop_by_all, stop_by_touching
-from vtray.geometry.vector import add, dot
+from vtray.geometry.vector import add
 from vtray.transport.film import Rows
 from vtray.transport.light_buffer import KeptLight
 from vtray.transport.lights.light import Lights, light_count, load_power
@@ -38,6 +38,8 @@ from vtray.transport.lights.soft_light import (
     cone_of,
     is_above,
     is_below,
+    is_cone,
+    middle_share,
     soft_count,
 )
 from vtray.transport.materials.material import Material, scattered
@@ -186,11 +188,11 @@ def _arriving(
     touching, count = work.touching, MANY
     if is_below(aim, normal):
         return Arriving(0.0, 0.0, 0.0, 0, 0, is_narrow)
-    if is_narrow:
+    if is_narrow and is_cone(aim):
         count = find_touching(cone_of(aim, start, forward), scene.world, touching, work.stack)
         # What a cone as a whole tells is what all its rays would.
         if count == 0 and is_above(aim, normal):
-            return Arriving(dot(normal, aim.axis), 0.0, 0.0, fans.rays, fans.rays, is_narrow)
+            return Arriving(middle_share(aim, normal), 0.0, 0.0, fans.rays, fans.rays, is_narrow)
         if count == CLOSED and is_above(aim, normal):
             return Arriving(0.0, 0.0, 0.0, fans.rays, 0, is_narrow)
     fan = work.fan

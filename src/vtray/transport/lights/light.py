@@ -7,8 +7,10 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.occlusion import Target
-from vtray.geometry.vector import pick
+from vtray.geometry.packets.packet import NO_PRIMITIVE
+from vtray.geometry.vector import Vec, pick
 from vtray.transport.lights.soft_light import SoftLights
+from vtray.transport.lights.visible import VisibleLamps
 from vtray.transport.materials.material import Power
 
 Floats = NDArray[np.float64]
@@ -32,6 +34,8 @@ class Lights(NamedTuple):
     soft
         The lights that are no points; None where there are none, so that no code is compiled for
         them.
+    visible
+        Those that the camera sees; None where there are none, so that no code is compiled for them.
     intensity
         The intensities of all, (all,).
     color
@@ -45,6 +49,7 @@ class Lights(NamedTuple):
     error_scale: Floats
     points: int | None
     soft: SoftLights | None
+    visible: VisibleLamps | None
     intensity: Floats
     color: Floats
 
@@ -68,3 +73,20 @@ def load_power(lights: Lights, light: int) -> Power:
 def light_target(lights: Lights, light: int) -> Target:
     """Return where the shadow rays to a light end."""
     return Target(pick(lights, light), lights.plane_depth[light], lights.error_scale[light])
+
+
+@device
+def lamp_light(lights: Lights, light: int) -> Vec:
+    """Return what is seen of a lamp: white where its strength and its colour are 1."""
+    power = load_power(lights, light)
+    shown = 255.0 * power.intensity
+    return shown * power.color[0], shown * power.color[1], shown * power.color[2]
+
+
+@device
+def lamp_number(light: int) -> int:
+    """Return the number of a lamp among what rays meet: below that of nothing.
+
+    The same leads back from there to the number of the light.
+    """
+    return NO_PRIMITIVE - 1 - light

@@ -11,11 +11,17 @@ from vtray.geometry.packets.cone import Cone
 from vtray.geometry.packets.fan import Start
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, dot, scale, sub
+from vtray.transport.lights.rectangle import (
+    Rectangles,
+    SeenRectangle,
+    see_rectangle,
+    spread_and_share,
+)
 
 Floats = NDArray[np.float64]
 
-SUN, SPHERE, AROUND = 0, 1, 2
-"""The kinds: far away in a cone of directions, a sphere, and light from all sides."""
+SUN, SPHERE, AROUND, RECTANGLE = 0, 1, 2, 3
+"""The kinds: far away in a cone of directions, a sphere, light from all sides, and a rectangle."""
 
 ALL_AROUND = 2.0
 """The spread of light from all directions."""
@@ -26,7 +32,7 @@ CLEARLY = 1e-9
 
 
 class SoftLights(NamedTuple):
-    """Lights that are no points, all (n,) but for the last.
+    """Lights that are no points; columns are (n,).
 
     Attributes
     ----------
@@ -35,12 +41,16 @@ class SoftLights(NamedTuple):
     x, y, z
         Where they are; for a sun, the unit direction towards its middle.
     size
-        The radius of a sphere; for a sun 1 minus the cosine of half its angle; for light from all
-        sides how far away something can be that stops it.
+        The radius of a sphere; half the edges of a rectangle together; for a sun 1 minus the cosine
+        of half its angle; for light from all sides how far away something can be that stops it.
     error_scale
         What the rounding of the ends of rays to them is relative to, beside their starts.
+    falls_off
+        Whether they get weaker with distance, as a lamp of a given radiance does.
     far
         How long rays are that end nowhere: much longer than all in the scene.
+    rectangles
+        How the rectangles stand; None where there are none, so that no code is compiled for them.
     """
 
     kind: NDArray[np.int64]
@@ -49,7 +59,9 @@ class SoftLights(NamedTuple):
     z: Floats
     size: Floats
     error_scale: Floats
+    falls_off: NDArray[np.bool_]
     far: float
+    rectangles: Rectangles | None
 
 
 class Aim(NamedTuple):
@@ -60,11 +72,16 @@ class Aim(NamedTuple):
     kind, place, size
         As in `SoftLights`.
     axis
-        The unit direction to its middle, or the normal of the surface for light from all sides.
+        The unit direction to its middle, or the normal of the surface for a rectangle and for light
+        from all sides.
     spread
         1 minus the cosine of half the angle under which it is seen.
     share
-        What makes the mean weight 1 on a surface that faces it squarely.
+        What a ray counts where it is square to the surface.
+    whole
+        What all of a cone brings that is square to it.
+    seen
+        A rectangle as it is seen; None if the scene has none.
     """
 
     kind: int
@@ -73,6 +90,8 @@ class Aim(NamedTuple):
     axis: Vec
     spread: float
     share: float
+    whole: float
+    seen: SeenRectangle | None
 
 
 @device
@@ -91,35 +110,55 @@ def aim_at(soft: SoftLights, light: int, start: Start, normal: Vec) -> Aim:
     """
     kind, size = soft.kind[light], soft.size[light]
     place = soft.x[light], soft.y[light], soft.z[light]
+    error_scale, falls_off = soft.error_scale[light], soft.falls_off[light]
+    seen = see_rectangle(soft.rectangles, light, place, error_scale, falls_off, start)
     if kind == SUN:
         # The mean of the cosine over a cone around the normal is 1 - spread / 2.
-        return Aim(SUN, scale(soft.far, place), soft.far, place, size, 1.0 / (1.0 - 0.5 * size))
+        share = 1.0 / (1.0 - 0.5 * size)
+        return Aim(SUN, scale(soft.far, place), soft.far, place, size, share, 1.0, seen)
     if kind == SPHERE:
         way = sub(place, start.point)
         distance2 = dot(way, way)
-        outside = size + ROUNDING * (soft.error_scale[light] + start.error_scale)
+        outside = size + ROUNDING * (error_scale + start.error_scale)
         if distance2 > outside * outside:
             sine2 = size * size / distance2
             spread = sine2 / (1.0 + math.sqrt(1.0 - sine2))
             axis = scale(1.0 / math.sqrt(distance2), way)
-            return Aim(SPHERE, place, size, axis, spread, 1.0 / (1.0 - 0.5 * spread))
+            # The solid angle of the cone is 2 pi spread.
+            share = 2.0 * spread if falls_off else 1.0 / (1.0 - 0.5 * spread)
+            whole = share * (1.0 - 0.5 * spread) if falls_off else 1.0
+            return Aim(SPHERE, place, size, axis, spread, share, whole, seen)
         # Inside, its light comes from all sides.
-        return Aim(SPHERE, place, size, normal, ALL_AROUND, 1.0)
-    return Aim(AROUND, place, size, normal, ALL_AROUND, 1.0)
+        return Aim(SPHERE, place, size, normal, ALL_AROUND, 1.0, 1.0, seen)
+    if kind == RECTANGLE:
+        spread, share = spread_and_share(seen)
+        return Aim(RECTANGLE, place, size, normal, spread, share, 0.0, seen)
+    return Aim(AROUND, place, size, normal, ALL_AROUND, 1.0, 1.0, seen)
+
+
+@device
+def is_cone(aim: Aim) -> bool:
+    """Tell whether a light is seen as a cone of less than half of all directions."""
+    is_round = aim.kind in (SUN, SPHERE)
+    return is_round and aim.spread < 1.0
+
+
+@device
+def middle_share(aim: Aim, normal: Vec) -> float:
+    """Return the share of a cone above the horizon that nothing stops: that of its middle."""
+    return aim.whole * dot(normal, aim.axis)
 
 
 @device
 def is_above(aim: Aim, normal: Vec) -> bool:
     """Tell whether all of a cone is above the horizon of a surface."""
-    is_cone = aim.spread < 1.0
-    return is_cone and dot(normal, aim.axis) > _sine(aim) + CLEARLY
+    return is_cone(aim) and dot(normal, aim.axis) > _sine(aim) + CLEARLY
 
 
 @device
 def is_below(aim: Aim, normal: Vec) -> bool:
     """Tell whether all of a cone is below the horizon of a surface."""
-    is_cone = aim.spread < 1.0
-    return is_cone and dot(normal, aim.axis) < -_sine(aim) - CLEARLY
+    return is_cone(aim) and dot(normal, aim.axis) < -_sine(aim) - CLEARLY
 
 
 @device

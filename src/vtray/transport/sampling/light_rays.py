@@ -25,7 +25,16 @@ from vtray.geometry.packets.fan import (
     load_direction,
 )
 from vtray.geometry.vector import Vec, add, dot, scale, sub
-from vtray.transport.lights.soft_light import ALL_AROUND, SPHERE, Aim, is_above
+from vtray.transport.lights.rectangle import SeenRectangle, length_of_ray
+from vtray.transport.lights.soft_light import (
+    ALL_AROUND,
+    RECTANGLE,
+    SPHERE,
+    Aim,
+    is_above,
+    middle_share,
+)
+from vtray.transport.lights.spherical_rectangle import rectangle_direction
 from vtray.transport.sampling.fans import fan_point
 from vtray.transport.sampling.warps import cone_direction, cosine_direction
 
@@ -58,7 +67,9 @@ def spread_fan(
     # A loop for each step: only so are they vectorised.
     for ray in range(rays):
         fan[DIRECTION + ray], fan[DIRECTION + FAN + ray] = fan_point(points, first + ray, keys)
-    if aim.spread == ALL_AROUND:
+    if aim.kind == RECTANGLE:
+        _spread_over_rectangle(fan, rays, aim.seen)
+    elif aim.spread == ALL_AROUND:
         for ray in range(rays):
             u, v = fan[DIRECTION + ray], fan[DIRECTION + FAN + ray]
             _set_direction(fan, ray, cosine_direction(u, v, normal))
@@ -71,6 +82,16 @@ def spread_fan(
     for ray in range(rays):
         _set_end(fan, ray, aim, start, forward)
     return count_open(fan, rays)
+
+
+@device
+def _spread_over_rectangle(fan: Fan, rays: int, seen: SeenRectangle | None) -> None:
+    """Set the directions of rays to a rectangle."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if seen is not None:
+        for ray in range(rays):
+            u, v = fan[DIRECTION + ray], fan[DIRECTION + FAN + ray]
+            _set_direction(fan, ray, rectangle_direction(u, v, seen.shape))
 
 
 @device
@@ -106,13 +127,14 @@ def _set_end(fan: Fan, ray: int, aim: Aim, start: Start, forward: Vec) -> None:
 
 @device
 def _length(aim: Aim, point: Vec, direction: Vec) -> float:
-    """Return how long a ray is: up to the near side of a sphere, or the far one from inside."""
+    """Return how long a ray is: to a rectangle, a sphere, or the far side of one from inside."""
     way = sub(aim.place, point)
     middle = dot(way, direction)
     approach = sub(way, scale(middle, direction))
     half_chord = math.sqrt(max(aim.size * aim.size - dot(approach, approach), 0.0))
     side = middle + half_chord if aim.spread == ALL_AROUND else middle - half_chord
-    return side if aim.kind == SPHERE else aim.size
+    length = side if aim.kind == SPHERE else aim.size
+    return length_of_ray(aim.seen, direction) if aim.kind == RECTANGLE else length
 
 
 @device
@@ -123,7 +145,7 @@ def arriving_share(fan: Fan, rays: int, aim: Aim, normal: Vec) -> tuple[float, f
     known without noise: the cosine at its middle.
     """
     if is_above(aim, normal) and count_open(fan, rays) == rays:
-        return dot(normal, aim.axis), 0.0
+        return middle_share(aim, normal), 0.0
     total = 0.0
     for ray in range(rays):
         total += _brought(fan, ray)
