@@ -130,3 +130,33 @@ def test_what_a_killed_process_has_left_is_taken_over(tmp_path: Path) -> None:
     write_whole(path, lambda file: file.write(b"whole"))
     assert [item.name for item in tmp_path.iterdir()] == ["a.png"]
     assert path.read_bytes() == b"whole"
+
+
+POSTPONED = """
+import os, signal, sys
+from vtray.base.signals import Postponed, end_by, leave_on_signals
+
+leave_on_signals()
+with Postponed() as told:
+    for _ in range({times}):
+        os.kill(os.getpid(), signal.SIGTERM)
+    print(told.number == signal.SIGTERM, flush=True)
+{after}
+"""
+
+
+@pytest.mark.parametrize(
+    ("times", "after", "status", "printed"),
+    [
+        (1, "sys.exit(3)", 3, b"True\n"),
+        (1, "end_by(told.number)", -15, b"True\n"),
+        (1, "end_by(signal.SIGINT)", 130, b"True\n"),
+        (2, "", -15, b""),
+        (1, "os.kill(os.getpid(), signal.SIGTERM)", -15, b"True\n"),
+    ],
+)
+def test_first_signal_that_is_postponed(
+    times: int, after: str, status: int, printed: bytes
+) -> None:
+    done = run(POSTPONED.format(times=times, after=after))
+    assert (done.returncode, done.stdout, done.stderr) == (status, printed, b"")

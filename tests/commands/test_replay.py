@@ -90,7 +90,7 @@ WRONG = [
     ),
     *(("--bits", bad, "8 or 16") for bad in ("7", "0", "", "16.0")),
     *(
-        ("--aov", bad, "names of depth, normals, ids, copies with commas between")
+        ("--aov", bad, "names of depth, normals, ids, copies, raw with commas between")
         for bad in ("", "dept", "depth,", "depth;ids")
     ),
 ]
@@ -211,6 +211,7 @@ def test_settings_of_the_picture_reach_the_render(
             "size": (9, 7),
             "exposure": 2.0,
             "background": vtray.Color(1, 2, 3),
+            "denoise": False,
         }
     ]
     warning = "was made from another scene, or this one has changed since: the picture will differ"

@@ -30,7 +30,7 @@ def _light(random: Random, scene: Scene) -> Scene:
     camera = scene["camera"]
     size = camera["resolution"][0] * camera["size"][0]
     power = {"intensity": float(random.uniform(0.2, 1))} if random.random() < 0.8 else {}
-    kind = random.choice(["sun", "sphere", "sky", "colorful sky", "ambient"])
+    kind = random.choice(["sun", "sphere", "rectangle", "sky", "colorful sky", "ambient"])
     if kind == "colorful sky":
         return colorful_sky(random)
     if kind == "sun":
@@ -44,6 +44,11 @@ def _light(random: Random, scene: Scene) -> Scene:
         is_near = distance > 0 and random.random() < 0.8
         return {"type": "ambient", **power, **({"distance": distance} if is_near else {})}
     place, radius = _place(random, scene, size)
+    if power and random.random() < 0.3:
+        power = {"radiance": power["intensity"]}
+    if kind == "rectangle":
+        one, other = _edges(random, size)
+        return {"type": "rectangle", "location": _xyz(place), "edges": [one, other], **power}
     return {"type": "sphere", "location": _xyz(place), "radius": radius, **power}
 
 
@@ -64,6 +69,16 @@ def _place(random: Random, scene: Scene, size: float) -> tuple[np.ndarray, float
         return center + own * _way(random), radius
     away = size * random.choice([1.0, 3.0, 1e3, 1e10]) * random.uniform(0, 2)
     return near + away * _way(random), radius
+
+
+def _edges(random: Random, size: float) -> tuple[Scene, Scene]:
+    """Return edges of a rectangle of any size, not so slender that the oracle sees no width."""
+    one = _way(random)
+    other = np.cross(one, _way(random))
+    if not other.any():
+        other = np.cross(one, np.roll(one, 1))
+    length = max(size * random.choice(SIZES[2:]), 1e-300)
+    return _xyz(length * one), _xyz(length * random.choice([1.0, 0.3, 0.01]) * other)
 
 
 def _colored(random: Random, light: Scene) -> Scene:

@@ -55,7 +55,7 @@ def picture(monkeypatch: pytest.MonkeyPatch) -> WithMore:
 
 def test_new_row_is_an_option(picture: WithMore) -> None:
     assert options.parse(["a.json", "a.npz", "--aov", "albedo,ids"]).aov == ("albedo", "ids")
-    names = "depth, normals, ids, copies, samples_taken, albedo"
+    names = "depth, normals, ids, copies, raw, samples_taken, albedo"
     with pytest.raises(argparse.ArgumentTypeError, match=f"expected names of {names} with"):
         options._aov("light")
     assert check_format(Path("a.npz"), aov=["albedo", "ids"]).aov == ("ids", "albedo")

@@ -188,15 +188,15 @@ BAD = [
         "a.exr",
         {"aov": ["dept"]},
         {},
-        "aov: expected names of depth, normals, ids, copies, got 'dept'",
+        "aov: expected names of depth, normals, ids, copies, raw, got 'dept'",
     ),
     (
         "a.exr",
         {"aov": "depth,ids"},
         {},
-        "aov: expected names of depth, normals, ids, copies, got 'depth,",
+        "aov: expected names of depth, normals, ids, copies, raw, got 'depth,",
     ),
-    ("a.exr", {"aov": [1]}, {}, "aov: expected names of depth, normals, ids, copies, got 1"),
+    ("a.exr", {"aov": [1]}, {}, "aov: expected names of depth, normals, ids, copies, raw, got 1"),
     *(
         (f"a{ending}", {"aov": ["ids", "depth"]}, {}, "cannot hold depth, ids; .exr, .npz can")
         for ending in (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".webp", "")

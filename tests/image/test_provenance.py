@@ -23,9 +23,11 @@ SETTINGS = {
     "samples": 16,
     "filter": "mitchell",
     "seed": 7,
+    "tolerance": 0.01,
     "size": (9, 7),
     "exposure": 0.1 + 0.2,
     "background": vtray.Color(1, 2, 3),
+    "denoise": True,
 }
 
 

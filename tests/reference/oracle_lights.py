@@ -13,6 +13,7 @@ import numpy as np
 import oracle
 import sample_places
 from oracle import ROUNDING, dot
+from oracle_rectangle import panel_of
 from oracle_sky import SkyOracle, is_colorful
 
 Array = np.ndarray
@@ -52,6 +53,10 @@ class Hit(NamedTuple):
     error: float
 
 
+CLEARLY = 1e-9
+"""How far above the horizon the whole of a lamp must be, as a sine."""
+
+
 class Fan(NamedTuple):
     """The rays from a hit to a light, all (rays, ...).
 
@@ -69,6 +74,8 @@ class Fan(NamedTuple):
         Whether rounding decides that.
     turns, length_errors
         By how much rounding may change directions, and lengths.
+    middle
+        What all of a round lamp brings that is above the horizon as a whole, else None.
     """
 
     points: Array
@@ -79,16 +86,23 @@ class Fan(NamedTuple):
     doubt: Array
     turns: Array
     length_errors: Array
+    middle: float | None
 
     @property
     def shares(self) -> Array:
         """What arrives of the light, (1,) or (3,)."""
+        if self.middle is not None and self.arrives.all():
+            return np.array([self.middle])
         return np.where(self.arrives[:, None], self.weights, 0).mean(axis=0)
 
     @property
     def doubted_shares(self) -> Array:
         """What rays in doubt may make of it more, or less."""
-        return np.where(self.doubt[:, None], np.maximum(self.weights, 0), 0).mean(axis=0)
+        doubted = np.where(self.doubt[:, None], np.maximum(self.weights, 0), 0).mean(axis=0)
+        if self.middle is None or not doubted.any() or not (self.arrives | self.doubt).all():
+            return doubted
+        # With all rays, the share is that at the middle, and not the mean of so few.
+        return doubted + np.abs(self.middle - self.weights.mean(axis=0))
 
 
 class _Rays(NamedTuple):
@@ -167,6 +181,8 @@ class SoftOracle:
             return self._fan(hit, self.lights[light], points, self.skies.get(light))
 
     def _fan(self, hit: Hit, light: Scene, points: Array, sky: SkyOracle | None) -> Fan:
+        if light["type"] == "rectangle":
+            return self._fan_to_rectangle(hit, light, points)
         point, normal = hit.point.astype(Long), hit.normal.astype(Long)
         aim = self._aim(hit, light)
         is_around = aim.spread is None
@@ -192,7 +208,8 @@ class SoftOracle:
             turn = np.where(by_brightness, SKY_TURN, turn)
         cosines, weights = dot(ways, normal), np.ones(len(points), Long)
         if aim.spread is not None:
-            weights = np.maximum(cosines, 0) / (1 - aim.spread / 2)
+            squarely = (1 - aim.spread / 2) if "radiance" not in light else 1 / (2 * aim.spread)
+            weights = np.maximum(cosines, 0) / squarely
         weights = weights[:, None] if sky is None else sky.weights(ways, normal)
         lengths, length_errors = self._lengths(hit, light, aim, ways, turn)
         rays = _Rays(point, hit.error, ways, lengths, hit.error + aim.error, turn)
@@ -202,7 +219,42 @@ class SoftOracle:
         grazes = (np.abs(cosines) <= 2 * turn) & (by_brightness | (not is_around))
         doubt = aim.is_doubtful | (faces & maybe & ~sure) | grazes
         turns = np.broadcast_to(turn, lengths.shape)
-        return Fan(points, ways, lengths, weights, arrives, doubt, turns, length_errors)
+        middle = None
+        if aim.spread is not None and aim.spread < 1:
+            rise = dot(aim.axis, normal)
+            is_above = rise > np.sqrt(aim.spread * (2 - aim.spread)) + Long(CLEARLY)
+            whole = 1 if "radiance" not in light else (1 - aim.spread / 2) * 2 * aim.spread
+            middle = float(rise * whole) if is_above else None
+        return Fan(points, ways, lengths, weights, arrives, doubt, turns, length_errors, middle)
+
+    def _fan_to_rectangle(self, hit: Hit, light: Scene, points: Array) -> Fan:
+        """Return the rays to a rectangle lamp."""
+        point, normal = hit.point.astype(Long), hit.normal.astype(Long)
+        place = self.exact.place(light["location"])
+        one, other = (self.exact.vector(edge).astype(Long) for edge in light["edges"])
+        panel = panel_of(place - point, (one, other))
+        error = np.abs(place).sum() + np.abs(self.exact.center).sum() + sum(panel.half)
+        reach = ROUNDING * (hit.error + error)
+        is_doubtful = abs(panel.height - reach) <= 2**-30 * reach
+        panel = panel._replace(height=max(panel.height, reach))
+        ways, slope = panel.ways(points)
+        whole = PI if "radiance" in light else panel.square_integral
+        share = panel.solid_angle / whole if panel.height > reach else Long(0)
+        # Near its plane, rounding turns rays by more; in what is small, sums of arc tangents tell
+        # places only as shares of it.
+        vague = min(Long(2) ** -60 / panel.solid_angle, 1) * max(panel.half) / panel.height
+        turn = TURN * slope + 2 * vague + reach / (32 * panel.height)
+        cosines = dot(ways, normal)
+        weights = (share * np.maximum(cosines, 0))[:, None]
+        steep = dot(ways, panel.toward)
+        lengths = panel.height / steep
+        length_errors = reach + lengths * turn / steep
+        rays = _Rays(point, hit.error, ways, lengths, hit.error + error, turn)
+        sure, maybe = self._stopped(rays)
+        faces = weights[:, 0] > 0
+        arrives = faces & ~self._stopped(rays, CHANGES[:1])[1]
+        doubt = is_doubtful | (faces & maybe & ~sure) | (np.abs(cosines) <= 2 * turn)
+        return Fan(points, ways, lengths, weights, arrives, doubt, turn, length_errors, None)
 
     def _aim(self, hit: Hit, light: Scene) -> _Aim:
         """Return where rays to a light go."""

@@ -1,5 +1,6 @@
 """Soft lights of pictures beside those of the oracle, ray by ray."""
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,7 +25,7 @@ from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
 from vtray.rendering.pack_lights import FAR
 from vtray.transport.integrators import reference
-from vtray.transport.sampling.fans import fan_keys, fan_point, fans_of_middles
+from vtray.transport.sampling.fans import Noise, fan_keys, fan_point, fans_of_middles
 
 Scene = dict[str, Any]
 
@@ -51,11 +52,12 @@ def compare_fans(
     seed
         What chooses the rays.
     image
-        A picture of the scene, with this seed and one sample, which is compared as well.
+        A picture of the scene with this seed and one fan to each light, which is compared as well.
     """
     by_rules = SoftOracle(written_out_file(document))
     scene = load(document)
-    packed, fans = pack(scene, accelerate(scene)), fans_of_middles(1)
+    packed = pack(scene, accelerate(scene))
+    fans = fans_of_middles(Noise(math.inf, by_light=True))
     arrays, unit = packed.arrays, packed.unit
     soft = arrays.lights.soft
     if soft is None:
@@ -76,7 +78,7 @@ def compare_fans(
         shares = []
         for light in range(len(by_rules.lights)):
             found, _ = reference.trace_fan(
-                arrays, soft, traced, column, row, light, fans, seed, stack, fan, stopped
+                arrays, soft, traced, column, row, light, fans, 0, seed, stack, fan, stopped
             )
             expected = by_rules.fan(hit, light, column, row, seed)
             share = np.array(found[: expected.weights.shape[1]])
@@ -84,7 +86,7 @@ def compare_fans(
             sky = by_rules.skies.get(light)
             keys = fan_keys(column, row, light, seed)
             order = _order(fans.points, keys, expected.points)
-            is_lamp = by_rules.lights[light]["type"] == "sphere"
+            is_lamp = by_rules.lights[light]["type"] in ("sphere", "rectangle")
             longest = np.inf if is_lamp else FAR * unit
             _compare(fan, order, hit, expected, unit, longest, sky)
             peak = 1.0 if sky is None else 1e4 * float(sky.picture.max())

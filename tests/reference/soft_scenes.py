@@ -63,8 +63,9 @@ def soft_scene(seed: int, kind: str, by: float = 0.0, **camera: Any) -> Scene:
 
 def soft_light(random: Random, at: Any, centers: np.ndarray, radii: np.ndarray) -> Scene:
     """Return a light of any kind and size, often in an object or around the scene."""
-    kind = random.integers(8)
-    power = {"intensity": float(random.uniform(0.1, 1))}
+    kind = random.integers(11)
+    measure = "radiance" if kind > 2 and random.random() < 0.3 else "intensity"
+    power = {measure: float(random.uniform(0.1, 1))}
     if kind == 0:
         angle = random.choice([0.0, 1e-6, 0.53, 8.0, 60.0, 120.0, 180.0])
         return {
@@ -75,7 +76,7 @@ def soft_light(random: Random, at: Any, centers: np.ndarray, radii: np.ndarray) 
         }
     if kind == 1:
         return {"type": "sky", "radiance": float(random.uniform(0.1, 1))}
-    if kind >= 6:
+    if kind > 8:
         return colorful_sky(random)
     if kind == 2:
         distance = {"distance": float(random.choice([1e-9, 0.1, 1.0, 2.5, 100.0]))}
@@ -85,7 +86,10 @@ def soft_light(random: Random, at: Any, centers: np.ndarray, radii: np.ndarray) 
         centers[which],  # in an object, or around it
         random.uniform(-3, 3, 3),
         random.normal(size=3) * random.choice([5.0, 1e3]),
-    )[kind - 3]
+    )[kind % 3]
+    if kind > 5:
+        one, other = edges(random)
+        return {"type": "rectangle", "location": xyz(*at(place)), "edges": [one, other], **power}
     size = float(random.choice([0.0, 1e-9, 0.1, 0.5, 1.5, 7.0, 50.0]))
     size = float(radii[which]) * 0.8 if kind == 3 and random.random() < 0.5 else size
     return {"type": "sphere", "location": xyz(*at(place)), "radius": size, **power}
@@ -109,3 +113,11 @@ def colorful_sky(random: Random) -> Scene:
     picture[0, 0] = 1.0
     picture = picture.astype(np.float32).tolist()
     return {**sky, "image": picture, "rotation": float(random.uniform(-400, 400))}
+
+
+def edges(random: Random) -> tuple[Scene, Scene]:
+    """Return edges of a rectangle of any size, often along axes."""
+    one, other = random.normal(size=(2, 3)) if random.random() < 0.7 else np.eye(3)[:2]
+    other = other - (one @ other) / (one @ one) * one
+    sizes = random.choice([1e-9, 0.1, 0.5, 1.5, 7.0, 50.0], 2)
+    return xyz(*(sizes[0] * one).tolist()), xyz(*(sizes[1] * other).tolist())

@@ -12,7 +12,7 @@ from conftest import JIT
 from vtray.base.pool import Progress
 from vtray.base.tiles import Tile
 from vtray.rendering import passes
-from vtray.rendering.engines.engine import Cast, Plan, paste, trace
+from vtray.rendering.engines.engine import Cast, Done, Plan, paste, trace
 from vtray.transport.film import Film
 from vtray.transport.sampling.pixel_samples import Sampling
 from vtray.transport.scene_arrays import SceneArrays
@@ -31,6 +31,7 @@ class Elsewhere:
         tiles: Sequence[Tile],
         film: Film,
         progress: Progress | None = None,
+        done: Done | None = None,
     ) -> Cast:
         wanted = tuple(
             name
@@ -41,6 +42,8 @@ class Elsewhere:
         for tile in reversed(tiles):
             part, cast = trace(scene, Plan(sampling, wanted), tile)
             paste(tile, part, sampling.marks, film)
+            if done is not None:
+                done(tile)
             casts.append(cast)
         return Cast(max(cast.peak for cast in casts), sum(cast.rays for cast in casts))
 

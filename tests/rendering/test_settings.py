@@ -23,6 +23,7 @@ NAMES = RenderSettings.__struct_fields__
 def test_render_takes_all_settings() -> None:
     parameters = inspect.signature(vtray.render).parameters
     others = ("scene", "threads", "progress", "lock", "keep_lights", "tile", "warn")
+    others += ("on_update", "update_seconds")
     assert tuple(name for name in parameters if name not in others) == NAMES
     for name in NAMES:
         assert parameters[name].kind is inspect.Parameter.KEYWORD_ONLY

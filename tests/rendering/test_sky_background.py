@@ -124,8 +124,8 @@ def test_samples_smooth_what_is_finer_than_pixels(filter_name: str) -> None:
 def test_threads_and_relighting_change_nothing() -> None:
     pixels = np.random.default_rng(3).random((16, 32, 3))
     scene = looking_at(vtray.Sky(image=pixels), vtray.Sky(0.1), size=(150, 90))
-    options: dict[str, Any] = {"samples": 4, "background": "sky"}
-    image = render(scene, threads=1, keep_lights=True, **options)
+    options: dict[str, Any] = {"samples": 4, "background": "sky", "keep_lights": True}
+    image = render(scene, threads=1, **options)
     np.testing.assert_array_equal(image.with_sky, render(scene, threads=3, **options).with_sky)
     relit = image.relight([0.3, 0.7])
     again = render(relit.scene, **options)

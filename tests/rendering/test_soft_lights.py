@@ -32,6 +32,9 @@ def soft_lights() -> list[Any]:
         vtray.Light((3, -4, 9), 0.3, color=(255, 208, 160)),
         vtray.Sun((0.5, 0.6, -1), 0.5, angle=8, color=(255, 224, 192)),
         vtray.SphereLight((-4, -2, 5), 1.5, 0.4),
+        vtray.RectangleLight((1, -1, 6), ((2, 0, 1), (0, 1.5, 0)), 0.3, color=(255, 240, 200)),
+        vtray.RectangleLight((-1, 0.5, 2), ((0.4, 0, 0), (0, 0.3, 0)), radiance=2),
+        vtray.SphereLight((2, 1, 3), 0.3, radiance=4),
         vtray.Sky(0.2, color=(160, 192, 255)),
         vtray.Sky(0.3, (255, 200, 180), vtray.Gradient(), up=(0, 0.2, 1)),
         vtray.Sky(0.1, image=spotted(), rotation=-70),
@@ -63,24 +66,27 @@ def test_bundles_tell_what_each_ray_alone_would(kind: str) -> None:
         pytest.skip("takes minutes without the compiler")
     scene = scene_of(kind)
     image = render(scene, seed=5)
-    arrays, fans, fan = pack(scene, accelerate(scene)).arrays, fans_of_middles(1), new_fan()
+    arrays, fan = pack(scene, accelerate(scene)).arrays, new_fan()
+    fans = fans_of_middles(image.noise)
     soft = arrays.lights.soft
     assert soft is not None
     stack, cosines, blockers = new_stack(), np.zeros(1), np.full(1, NOTHING)
     on_ways = np.full(fans.rays, NOTHING)
-    hits = 0
+    hits = most = 0
     for y in range(1, SIZE[1], STEP):
         for x in range(1, SIZE[0], STEP):
             traced = reference.trace_pixel(arrays, x, y, stack, cosines, blockers)
             if traced.primitive != NOTHING:
-                hits += 1
+                hits, spent = hits + 1, 0.0
                 for light in range(len(soft.kind)):
-                    _, value = reference.trace_fan(
-                        arrays, soft, traced, x, y, light, fans, 5, stack, fan, on_ways
+                    lamp = reference.trace_lamp(
+                        arrays, soft, traced, x, y, light, fans, spent, 5, stack, fan, on_ways
                     )
-                    traced = traced._replace(value=value)
+                    traced, spent = traced._replace(value=lamp.value), spent + lamp.counted
+                    most = max(most, lamp.fans)
             assert tuple(image.linear[y, x]) == traced.value
     assert hits > 10
+    assert most > 2
 
 
 @compiled_only
@@ -98,11 +104,14 @@ def test_threads_and_tiles_change_nothing(samples: int) -> None:
 def test_relit_and_recolored_pictures_are_those_rendered_anew(samples: int) -> None:
     options: dict[str, Any] = {"samples": samples, "keep_lights": True}
     image = render(scene_of("copies"), **options)
-    relit = image.relight([0.1, 0.9, 0.0, 2.0, 0.5, 0.7, 0.1, 0.2])
+    relit = image.relight([0.1, 0.9, 0.0, 2.0, 0.3, 5.0, 0.0, 0.5, 0.7, 0.1, 0.2])
     np.testing.assert_array_equal(relit.linear, render(relit.scene, **options).linear)
     assert not np.array_equal(relit.linear, image.linear)
     colored = image.recolor(1, "purple")
     np.testing.assert_array_equal(colored.linear, render(colored.scene, **options).linear)
+
+
+panel = vtray.RectangleLight
 
 
 def floor(light: Any, *walls: tuple[float, float, float]) -> vtray.Scene:
@@ -160,6 +169,9 @@ def test_a_sphere_that_nothing_hides_shines_as_its_middle(radius: float) -> None
     [
         (vtray.SphereLight((1, 3, 3), 0.0), vtray.Light((1, 3, 3))),
         (vtray.SphereLight((1, 3, 3), 1e-9), vtray.Light((1, 3, 3))),
+        # Far away, so that it is seen squarely from everywhere.
+        (panel((0, 1e6, 2e6), ((1e-300, 0, 0), (0, 2e-9, -1e-9))), vtray.Light((0, 1e6, 2e6))),
+        (panel((0, 1e6, 2e6), ((1, 0, 0), (0, 2, -1))), vtray.Light((0, 1e6, 2e6))),
         (vtray.Sun((0, -1, -2), angle=0), vtray.Light((1, 1e6, 2e6))),
         (vtray.Sun((0, -1, -2), angle=1e-6), vtray.Light((1, 1e6, 2e6))),
     ],
@@ -198,6 +210,19 @@ def test_colors_of_lights() -> None:
     np.testing.assert_allclose(linear.mean(axis=(0, 1)), [255, 128, 127.5], rtol=1e-6)
 
 
+ODD_PANELS: list[tuple[str, Any, Any]] = [
+    ("in the floor", (1, 1, 0), ((1, 0, 0), (0, 1, 0))),
+    ("upright in the floor", (1, 1, 0), ((1, 0, 0), (0, 0, 1))),
+    ("below the floor", (1, 1, -3), ((1, 0, 0), (0, 1, 0))),
+    ("tiny", (0, 0, 5), ((1e-300, 0, 0), (0, 5e-324, 0))),
+    ("tiny, on the floor", (1, 1, 0), ((1e-300, 0, 0), (0, 0, 5e-324))),
+    ("huge", (0, 0, 9), ((1e300, 0, 0), (0, 1e300, 0))),
+    ("huge, through all", (0, 0, 2), ((1e300, 0, 0), (0, 0, 1e300))),
+    ("a line", (0, 0, 2), ((5, 0, 0), (0, 0, 1e-200))),
+    ("far away", (1e200, -1e200, 1e200), ((1, 0, 0), (0, 1, 0))),
+]
+
+
 @pytest.mark.parametrize(
     "light",
     [
@@ -209,6 +234,11 @@ def test_colors_of_lights() -> None:
         pytest.param(vtray.Sun((1, 0, 0), angle=180), id="half below the horizon"),
         pytest.param(vtray.Ambient(distance=1e-300), id="as near as nothing"),
         pytest.param(vtray.Sky(0.0), id="a black sky"),
+        *(
+            pytest.param(panel(place, edges, **strength), id=f"{words} {strength}")
+            for strength in ({}, {"radiance": 1.0})
+            for words, place, edges in ODD_PANELS
+        ),
     ],
 )
 def test_odd_lights_give_finite_light(light: Any) -> None:

@@ -15,7 +15,7 @@ OBJECT = f'expected an object with "type": {TYPES}, got'
 TYPE = f"expected {TYPES}, got"
 LIGHT = (
     "expected an object with the keys location and intensity, "
-    'or with "type": "sun", "sphere", "sky" or "ambient", got'
+    'or with "type": "sun", "sphere", "rectangle", "sky" or "ambient", got'
 )
 BYTE = "expected an integer from 0 to 255, got"
 SIZE = "expected an integer from 1 to 2147483647, got"

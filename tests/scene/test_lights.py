@@ -15,6 +15,7 @@ from vtray import (
     Color,
     Direction,
     Light,
+    RectangleLight,
     Scene,
     SceneError,
     Sky,
@@ -24,15 +25,19 @@ from vtray import (
 )
 from vtray.image.exposure import check_brightness
 from vtray.scene.edits import relit
-from vtray.scene.light_types import AnyLight
+from vtray.scene.light_types import AnyLight, strength_of
 
 INF, NAN = math.inf, math.nan
+SIDES = ((2, 0, 0), (0, 0, -3))
 CAMERA = Camera((0, 0, 0), (0, 0, 1), 1, (4, 3), (0.1, 0.1))
 LIGHTS: list[AnyLight] = [
     Light((1, 2, 3), 0.5, (9, 8, 7)),
     Sun((0, 0, -1), 0.25, 3.0, (9, 8, 7)),
     SphereLight((1, 2, 3), 4.0, 2.0, (9, 8, 7)),
     Sky(0.75, (9, 8, 7)),
+    RectangleLight((1, 2, 3), SIDES, 0.125, (9, 8, 7)),
+    RectangleLight((1, 2, 3), SIDES, radiance=6.0),
+    SphereLight((1, 2, 3), 4.0, radiance=7.0),
     Ambient(3.0, 5.0, (9, 8, 7)),
     Ambient(),
 ]
@@ -43,9 +48,19 @@ def test_what_may_be_left_out() -> None:
     assert Light((1, 2, 3)) == Light(Vector(1, 2, 3), 1.0, white)
     assert Sun((0, 0, -1)) == Sun(Direction(0, 0, -1), 1.0, 0.53, white)
     assert SphereLight((1, 2, 3), 4) == SphereLight(Vector(1, 2, 3), 4.0, 1.0, white)
+    sides = (Vector(2, 0, 0), Vector(0, 0, -3))
+    assert RectangleLight((1, 2, 3), SIDES) == RectangleLight(Vector(1, 2, 3), sides, 1.0, white)
+    assert SphereLight((1, 2, 3), 4, radiance=2).intensity is None
     assert Sky() == Sky(1.0, white)
     assert Ambient() == Ambient(1.0, INF, white)
-    for kind, count in ((Light, 2), (Sun, 3), (SphereLight, 2), (Sky, 6), (Ambient, 3)):
+    for kind, count in (
+        (Light, 2),
+        (Sun, 3),
+        (SphereLight, 4),
+        (RectangleLight, 4),
+        (Sky, 6),
+        (Ambient, 3),
+    ):
         parameters = inspect.signature(kind).parameters.values()
         assert sum(one.default is not one.empty for one in parameters) == count
 
@@ -75,6 +90,44 @@ def test_what_may_be_left_out() -> None:
         ),
         (lambda: SphereLight((0, 0, 0), -1), "SphereLight.radius: expected a number ≥ 0, got -1"),
         (lambda: SphereLight((0, 0, 0), INF), "SphereLight.radius: expected a finite number"),
+        (
+            lambda: SphereLight((0, 0, 0), 1, 1.0, radiance=2),
+            "SphereLight.radiance: expected either this or the intensity, not both, got 2",
+        ),
+        (
+            lambda: SphereLight((0, 0, 0), 1).replace(radiance=2),
+            "SphereLight.radiance: expected either this or the intensity, not both, got 2",
+        ),
+        (
+            lambda: SphereLight((0, 0, 0), 1, visible=2),  # type: ignore[arg-type]
+            "SphereLight.visible: expected true or false, got 2",
+        ),
+        (lambda: SphereLight((0, 0, 0), 1, radiance=-1), "SphereLight.radiance: expected a number"),
+        (
+            lambda: RectangleLight((0, 0, 0), ((1, 0, 0), (0, 0, 0))),
+            "RectangleLight.edges: expected two vectors that are not zero (a tiny one will do)",
+        ),
+        (
+            lambda: RectangleLight((0, 0, 0), ((1, 0, 0), (1, 1, 0))),
+            "RectangleLight.edges: expected two vectors at right angles to each other, got",
+        ),
+        (
+            lambda: RectangleLight((0, 0, 0), ((1, 0, 0),)),
+            "RectangleLight.edges: expected two vectors, got ((1, 0, 0))",
+        ),
+        (
+            lambda: RectangleLight((0, 0, 0), ((1, 0, 0), (0, NAN, 0))),
+            "RectangleLight.edges[1].y: expected a finite number, got nan",
+        ),
+        (
+            lambda: RectangleLight((0, 0), SIDES),
+            "RectangleLight.location: expected Vector or three",
+        ),
+        (lambda: Scene().add_rectangle_light((0, 0), SIDES), "add_rectangle_light: location: exp"),
+        (
+            lambda: Scene().add_rectangle_light((0, 0, 0), SIDES, 1, radiance=0),
+            "RectangleLight.radiance: expected either this or the intensity, not both, got 0",
+        ),
         (lambda: Sky(-1), "Sky.radiance: expected a number ≥ 0, got -1"),
         (lambda: Sky(gradient=(1, 2, 3)), "Sky.gradient: expected Gradient, got (1, 2, 3)"),  # type: ignore[arg-type]
         (
@@ -121,6 +174,12 @@ def test_lights_are_added() -> None:
         scene.add_light([1, 2, 3], 0.5, "red"),
         scene.add_sun((0, 0, -1), 2, color="#ff8000"),
         scene.add_sphere_light((1, 2, 3), 4, 5, (0, 0, 255)),
+        scene.add_sphere_light((1, 2, 3), 4, radiance=5),
+        scene.add_rectangle_light((1, 2, 3), SIDES),
+        scene.add_rectangle_light((1, 2, 3), SIDES, 5, "red"),
+        scene.add_rectangle_light((1, 2, 3), [Vector(2, 0, 0), (0, 0, -3)], radiance=0),
+        scene.add_rectangle_light((1, 2, 3), SIDES, visible=True),
+        scene.add_sphere_light((1, 2, 3), 4, visible=True),
         scene.add_sky(0.5, "skyblue"),
         scene.add_ambient(0.3, 7),
         scene.add_ambient(),
@@ -131,6 +190,12 @@ def test_lights_are_added() -> None:
         Light((1, 2, 3), 0.5, (255, 0, 0)),
         Sun((0, 0, -1), 2, 0.53, (255, 128, 0)),
         SphereLight((1, 2, 3), 4, 5, (0, 0, 255)),
+        SphereLight((1, 2, 3), 4, radiance=5),
+        RectangleLight((1, 2, 3), SIDES),
+        RectangleLight((1, 2, 3), SIDES, 5, (255, 0, 0)),
+        RectangleLight((1, 2, 3), SIDES, radiance=0),
+        RectangleLight((1, 2, 3), SIDES, 1.0, (255, 255, 255), None, True),
+        SphereLight((1, 2, 3), 4, 1.0, (255, 255, 255), None, True),
         Sky(0.5, (135, 206, 235)),
         Ambient(0.3, 7),
         Ambient(),
@@ -143,14 +208,14 @@ def test_lights_are_added() -> None:
 
 def test_other_intensities_keep_all_else() -> None:
     scene = Scene(CAMERA, LIGHTS)
-    changed = relit(scene, range(6)).lights
-    assert [light.intensity for light in changed] == [0, 1, 2, 3, 4, 5]
-    before = [light.intensity for light in scene.lights]
-    assert before == [0.5, 0.25, 2, 0.75, 3, 1]
+    changed = relit(scene, range(9)).lights
+    assert list(map(strength_of, changed)) == [0, 1, 2, 3, 4, 5, 6, 7, 8]
+    before = list(map(strength_of, scene.lights))
+    assert before == [0.5, 0.25, 2, 0.75, 0.125, 6, 7, 3, 1]
     assert relit(Scene(CAMERA, changed), before).lights == LIGHTS
-    for place in range(6):
+    for place in range(9):
         for wrong in (-1, "x", NAN):
-            values: list[Any] = [1.0] * 6
+            values: list[Any] = [1.0] * 9
             values[place] = wrong
             with pytest.raises(SceneError, match=rf"^relight: intensities\[{place}\]: expected"):
                 relit(scene, values)
@@ -163,6 +228,8 @@ def test_brightness_is_that_of_all_lights() -> None:
         Sky(1e304),
         Ambient(1e304),
         SphereLight((0, 0, 0), 1, 1e304),
+        SphereLight((0, 0, 0), 1, radiance=1e304),
+        RectangleLight((0, 0, 0), SIDES, radiance=1e304),
     ):
         with pytest.raises(Exception, match="lights: the intensities add up to 1e"):
             check_brightness([*LIGHTS, light])

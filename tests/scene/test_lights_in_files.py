@@ -13,19 +13,20 @@ from scene_text import TEXT, changed, message_of, read, replaced
 from strategies import colors, directions, places
 
 import vtray
-from vtray import Ambient, Color, Gradient, Light, Sky, SphereLight, Sun
+from vtray import Ambient, Color, Gradient, Light, RectangleLight, Sky, SphereLight, Sun
 from vtray.scene.checks.json_tree import JsonTree
 from vtray.scene.checks.scene_check import FileChecker
 from vtray.scene.files.in_file import SceneInFile
 from vtray.scene.files.schema import scene_schema
 from vtray.scene.fingerprint import scene_hash
-from vtray.scene.light_types import AnyLight
+from vtray.scene.light_types import AnyLight, strength_of
 
 VALIDATOR = jsonschema.Draft202012Validator(scene_schema())
 PLACE = {"x": 1, "y": 2, "z": 3}
 DOWN = {"x": 0, "y": 0, "z": -2}
 RED = {"r": 255, "g": 0, "b": 0}
 WHITE = {"r": 255, "g": 255, "b": 255}
+SIDES = [{"x": 0, "y": 4, "z": 0}, {"x": 2, "y": 0, "z": 1e-3}]
 POINT = {"location": PLACE, "intensity": 0.5}
 
 
@@ -49,6 +50,34 @@ READ: list[tuple[dict[str, Any], AnyLight]] = [
     (
         {"type": "sphere", "location": PLACE, "radius": 2, "intensity": 1, "color": RED},
         SphereLight((1, 2, 3), 2, 1, (255, 0, 0)),
+    ),
+    (
+        {"type": "sphere", "location": PLACE, "radius": 2, "radiance": 0.5},
+        SphereLight((1, 2, 3), 2, radiance=0.5),
+    ),
+    (
+        {"type": "sphere", "location": PLACE, "radius": 2, "radiance": 1, "intensity": None},
+        SphereLight((1, 2, 3), 2, radiance=1),
+    ),
+    (
+        {"type": "rectangle", "location": PLACE, "edges": SIDES},
+        RectangleLight((1, 2, 3), ((0, 4, 0), (2, 0, 1e-3))),
+    ),
+    (
+        {"type": "rectangle", "location": PLACE, "edges": SIDES, "intensity": 1, "color": RED},
+        RectangleLight((1, 2, 3), ((0, 4, 0), (2, 0, 1e-3)), color=(255, 0, 0)),
+    ),
+    (
+        {"type": "rectangle", "location": PLACE, "edges": SIDES, "visible": True},
+        RectangleLight((1, 2, 3), ((0, 4, 0), (2, 0, 1e-3)), visible=True),
+    ),
+    (
+        {"type": "sphere", "visible": False, "location": PLACE, "radius": 2},
+        SphereLight((1, 2, 3), 2),
+    ),
+    (
+        {"radiance": 7, "edges": SIDES, "location": PLACE, "type": "rectangle"},
+        RectangleLight((1, 2, 3), ((0, 4, 0), (2, 0, 1e-3)), radiance=7),
     ),
     ({"type": "sky"}, Sky()),
     ({"type": "sky", "radiance": 0.5, "color": RED}, Sky(0.5, (255, 0, 0))),
@@ -81,11 +110,14 @@ def test_order_is_kept() -> None:
     assert read(lit_by(*random[::-1])).lights == [light for _, light in READ][::-1]
 
 
-TYPES = '"point", "sun", "sphere", "sky" or "ambient"'
+TYPES = '"point", "sun", "sphere", "rectangle", "sky" or "ambient"'
 VECTOR = "expected an object with the keys x, y and z"
 ANGLE = "expected a number of degrees from 0 to 180, got"
 SUN = {"type": "sun", "direction": DOWN}
 BALL = {"type": "sphere", "location": PLACE, "radius": 1}
+PANEL = {"type": "rectangle", "location": PLACE, "edges": SIDES}
+ZERO = {"x": 0, "y": 0, "z": 0}
+BOTH = "expected either this or the intensity, not both, got 2"
 
 BAD: list[tuple[object, str, str]] = [
     ({}, "location", f"missing; {VECTOR}"),
@@ -94,7 +126,7 @@ BAD: list[tuple[object, str, str]] = [
     ({"place": PLACE, "intensity": 1}, "location", f"missing; {VECTOR}"),
     ({"direction": DOWN}, "type", f'missing; expected {TYPES}; is it "sun"?'),
     ({"location": PLACE, "radius": 1}, "type", f'missing; expected {TYPES}; is it "sphere"?'),
-    ({"radiance": 1}, "type", f'missing; expected {TYPES}; is it "sky"?'),
+    ({"radiance": 1}, "type", f'missing; expected {TYPES}; is it "sphere", "rectangle" or "sky"?'),
     ({"distance": 1}, "type", f'missing; expected {TYPES}; is it "ambient"?'),
     ({**POINT, "type": "Point"}, "type", f'expected {TYPES}, got "Point"; did you mean "point"?'),
     ({"type": "sum"}, "type", f'expected {TYPES}, got "sum"; did you mean "sun"?'),
@@ -126,6 +158,23 @@ BAD: list[tuple[object, str, str]] = [
     ({"type": "sphere", "location": PLACE}, "radius", "missing; expected a number ≥ 0"),
     ({"type": "sphere", "radius": 1}, "location", f"missing; {VECTOR}"),
     ({**BALL, "location": {"x": 1, "y": 2}}, "location.z", "missing; expected a finite number"),
+    ({**BALL, "intensity": 1, "radiance": 2}, "radiance", BOTH),
+    ({**PANEL, "intensity": 1, "radiance": 2}, "radiance", BOTH),
+    ({**PANEL, "visible": 1}, "visible", "expected true or false, got 1"),
+    ({**BALL, "visible": "yes"}, "visible", 'expected true or false, got "yes"'),
+    ({**PANEL, "radiance": -1}, "radiance", "expected a number ≥ 0, got -1"),
+    ({"type": "rectangle", "location": PLACE}, "edges", "missing; expected two vectors"),
+    (
+        {**PANEL, "edges": SIDES[:1]},
+        "edges",
+        'expected two vectors, got [{"x": 0, "y": 4, "z": 0}]',
+    ),
+    ({**PANEL, "edges": [SIDES[0], 7]}, "edges[1]", f"{VECTOR}, got 7"),
+    (
+        {**PANEL, "edges": [SIDES[0], {"x": 1, "y": 2}]},
+        "edges[1].z",
+        "missing; expected a finite number",
+    ),
     ({"type": "sky", "radiance": -1}, "radiance", "expected a number ≥ 0, got -1"),
     ({"type": "sky", "radiance": "1"}, "radiance", 'expected a number ≥ 0, got "1"'),
     (
@@ -156,6 +205,20 @@ def test_what_is_refused(light: object, place: str, problem: str) -> None:
         assert str(caught.value) == f"<dict>: lights[{len(others)}].{place}: {problem}"
 
 
+@pytest.mark.parametrize(
+    ("edges", "problem"),
+    [
+        ([SIDES[0], ZERO], "expected two vectors that are not zero (a tiny one will do), got"),
+        ([SIDES[0], SIDES[0]], "expected two vectors at right angles to each other, got"),
+        ([{**ZERO, "x": 1}, {**ZERO, "x": 2e-3, "y": 1}], "expected two vectors at right angles"),
+    ],
+)
+def test_edges_that_make_no_rectangle(edges: object, problem: str) -> None:
+    for others in ([], [POINT], [{"type": "sky"}]):
+        message = message_of(lit_by(*others, {**PANEL, "edges": edges}))
+        assert message.startswith(f"lights[{len(others)}].edges: {problem}")
+
+
 def test_numbers_that_json_does_not_have() -> None:
     with pytest.raises(vtray.SceneError) as caught:
         vtray.load_dict(changed({"lights": [{"type": "ambient", "distance": math.inf}]}))
@@ -178,6 +241,8 @@ def test_numbers_that_json_does_not_have() -> None:
         ({**SUN, "angel": 3}, "angel", "angle"),
         ({**SUN, "intensity": 1, "size": "a:b"}, "size", "intensity"),
         ({**BALL, "locations": PLACE}, "locations", "location"),
+        ({**BALL, "radience": 2}, "radience", "radiance"),
+        ({**PANEL, "edge": 2}, "edge", "edges"),
         ({"type": "sky", "intensity": 2}, "intensity", "radiance"),
         ({"type": "sky", "gradient": {"horison": RED}}, "gradient.horison", "horizon"),
         ({"type": "ambient", "distanse": 2}, "distanse", "distance"),
@@ -212,6 +277,17 @@ def test_keys_given_twice(others: list[Any]) -> None:
         assert message_of(twice) == message
 
 
+def sides() -> st.SearchStrategy[list[dict[str, float]]]:
+    """Edges of rectangles along axes, of any length."""
+    lengths = st.floats(1e-300, 1e300) | st.floats(-3, -1)
+    axes = st.permutations("xyz")
+
+    def edges(axes: list[str], one: float, other: float) -> list[dict[str, float]]:
+        return [{**ZERO, axes[0]: one}, {**ZERO, axes[1]: other}]
+
+    return st.builds(edges, axes, lengths, lengths)
+
+
 def all_lights() -> st.SearchStrategy[dict[str, Any]]:
     """Lights of all kinds, with and without the keys that may be left out."""
     strength = st.sampled_from([0, 1, 1.0, 0.25]) | st.floats(0, 1e300)
@@ -229,7 +305,14 @@ def all_lights() -> st.SearchStrategy[dict[str, Any]]:
     return st.one_of(
         st.fixed_dictionaries(point, optional={"type": st.just("point"), "color": color}),
         kind("sun", {"direction": directions()}, intensity=strength, angle=angle),
-        kind("sphere", {**place, "radius": radius}, intensity=strength),
+        *(
+            kind(*lamp, visible=st.booleans(), **{measure: strength})
+            for measure in ("intensity", "radiance")
+            for lamp in (
+                ("sphere", {**place, "radius": radius}),
+                ("rectangle", {**place, "edges": sides()}),
+            )
+        ),
         kind("sky", {}, radiance=strength),
         kind("ambient", {}, intensity=strength, distance=distance),
     )
@@ -246,7 +329,7 @@ def test_lights_saved_and_loaded_again_are_the_same(
     VALIDATOR.validate(json.loads(path.read_text()))
     again = vtray.load(path)
     assert again.lights == scene.lights
-    assert [light.intensity for light in again.lights] == [
+    assert list(map(strength_of, again.lights)) == [
         item.get("radiance", item.get("intensity", 1)) for item in written
     ]
     assert scene_hash(again) == scene_hash(scene) == scene_hash(vtray.load_dict(scene.to_dict()))
@@ -298,11 +381,24 @@ def test_plain_points_are_written_as_before(tmp_path: Path) -> None:
 
 def test_defaults_are_left_out() -> None:
     scene = read(TEXT)
-    scene.lights = [Sun((0, 0, -1)), SphereLight((1, 2, 3), 4), Sky(), Ambient()]
+    scene.lights = [
+        Sun((0, 0, -1)),
+        SphereLight((1, 2, 3), 4),
+        SphereLight((1, 2, 3), 4, radiance=1),
+        RectangleLight((1, 2, 3), ((4, 0, 0), (0, 5, 0))),
+        Sky(),
+        Ambient(),
+    ]
     down, place = {"x": 0.0, "y": 0.0, "z": -1.0}, {"x": 1.0, "y": 2.0, "z": 3.0}
     assert scene.to_dict()["lights"] == [
         {"type": "sun", "direction": down},
         {"type": "sphere", "location": place, "radius": 4.0},
+        {"type": "sphere", "location": place, "radius": 4.0, "radiance": 1.0},
+        {
+            "type": "rectangle",
+            "location": place,
+            "edges": ({"x": 4.0, "y": 0.0, "z": 0.0}, {"x": 0.0, "y": 5.0, "z": 0.0}),
+        },
         {"type": "sky"},
         {"type": "ambient"},
     ]
@@ -321,6 +417,11 @@ def test_hash_tells_lights_apart() -> None:
         Light(place, color=(255, 255, 254)),
         SphereLight(place, 0),
         SphereLight(place, 1),
+        SphereLight(place, 1, radiance=1),
+        SphereLight(place, 1, visible=True),
+        RectangleLight(place, ((1, 0, 0), (0, 1, 0))),
+        RectangleLight(place, ((0, 1, 0), (1, 0, 0))),
+        RectangleLight(place, ((0, 1, 0), (1, 0, 0)), radiance=1),
         Sun(place),
         Sun(place, angle=0),
         Sky(),

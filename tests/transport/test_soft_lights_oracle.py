@@ -24,7 +24,7 @@ VIEWS = [
 def compare(document: dict[str, Any], seed: int) -> Compared:
     """Compare some pixels of a scene."""
     random = np.random.default_rng(seed)
-    image = vtray.render(load(document), seed=seed, threads=1)
+    image = vtray.render(load(document), seed=seed, threads=1, tolerance=1e6)
     hits = np.argwhere(image.ids[..., 0] >= 0)
     rows = random.permutation(len(hits))[:PIXELS]
     pixels = [(int(column), int(row)) for row, column in hits[rows]]

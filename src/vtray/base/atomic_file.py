@@ -50,6 +50,22 @@ def check_writable(path: Path) -> None:
             pass
 
 
+def check_replaceable(path: Path, remedy: str) -> None:
+    """Raise OutputError if what is written to `path` would follow what was written before.
+
+    Parameters
+    ----------
+    path
+        A file that will be written again and again.
+    remedy
+        What to do instead.
+    """
+    with _explained(path):
+        if _is_special(path):
+            message = f"{path}: is no file whose content can be replaced; {remedy}"
+            raise OutputError(message)
+
+
 def check_spares(path: Path, inputs: Iterable[Path], what: str, remedy: str) -> None:
     """Raise OutputError if writing a file would destroy another that is read.
 

@@ -7,6 +7,7 @@ from types import ModuleType
 from vtray.base.errors import VtrayError
 
 PACKAGES = {
+    "denoise": ("pyoidn",),
     "diff": ("flip-evaluator",),
     "figure": ("matplotlib",),
     "formats": ("OpenEXR", "tifffile"),

@@ -23,6 +23,12 @@ BYTES_PER_SAMPLED_PIXEL = BYTES_PER_PIXEL + 8 + 4 + 8 + 1 + 1
 BYTES_PER_PIXEL_AND_MORE = 175
 """With a background, or with depth, normals or ids, as measured."""
 
+BYTES_PER_PIXEL_SHOWN = 110
+"""While a picture grows: what there is of it, and copies that are shown and written."""
+
+BYTES_PER_PIXEL_DENOISED = 300
+"""For denoising: light, what guides it, and what the library takes."""
+
 BYTES_PER_SPHERE = 80
 """The hierarchy, and what it takes to build it, beside the arrays that were given."""
 
@@ -60,7 +66,7 @@ _REMEDY = "more memory for this process"
 _LOADER = ("failed to map segment", "cannot map zero-fill", "cannot allocate", "out of memory")
 
 
-def check_memory(width: int, height: int, samples: int = 1, least: int = 0) -> None:
+def check_memory(width: int, height: int, samples: int = 1, least: int = 0, more: int = 0) -> None:
     """Raise RenderError if an image of this size cannot be held in memory.
 
     Parameters
@@ -71,10 +77,12 @@ def check_memory(width: int, height: int, samples: int = 1, least: int = 0) -> N
         Of each pixel.
     least
         Bytes that each pixel takes at least, for what is done with it later.
+    more
+        Bytes that each pixel takes beside that.
     """
     what = f"camera.size: an image of {width} x {height} pixels needs"
     bytes_per_pixel = BYTES_PER_PIXEL if samples == 1 else BYTES_PER_SAMPLED_PIXEL
-    _check(width * height * max(bytes_per_pixel, least), what, "a smaller size")
+    _check(width * height * (max(bytes_per_pixel, least) + more), what, "a smaller size")
 
 
 def check_memory_of_lights(rays: int, lights: int) -> None:

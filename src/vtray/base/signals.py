@@ -12,6 +12,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:  # not from typing: until the handlers stand, as little as possible is imported
     from collections.abc import Callable
     from types import FrameType
+    from typing import Self
 
 SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
 """What asks a program to end, where the system has it."""
@@ -20,6 +21,7 @@ INTERRUPTED = 130
 """The exit status after Ctrl-C, as shells have it."""
 
 _last_steps: "list[Callable[[], object]]" = []
+_postponed: "list[Postponed]" = []
 
 
 def leave_on_signals() -> None:
@@ -65,8 +67,31 @@ class LastStep:
         _last_steps.remove(self._step)
 
 
-def _leave(number: int, _frame: "FrameType | None") -> None:
-    """End the process: with a status after Ctrl-C, else by the signal."""
+class Postponed:
+    """A context in which the first signal is only noted, so that what there is can be saved.
+
+    Who enters it looks often whether there was one. A second signal ends the process at once.
+
+    Attributes
+    ----------
+    number
+        The number of the signal that came; 0 if there was none.
+    """
+
+    number = 0
+
+    def __enter__(self) -> "Self":
+        """Note signals from here on."""
+        _postponed.append(self)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Let them end the process again."""
+        _postponed.remove(self)
+
+
+def end_by(number: int) -> None:
+    """End the process as a signal does: with a status after Ctrl-C, else by the signal."""
     for step in reversed(_last_steps):
         # contextlib may be what is just being imported.
         try:  # noqa: SIM105
@@ -77,3 +102,11 @@ def _leave(number: int, _frame: "FrameType | None") -> None:
         signal.signal(number, signal.SIG_DFL)
         os.kill(os.getpid(), number)
     os._exit(INTERRUPTED)
+
+
+def _leave(number: int, _frame: "FrameType | None") -> None:
+    """End the process, unless that is postponed."""
+    if _postponed and not _postponed[-1].number:
+        _postponed[-1].number = number
+        return
+    end_by(number)

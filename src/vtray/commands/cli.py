@@ -11,6 +11,7 @@ from vtray.base.errors import printable
 from vtray.base.memory import BYTES_PER_PIXEL_AND_MORE, check_memory, check_memory_of_start
 from vtray.base.signals import LastStep
 from vtray.commands.command import SUCCESS, print_note, print_result, run_command
+from vtray.commands.growing import Growing, check_preview, check_preview_of
 from vtray.commands.options import parse, settings_of
 
 if TYPE_CHECKING:
@@ -46,7 +47,8 @@ def _run(options: argparse.Namespace) -> int:
     if told is not None:
         _compare(told, scene, options)
     clock.lap("read")
-    image = _render(scene, options)
+    with Growing(options, lambda problem: _warn(problem, options)) as growing:
+        image = _render(scene, options, growing)
     clock.lap("render")
     if options.pixel is not None:
         from vtray.commands.explain import explain_pixel
@@ -54,6 +56,7 @@ def _run(options: argparse.Namespace) -> int:
         print_result(explain_pixel(scene, image, *options.pixel))
     else:
         image.save(options.output, bits=options.bits, aov=options.aov or ())
+        growing.finish(image)
     clock.lap("write")
     if options.stats:
         _print_stats(clock, image)
@@ -87,6 +90,7 @@ def _check_output(options: argparse.Namespace) -> None:
     check_writable(output)
     remedy = "choose another name for the image"
     check_spares(output, [scene], "is the scene file itself", remedy)
+    check_preview(options)
 
 
 def _check_picture(scene: "Scene", options: argparse.Namespace) -> None:
@@ -102,6 +106,7 @@ def _check_picture(scene: "Scene", options: argparse.Namespace) -> None:
     least = find_format(options.output).memory[how.bits]
     width, height = map(int, size)
     check_memory(width, height, least=BYTES_PER_PIXEL_AND_MORE if how.aov else least)
+    check_preview_of(scene, options)
 
 
 @contextlib.contextmanager
@@ -138,7 +143,7 @@ def _load(options: argparse.Namespace) -> "Scene":
         return load(options.scene, warn=warn)
 
 
-def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
+def _render(scene: "Scene", options: argparse.Namespace, growing: Growing) -> "Image":
     """Render the scene; on a terminal, show what takes long."""
     from vtray.base.compiler.compiled import before_compiling
     from vtray.rendering.renderer import render
@@ -149,7 +154,7 @@ def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
     settings = settings_of(options)
     if options.quiet or not sys.stderr.isatty():
         before_compiling(None)
-        return render(scene, options.threads, warn=warn, **settings)
+        return render(scene, options.threads, warn=warn, **growing.arguments(None), **settings)
 
     from vtray.commands.progress import ProgressBar
 
@@ -157,7 +162,8 @@ def _render(scene: "Scene", options: argparse.Namespace) -> "Image":
     progress = ProgressBar()
     try:
         with LastStep(progress.close):
-            return render(scene, options.threads, progress, warn=warn, **settings)
+            given = growing.arguments(progress) | settings
+            return render(scene, options.threads, warn=warn, **given)
     finally:
         progress.close()
 
@@ -173,7 +179,7 @@ def _print_stats(clock: "Stopwatch", image: "Image") -> None:
     from vtray.base.memory import peak_memory
 
     stats = image.stats
-    steps = ("build", "pack", "trace", "develop")
+    steps = [step for step in ("build", "pack", "trace", "denoise", "develop") if step in stats]
     # Loading NumPy and LLVM counts as compiling.
     compiling = clock.seconds["render"] - sum(stats[step] for step in steps)
     seconds = {

@@ -51,10 +51,13 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("-V", "--version", action="version", version=f"vtray {__version__}")
     _add_settings(parser)
     _add_output(parser)
+    _add_growing(parser)
     _add_reports(parser)
     options = parser.parse_intermixed_args(arguments)  # SCENE and OUTPUT may stand apart
     if options.output is None and options.pixel is None:
         parser.error("OUTPUT is missing")
+    if options.pixel is not None and (options.preview is not None or options.keep_partial):
+        parser.error("--preview and --keep-partial are of no use with --pixel")
     options.lock = None  # no option, but a picture that is replayed may have been locked
     return options
 
@@ -93,6 +96,22 @@ def _add_output(parser: Parser) -> None:
         metavar="NAMES",
         type=_aov,
         help=f"for .exr and .npz: any of {','.join(AOVS)}",
+    )
+
+
+def _add_growing(parser: Parser) -> None:
+    """Add what is shown and kept before the picture is there."""
+    group = parser.add_argument_group("a picture that takes long")
+    group.add_argument(
+        "--preview",
+        metavar="FILE",
+        type=Path,
+        help="write the picture so far every few seconds, in the end the whole one",
+    )
+    group.add_argument(
+        "--keep-partial",
+        action="store_true",
+        help="after Ctrl-C, write to OUTPUT what there is of the picture",
     )
 
 

@@ -45,6 +45,9 @@ def differences(told: Provenance, scene: Scene) -> Iterator[str]:
     """Say what is not as it was, so that the picture may be another."""
     from vtray.scene.fingerprint import scene_hash
 
+    if told.partial is not None:
+        share = f"{100 * told.partial:.0f} %"
+        yield f"is a part of a picture, of whose tiles {share} were done: this one will be whole"
     if told.version != __version__:
         yield f"was made by vtray {told.version}, this is {__version__}: the picture may differ"
     if told.scene != scene_hash(scene):

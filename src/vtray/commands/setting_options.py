@@ -34,6 +34,9 @@ def add_settings(group: argparse._ArgumentGroup, settings: type[Settings]) -> No
         read = _reader(kind, option.words)
         reading: dict[str, Any] = {"type": read}
         (*others, last) = alternatives(kind)
+        if last is bool:
+            place.add_argument(flag, help=option.help, action=argparse.BooleanOptionalAction)
+            continue
         if not others and typing.get_origin(last) is Literal:
             reading = {"choices": typing.get_args(last)}
         place.add_argument(flag, metavar=option.form, help=option.help, **reading)

@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 
 from vtray.figures.drawn.objects import where_met
 from vtray.figures.traced_rays import Hit, ShadowFan
-from vtray.geometry.vector import Vec
-from vtray.scene.light_types import SphereLight
+from vtray.scene.light_types import Lamp, RectangleLight
 from vtray.scene.scene import Scene
 
 Floats = NDArray[np.float64]
@@ -72,9 +71,33 @@ def is_around(fan: ShadowFan) -> bool:
     return fan.kind in ("sky", "ambient")
 
 
-def ball_of(scene: Scene, fan: ShadowFan) -> tuple[Vec, float] | None:
-    """Return where in world space a shining ball is, and its radius; None for other lights."""
+@dataclass(frozen=True)
+class LampShape:
+    """Where a lamp is.
+
+    Attributes
+    ----------
+    place
+        Its middle in world space, (3,).
+    radius
+        That of the ball that it is, or that is around it.
+    corners
+        Those of a rectangle, one after the other around it, (4, 3); None for a ball.
+    """
+
+    place: Floats
+    radius: float
+    corners: Floats | None
+
+
+def lamp_shape(scene: Scene, fan: ShadowFan) -> LampShape | None:
+    """Return where a lamp is; None for lights that are at no place."""
     light = scene.lights[fan.light]
-    if isinstance(light, SphereLight):
-        return (light.location.x, light.location.y, light.location.z), light.radius
-    return None
+    if not isinstance(light, Lamp):
+        return None
+    place = np.array([light.location.x, light.location.y, light.location.z])
+    if not isinstance(light, RectangleLight):
+        return LampShape(place, light.radius, None)
+    one, other = (np.array([edge.x, edge.y, edge.z]) / 2 for edge in light.edges)
+    corners = place + np.array([one + other, one - other, -one - other, other - one])
+    return LampShape(place, float(np.linalg.norm(one + other)), corners)

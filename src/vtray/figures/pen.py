@@ -107,6 +107,15 @@ class Pen:
         self.ax.add_patch(inside)
         self.ax.add_patch(edge)
 
+    def panel(self, corners: Floats, color: str, alpha: float) -> None:
+        """Draw a light that is a rectangle, of which these are the corners, (4, 2)."""
+        from matplotlib.patches import Polygon
+
+        inside = Polygon(corners, fc="#fff3cf", ec="none", alpha=0.6, zorder=0.5)
+        edge = Polygon(corners, fill=False, ec=color, lw=1.2, alpha=alpha, zorder=6)
+        self.ax.add_patch(inside)
+        self.ax.add_patch(edge)
+
     def scale(self, start: float, length: float) -> None:
         """Draw a scale bar below the axes, from `start` in their coordinates."""
         transform = self.ax.get_xaxis_transform()

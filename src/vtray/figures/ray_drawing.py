@@ -15,7 +15,7 @@ from vtray.figures.drawn.objects import (
     shape_of,
     where_met,
 )
-from vtray.figures.fan_lines import DOME, FanLines, ball_of, fan_lines, is_around
+from vtray.figures.fan_lines import DOME, FanLines, fan_lines, is_around, lamp_shape
 from vtray.figures.pen import BLOCKED, FAINT, INK, LIT, RAY
 from vtray.figures.scale_bar import is_orthographic, round_length
 from vtray.figures.section import Section, choose_section
@@ -162,7 +162,9 @@ class _Drawing(Stage):
     def miss(self) -> None:
         """Say that the ray goes on."""
         self.arrow(self.pixel, self.end, RAY, lw=0)
-        self.note("hits nothing", self.end, (-6, 9), ha="right", va="bottom", color=RAY)
+        lamp = self.tree.lamp
+        text = "hits nothing" if lamp is None else f"sees lights[{lamp}]"
+        self.note(text, self.end, (-6, 9), ha="right", va="bottom", color=RAY)
 
     def surface(self, surface: Surface, *, filled: bool) -> None:
         """Draw what a ray meets."""
@@ -226,15 +228,17 @@ class _Drawing(Stage):
             self.line(self.end, goal, BLOCKED, lw=1.1, ls=(0, (1, 2.5)), alpha=strength)
         self._fan_lines(lines.arriving, LIT, "solid", strength)
         self._fan_lines(lines.stopped, BLOCKED, (0, (4, 2.2)), strength)
-        ball = ball_of(self.tree.scene, fan) if shown else None
-        if ball is not None:
-            self.ball(goal, ball[1], LIT, strength)
+        lamp = lamp_shape(self.tree.scene, fan) if shown else None
+        if lamp is not None and lamp.corners is not None:
+            self.panel(self.section(lamp.corners), LIT, strength)
+        elif lamp is not None:
+            self.ball(goal, lamp.radius, LIT, strength)
         if not thin:
             text = f"{fan.arriving} of {len(fan.rays)} rays arrive\nadds {_numbers(fan.adds)}"
             if not fan.arrives:
                 text = "behind the surface" if fan.is_behind else _blocked_by(fan)
             text = f"lights[{fan.light}], {fan.kind}: {text}"
-            radius = 0.0 if ball is None else ball[1]
+            radius = 0.0 if lamp is None else lamp.radius
             self.light_label(text, goal, LIT if fan.arrives else BLOCKED, radius)
 
     def _fan_lines(
@@ -264,7 +268,7 @@ class _Drawing(Stage):
             reach = max(float((ends @ up).max(initial=0.0)), (NORMAL + 0.05) * self.size)
             return self.end + up * reach, False, lines
         goal, shown = self.light_place(fan)
-        if shown and ball_of(scene, fan) is not None:
+        if shown and lamp_shape(scene, fan) is not None:
             return goal, True, fan_lines(scene, hit, fan, 1.0, math.inf)
         whole, part = self.place_of(fan) - self.end, goal - self.end
         share = float(np.hypot(*part) / max(np.hypot(*whole), 1e-300))

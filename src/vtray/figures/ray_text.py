@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from vtray.figures.traced_rays import Exposed, Hit, ShadowFan, Surface, TracedRays, WayToLight
+from vtray.scene.light_types import AnyLight, measure_of, strength_of
 from vtray.scene.scene import Scene
 
 WHITE = (255.0, 255.0, 255.0)
@@ -16,16 +17,25 @@ def describe(tree: TracedRays) -> str:
         f"pixel        column {column}, row {row} of {width} x {height}",
         f"ray          from {_vector(tree.origin)} towards {_vector(tree.direction)}",
     ]
-    if tree.hit is None:
+    if tree.lamp is not None:
+        lines.append(_describe_lamp(tree.scene.lights[tree.lamp], tree.lamp))
+    elif tree.hit is None:
         lines.append("hit          nothing in front of the image plane")
     else:
         lines += _describe_hit(tree.hit, tree.scene)
         for ray in tree.lights:
             lines += _describe_light(ray, tree.hit)
-    lines.append(f"light        {_vector(tree.light)}, the sum over all lights")
+    of = "the sum over all lights" if tree.lamp is None else "that of the lamp"
+    lines.append(f"light        {_vector(tree.light)}, {of}")
     if tree.exposed is not None:
         lines += _describe_exposure(tree.exposed, tree)
     return "\n".join(lines)
+
+
+def _describe_lamp(light: AnyLight, number: int) -> str:
+    """Return the line on a lamp that is seen."""
+    kind = str(type(light).__struct_config__.tag)
+    return f"lamp         lights[{number}], a {kind} of {measure_of(light)} {strength_of(light):g}"
 
 
 def _describe_hit(hit: Hit, scene: Scene) -> list[str]:
@@ -55,7 +65,7 @@ def _describe_light(way: WayToLight, hit: Hit) -> list[str]:
         first = f"{name:12} {way.kind}: {way.arriving} of {len(way.rays)} rays arrive"
         shown = f"{way.share:.6g}" if way.shares is None else _vector(way.shares)
         first += f", {shown} of its light"
-        factor, strength = "share", "radiance" if way.kind == "sky" else "intensity"
+        factor, strength = "share", way.measure
         amount = shown
     else:
         first = f"{name:12} towards {_vector(way.direction)}, {way.distance:.10g} away"

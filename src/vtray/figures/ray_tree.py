@@ -35,16 +35,18 @@ class RayTree(TracedRays):
     direction
         Its unit direction in world space.
     hit
-        What it hits, or None.
+        What it hits, or None; what is behind a lamp that is seen does not count.
     lights
         The ways to all lights in the order of ``scene.lights``: a `ShadowRay` for each point, a
         `ShadowFan` for each other light. None if nothing is hit.
     light
-        The sum of what all lights add: linear red, green and blue.
+        The sum of what all lights add, or the light of the lamp: linear red, green and blue.
     view
         The camera in world space.
     exposed
         What became of the light in a picture; None if only a scene was given.
+    lamp
+        The place in ``scene.lights`` of the lamp that is seen, or None.
     scene
         The scene as it was traced.
     """

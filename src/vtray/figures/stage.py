@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.figures.drawn.objects import placed_shapes, shape_of
-from vtray.figures.fan_lines import DOME, ball_of, fan_lines, is_around
+from vtray.figures.fan_lines import DOME, fan_lines, is_around, lamp_shape
 from vtray.figures.pen import Pen
 from vtray.figures.section import Section, widen
 from vtray.figures.traced_rays import Hit, ShadowFan, ShadowRay, TracedRays, WayToLight
@@ -99,8 +99,8 @@ class Stage(Pen):
             if is_around(way):
                 lines = fan_lines(self.tree.scene, hit, way, 1.0, DOME * hit.distance)
                 return [*self.section(lines.arriving), *self.section(lines.stopped)]
-            ball = ball_of(self.tree.scene, way)
-            radius = 0.0 if ball is None or ball[1] > LARGE * hit.distance else ball[1]
+            lamp = lamp_shape(self.tree.scene, way)
+            radius = 0.0 if lamp is None or lamp.radius > LARGE * hit.distance else lamp.radius
         place = self.place_of(way)
         to_light = place - self.end
         distance = float(np.hypot(*to_light))
@@ -114,9 +114,9 @@ class Stage(Pen):
         assert self.tree.hit is not None  # noqa: S101
         if isinstance(way, ShadowRay):
             return self.section(way.location)
-        ball = ball_of(self.tree.scene, way)
-        if ball is not None:
-            return self.section(ball[0])
+        lamp = lamp_shape(self.tree.scene, way)
+        if lamp is not None:
+            return self.section(lamp.place)
         away = SUN * self.tree.hit.distance
         return self.section(np.array(self.tree.hit.point) + away * np.array(way.direction))
 

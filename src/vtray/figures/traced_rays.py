@@ -167,9 +167,10 @@ class ShadowFan:
     light
         Place in ``scene.lights``.
     kind
-        What light it is, in the words of scene files: "sun", "sphere", "sky" or "ambient".
+        What light it is, in the words of scene files: "sun", "sphere", "rectangle", "sky" or
+        "ambient".
     intensity
-        The strength of the light; of a sky its radiance.
+        The strength of the light: its intensity or its radiance.
     direction
         Unit vector from the hit to the middle of the light, in world space; where light comes from
         all sides, the normal of the hit.
@@ -182,6 +183,8 @@ class ShadowFan:
         The red, green and blue that the light adds to the pixel.
     color
         The red, green and blue of the light, from 0 to 255.
+    measure
+        What its strength is called: "intensity" or "radiance".
     shares
         How much arrives of red, green and blue of a sky whose colour changes with the direction;
         None for other lights.
@@ -195,6 +198,7 @@ class ShadowFan:
     share: float
     adds: Vec
     color: Vec
+    measure: str
     shares: Vec | None = None
 
     @property
@@ -290,4 +294,5 @@ class TracedRays:
     light: Vec
     view: View
     exposed: Exposed | None
+    lamp: int | None
     scene: Scene = field(repr=False, compare=False)

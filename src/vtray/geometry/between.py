@@ -11,9 +11,10 @@ from vtray.geometry.bvh.boxes import fetch_node
 from vtray.geometry.bvh.tree import WIDTH
 from vtray.geometry.dispatch import Shape, Verbs, with_any
 from vtray.geometry.packets.beam import (
+    Beam,
     children_met,
     lower_limit,
-    make_beam,
+    ray_beam,
     shape_margin,
     upper_limit,
 )
@@ -26,6 +27,7 @@ from vtray.geometry.world import (
     Group,
     Hierarchy,
     Places,
+    ToBoxes,
     World,
     group_count,
     hierarchy_of,
@@ -71,9 +73,40 @@ def _first_of_group(
 ) -> int:
     """Return the lower of a number and those of the shapes of a group that stand between."""
     hierarchy = hierarchy_of(group)
+    beam = _segment_beam(segment, hierarchy.to_boxes)
     return _first_in_shapes(
-        world, hierarchy, segment, first, stack, base, is_any, _first_of_slots, group
+        world, hierarchy, segment, beam, 1.0, first, stack, base, is_any, _first_of_slots, group
     )
+
+
+@device
+def is_occluded_by(
+    world: World, group: Group, segment: Segment, beam: Beam, length: float, stack: Stack
+) -> bool:
+    """Tell whether any shape of a group with a hierarchy stands between two points.
+
+    Parameters
+    ----------
+    world, group
+        The group.
+    segment
+        The way between the points.
+    beam, length
+        The same as a ray in the space of the group's boxes, up to this multiple of its direction.
+    stack
+        Scratch memory.
+    """
+    hierarchy = hierarchy_of(group)
+    first = _first_in_shapes(
+        world, hierarchy, segment, beam, length, NOTHING, stack, 0, True, _first_of_slots, group
+    )
+    return first != NOTHING
+
+
+@device
+def is_occluded_by_placed(world: World, places: Places, segment: Segment, stack: Stack) -> bool:
+    """Tell whether anything that is placed stands between two points."""
+    return _first_placed(world, places, segment, NOTHING, stack, True) != NOTHING
 
 
 @device
@@ -88,8 +121,9 @@ def _first_placed(
     """Return the lower of a number and those of what is placed and stands between."""
     if places is not None:
         hierarchy = hierarchy_of_places(places)
+        beam = _segment_beam(segment, hierarchy.to_boxes)
         return _first_in_places(
-            world, hierarchy, segment, first, stack, 0, is_any, _first_of_places, places
+            world, hierarchy, segment, beam, 1.0, first, stack, 0, is_any, _first_of_places, places
         )
     return first
 
@@ -149,6 +183,8 @@ def _first_in_tree(
     world: World,
     hierarchy: Hierarchy,
     segment: Segment,
+    beam: Beam,
+    length: float,
     first: int,
     stack: Stack,
     base: int,
@@ -156,15 +192,12 @@ def _first_in_tree(
     first_of: Callable[[World, Any, int, int, Segment, int, Stack, int, bool], int],
     subject: Any,  # noqa: ANN401
 ) -> int:
-    """Return the lower of a number and those in the leaves of a hierarchy."""
-    bvh, to_boxes = world.bvh, hierarchy.to_boxes
-    ratio, offset = to_boxes.ratio, to_boxes.offset
-    # From the light: its place is the more exact of the two.
-    end = add(scale(ratio, segment.end), offset)
-    way = scale(ratio, sub(segment.start, segment.end))
-    margin = shape_margin(to_boxes, end, segment.start_scale)
-    beam = make_beam(end, end, way, way, margin)
-    near, far = lower_limit(beam, 0.0), upper_limit(beam, 1.0 + MARGIN)
+    """Return the lower of a number and those in the leaves of a hierarchy.
+
+    The beam is the segment, up to `length` times its direction.
+    """
+    bvh = world.bvh
+    near, far = lower_limit(beam, 0.0), upper_limit(beam, length * (1.0 + MARGIN))
     stack.node[base] = hierarchy.root
     waiting = base + 1
     while waiting > base:
@@ -193,3 +226,13 @@ def _first_in_tree(
 _first_in_places, _first_in_shapes = device(_first_in_tree), device(_first_in_tree)
 """Two ways: one through what is placed, one through what stands at a place. They are
 two, as the compiler takes what calls itself for recursion, whatever it is given."""
+
+
+@device
+def _segment_beam(segment: Segment, to_boxes: ToBoxes) -> Beam:
+    """Return the way between two points as a beam in the boxes' space, from its end."""
+    ratio, offset = to_boxes.ratio, to_boxes.offset
+    # From the light: its place is the more exact of the two.
+    end = add(scale(ratio, segment.end), offset)
+    way = scale(ratio, sub(segment.start, segment.end))
+    return ray_beam(end, way, shape_margin(to_boxes, end, segment.start_scale))

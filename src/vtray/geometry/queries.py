@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.dispatch import Shape, Verbs, with_any
-from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_margin, upper_limit
+from vtray.geometry.packets.beam import Beam, lower_limit, ray_beam, shape_margin, upper_limit
 from vtray.geometry.packets.stack import Stack, push_met
 from vtray.geometry.ray import Ray
 from vtray.geometry.rounding import MARGIN
@@ -182,4 +182,4 @@ def _ray_beam(to_boxes: ToBoxes, ray: Ray) -> Beam:
     ratio, offset = to_boxes.ratio, to_boxes.offset
     start = add(scale(ratio, ray.origin), offset)
     margin = shape_margin(to_boxes, start, ray.error_scale)
-    return make_beam(start, start, ray.direction, ray.direction, margin)
+    return ray_beam(start, ray.direction, margin)

@@ -16,10 +16,13 @@ class Aov(NamedTuple):
     channels
         What OpenEXR calls its channels, of float32 or, for integers, of uint32. The array is
         (height, width) if there is one, else (height, width, channels).
+    unit
+        What is 1 in OpenEXR: 255 for light.
     """
 
     dtype: str
     channels: tuple[str, ...]
+    unit: float = 1.0
 
 
 AOVS = {
@@ -27,6 +30,7 @@ AOVS = {
     "normals": Aov("float64", ("N.X", "N.Y", "N.Z")),
     "ids": Aov("int32", ("objectid", "particleid")),
     "copies": Aov("int32", ("copyid",)),
+    "raw": Aov("float64", ("raw.R", "raw.G", "raw.B"), 255.0),
 }
 """The AOVs by their names, in their usual order."""
 

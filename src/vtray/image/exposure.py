@@ -144,6 +144,13 @@ def locked_white(lock: object, exposure: object = None) -> float:
     raise RenderError(message)
 
 
+def known_white(exposure: Exposure, lock: object = None) -> float | None:
+    """Return the light that becomes 255, if that is known before the light of the picture is."""
+    if lock is not None:
+        return locked_white(lock)
+    return None if exposure == "max" else white_of(exposure, 0.0)
+
+
 def white_of(exposure: Exposure, peak: float, lock: object = None) -> float:
     """Return the light that becomes 255 in an image whose largest channel is `peak`.
 

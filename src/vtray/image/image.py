@@ -34,7 +34,8 @@ class Image(Rendered):
     ----------
     linear
         Light before exposure, float64, (height, width, 3): the sums of cosine, Lambert
-        coefficient, intensity and colour (0 to 255).
+        coefficient, intensity and colour (0 to 255). With ``settings.denoise``, it is
+        without grain, and `raw` is as it was traced.
     white
         The light that becomes 255; 0 if the whole picture is black.
     scene
@@ -43,6 +44,10 @@ class Image(Rendered):
         How it was rendered.
     locked
         Whether its exposure is that of another picture.
+    partial
+        None for a whole picture. While it is rendered, the share of its tiles that are done, from
+        0 to 1: the others are filled in with what is known, and the peak that decides the exposure
+        "max" is that of what is there.
     stats
         How the picture was made: seconds for ``"build"``, ``"pack"``, ``"compile"``, ``"trace"``
         and ``"develop"``; the number of ``"rays"`` cast; of the hierarchy, its ``"nodes"``, its

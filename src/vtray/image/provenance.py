@@ -12,7 +12,7 @@ from vtray.base.version import __version__
 from vtray.image.aovs import AovName
 from vtray.image.formats.image_format import FORMATS, find_format, needs_package
 from vtray.image.formats.picture import How, Picture
-from vtray.scene.checks.limits import END, NonNegative
+from vtray.scene.checks.limits import END, Fraction, NonNegative
 from vtray.scene.settings import RenderSettings, Settings
 
 
@@ -27,7 +27,7 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
         The version of vtray.
     scene : str
         The hash of the scene.
-    samples, filter, seed, exposure, background
+    samples, filter, seed, tolerance, exposure, background, denoise
         As in the settings of the render, those that were left out too.
     size : tuple of int or None
         Width and height of the picture in pixels; None for those of the camera.
@@ -37,6 +37,8 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
         Bits of each channel of the file.
     aov : tuple of str
         What the file holds beside the picture.
+    partial : float or None
+        The share of its tiles that were done, from 0 to 1, if it was written before it was whole.
     """
 
     version: str
@@ -44,6 +46,7 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
     lock: NonNegative | None = None
     bits: Literal[8, 16, 32] = 8
     aov: tuple[AovName, ...] = ()
+    partial: Fraction | None = None
 
     @property
     def settings(self) -> RenderSettings:
@@ -52,8 +55,17 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
 
     def to_text(self) -> str:
         """Return the JSON that stands in files, all of it ASCII."""
-        first = {"version": self.version, "scene": self.scene}
-        return msgspec.json.encode({**first, **msgspec.structs.asdict(self)}).decode("ascii")
+        told = {"version": self.version, "scene": self.scene, **msgspec.structs.asdict(self)}
+        for name in _SELDOM:
+            if told[name] == getattr(_USUAL, name):
+                del told[name]
+        return msgspec.json.encode(told).decode("ascii")
+
+
+_SELDOM = ("denoise", "partial")
+"""What is told only where it is not as usual: older versions refuse what they do not know."""
+
+_USUAL = Provenance(version="", scene="0" * 16)
 
 
 def describe(picture: Picture, how: How) -> Provenance:
@@ -67,6 +79,7 @@ def describe(picture: Picture, how: How) -> Provenance:
         "lock": float(picture.white) if picture.locked else None,
         "bits": how.bits,
         "aov": tuple(how.aov),
+        "partial": picture.partial,
     }
     return msgspec.convert(values, Provenance)
 

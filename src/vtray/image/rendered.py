@@ -23,7 +23,7 @@ class Rendered:
 
     Parameters
     ----------
-    linear, white, scene, settings, stats, locked
+    linear, white, scene, settings, stats, locked, partial
         The attributes.
     pixels
         Light after exposure with 8 bits; None until it is asked for.
@@ -31,8 +31,16 @@ class Rendered:
         Gives what the middle rays meet; called once, when it is first asked for.
     alpha
         How much of each pixel is covered, if that is known; None for what `look` says.
+    error
+        The standard error of light, if it is not 0 everywhere.
+    noise
+        How noisy soft light was allowed to be, which says what rays were cast, if there is any.
     relighting
         Gives the light of the same view of a scene with other lights or colours, if that was kept.
+    raw
+        Light as it was traced, if that is not `linear`.
+    denoising
+        Gives the light of a scene without grain, if that is what `linear` is.
     threads
         How many threads to use at the most.
     original
@@ -53,10 +61,15 @@ class Rendered:
         *,
         look: Callable[[], Surfaces],
         alpha: Floats | None = None,
+        error: Floats | None = None,
+        noise: Any = None,  # noqa: ANN401
         relighting: Callable[[Scene], Floats] | None = None,
+        raw: Floats | None = None,
+        denoising: Callable[[Scene, Floats], Floats] | None = None,
         threads: int = 1,
         original: Scene | None = None,
         locked: bool = False,
+        partial: float | None = None,
         sky: Callable[[Scene, Floats], Floats] | None = None,
     ) -> None:
         self.linear = linear
@@ -68,15 +81,21 @@ class Rendered:
         self._seen: list[Surfaces] = []  # what it gave; shared with other exposures of the view
         self._pixels = pixels
         self._alpha = alpha
+        self._error = error
+        self.noise = noise
         self._relighting = relighting
+        self._raw = raw
+        self._denoising = denoising
         self._threads = threads
         self._original = original or scene
         self.locked = locked
+        self.partial = partial
         self._sky = sky
 
     def __repr__(self) -> str:
         height, width = self.linear.shape[:2]
-        return f"<Image of {width} x {height} pixels, {self.settings}>"
+        part = "" if self.partial is None else f", {self.partial:.0%} of it done"
+        return f"<Image of {width} x {height} pixels, {self.settings}{part}>"
 
     @property
     def pixels(self) -> NDArray[np.uint8]:
@@ -99,6 +118,11 @@ class Rendered:
         if bits == 8:
             self._pixels = pixels
         return pixels
+
+    @property
+    def raw(self) -> Floats:
+        """Light as it was traced, exact to the last bit: `linear` if that is not denoised."""
+        return self.linear if self._raw is None else self._raw
 
     @property
     def _surfaces(self) -> Surfaces:
@@ -151,24 +175,44 @@ class Rendered:
         return self.linear + (1.0 - self.alpha[..., None]) * behind
 
     @cached_property
+    def error(self) -> Floats:
+        """The estimated standard error of `linear`, (height, width): that of the worst channel.
+
+        Of a pixel with one ray it says how noisy soft light is; of one with samples, how much those
+        differ, whatever they show. It is rather too large than too small. For pictures that were
+        relit or recoloured it is not known: NaN.
+        """
+        if self._error is not None:
+            return self._error
+        return np.zeros(self.linear.shape[:2])
+
+    @cached_property
     def scene_hash(self) -> str:
         """A hash of the scene, 32 hexadecimal digits: that of the same scene loaded again."""
         return scene_hash(self._original)
 
     def _relit(self, scene: Scene, lock: object) -> Self:
         """Return the picture of a scene that differs in lights and colours alone."""
+        if self.partial is not None:
+            message = "image: a part of a picture has the lights and colours of its render alone"
+            raise RenderError(message)
         if self._relighting is None:
             message = "image: its lights were not kept; render it with keep_lights=True"
             raise RenderError(message)
         check_brightness(scene.lights)
         # The camera may have another size now, and the hash is that of the scene as it was given.
         given = Scene(self._original.camera, scene.lights, scene.objects, scene.render)
-        return self._again(lock, linear=self._relighting(scene), scene=scene, _original=given)
+        unknown = np.full(self.linear.shape[:2], np.nan)
+        raw = self._relighting(scene)
+        linear = raw if self._denoising is None else self._denoising(scene, raw)
+        return self._again(
+            lock, _raw=raw, linear=linear, scene=scene, _error=unknown, _original=given
+        )
 
     def _again(self, lock: object, **changes: object) -> Self:
         """Return a picture of the same view with other attributes, exposed anew."""
         other = copy.copy(self)
-        for name in ("scene_hash", "with_sky"):
+        for name in ("scene_hash", "with_sky", "error"):
             vars(other).pop(name, None)
         vars(other).update(changes, _pixels=None, locked=lock is not None)
         other.white = white_of(other.settings.exposure, max(float(other.linear.max()), 0.0), lock)

@@ -18,7 +18,7 @@ from vtray.rendering.acceleration import Acceleration, Shapes
 from vtray.rendering.pack_lights import pack_lights, points_of
 from vtray.rendering.pack_skies import up_of
 from vtray.rendering.placed import Placed
-from vtray.scene.light_types import Light, SphereLight
+from vtray.scene.light_types import Lamp, Light, RectangleLight, SphereLight
 from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.scene import Camera, Plane, Scene
@@ -159,8 +159,10 @@ def _unit_length(scene: Scene, planes: list[Plane], kept: Acceleration) -> float
     """Return the power of two by which the lengths of a scene are divided."""
     camera = scene.camera
     places = [camera.center, *(plane.center for plane in planes)]
-    places += [light.location for light in scene.lights if isinstance(light, Light | SphereLight)]
-    lengths = [light.radius for light in scene.lights if isinstance(light, SphereLight)]
+    lamps = [light for light in scene.lights if isinstance(light, Light | Lamp)]
+    places += [lamp.location for lamp in lamps]
+    places += [edge for lamp in lamps if isinstance(lamp, RectangleLight) for edge in lamp.edges]
+    lengths = [lamp.radius for lamp in lamps if isinstance(lamp, SphereLight)]
     coordinates = max(max(abs(p.x), abs(p.y), abs(p.z), *lengths) for p in places)
     highest = max(_start_exponent(camera), _exponent(coordinates), _exponent(kept.largest))
     # The unit itself and its inverse must be ordinary doubles.

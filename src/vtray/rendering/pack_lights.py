@@ -8,13 +8,28 @@ from numpy.typing import NDArray
 
 from vtray.base.exact_math import sine
 from vtray.geometry.vector import Vec
+from vtray.rendering.pack_rectangles import join_rectangles, pack_rectangle
 from vtray.rendering.pack_skies import changes_color, pack_skies
-from vtray.scene.light_types import Ambient, AnyLight, Light, Sky, SphereLight, Sun
+from vtray.scene.light_types import (
+    Ambient,
+    AnyLight,
+    Lamp,
+    Light,
+    RectangleLight,
+    Sky,
+    SphereLight,
+    Sun,
+    falls_off,
+    strength_of,
+)
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.vectors import Vector
 from vtray.transport.camera_rays import CameraFrame
 from vtray.transport.lights.light import Lights
-from vtray.transport.lights.soft_light import AROUND, NO_SKY, SPHERE, SUN, SoftLights
+from vtray.transport.lights.rectangle import SIZE as RECTANGLE_SIZE
+from vtray.transport.lights.soft_light import AROUND, NO_SKY, RECTANGLE, SPHERE, SUN, SoftLights
+from vtray.transport.lights.visible import SIZE as LAMP_SIZE
+from vtray.transport.lights.visible import VisibleLamps
 
 Floats = NDArray[np.float64]
 
@@ -46,6 +61,7 @@ def pack_lights(
     x, y, z = _columns(points)
     ordered = *hard, *soft
     parts = [part for light in ordered for part in _components_of(light)]
+    packed = _pack_soft(soft, len(hard), origin, unit, up) if soft else None
     return Lights(
         x,
         y,
@@ -53,27 +69,36 @@ def pack_lights(
         plane_depth=_dot((x, y, z), camera.forward),
         error_scale=_magnitude(x, y, z) + _magnitude(*origin),
         points=len(hard) if hard or not soft else None,
-        soft=_pack_soft(soft, len(hard), origin, unit, up) if soft else None,
+        soft=packed,
+        visible=_pack_visible(soft, packed) if packed else None,
         intensity=np.array([intensity for intensity, _ in parts], float),
         color=np.array([color for _, color in parts], float).reshape(-1, 3) / 255.0,
     )
 
 
 def _components_of(light: AnyLight) -> list[tuple[float, Vec]]:
-    """Return the intensities and colours, 255 for white, of the components of a light."""
-    color = float(light.color.r), float(light.color.g), float(light.color.b)
+    """Return the strengths and colours, 255 for white, of the components of a light."""
+    color, strength = (
+        (float(light.color.r), float(light.color.g), float(light.color.b)),
+        strength_of(light),
+    )
     if not changes_color(light):
-        return [(light.intensity, color)]
+        return [(strength, color)]
     parts = (color[0], 0.0, 0.0), (0.0, color[1], 0.0), (0.0, 0.0, color[2])
-    return [(light.intensity, part) for part in parts]
+    return [(strength, part) for part in parts]
 
 
 def _pack_soft(
     lights: Sequence[AnyLight], first: int, origin: Floats, unit: float, up: Vec
 ) -> SoftLights:
     """Return the arrays of the lights that are no points; `first` is the row of the first."""
-    x, y, z, size = np.zeros((4, len(lights)))
-    kind, error_scale = np.zeros(len(lights), np.int64), np.zeros(len(lights))
+    x, y, z, size, error_scale = np.zeros((5, len(lights)))
+    kind = np.zeros(len(lights), np.int64)
+    rectangles = {
+        k: pack_rectangle(light, unit)
+        for k, light in enumerate(lights)
+        if isinstance(light, RectangleLight)
+    }
     for k, light in enumerate(lights):
         place: Floats | Vec = (0.0, 0.0, 0.0)
         if isinstance(light, Sun):
@@ -84,16 +109,46 @@ def _pack_soft(
             kind[k], size[k] = SPHERE, light.radius / unit
             place = points_of([light.location], unit)[0] - origin
             error_scale[k] = float(_magnitude(*place) + _magnitude(*origin)) + size[k]
+        elif isinstance(light, RectangleLight):
+            one, other = rectangles[k][-2:]
+            kind[k], size[k] = RECTANGLE, one + other
+            place = points_of([light.location], unit)[0] - origin
+            error_scale[k] = float(_magnitude(*place) + _magnitude(*origin)) + size[k]
         else:
             distance = light.distance if isinstance(light, Ambient) else math.inf
             kind[k], size[k] = AROUND, min(distance / unit, FAR)
         x[k], y[k], z[k] = place
     skies = [light for light in lights if isinstance(light, Sky) and changes_color(light)]
     changes = np.array([changes_color(light) for light in lights])
-    sky = np.where(changes, np.cumsum(changes) - 1, NO_SKY)
     counts = np.where(changes, 3, 1)
-    row = first + np.cumsum(counts) - counts
-    return SoftLights(kind, x, y, z, size, error_scale, sky, row, FAR, pack_skies(skies, up))
+    return SoftLights(
+        kind,
+        x,
+        y,
+        z,
+        size,
+        error_scale,
+        np.array(list(map(falls_off, lights))),
+        np.where(changes, np.cumsum(changes) - 1, NO_SKY),
+        first + np.cumsum(counts) - counts,
+        FAR,
+        join_rectangles(len(lights), rectangles),
+        pack_skies(skies, up),
+    )
+
+
+def _pack_visible(lights: Sequence[AnyLight], soft: SoftLights) -> VisibleLamps | None:
+    """Return the lamps among the soft lights that the camera sees, if there are any."""
+    seen = [k for k, light in enumerate(lights) if isinstance(light, Lamp) and light.visible]
+    if not seen:
+        return None
+    data = np.zeros((len(seen), LAMP_SIZE))
+    for row, k in zip(data, seen, strict=True):
+        row[:3] = soft.x[k], soft.y[k], soft.z[k]
+        row[3] = soft.size[k]
+        if soft.rectangles is not None:
+            row[4:] = soft.rectangles.data[RECTANGLE_SIZE * k : RECTANGLE_SIZE * (k + 1)]
+    return VisibleLamps(soft.row[seen], data.reshape(-1), soft.error_scale[seen])
 
 
 def points_of(places: list[Vector], unit: float) -> Floats:

@@ -1,6 +1,6 @@
 """From the arrays of a scene to a film: which rays are cast, tile by tile, in one pass or two."""
 
-from collections.abc import Callable
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -9,13 +9,15 @@ from numpy.typing import NDArray
 from vtray.base.memory import check_memory_of_lights
 from vtray.base.pool import Progress, run_tasks
 from vtray.base.tiles import TILE, Tile, split_into_tiles
+from vtray.geometry.packets.packet import NO_PRIMITIVE
 from vtray.rendering.engines.engine import Engine, trace_to
 from vtray.rendering.engines.threads import Threads
+from vtray.rendering.growth import DRAFT_TILE, Growth, draft_camera
 from vtray.scene.settings import RenderSettings
 from vtray.transport.film import Film, new_film
 from vtray.transport.light_buffer import KeptLight, new_kept_light
 from vtray.transport.sampling.adaptive import mark_rows
-from vtray.transport.sampling.fans import Fans, fans_of_middles, fans_of_samples
+from vtray.transport.sampling.fans import Noise, fans_of_middles, fans_of_samples
 from vtray.transport.sampling.filters import FILTERS
 from vtray.transport.sampling.pixel_samples import (
     Sampling,
@@ -25,11 +27,11 @@ from vtray.transport.sampling.pixel_samples import (
 )
 from vtray.transport.scene_arrays import SceneArrays
 
-ONE_RAY = ("linear",)
-"""What is wanted of a picture with one ray a pixel."""
-
-SAMPLES = ("linear", "coverage", "primitive", "half", "shadows", "rims")
+SAMPLES = ("linear", "error", "coverage", "primitive", "half", "shadows", "rims")
 """What is wanted of one with samples."""
+
+SPARSE = 8
+"""Each so many pixels, both ways, tell about how bright a picture will be."""
 
 
 class Traced(NamedTuple):
@@ -43,6 +45,8 @@ class Traced(NamedTuple):
         The largest channel of its light.
     rays
         How many rays were cast.
+    noise
+        How noisy soft light may be, if there is any.
     kept
         What was kept of the rays of each pass; nothing unless asked for.
     """
@@ -50,6 +54,7 @@ class Traced(NamedTuple):
     film: Film
     peak: float
     rays: int
+    noise: Noise | None = None
     kept: tuple[KeptLight, ...] = ()
 
 
@@ -66,6 +71,8 @@ class Tracer:
         Side of a tile in pixels.
     progress
         Called from time to time with the tiles done and their number.
+    growth
+        Collects the light as it grows; None where nobody looks, and there is no draft.
     """
 
     def __init__(
@@ -74,6 +81,7 @@ class Tracer:
         threads: int,
         tile: int = TILE,
         progress: Progress | None = None,
+        growth: Growth | None = None,
     ) -> None:
         self._scene = scene
         self._size = scene.camera.width, scene.camera.height
@@ -81,6 +89,7 @@ class Tracer:
         self._engine: Engine = Threads(threads)
         self._tile = tile
         self._progress = progress
+        self._growth = growth
         self._passes = 1
         self._done = 0
 
@@ -89,47 +98,91 @@ class Tracer:
         wanted = new_film(*self._size, "distance", "normal", "primitive", "half")
         return self._trace(middle_rays(), wanted).film
 
-    def light(self, settings: RenderSettings, *, keep: bool = False) -> Traced:
+    def light(self, settings: RenderSettings, white: float | None, *, keep: bool = False) -> Traced:
         """Return the light of all pixels, and their coverage if they have samples.
 
         Parameters
         ----------
         settings
-            How many samples, and which.
+            How many samples, and which, and how noisy soft light may be.
+        white
+            The light that becomes 255; None if it is that of the brightest channel.
         keep
             Whether to keep what each ray hits and which lights reach it.
         """
-        if settings.samples == 1:
-            rays = middle_rays(fans=self._fans(fans_of_middles, 1), seed=int(settings.seed))
-            return self._middles(rays, keep, *ONE_RAY)
+        samples, seed = int(settings.samples), int(settings.seed)
+        noise = self.noise(settings, white, keep=keep)
+        fans = None if noise is None else fans_of_middles(noise)
+        if samples == 1:
+            rays = middle_rays(fans=fans, seed=seed)
+            found = self._middles(rays, keep, *one_ray(self._scene))
+            return found._replace(film=_covered(found.film), noise=noise)
         self._passes = 2
         footprint = filter_footprint(settings, self._scene.camera)
-        samples, seed = int(settings.samples), int(settings.seed)
-        fans = self._fans(fans_of_middles, samples)
         middles = middle_rays(footprint, before_samples=True, fans=fans, seed=seed)
         found = self._middles(middles, keep, *SAMPLES)
         film = found.film
         marks, peak = self._mark(film, settings)
-        np.greater_equal(film.primitive, 0, out=film.coverage)
+        film = _covered(film)
         kept = found.kept
         if keep:
             kept = (*kept, self._keep(marks, samples))
             film = film._replace(kept=kept[-1])
-        sampling = filter_samples(settings, marks, self._fans(fans_of_samples, samples))
-        sampled = self._trace(sampling, film)
-        return Traced(film, max(peak, sampled.peak), found.rays + sampled.rays, kept)
+        fans = None if noise is None else fans_of_samples(samples, noise)
+        sampled = self._trace(filter_samples(settings, marks, fans), film)
+        return Traced(film, max(peak, sampled.peak), found.rays + sampled.rays, noise, kept)
 
-    def _fans(self, make: Callable[[int], Fans], samples: int) -> Fans | None:
-        """Return which rays are cast to soft lights, if there are any."""
-        return None if self._scene.lights.soft is None else make(samples)
+    def noise(self, settings: RenderSettings, white: float | None, *, keep: bool) -> Noise | None:
+        """Return how noisy soft light may be, if there is any; the parameters are those of `light`.
+
+        Where light is kept to be changed later, it has no say in how many rays are cast: each of n
+        lights counts as if it gave one n-th of white.
+        """
+        soft = self._scene.lights.soft
+        if soft is None:
+            return None
+        if keep:
+            return Noise(settings.tolerance * len(soft.kind), by_light=False)
+        if white is None:
+            white = self._about_peak(settings)
+        return Noise(settings.tolerance * white or math.inf, by_light=True)
+
+    def _about_peak(self, settings: RenderSettings) -> float:
+        """Return the largest channel of some pixels, with as few rays as there can be."""
+        marks = np.zeros(self._size[::-1], np.bool_)
+        marks[SPARSE // 2 :: SPARSE, SPARSE // 2 :: SPARSE] = True
+        has_samples = settings.samples > 1
+        fans = fans_of_middles(Noise(math.inf, by_light=True))
+        rays = middle_rays(before_samples=has_samples, fans=fans, seed=int(settings.seed))
+        film = new_film(*self._size, *(SAMPLES if has_samples else one_ray(self._scene)))
+        tiles = split_into_tiles(*self._size, self._tile)
+        return self._engine.trace(self._scene, rays._replace(marks=marks), tiles, film, None).peak
 
     def _middles(self, sampling: Sampling, keep: bool, *wanted: str) -> Traced:
         """Trace one ray for each pixel."""
+        if self._growth is not None:
+            self._draft(self._growth, sampling, keep, *wanted)
         film = new_film(*self._size, *wanted)
         if not keep:
             return self._trace(sampling, film)
         kept = self._keep(np.ones(self._size[::-1], np.bool_), 1)
         return self._trace(sampling, film._replace(kept=kept))._replace(kept=(kept,))
+
+    def _draft(self, growth: Growth, sampling: Sampling, keep: bool, *wanted: str) -> None:
+        """Trace what is shown of the picture until its own pixels are there."""
+        scene = self._scene._replace(camera=draft_camera(self._scene.camera))
+        width, height = scene.camera.width, scene.camera.height
+        film = new_film(width, height, *wanted)
+        growth.begin_draft(film, *self._size)
+        if keep:  # for the same kernel
+            film = film._replace(kept=self._keep(np.ones((height, width), np.bool_), 1))
+        tell = self._progress_of(len(split_into_tiles(*self._size, self._tile)))
+
+        def nothing_done(_done: int, _total: int) -> None:
+            tell(0, 0)
+
+        tiles = split_into_tiles(width, height, DRAFT_TILE)
+        self._engine.trace(scene, sampling, tiles, film, nothing_done, growth.add)
 
     def _keep(self, marks: NDArray[np.bool_], samples: int) -> KeptLight:
         """Return where to keep what the samples of the marked pixels meet."""
@@ -158,25 +211,53 @@ class Tracer:
 
     def _trace(self, sampling: Sampling, film: Film) -> Traced:
         """Cast rays, and write to a film."""
-        tiles = split_into_tiles(*self._size, self._tile)
-        progress = self._progress_of(len(tiles))
-        cast = self._engine.trace(self._scene, sampling, tiles, film, progress)
+        tiles, done = split_into_tiles(*self._size, self._tile), None
+        if self._growth is not None:
+            tiles = self._growth.begin(film, tiles, has_samples=sampling.rays > 1)
+            done = self._growth.add
+        tell = self._progress_of(len(tiles))
+        cast = self._engine.trace(self._scene, sampling, tiles, film, tell, done)
+        self._done += len(tiles)
         return Traced(film, cast.peak, cast.rays)
 
-    def _progress_of(self, tiles: int) -> Progress | None:
+    def _progress_of(self, tiles: int) -> Progress:
         """Return what shows the progress of a pass as a part of all passes."""
-        tell, before, passes = self._progress, self._done, self._passes
-        self._done += tiles
-        return tell and (lambda done, _: tell(before + done, passes * tiles))
+        before, total = self._done, self._passes * tiles
+
+        def tell(done: int, _total: int) -> None:
+            if self._progress is not None:
+                self._progress(before + done, total)
+            if self._growth is not None:
+                self._growth.update(before + done, total)
+
+        return tell
+
+
+def one_ray(scene: SceneArrays) -> tuple[str, ...]:
+    """Return what is wanted of a picture with one ray a pixel."""
+    wanted = ["linear"]
+    if scene.lights.soft is not None:
+        wanted.append("error")
+    if scene.lights.visible is not None:
+        wanted.append("primitive")
+    return tuple(wanted)
+
+
+def _covered(film: Film) -> Film:
+    """Return a film with the coverage by what the middle rays meet, if they say it."""
+    if film.primitive is None:
+        return film
+    return film._replace(coverage=(film.primitive != NO_PRIMITIVE).astype(float))
 
 
 def compile_kernels(scene: SceneArrays, settings: RenderSettings, *, keep: bool = False) -> None:
     """Compile what is needed to trace a scene, or load it from disk; see `Tracer.light`."""
     has_samples = settings.samples > 1
-    film = new_film(0, 0, *(SAMPLES if has_samples else ONE_RAY))
+    soft = scene.lights.soft
+    film = new_film(0, 0, *(SAMPLES if has_samples else one_ray(scene)))
     if has_samples:
         mark_rows(film, 0, 0, 0, np.zeros((0, 0), np.bool_))
     if keep:
         film = film._replace(kept=new_kept_light(np.zeros((0, 0), np.int64), 0, 0))
-    fans = None if scene.lights.soft is None else fans_of_middles(1)
+    fans = None if soft is None else fans_of_middles(Noise(math.inf, by_light=True))
     trace_to(film, scene, middle_rays(before_samples=has_samples, fans=fans), Tile(0, 0, 0, 0))

@@ -16,12 +16,21 @@ from vtray.geometry.vector import Vec, scale, sub
 from vtray.rendering.numbering import Numbering
 from vtray.rendering.pack import Packed
 from vtray.rendering.pixel_surfaces import find_blocker, rgb
-from vtray.scene.light_types import Ambient, AnyLight, Light, SphereLight, Sun
+from vtray.scene.light_types import (
+    Ambient,
+    AnyLight,
+    Lamp,
+    Light,
+    SphereLight,
+    Sun,
+    measure_of,
+    strength_of,
+)
 from vtray.scene.placing.directions import unit
 from vtray.scene.scene import Scene
-from vtray.transport.integrators.reference import TracedPixel, trace_fan
+from vtray.transport.integrators.reference import TracedPixel, trace_fan, trace_lamp
 from vtray.transport.lights.soft_light import component_count
-from vtray.transport.sampling.fans import fans_of_middles
+from vtray.transport.sampling.fans import Noise, fans_of_middles
 
 
 class Lit(NamedTuple):
@@ -52,7 +61,12 @@ def shadow_rays(
 
 
 def trace_fans(
-    lit: Lit, packed: Packed, traced: TracedPixel, pixel: tuple[int, int], seed: int
+    lit: Lit,
+    packed: Packed,
+    traced: TracedPixel,
+    pixel: tuple[int, int],
+    noise: Noise | None,
+    seed: int,
 ) -> tuple[list[WayToLight], Vec]:
     """Trace the rays to all lights that are no points.
 
@@ -66,6 +80,8 @@ def trace_fans(
         The pixel with the light of the points.
     pixel
         Its column and row.
+    noise
+        How noisy soft light may be, if there is any.
     seed
         The seed of the picture.
 
@@ -74,25 +90,30 @@ def trace_fans(
     fans, light
         The rays, and the pixel's light with all that they add.
     """
-    soft = packed.arrays.lights.soft
     ways: list[WayToLight] = []
+    if noise is None:
+        return ways, traced.value
+    arrays, soft = packed.arrays, packed.arrays.lights.soft
     if soft is None:
         return ways, traced.value
-    fans, fan, stack = fans_of_middles(1), new_fan(), new_stack()
-    blockers = np.full(fans.rays, NOTHING)
+    fans, spent = fans_of_middles(noise), 0.0
+    fan, stack, blockers = new_fan(), new_stack(), np.full(fans.rays, NOTHING)
+    start, length = traced.interaction.point, packed.unit
     for k, light in enumerate(lit.scene.lights):
         if not isinstance(light, Light):
-            shares, value = trace_fan(
-                packed.arrays, soft, traced, *pixel, len(ways), fans, seed, stack, fan, blockers
-            )
-            traced = traced._replace(value=value)
-            start, length = traced.interaction.point, packed.unit
+            known = arrays, soft, traced, *pixel, len(ways), fans
+            lamp = trace_lamp(*known, spent, seed, stack, fan, blockers)
             components = uncompiled(component_count)(soft, len(ways))
-            rays = tuple(
-                _fan_ray(lit, light, _Ray(fan, ray, start, length, components), int(blocker))
-                for ray, blocker in enumerate(blockers)
-            )
-            ways.append(_shadow_fan(lit, k, light, rays, shares[:components]))
+            rays: list[FanRay] = []
+            for number in range(lamp.fans):
+                trace_fan(*known, number, seed, stack, fan, blockers)
+                rays += [
+                    _fan_ray(lit, light, _Ray(fan, ray, start, length, components), int(blocker))
+                    for ray, blocker in enumerate(blockers)
+                ]
+            ways.append(_shadow_fan(lit, k, light, tuple(rays), lamp.shares[:components]))
+            traced = traced._replace(value=lamp.value)
+            spent += lamp.counted
     return ways, traced.value
 
 
@@ -121,7 +142,8 @@ def _shadow_fan(
     red, green, blue = shares if len(shares) == 3 else 3 * shares
     adds = _added(lit.hit, light, (red, green, blue))
     several = None if len(shares) == 1 else (red, green, blue)
-    return ShadowFan(number, kind, light.intensity, middle, rays, share, adds, color, several)
+    strength, measure = strength_of(light), measure_of(light)
+    return ShadowFan(number, kind, strength, middle, rays, share, adds, color, measure, several)
 
 
 class _Ray(NamedTuple):
@@ -160,7 +182,7 @@ def _fan_ray(lit: Lit, light: AnyLight, ray: _Ray, primitive: int) -> FanRay:
     """Return a ray of a fan; `primitive` is the number of what blocks it."""
     direction = ray.vector(DIRECTION)
     length = math.inf
-    if isinstance(light, SphereLight):
+    if isinstance(light, Lamp):
         length = hypotenuse(*uncompiled(sub)(ray.vector(END), ray.start)) * ray.unit
     elif isinstance(light, Ambient):
         length = light.distance
@@ -174,11 +196,11 @@ def _middle(hit: Hit, light: AnyLight) -> Vec:
     """Return the direction from a hit to the middle of a light."""
     if isinstance(light, Sun):
         return uncompiled(scale)(-1.0, unit(light.direction))
-    if isinstance(light, SphereLight):
+    if isinstance(light, Lamp):
         place = (light.location.x, light.location.y, light.location.z)
         way = uncompiled(sub)(place, hit.point)
         distance = hypotenuse(*way)
-        if distance > light.radius:
+        if distance > (light.radius if isinstance(light, SphereLight) else 0.0):
             return way[0] / distance, way[1] / distance, way[2] / distance
     return hit.normal
 
@@ -186,7 +208,7 @@ def _middle(hit: Hit, light: AnyLight) -> Vec:
 def _added(hit: Hit, light: AnyLight, shares: Vec) -> Vec:
     """Return what a light adds to a pixel, of whose red, green and blue so much arrives."""
     # In the order of the kernels, so that the sum has the same bits.
-    strengths = [share * hit.surface.lambert * light.intensity for share in shares]
+    strengths = [share * hit.surface.lambert * strength_of(light) for share in shares]
     red, green, blue = hit.surface.color
     tint = rgb(light.color)
     return (

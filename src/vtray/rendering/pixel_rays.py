@@ -7,20 +7,26 @@ import numpy as np
 
 from vtray.base.compiler.compiled import uncompiled
 from vtray.base.errors import RenderError
+from vtray.base.pool import available_cores
 from vtray.figures.ray_tree import Exposed, Hit, RayTree, View
 from vtray.figures.traced_rays import WayToLight
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, scale
+from vtray.image.exposure import known_white
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.numbering import number_objects
 from vtray.rendering.pack import Packed, pack
+from vtray.rendering.passes import Tracer
 from vtray.rendering.pixel_lights import Lit, shadow_rays, trace_fans
 from vtray.rendering.pixel_surfaces import find_surface
-from vtray.scene.default_light import lights_of
+from vtray.scene.default_light import lights_of, settings_of
+from vtray.scene.light_types import Light
 from vtray.scene.scene import Scene
+from vtray.scene.settings import RenderSettings
 from vtray.transport.integrators.reference import trace_pixel as trace_one
 from vtray.transport.lights.light import light_count
+from vtray.transport.sampling.fans import Noise
 
 if TYPE_CHECKING:
     from vtray.image.image import Image
@@ -74,7 +80,7 @@ def trace_rays(
     if not (0 <= column < width and 0 <= row < height):
         message = f"{caller}: expected 0,0 to {width - 1},{height - 1}, got {column},{row}"
         raise RenderError(message)
-    seed = int((scene.render if image is None else image.settings).seed)
+    settings = settings_of(scene) if image is None else image.settings
     kept = accelerate(scene)  # which the given scene may have already
     scene = Scene(camera, lights_of(scene), list(scene.objects))
     packed, numbering = pack(scene, kept), number_objects(scene.objects)
@@ -95,7 +101,8 @@ def trace_rays(
             traced.interaction.normal,
         )
         lit = Lit(scene, numbering, hit)
-        fans, light = trace_fans(lit, packed, traced, (column, row), seed)
+        noise = _noise(packed, settings) if image is None else image.noise
+        fans, light = trace_fans(lit, packed, traced, (column, row), noise, int(settings.seed))
         ways = [*shadow_rays(lit, cosines, blockers), *fans]
     return RayTree(
         (column, row),
@@ -106,8 +113,22 @@ def trace_rays(
         light,
         _view(scene, packed),
         None if image is None else _exposed(image, column, row),
+        None if traced.lamp == NOTHING else _place_of(scene, packed, traced.lamp),
         scene,
     )
+
+
+def _noise(packed: Packed, settings: RenderSettings) -> Noise | None:
+    """Return how noisy soft light may be in a picture with some settings."""
+    tracer = Tracer(packed.arrays, available_cores())
+    return tracer.noise(settings, known_white(settings.exposure), keep=False)
+
+
+def _place_of(scene: Scene, packed: Packed, row: int) -> int:
+    """Return the place in `scene.lights` of a lamp, given the row of its strength in the arrays."""
+    places = [k for k, light in enumerate(scene.lights) if not isinstance(light, Light)]
+    assert packed.arrays.lights.soft is not None  # noqa: S101 - a lamp is seen
+    return places[int(np.searchsorted(packed.arrays.lights.soft.row, row))]
 
 
 def _view(scene: Scene, packed: Packed) -> View:

@@ -1,19 +1,29 @@
 """From a scene to its picture: the steps in their order."""
 
 from collections.abc import Callable
+from contextlib import nullcontext
 from functools import partial
 from typing import Any, Literal, Protocol
 
 import numpy as np
 
 from vtray.base.compiler.compiled import loading_seconds
-from vtray.base.memory import BYTES_PER_PIXEL_AND_MORE, check_memory
+from vtray.base.memory import (
+    BYTES_PER_PIXEL_AND_MORE,
+    BYTES_PER_PIXEL_DENOISED,
+    BYTES_PER_PIXEL_SHOWN,
+    check_memory,
+)
 from vtray.base.pool import Progress as StepProgress
 from vtray.base.pool import available_cores
 from vtray.base.stopwatch import Stopwatch
 from vtray.base.tiles import TILE
-from vtray.image.exposure import check_brightness, locked_white, warm_up, white_of
+from vtray.image.denoise import load_library
+from vtray.image.exposure import check_brightness, known_white, locked_white, warm_up
 from vtray.image.image import Image
+from vtray.rendering.darkroom import Darkroom
+from vtray.rendering.denoising import Denoising
+from vtray.rendering.growth import Growth
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
 from vtray.rendering.passes import Tracer, compile_kernels
@@ -21,9 +31,9 @@ from vtray.rendering.relighting import Relighting
 from vtray.rendering.seen_sky import SeenSky, check_sky
 from vtray.rendering.surfaces import Look
 from vtray.scene.checks.unknown_names import explain_unknown
-from vtray.scene.default_light import default_settings, has_default_light, lights_of
+from vtray.scene.default_light import lights_of, settings_of
 from vtray.scene.files.scene_file import Warn
-from vtray.scene.light_types import AnyLight
+from vtray.scene.light_types import AnyLight, strength_of
 from vtray.scene.scene import Camera, Scene
 from vtray.scene.settings import RenderSettings, overridden
 
@@ -47,11 +57,15 @@ def render(
     samples: int | None = None,
     filter: str | None = None,  # noqa: A002 - as in the scene file
     seed: int | None = None,
+    tolerance: float | None = None,
     size: tuple[int, int] | None = None,
     exposure: Literal["max"] | float | None = None,
     background: Any = None,  # noqa: ANN401
+    denoise: bool | None = None,
     lock: HasWhite | None = None,
     keep_lights: bool = False,
+    on_update: Callable[[Image], object] | None = None,
+    update_seconds: float = 1.0,
     tile: int = TILE,
     warn: Warn | None = None,
 ) -> Image:
@@ -78,6 +92,11 @@ def render(
         ``"mitchell"`` or ``"blackman-harris"``, the default.
     seed
         Chooses among equally good places of the samples.
+    tolerance
+        How noisy soft light may be: the standard error of a pixel, 1 for white; 0.008 by default,
+        two steps of 255. From each point that is seen, rays are cast to each lamp with a size until
+        what they tell is estimated to be as exact as that. With `keep_lights`, that does not look
+        at light: each of n soft lights counts as if it gave one n-th of white.
     size
         Width and height of the picture in pixels, of the same view, instead of the camera's.
     exposure
@@ -87,11 +106,24 @@ def render(
     background
         What is seen where nothing is: ``"black"``, the default, ``"transparent"``, ``"sky"`` for
         the skies among the lights, or a colour in any of the ways of `vtray.colors.to_rgb`.
+    denoise
+        Whether the grain of soft light is taken out by Open Image Denoise, once all is traced. The
+        picture is then no longer the same on every machine; `Image.raw` is.
     lock
         A picture whose exposure is taken, so that a sequence does not flicker; not together with
         `exposure`.
     keep_lights
         Keep the light of each lamp apart, for `Image.relight` and `Image.recolor`.
+    on_update
+        Called from time to time with the picture so far, an `Image` to look at or to save whose
+        `Image.partial` says how much of it is done: first with a draft of an eighth of its width
+        and height, in whose place exact pixels come from the middle outwards, and with samples a
+        second time. It is called in the calling thread, a last time after Ctrl-C, and never with
+        the whole picture, which does not depend on it. What it raises ends the render.
+    update_seconds
+        The least time between two such calls, and before the first; ``math.inf`` for one after
+        Ctrl-C alone. If they take long, there are fewer, so that they take a tenth of the time at
+        the most.
     tile
         Side of a tile in pixels.
     warn
@@ -111,24 +143,27 @@ def render(
         The image does not fit into memory, its light is too bright for a double, `lock` is no
         picture, or `exposure` is given too; or the background is the sky, and there is none.
     ValueError
-        `threads` or `tile` is not an integer of at least 1.
+        `threads` or `tile` is not an integer of at least 1, or `update_seconds` no number ≥ 0.
+    ExtraError
+        `denoise` is asked for, and its library is not installed.
     KeyboardInterrupt
         After Ctrl-C; all threads have ended by then.
     """
     threads = _count("threads", threads if threads is not None else available_cores())
     tile = _count("tile", tile)
+    _check_seconds(update_seconds)
     if lock is not None:
         locked_white(lock, exposure)
     scene.check()
     lights = lights_of(scene)
-    settings = overridden(_settings_of(scene), locals())
+    settings = overridden(settings_of(scene), locals())
     shown = _snapshot(scene, lights, _camera(scene, settings))
+    if settings.denoise:
+        load_library()  # before any work is done
     problem = _darkness(shown, keep_lights=keep_lights)
     if problem:
         (warn or _warn)(problem)
-    width, height = shown.camera.size
-    behind = 0 if settings.background == "black" else BYTES_PER_PIXEL_AND_MORE
-    check_memory(int(width), int(height), int(settings.samples), behind)
+    _check_memory(shown.camera, settings, is_shown=on_update is not None)
     check_brightness(shown.lights)
     check_sky(shown.lights, settings)
     clock = Stopwatch()
@@ -141,11 +176,17 @@ def render(
     compile_kernels(packed.arrays, settings, keep=keep_lights)
     warm_up()
     sky = SeenSky(packed.arrays.camera, settings, threads)
-    if settings.background == "sky":
-        sky.warm_up(shown)
+    sky.warm_up(shown)
     clock.lap("compile")
-    tracer = Tracer(packed.arrays, threads, tile, _step_of(progress, "trace"))
-    traced = tracer.light(settings, keep=keep_lights)
+    look = Look(shown, packed, threads)
+    darkroom = Darkroom(
+        shown, _snapshot(scene, lights, scene.camera), settings, look, sky, lock, threads
+    )
+    growth = _growth(darkroom, on_update, update_seconds)
+    tracer = Tracer(packed.arrays, threads, tile, _step_of(progress, "trace"), growth)
+    white = known_white(settings.exposure, lock)
+    with growth or nullcontext():
+        traced = tracer.light(settings, white, keep=keep_lights)
     clock.lap("trace")
     stats = {
         "rays": traced.rays,
@@ -153,23 +194,20 @@ def render(
         "depth": kept.tree_depth,
         "memory": kept.memory,
     }
-    image = Image(
+    relighting = Relighting(kept, traced.kept, int(settings.samples), threads)
+    coverage = traced.film.coverage
+    denoising = Denoising(kept, settings, coverage, threads)
+    image = darkroom.picture(
         traced.film.linear,
-        None,
-        white_of(settings.exposure, traced.peak) if lock is None else locked_white(lock),
-        shown,
-        settings,
-        {},
-        look=Look(shown, packed, threads),
-        alpha=traced.film.coverage if settings.samples > 1 else None,
-        relighting=Relighting(kept, traced.kept, int(settings.samples), threads)
-        if keep_lights
-        else None,
-        threads=threads,
-        original=_snapshot(scene, lights, scene.camera),
-        locked=lock is not None,
-        sky=sky,
+        coverage,
+        traced.peak,
+        error=traced.film.error,
+        noise=traced.noise,
+        relighting=relighting if keep_lights else None,
+        denoising=denoising if settings.denoise else None,
     )
+    if settings.denoise:
+        clock.lap("denoise")
     image.develop()
     clock.lap("develop")
     # Kernels are loaded when they are first called; that is no part of the build.
@@ -179,9 +217,18 @@ def render(
     return image
 
 
+def _growth(
+    darkroom: Darkroom, on_update: Callable[[Image], object] | None, seconds: float
+) -> Growth | None:
+    """Return what shows the picture as it grows, if somebody looks."""
+    if on_update is None:
+        return None
+    return Growth(lambda part: on_update(darkroom.part(part)), seconds)
+
+
 def _darkness(scene: Scene, *, keep_lights: bool) -> str:
     """Say why all that is seen is black, if that is known before; "" if it is not."""
-    if not scene.objects or any(light.intensity > 0 for light in scene.lights):
+    if not scene.objects or any(strength_of(light) > 0 for light in scene.lights):
         return ""
     if not scene.lights:
         remedy = "add one by scene.add_light, or some of vtray.lights; in a file, under that key"
@@ -198,18 +245,21 @@ def _warn(message: str) -> None:
     warnings.warn(message, stacklevel=4)
 
 
-def _settings_of(scene: Scene) -> RenderSettings:
-    """Return the settings of a scene, with those for its light if that is the default one."""
-    look = default_settings(scene.render) if has_default_light(scene) else {}
-    return scene.render.replace(**look)
-
-
 def _camera(scene: Scene, settings: RenderSettings) -> Camera:
     """Return the camera of a scene in the size asked for."""
     size = settings.size
     if size is None or size == scene.camera.size:
         return scene.camera
     return scene.camera.resized((int(size[0]), int(size[1])))
+
+
+def _check_memory(camera: Camera, settings: RenderSettings, *, is_shown: bool) -> None:
+    """Raise RenderError if the picture cannot be held in memory."""
+    width, height = camera.size
+    behind = 0 if settings.background == "black" else BYTES_PER_PIXEL_AND_MORE
+    more = BYTES_PER_PIXEL_SHOWN if is_shown else 0
+    more += BYTES_PER_PIXEL_DENOISED if settings.denoise else 0
+    check_memory(int(width), int(height), int(settings.samples), behind, more)
 
 
 def _snapshot(scene: Scene, lights: list[AnyLight], camera: Camera) -> Scene:
@@ -220,6 +270,13 @@ def _snapshot(scene: Scene, lights: list[AnyLight], camera: Camera) -> Scene:
 def _step_of(progress: Progress | None, step: str) -> StepProgress | None:
     """Return what shows the progress of one step."""
     return None if progress is None else partial(progress, step)
+
+
+def _check_seconds(value: float) -> None:
+    """Raise ValueError if an argument that must be a number of at least 0 is none."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not value >= 0:
+        message = f"update_seconds: expected a number ≥ 0, got {value!r}"
+        raise ValueError(message)
 
 
 def _count(name: str, value: int) -> int:

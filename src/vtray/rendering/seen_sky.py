@@ -42,6 +42,7 @@ class SeenSky:
 
     def __init__(self, camera: CameraFrame, settings: RenderSettings, threads: int) -> None:
         self._camera = camera
+        self._is_seen = settings.background == "sky"
         self._threads = threads
         many = settings.samples > 1
         self._sampling: Sampling = (
@@ -68,8 +69,9 @@ class SeenSky:
         return seen
 
     def warm_up(self, scene: Scene) -> None:
-        """Load the kernel, or compile it."""
-        self(scene, np.zeros((0, 0)))
+        """Load the kernel, or compile it, if the sky is the background."""
+        if self._is_seen:
+            self(scene, np.zeros((0, 0)))
 
     def _look_at(self, sky: Sky, scene: Scene, cover: Floats) -> Floats:
         """Return the light of one sky of many colours, 1 for its radiance."""

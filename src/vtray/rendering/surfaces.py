@@ -28,9 +28,16 @@ class Look:
         self._scene = scene
         self._packed = packed
         self._threads = threads
+        self._found: Surfaces | None = None  # for all pictures of the view
 
     def __call__(self) -> Surfaces:
-        """Trace the ray through the middle of each pixel."""
+        """Trace the ray through the middle of each pixel, once."""
+        if self._found is None:
+            self._found = self._trace()
+        return self._found
+
+    def _trace(self) -> Surfaces:
+        """Trace them."""
         film = Tracer(self._packed.arrays, self._threads).surfaces()
         with np.errstate(over="ignore"):
             depth = film.distance * self._packed.unit + self._packed.before

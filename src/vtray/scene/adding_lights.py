@@ -14,6 +14,7 @@ from vtray.scene.light_types import (
     AnyLight,
     Light,
     OneLight,
+    RectangleLight,
     Sky,
     SphereLight,
     Sun,
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from vtray.scene.colors.names import AnyColor
     from vtray.scene.vectors import Triple
 
-_KINDS = (Light, Sun, SphereLight, Sky, Ambient)
+_KINDS = (Light, Sun, SphereLight, RectangleLight, Sky, Ambient)
 
 
 class AddingLights:
@@ -68,7 +69,7 @@ class AddingLights:
         ----------
         location
             Position in world space; or, alone, a light of any kind: `Light`, `Sun`, `SphereLight`,
-            `Sky` or `Ambient`.
+            `RectangleLight`, `Sky` or `Ambient`.
         intensity
             Strength, ≥ 0: a white surface that a light of intensity 1 shines on squarely shows 1.
         color
@@ -122,10 +123,13 @@ class AddingLights:
         self,
         location: "Vector | Triple",
         radius: float,
-        intensity: float = 1.0,
+        intensity: float | None = None,
         color: "AnyColor" = "white",
+        *,
+        radiance: float | None = None,
+        visible: bool = False,
     ) -> SphereLight:
-        """Add a shining ball, itself unseen; its light does not fall off with distance.
+        """Add a shining ball.
 
         Parameters
         ----------
@@ -134,9 +138,15 @@ class AddingLights:
         radius
             Radius in scene units, ≥ 0; the larger, the softer its shadows.
         intensity
-            Strength, ≥ 0: a white surface that a ball of intensity 1 shines on squarely shows 1.
+            Strength at any distance, ≥ 0, 1 by default: a white surface that a ball of intensity 1
+            shines on squarely shows 1.
         color
             Colour of the light, in any of the ways of `vtray.colors.to_rgb`.
+        radiance
+            Instead of an intensity: how brightly its surface shines, ≥ 0, so that its light gets
+            weaker with distance.
+        visible
+            Whether the camera sees it, in its colour.
 
         Raises
         ------
@@ -145,7 +155,46 @@ class AddingLights:
         """
         place = argument("add_sphere_light", "location", location, Vector)
         rgb = _color("add_sphere_light", color)
-        return self._added(SphereLight(place, radius, intensity, rgb))
+        return self._added(SphereLight(place, radius, intensity, rgb, radiance, visible))
+
+    @explain_unknown
+    def add_rectangle_light(
+        self,
+        location: "Vector | Triple",
+        edges: "Sequence[Vector | Triple] | NDArray[Any]",
+        intensity: float | None = None,
+        color: "AnyColor" = "white",
+        *,
+        radiance: float | None = None,
+        visible: bool = False,
+    ) -> RectangleLight:
+        """Add a shining rectangle, which shines to both sides.
+
+        Parameters
+        ----------
+        location
+            Its middle in world space.
+        edges
+            Two of its sides, from corner to corner, in scene units, at right angles to each other.
+        intensity
+            Strength at any distance, ≥ 0, 1 by default: a white surface straight in front of its
+            middle that a rectangle of intensity 1 shines on squarely shows 1.
+        color
+            Colour of the light, in any of the ways of `vtray.colors.to_rgb`.
+        radiance
+            Instead of an intensity: how brightly its surface shines, ≥ 0, so that its light gets
+            weaker with distance.
+        visible
+            Whether the camera sees it, in its colour.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right.
+        """
+        place = argument("add_rectangle_light", "location", location, Vector)
+        rgb = _color("add_rectangle_light", color)
+        return self._added(RectangleLight(place, edges, intensity, rgb, radiance, visible))
 
     @explain_unknown
     def add_sky(

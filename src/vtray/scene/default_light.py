@@ -17,6 +17,12 @@ class HasLights(HasCamera, Protocol):
     def lights(self) -> list[AnyLight]: ...  # noqa: D102
 
 
+class HasSettings(HasLights, Protocol):
+    """A scene, as far as its light and its settings are concerned."""
+
+    render: RenderSettings
+
+
 def has_default_light(scene: HasLights) -> bool:
     """Tell whether the lights of a scene were never set, and none was added."""
     return isinstance(scene.lights, NeverSet) and not scene.lights
@@ -34,15 +40,15 @@ def lights_of(scene: HasLights) -> list[AnyLight]:
     return studio(scene)
 
 
-def default_settings(settings: RenderSettings) -> dict[str, Any]:
-    """Return the settings of a scene in default light, but for those that were set.
+def settings_of(scene: HasSettings) -> RenderSettings:
+    """Return the settings of a scene; in default light with others for those that were not set.
 
     Its light is made for an exposure of 1, with which colours are what they were given as, and its
     rims for a bright background.
     """
     look: dict[str, Any] = {}
-    if settings.exposure == "max":
+    if has_default_light(scene) and scene.render.exposure == "max":
         look["exposure"] = 1.0
-    if settings.background == "black":
+    if has_default_light(scene) and scene.render.background == "black":
         look["background"] = Color(255, 255, 255)
-    return look
+    return scene.render.replace(**look)

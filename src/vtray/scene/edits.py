@@ -11,7 +11,7 @@ from vtray.scene.arrays import Arrays
 from vtray.scene.checks.scene_words import show
 from vtray.scene.colors.color_arrays import color_arrays
 from vtray.scene.copies import Copies
-from vtray.scene.light_types import with_intensity
+from vtray.scene.light_types import with_strength
 from vtray.scene.scene import Scene
 from vtray.scene.vectors import Color
 
@@ -142,7 +142,7 @@ def relit(scene: Scene, intensities: Sequence[float]) -> Scene:
     changed = []
     for k, (light, intensity) in enumerate(zip(lights, intensities, strict=True)):
         try:
-            changed.append(with_intensity(light, intensity))
+            changed.append(with_strength(light, intensity))
         except SceneError as problem:
             words = str(problem).partition(": ")[2]
             message = f"relight: intensities[{k}]: {words}"

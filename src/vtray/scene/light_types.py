@@ -3,28 +3,35 @@
 All are measured alike: a white surface that scatters all light (`lambert` 1) shows 1, which with an
 exposure of 1 becomes 255, where one light of strength 1 shines on it squarely and unhindered. That
 holds for a point, for a sun or a sphere of any size, for a sky around all of the scene, and for
-ambient light with nothing near.
+ambient light with nothing near. Only lamps that are given a radiance, as real ones have, get weaker
+with distance.
 """
 
 import math
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias, TypeVar
+
+import msgspec
+from msgspec import Meta
 
 from vtray.scene.checks.checked import Checked, Frozen, bind
-from vtray.scene.checks.limits import AngularSize, NonNegative, Reach, Real
+from vtray.scene.checks.limits import AngularSize, FieldError, NonNegative, Reach, Real, YesOrNo
+from vtray.scene.placing.directions import are_square, unit
 from vtray.scene.sky_image import SkyImage, sky_image
 from vtray.scene.sky_types import Gradient, check_one_of
 from vtray.scene.vectors import Color, Direction, Vector
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
     from vtray.scene.vectors import Triple
 
 WHITE = Color(255, 255, 255)
+
+Sides = Annotated[tuple[Vector, Vector], Meta(description="two vectors")]
 
 SUN_DEGREES = 0.53
 """How large the sun appears from the earth."""
@@ -98,9 +105,9 @@ class Sun(Frozen, frozen=True, gc=False, tag_field="type", tag="sun"):
 
 
 class SphereLight(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
-    """A shining ball, itself unseen; the larger it is, the softer are its shadows.
+    """A shining ball; the larger it is, the softer are its shadows.
 
-    Its light does not fall off with distance, as that of points.
+    Its light does not fall off with distance, as that of points, unless its radiance is given.
 
     Attributes
     ----------
@@ -113,12 +120,21 @@ class SphereLight(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere")
         shines on squarely, with nothing in between, shows 1, whatever the radius.
     color : Color, optional
         Colour of the light, as for Light.
+    radiance : float, optional
+        Instead of an intensity: how brightly its surface shines, ≥ 0. A white, fully scattering
+        surface that sees nothing but a ball of radiance 1 shows 1; less where the ball is
+        smaller or farther away.
+    visible : bool, optional
+        Whether the camera sees it, in its colour: white if its strength and its colour are 1.
+        False by default. In any case it throws no shadow.
     """
 
     location: Vector
     radius: NonNegative
-    intensity: NonNegative = 1.0
+    intensity: NonNegative | None = None
     color: Color = WHITE
+    radiance: NonNegative | None = None
+    visible: YesOrNo = False
 
     if TYPE_CHECKING:
 
@@ -126,9 +142,70 @@ class SphereLight(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere")
             self,
             location: "Vector | Triple",
             radius: float,
-            intensity: float = 1.0,
+            intensity: float | None = None,
             color: "Color | Triple" = ...,
+            radiance: float | None = None,
+            visible: bool = False,
         ) -> None: ...
+
+    def __post_init__(self) -> None:
+        """Settle how strong it is."""
+        _settle_strength(self)
+
+
+class RectangleLight(Frozen, frozen=True, gc=False, tag_field="type", tag="rectangle"):
+    """A shining rectangle, which shines to both sides, and not along its plane.
+
+    Its light does not fall off with distance, unless its radiance is given.
+
+    Attributes
+    ----------
+    location : Vector
+        Its middle in world space.
+    edges : tuple of Vector
+        Two of its sides, from corner to corner, in scene units, at right angles to each other.
+    intensity : float, optional
+        Strength, ≥ 0, 1 by default: a white, fully scattering surface straight in front of its
+        middle that a rectangle of intensity 1 shines on squarely, with nothing in between, shows 1,
+        whatever the size and the distance. From aside, it is seen smaller, and gives less.
+    color : Color, optional
+        Colour of the light, as for Light.
+    radiance : float, optional
+        Instead of an intensity: how brightly its surface shines, ≥ 0. A white, fully scattering
+        surface that sees nothing but a rectangle of radiance 1 shows 1; less where the rectangle is
+        smaller or farther away.
+    visible : bool, optional
+        Whether the camera sees it, in its colour: white if its strength and its colour are 1.
+        False by default. In any case it throws no shadow.
+    """
+
+    location: Vector
+    edges: Sides
+    intensity: NonNegative | None = None
+    color: Color = WHITE
+    radiance: NonNegative | None = None
+    visible: YesOrNo = False
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            location: "Vector | Triple",
+            edges: "Sequence[Vector | Triple] | NDArray[Any]",
+            intensity: float | None = None,
+            color: "Color | Triple" = ...,
+            radiance: float | None = None,
+            visible: bool = False,
+        ) -> None: ...
+
+    def __post_init__(self) -> None:
+        """Settle how strong it is, and refuse edges that make no rectangle."""
+        _settle_strength(self)
+        if not all(edge.x or edge.y or edge.z for edge in self.edges):
+            raise FieldError("edges", "two vectors that are not zero (a tiny one will do)")
+        one, other = map(unit, self.edges)
+        if not are_square(one, other):
+            raise FieldError("edges", "two vectors at right angles to each other")
 
 
 class _CheckedSky(Checked):
@@ -224,9 +301,12 @@ class Ambient(Frozen, frozen=True, gc=False, tag_field="type", tag="ambient"):
         ) -> None: ...
 
 
-AnyLight: TypeAlias = Light | Sun | SphereLight | Sky | Ambient
+Lamp: TypeAlias = SphereLight | RectangleLight
+"""What has a place and a size."""
 
-OneLight = TypeVar("OneLight", Light, Sun, SphereLight, Sky, Ambient)
+AnyLight: TypeAlias = Light | Sun | SphereLight | RectangleLight | Sky | Ambient
+
+OneLight = TypeVar("OneLight", Light, Sun, SphereLight, RectangleLight, Sky, Ambient)
 
 
 class NeverSet(list[AnyLight]):
@@ -238,20 +318,44 @@ def images_of(lights: "Iterable[AnyLight]") -> list[SkyImage]:
     return [light.image for light in lights if isinstance(light, Sky) and light.image is not None]
 
 
+def _settle_strength(light: "Lamp") -> None:
+    """Give a lamp the intensity 1 if it has no strength, and refuse two."""
+    if light.radiance is None and light.intensity is None:
+        msgspec.structs.force_setattr(light, "intensity", 1.0)
+    elif light.radiance is not None and light.intensity is not None:
+        raise FieldError("radiance", "either this or the intensity, not both")
+
+
+def strength_of(light: AnyLight) -> float:
+    """Return what the light of a lamp is multiplied by: its intensity, or its radiance."""
+    if isinstance(light, Lamp | Sky) and light.radiance is not None:
+        return light.radiance
+    assert light.intensity is not None  # noqa: S101 - one of the two is given
+    return light.intensity
+
+
 def brightest(light: AnyLight) -> float:
-    """Return the intensity of a light, of a picture that of its brightest channel."""
+    """Return the strength of a light, of a picture that of its brightest channel."""
     image = light.image if isinstance(light, Sky) else None
-    return light.intensity * (max(image.peak, 1.0) if image else 1.0)
+    return strength_of(light) * (max(image.peak, 1.0) if image else 1.0)
 
 
-def with_intensity(light: AnyLight, intensity: float) -> AnyLight:
-    """Return the same light with another strength.
+def falls_off(light: AnyLight) -> bool:
+    """Tell whether a lamp gets weaker with distance."""
+    return isinstance(light, Lamp) and light.radiance is not None
+
+
+def measure_of(light: AnyLight) -> str:
+    """Return what the strength of a light is called: "intensity" or "radiance"."""
+    return "radiance" if isinstance(light, Sky) or falls_off(light) else "intensity"
+
+
+def with_strength(light: AnyLight, strength: float) -> AnyLight:
+    """Return the same light with another intensity, or radiance if it has one.
 
     Raises
     ------
     SceneError
         If it is not right.
     """
-    if isinstance(light, Sky):
-        return light.replace(radiance=intensity)
-    return light.replace(intensity=intensity)
+    return light.replace(**{measure_of(light): strength})

@@ -19,7 +19,16 @@ from vtray.scene.checks.checked import Checked
 from vtray.scene.checks.unknown_names import unknown_attribute
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.light_types import Ambient, AnyLight, Light, NeverSet, Sky, SphereLight, Sun
+from vtray.scene.light_types import (
+    Ambient,
+    AnyLight,
+    Light,
+    NeverSet,
+    RectangleLight,
+    Sky,
+    SphereLight,
+    Sun,
+)
 from vtray.scene.objects import Cylinder, Object, Plane, Sphere
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient
@@ -39,6 +48,7 @@ __all__ = [
     "Light",
     "Object",
     "Plane",
+    "RectangleLight",
     "Scene",
     "Sky",
     "Sphere",
@@ -59,7 +69,7 @@ class Scene(msgspec.Struct, Adding, AddingLights, metaclass=Checked, dict=True):
     ----------
     camera : Camera
         Where the picture is taken from; None until it is set.
-    lights : list of Light, Sun, SphereLight, Sky or Ambient
+    lights : list of Light, Sun, SphereLight, RectangleLight, Sky or Ambient
         The lights. Where they were never set and none was added, those of `vtray.lights.studio`
         are used; ``[]``, or `vtray.lights.none`, leaves a scene dark.
     objects : list of Sphere, Cylinder, Plane, Spheres, Cylinders or Copies

@@ -21,6 +21,8 @@ from vtray.scene.colors.names import to_rgb
 from vtray.scene.vectors import Color
 
 MAX_SAMPLES = 2**16
+TOLERANCE = 0.008
+"""Two of the 255 steps of a picture; what is estimated is about twice the error that there is."""
 MAX_SEED = 2**32 - 1
 
 # An integer may be written 16 or 16.0: JSON knows only numbers.
@@ -73,6 +75,9 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
     samples: Annotated[Samples, Option("N", "rays for each pixel that needs them")] = 1
     filter: Annotated[FilterName, Option("NAME", ", ".join(FILTERS))] = "blackman-harris"
     seed: Annotated[Seed, Option("N", "other places of the samples")] = 0
+    tolerance: Annotated[
+        Positive, Option("NUMBER", "how noisy soft light may be: the error of a pixel, 1 for white")
+    ] = TOLERANCE
     size: Annotated[
         SizePair | None,
         Option("WxH", "width and height in pixels", "width and height such as 1200x800"),
@@ -90,6 +95,10 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
             MappingProxyType({"--alpha": "transparent"}),
         ),
     ] = "black"
+    denoise: Annotated[
+        Annotated[bool, Meta(description="true or false")],
+        Option("", "take the grain of soft light out by Open Image Denoise"),
+    ] = False
 
     def __post_init__(self) -> None:
         """Hold equal settings equally: integers as such, and the colour black as "black"."""
@@ -147,6 +156,8 @@ class RenderSettings(
         "gaussian", "mitchell" or "blackman-harris".
     seed : int
         Chooses among equally good places of the samples, from 0 to 2**32 - 1.
+    tolerance : float
+        How noisy soft light may be: the estimated standard error of a pixel, > 0, 1 for white.
     size : tuple of int, optional
         Width and height of the picture in pixels, instead of those of the camera; the view stays.
     exposure : "max" or float
@@ -155,6 +166,8 @@ class RenderSettings(
     background : "black", "transparent", "sky" or Color
         What is seen where there is nothing; "sky" shows the skies among the lights. Code may write
         a colour in all ways of `vtray.colors.to_rgb`.
+    denoise : bool
+        Whether the grain of soft light is taken out by Open Image Denoise.
     """
 
     if TYPE_CHECKING:  # what code may give, beside what the attributes hold
@@ -164,9 +177,11 @@ class RenderSettings(
             samples: int = 1,
             filter: str = "blackman-harris",  # noqa: A002
             seed: int = 0,
+            tolerance: float = 0.008,
             size: tuple[int, int] | None = None,
             exposure: Literal["max"] | float = "max",
             background: "str | Color | Sequence[float]" = "black",
+            denoise: bool = False,
         ) -> None: ...
 
     def replace(self, **changes: Any) -> Self:  # noqa: ANN401

@@ -30,7 +30,10 @@ def as_written(light: AnyLight, write_image: Callable[[SkyImage], object]) -> di
         return {"location": light.location, "intensity": light.intensity}
     tag = {} if kind is Light else {"type": kind.__struct_config__.tag}
     values = ((name, getattr(light, name), default) for name, default in _defaults(kind))
-    written = {**tag, **{name: value for name, value, default in values if value != default}}
+    written = {
+        **tag,
+        **{name: value for name, value, default in values if value not in (default, None)},
+    }
     if isinstance(written.get("image"), SkyImage):
         written["image"] = write_image(written["image"])
     return written
@@ -39,4 +42,7 @@ def as_written(light: AnyLight, write_image: Callable[[SkyImage], object]) -> di
 @cache
 def _defaults(kind: type[AnyLight]) -> tuple[tuple[str, object], ...]:
     """Return the keys of a kind of lights with their defaults, which required ones do not have."""
-    return tuple((field.name, field.default) for field in msgspec.structs.fields(kind))
+    fields = msgspec.structs.fields(kind)
+    # An intensity that is neither given nor replaced by a radiance is 1.
+    own = {"intensity": 1.0} if "radiance" in kind.__struct_fields__ else {}
+    return tuple((field.name, own.get(field.name, field.default)) for field in fields)

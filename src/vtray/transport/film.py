@@ -14,6 +14,7 @@ from vtray.geometry.packets.packet import (
     LANES,
     LIGHT,
     NO_PRIMITIVE,
+    NOISE,
     NORMAL,
     PRIMITIVE,
     RIM,
@@ -27,7 +28,7 @@ from vtray.geometry.packets.packet import (
     store,
 )
 from vtray.geometry.packets.workspace import Pixels, Sums
-from vtray.geometry.vector import add, scale
+from vtray.geometry.vector import Vec, add, scale
 from vtray.transport.light_buffer import KeptLight, keep_ray
 
 Rows = Any
@@ -46,6 +47,8 @@ class Film(NamedTuple):
         Linear light, (height, width, 3).
     coverage
         Share of the pixel in which something is hit, (height, width); None for one ray a pixel.
+    error
+        The standard error of light, that of the channel that has the largest, (height, width).
     distance
         Along the middle ray, in the unit of the arrays, infinite for no hit, (height, width).
     normal
@@ -66,6 +69,7 @@ class Film(NamedTuple):
     top: int
     linear: Rows
     coverage: Rows
+    error: Rows
     distance: Rows
     normal: Rows
     primitive: Rows
@@ -86,6 +90,7 @@ def new_film(width: int, height: int, *wanted: str, left: int = 0, top: int = 0)
         top=top,
         linear=rows("linear", np.float64, 3),
         coverage=rows("coverage"),
+        error=rows("error"),
         distance=rows("distance"),
         normal=rows("normal", np.float64, 3),
         primitive=rows("primitive", np.int32),
@@ -127,6 +132,8 @@ def clear_sums(sums: Sums, pixels: int, coverage: Rows) -> None:
         sums.light[k + 2 * LANES] = 0.0
         sums.covered[k] = 0.0
         sums.weight[k] = 0.0
+        store(sums.plain, 0, k, (0.0, 0.0, 0.0))
+        store(sums.squares, 0, k, (0.0, 0.0, 0.0))
 
 
 @device
@@ -142,22 +149,29 @@ def add_samples(
         light = load(sums.light, 0, k)
         covered = sums.covered[k]
         total = sums.weight[k]
+        plain, squares = load(sums.plain, 0, k), load(sums.squares, 0, k)
         for lane in range(k * samples, (k + 1) * samples):
             weight = packet[WEIGHT + lane]
-            light = add(light, scale(weight, load(packet, LIGHT, lane)))
+            value = load(packet, LIGHT, lane)
+            light = add(light, scale(weight, value))
+            plain = add(plain, value)
+            squares = add(squares, (value[0] * value[0], value[1] * value[1], value[2] * value[2]))
             covered += weight if numbers[PRIMITIVE + lane] != NO_PRIMITIVE else 0.0
             total += weight
         store(sums.light, 0, k, light)
         sums.covered[k] = covered
         sums.weight[k] = total
+        store(sums.plain, 0, k, plain)
+        store(sums.squares, 0, k, squares)
 
 
 @device
 def _bring_back(packet: Packet, lanes: int, hits: int) -> None:
-    """Bring the light of the hits back to the lanes of their rays."""
+    """Bring the light of the hits back to the lanes of their rays; that of lamps is there."""
     numbers = packet.view(np.int64)
     for lane in range(lanes):
-        store(packet, LIGHT, lane, (0.0, 0.0, 0.0))
+        if numbers[PRIMITIVE + lane] >= NO_PRIMITIVE:
+            store(packet, LIGHT, lane, (0.0, 0.0, 0.0))
     for hit in range(hits):
         store(packet, LIGHT, numbers[SOURCE + hit], load(packet, VALUE, hit))
 
@@ -169,8 +183,10 @@ def write_pixels(
     end: int,
     pixels: Pixels,
     sums: Sums,
+    samples: int,
     linear: Rows,
     coverage: Rows,
+    error: Rows,
 ) -> float:
     """Write the sums of pixels of a block's list to the film; return their largest channel."""
     peak = 0.0
@@ -184,9 +200,29 @@ def write_pixels(
         linear[row, column, 1] = green / weight
         linear[row, column, 2] = blue / weight
         peak = max(peak, red / weight, green / weight, blue / weight)
+        _write_error(row, column, sums, k, samples, error)
         # Filters with negative sides go a little beyond.
         coverage[row, column] = min(max(sums.covered[k] / weight, 0.0), 1.0)
     return peak
+
+
+@device
+def _write_error(row: int, column: int, sums: Sums, k: int, samples: int, error: Rows) -> None:
+    """Write the standard error of a pixel: that of independent samples, which is too much.
+
+    Each sample x with the weight w, which is 1 or -1, adds ``w * (x - mean) / weights`` to what the
+    mean is wrong by, so all add the sum of the squares of ``x - mean`` to its variance.
+    """
+    if error is None:
+        return
+    weight = sums.weight[k]
+    most = 0.0
+    for channel in range(3):
+        place = channel * LANES + k
+        mean = sums.light[place] / weight
+        plain, squares = sums.plain[place], sums.squares[place]
+        most = max(most, squares - 2.0 * mean * plain + samples * mean * mean)
+    error[row, column] = math.sqrt(most) / abs(weight)
 
 
 @device
@@ -201,6 +237,7 @@ def write_middles(
     _write_halves(packet, block, begin, end, pixels, film.half)
     _write_rims(packet, block, begin, end, pixels, film.rims)
     _write_shadows(packet, block, begin, end, hits, pixels, film.shadows)
+    _write_noise(packet, block, begin, end, hits, pixels, film.error)
     return peak
 
 
@@ -239,7 +276,7 @@ def _write_halves(
     numbers = packet.view(np.int64)
     for lane in range(end - begin):
         row, column = _place(block, pixels[begin + lane])
-        is_hit = numbers[PRIMITIVE + lane] != NO_PRIMITIVE
+        is_hit = numbers[PRIMITIVE + lane] > NO_PRIMITIVE
         half[row, column] = numbers[HALF + lane] if is_hit else 0
 
 
@@ -289,17 +326,28 @@ def _write_light(
     peak = 0.0
     if linear is None:
         return peak
+    numbers = packet.view(np.int64)
     if hits < end - begin:
         _clear(block, begin, end, pixels, linear)
-    numbers = packet.view(np.int64)
+        for lane in range(end - begin):
+            if numbers[PRIMITIVE + lane] < NO_PRIMITIVE:
+                light = load(packet, LIGHT, lane)
+                peak = max(peak, _write_pixel(block, pixels[begin + lane], light, linear))
     for hit in range(hits):
-        row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
-        red, green, blue = load(packet, VALUE, hit)
-        linear[row, column, 0] = red
-        linear[row, column, 1] = green
-        linear[row, column, 2] = blue
-        peak = max(peak, red, green, blue)
+        light = load(packet, VALUE, hit)
+        pixel = pixels[begin + numbers[SOURCE + hit]]
+        peak = max(peak, _write_pixel(block, pixel, light, linear))
     return peak
+
+
+@device
+def _write_pixel(block: Block, pixel: int, light: Vec, linear: NDArray[np.float64]) -> float:
+    """Write the light of a pixel; return its largest channel."""
+    row, column = _place(block, pixel)
+    linear[row, column, 0] = light[0]
+    linear[row, column, 1] = light[1]
+    linear[row, column, 2] = light[2]
+    return max(light[0], light[1], light[2])
 
 
 @device
@@ -343,3 +391,25 @@ def _write_shadows(
     for hit in range(hits):
         row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
         shadows[row, column] = packet[SHADOWS + hit]
+
+
+@device
+def _write_noise(
+    packet: Packet,
+    block: Block,
+    begin: int,
+    end: int,
+    hits: int,
+    pixels: Pixels,
+    error: Rows,
+) -> None:
+    """Write the standard errors of the light of the hits, 0 for the others."""
+    if error is None:
+        return
+    numbers = packet.view(np.int64)
+    for lane in range(end - begin):
+        row, column = _place(block, pixels[begin + lane])
+        error[row, column] = 0.0
+    for hit in range(hits):
+        row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
+        error[row, column] = math.sqrt(packet[NOISE + hit])

@@ -22,7 +22,7 @@ from vtray.geometry.packets.packet import (
     Packet,
 )
 from vtray.geometry.vector import add, scale
-from vtray.transport.lights.light import load_power
+from vtray.transport.lights.light import lamp_light, lamp_number, load_power
 from vtray.transport.lights.lighting import arriving_cosine
 from vtray.transport.materials.material import load_material, scattered
 from vtray.transport.scene_arrays import SceneArrays
@@ -36,7 +36,7 @@ class KeptLight(NamedTuple):
     first
         The place of the first ray of each pixel, -1 for a pixel without rays, (height, width).
     primitive
-        What each ray hits, -1 for nothing, (places,).
+        What each ray hits, -1 for nothing, less for a lamp, (places,).
     half
         1 where that is the second half of a shape that has two, else 0, (places,).
     weight
@@ -127,6 +127,8 @@ def _light_of_ray(scene: SceneArrays, kept: KeptLight, place: int) -> tuple[floa
     """Return the light along a ray."""
     value = (0.0, 0.0, 0.0)
     primitive = int(kept.primitive[place])
+    if primitive < NO_PRIMITIVE:
+        return lamp_light(scene.lights, lamp_number(primitive))
     if primitive != NO_PRIMITIVE:
         material = load_material(scene.materials, primitive, kept.half[place] == 1)
         for row in range(kept.cosines.shape[0]):

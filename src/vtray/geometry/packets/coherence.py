@@ -19,7 +19,7 @@ def list_hits(packet: Packet, lanes: int, work: Workspace) -> int:
     numbers = packet.view(np.int64)
     hits = 0
     for lane in range(lanes):
-        if numbers[PRIMITIVE + lane] != NO_PRIMITIVE:
+        if numbers[PRIMITIVE + lane] > NO_PRIMITIVE:
             work.order[hits] = lane
             hits += 1
     return hits
@@ -59,7 +59,7 @@ def _find_members(packet: Packet, lanes: int, work: Workspace) -> int:
     for lane in range(lanes):
         member[lane] = -1
         primitive = numbers[PRIMITIVE + lane]
-        if primitive == NO_PRIMITIVE:
+        if primitive <= NO_PRIMITIVE:
             continue
         place = (primitive * SPREAD >> 4) % TABLE
         while table[place] >= 0 and owner[table[place]] != primitive:

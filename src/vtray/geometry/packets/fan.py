@@ -20,9 +20,11 @@ BLOCKED = 4 * FAN
 """1 where something stops the ray, or where it is not cast, else 0."""
 DIRECTION = 5 * FAN
 """A unit vector."""
-WEIGHT = 8 * FAN
+LENGTH = 8 * FAN
+"""How long it is."""
+WEIGHT = 9 * FAN
 """What the ray counts, if nothing stops it: one number, or three for red, green and blue."""
-SIZE = 11 * FAN
+SIZE = 12 * FAN
 
 Fan = NDArray[np.float64]
 """The fields of all rays, one after the other, as those of a packet."""
@@ -60,7 +62,7 @@ def set_direction(fan: Fan, ray: int, direction: Vec) -> None:
 
 
 @device
-def direction_of(fan: Fan, ray: int) -> Vec:
+def load_direction(fan: Fan, ray: int) -> Vec:
     """Return the direction of a ray."""
     return fan[DIRECTION + ray], fan[DIRECTION + FAN + ray], fan[DIRECTION + 2 * FAN + ray]
 

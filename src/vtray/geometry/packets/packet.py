@@ -96,6 +96,8 @@ LAMBERT = _fields.scalar()
 COLOR = _fields.vector()
 VALUE = _fields.vector()
 """The light from the hit."""
+NOISE = _fields.scalar()
+"""The variance of that, which soft lights have."""
 
 # Its shadow rays to one light.
 BLOCKED = _fields.scalar()
@@ -105,7 +107,7 @@ SHADOWS = _fields.scalar()
 SIZE = _fields.size
 
 NO_PRIMITIVE = -1
-"""In field ``PRIMITIVE``: the ray hits nothing."""
+"""In field ``PRIMITIVE``: the ray hits nothing. Lower numbers are lamps, which are no surfaces."""
 
 SLOT_BITS = 27
 """The low bits of an integer in field ``MET``, which say the slot; see `MAX_SPHERES`."""

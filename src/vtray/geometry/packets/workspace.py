@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.geometry.packets.cone import Touching, new_touching
 from vtray.geometry.packets.fan import Fan, new_fan
 from vtray.geometry.packets.packet import BLOCK, LANES
 from vtray.geometry.packets.ray_bounds import Cones, new_cones
@@ -20,11 +21,21 @@ Pixels = NDArray[np.int64]
 
 
 class Sums(NamedTuple):
-    """What the samples of pixels add up to: light in three rows, coverage, and weight."""
+    """What the samples of pixels add up to.
+
+    Attributes
+    ----------
+    light, covered, weight
+        Light times weight in three rows, coverage times weight, and weight.
+    plain, squares
+        Light and its squares without weights, in three rows, from which its error is estimated.
+    """
 
     light: NDArray[np.float64]
     covered: NDArray[np.float64]
     weight: NDArray[np.float64]
+    plain: NDArray[np.float64]
+    squares: NDArray[np.float64]
 
 
 class Workspace(NamedTuple):
@@ -50,8 +61,8 @@ class Workspace(NamedTuple):
         Those that are traced.
     sums
         The sums of the samples of the pixels of a packet.
-    fan
-        The shadow rays of one hit to one light.
+    fan, touching
+        The shadow rays of one hit to one light, and the shapes that touch their cone.
     table, owner, member, size
         The hash table of what is hit: a number for each, what it is, which lanes hit it, how many.
     """
@@ -67,6 +78,7 @@ class Workspace(NamedTuple):
     pixels: Pixels
     sums: Sums
     fan: Fan
+    touching: Touching
     table: NDArray[np.int64]
     owner: NDArray[np.int64]
     member: NDArray[np.int64]
@@ -104,8 +116,9 @@ def new_workspace(world: World) -> Workspace:
         cluster=integers(LANES + 2),
         curve=curve_of_block(),
         pixels=integers(LANES),
-        sums=Sums(np.zeros(3 * LANES), np.zeros(LANES), np.zeros(LANES)),
+        sums=Sums(*(np.zeros(size * LANES) for size in (3, 1, 1, 3, 3))),
         fan=new_fan(),
+        touching=new_touching(),
         table=integers(TABLE),
         owner=integers(LANES),
         member=integers(LANES),

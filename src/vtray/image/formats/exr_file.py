@@ -5,6 +5,7 @@ Channels have the names that compositing programs look for:
 - ``R``, ``G``, ``B`` and ``A``, with colour multiplied by alpha, and ``Z`` for depth: OpenEXR's
   "Technical Introduction" and "Interpreting OpenEXR Deep Pixels";
 - ``N.X``, ``N.Y``, ``N.Z`` for normals: a layer ``N`` of a vector, as Arnold and pbrt write it;
+- ``raw.R``, ``raw.G``, ``raw.B`` for light before it was denoised, in a layer ``raw``;
 - ``objectid`` and ``particleid``, of 32-bit unsigned integers: "Standard ID Channel names" in the
   "OpenEXR Deep IDs Specification".
 
@@ -67,7 +68,8 @@ def _channels(picture: Picture, how: How) -> "dict[str, NDArray[Any]]":
         light = np.where(picture.alpha[..., None] > 0.0, light, 0.0)
     add(("R", "G", "B"), light)
     for name in how.aov:
-        add(AOVS[name].channels, aov_of(picture, name))
+        row, values = AOVS[name], aov_of(picture, name)
+        add(row.channels, values / row.unit if row.unit != 1.0 else values)
     return channels
 
 

@@ -24,6 +24,7 @@ class Picture(Protocol):
     scene: Scene
     settings: RenderSettings
     locked: bool
+    partial: float | None
 
     @property
     def scene_hash(self) -> str:

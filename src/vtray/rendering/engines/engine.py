@@ -1,6 +1,6 @@
 """What an engine is: it traces the tiles of a picture, with whatever it has to work with."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -14,6 +14,9 @@ from vtray.transport.film import Film, new_film
 from vtray.transport.integrators.direct import trace_tile
 from vtray.transport.sampling.pixel_samples import Sampling
 from vtray.transport.scene_arrays import SceneArrays
+
+Done = Callable[[Tile], object]
+"""What is told that a tile is done."""
 
 
 class Cast(NamedTuple):
@@ -56,6 +59,7 @@ class Engine(Protocol):
         tiles: Sequence[Tile],
         film: Film,
         progress: Progress | None = None,
+        done: Done | None = None,
     ) -> Cast:
         """Trace tiles, and write them to the film of the picture.
 
@@ -71,6 +75,8 @@ class Engine(Protocol):
             Out: what is wanted of the picture.
         progress
             Called from time to time with the tiles done and their number.
+        done
+            Called from any thread with each tile that is done, not with one that was given up.
         """
 
 

@@ -9,7 +9,7 @@ from vtray.base.pool import Progress, run_tasks
 from vtray.base.tiles import Tile
 from vtray.geometry.packets.packet import new_packet
 from vtray.geometry.packets.workspace import new_workspace
-from vtray.rendering.engines.engine import Cast
+from vtray.rendering.engines.engine import Cast, Done
 from vtray.transport.film import Film
 from vtray.transport.integrators.direct import trace_tile
 from vtray.transport.sampling.pixel_samples import Sampling
@@ -35,6 +35,7 @@ class Threads:
         tiles: Sequence[Tile],
         film: Film,
         progress: Progress | None = None,
+        done: Done | None = None,
     ) -> Cast:
         """Trace tiles; see `Engine.trace`. If one fails, or on Ctrl-C, the others are given up."""
         stop = np.zeros(1, np.bool_)
@@ -47,6 +48,8 @@ class Threads:
 
             def trace_one(tile: Tile) -> None:
                 results.append(trace_tile(world, places, *tile, canvas, packet, work, flag))
+                if done is not None and not stop[0]:
+                    done(tile)
 
             return trace_one
 

@@ -20,7 +20,7 @@ from vtray.scene.checks.limits import (
 )
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.light_types import WHITE, Ambient, Light, SphereLight, Sun
+from vtray.scene.light_types import WHITE, Ambient, Light, RectangleLight, SphereLight, Sun
 from vtray.scene.objects import Cylinder, Plane, Sphere
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient, check_one_of
@@ -194,7 +194,7 @@ class SkyInFile(msgspec.Struct, frozen=True, omit_defaults=True, tag_field="type
         check_one_of(self.gradient, self.image)
 
 
-LightInFile: TypeAlias = Light | Sun | SphereLight | SkyInFile | Ambient
+LightInFile: TypeAlias = Light | Sun | SphereLight | RectangleLight | SkyInFile | Ambient
 
 
 class SceneInFile(msgspec.Struct, omit_defaults=True):
@@ -204,7 +204,7 @@ class SceneInFile(msgspec.Struct, omit_defaults=True):
     ----------
     camera : Camera
         Where the picture is taken from.
-    lights : list of Light, Sun, SphereLight, SkyInFile or Ambient
+    lights : list of Light, Sun, SphereLight, RectangleLight, SkyInFile or Ambient
         The lights; may be empty.
     objects : list of Sphere, Cylinder, Plane, SpheresInFile, CylindersInFile or CopiesInFile
         The objects; may be empty.

@@ -88,21 +88,27 @@ def _count_within(value: object, found: object) -> int:
     """Count the colons within a value, given as it was read, but for those of unknown keys."""
     if isinstance(value, str):
         return value.count(":")
+    if isinstance(value, tuple) and isinstance(found, list):
+        return sum(map(_count_within, value, found))
     if not isinstance(value, msgspec.Struct) or not isinstance(found, Mapping):
         return 0
     known = (key for key in value.__struct_fields__ if key in found)
     return sum(1 + _count_within(getattr(value, key), found[key]) for key in known)
 
 
-def _keys_within(kind: Any) -> int:  # noqa: ANN401
+def _keys_of(kind: Any) -> int:  # noqa: ANN401
     """Count the keys of a value of a kind, all of them required."""
+    if hasattr(kind, "__metadata__"):
+        return _keys_of(kind.__origin__)
+    if typing.get_origin(kind) is tuple:
+        return sum(map(_keys_of, typing.get_args(kind)))
     return len(kind.__struct_fields__) if isinstance(kind, msgspec.StructMeta) else 0
 
 
 def _least(kind: type[LightInFile]) -> int:
     """Count the colons of a light of a kind of which all keys are left out that may be."""
     required = [field.type for field in msgspec.structs.fields(kind) if field.required]
-    return (kind is not Light) + sum(1 + _keys_within(value) for value in required)
+    return (kind is not Light) + sum(1 + _keys_of(value) for value in required)
 
 
 _LEAST = {kind: _least(kind) for kind in typing.get_args(LightInFile)}

@@ -342,9 +342,13 @@ def _count_unknown(part: bytes, value: msgspec.Struct) -> int:
             return 0
     except (msgspec.MsgspecError, RecursionError):
         return 0
-    inner = ((found[key], getattr(value, key)) for key in value.__struct_fields__ if key in found)
-    pairs = [(found, value), *((one, two) for one, two in inner if isinstance(two, msgspec.Struct))]
-    return sum(len(one.keys() - _known_keys(type(two))) for one, two in pairs)
+    pairs: list[tuple[Any, Any]] = [(found, value)]
+    for key in value.__struct_fields__:
+        one, two = found.get(key), getattr(value, key)
+        pairs += zip(one, two, strict=True) if isinstance(two, tuple) else [(one, two)]
+    objects: list[tuple[dict[str, Any], type[msgspec.Struct]]]
+    objects = [(one, type(two)) for one, two in pairs if isinstance(two, msgspec.Struct) and one]
+    return sum(len(one.keys() - _known_keys(kind)) for one, kind in objects)
 
 
 @cache

@@ -21,7 +21,7 @@ from vtray.scene.files.in_file import (
     SceneInFile,
     SkyInFile,
 )
-from vtray.scene.light_types import Ambient, Light
+from vtray.scene.light_types import Ambient, Lamp, Light
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient
 from vtray.scene.vectors import Color, Direction, Vector
@@ -63,6 +63,11 @@ def scene_schema() -> dict[str, Any]:
     # What CopiesInFile.__post_init__ checks.
     places = [key for key in CopiesInFile.__struct_fields__ if key != "objects"]
     parts[CopiesInFile.__name__]["oneOf"] = [{"required": [key]} for key in places]
+    # What lamps check in their __post_init__.
+    for lamp in typing.get_args(Lamp):
+        strengths = ("intensity", "radiance")
+        number = {key: {"type": "number"} for key in strengths}
+        parts[lamp.__name__]["not"] = {"properties": number, "required": [*strengths]}
     scene = parts.pop("SceneInFile")
     # A light need not say that it is a point, and so has nothing that always tells its type.
     parts[Light.__name__]["required"].remove("type")

@@ -39,6 +39,11 @@ def are_parallel(a: Vec, b: Vec, sine: float = 1e-9) -> bool:
     return hypotenuse(*cross(a, b)) < sine
 
 
+def are_square(a: Vec, b: Vec, sine: float = 1e-3) -> bool:
+    """Tell whether two unit vectors are at right angles, within an angle of this sine."""
+    return abs(dot(a, b)) <= sine
+
+
 def view_axes(forward: Vec, up: Vec) -> tuple[Vec, Vec]:
     """Return the unit axes right and down of a camera that looks along `forward`.
 

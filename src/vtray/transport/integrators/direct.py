@@ -34,7 +34,8 @@ from vtray.transport.film import (
     write_middles,
     write_pixels,
 )
-from vtray.transport.integrators.soft import add_soft_lights
+from vtray.transport.integrators.lamps import see_lamps
+from vtray.transport.integrators.soft import add_soft_lights, clear_noise
 from vtray.transport.interaction import gather_interactions
 from vtray.transport.light_buffer import KeptLight, keep_cosines
 from vtray.transport.lights.light import light_target, load_power
@@ -123,7 +124,7 @@ def _trace_pixels(
     for first in range(0, sampling.rays, LANES):
         last = min(first + LANES, sampling.rays)
         lanes = place_samples(packet, block, begin, end, sampling, first, last, work.pixels)
-        hits = _find_surfaces(packet, lanes, scene, sampling, work)
+        hits = _find_surfaces(packet, lanes, scene, sampling, film.linear, work)
         keep_rays(packet, block, begin, end, first, last, work.pixels, film.kept)
         if hits > 0:
             is_noted = sampling.rays == 1
@@ -149,6 +150,7 @@ def _trace_pixels(
                 hits,
                 film.linear,
                 film.shadows,
+                film.error,
                 film.kept,
                 packet,
                 work,
@@ -159,13 +161,28 @@ def _trace_pixels(
         else:
             peak = write_middles(packet, block, begin, end, hits, work.pixels, film)
     if sampling.rays > 1:
-        peak = write_pixels(block, begin, end, work.pixels, work.sums, film.linear, film.coverage)
+        peak = write_pixels(
+            block,
+            begin,
+            end,
+            work.pixels,
+            work.sums,
+            sampling.rays,
+            film.linear,
+            film.coverage,
+            film.error,
+        )
     return peak, rays
 
 
 @device
 def _find_surfaces(
-    packet: Packet, lanes: int, scene: SceneArrays, sampling: Sampling, work: Workspace
+    packet: Packet,
+    lanes: int,
+    scene: SceneArrays,
+    sampling: Sampling,
+    linear: Rows,
+    work: Workspace,
 ) -> int:
     """Cast the rays of a packet, and bring what they hit together; return how many hits."""
     whole = (lanes + PART - 1) // PART * PART
@@ -173,6 +190,8 @@ def _find_surfaces(
     _cast_rays(packet, whole, scene.camera)
     part = PART if sampling.rays == 1 else LANES
     find_nearest(packet, whole, part, sheaf, sampling.footprint, scene.world, work)
+    lights, footprint = scene.lights, sampling.footprint
+    see_lamps(packet, whole, sheaf, footprint, lights, lights.visible, linear)
     return gather_interactions(packet, lanes, sampling.rays, sheaf, scene, work)
 
 
@@ -225,6 +244,7 @@ def _light_softly(
     hits: int,
     linear: Rows,
     shadows: Rows,
+    error: Rows,
     kept: KeptLight | None,
     packet: Packet,
     work: Workspace,
@@ -232,6 +252,8 @@ def _light_softly(
     """Add the lights that are no points; return how many shadow rays were cast."""
     if linear is None:
         return 0
+    if error is not None:
+        clear_noise(packet, hits)
     soft, fans, seed = scene.lights.soft, sampling.fans, sampling.seed
     return add_soft_lights(
         packet,
@@ -245,6 +267,7 @@ def _light_softly(
         fans,
         seed,
         shadows,
+        error,
         kept,
         work,
     )

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import kernel
+from vtray.base.compiler.compiled import device, kernel
 from vtray.geometry.between import first_between
 from vtray.geometry.packets.fan import BLOCKED, Fan, Start, fan_segment
 from vtray.geometry.packets.stack import Stack
@@ -17,11 +17,25 @@ from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, add, dot, sub
 from vtray.transport.camera_rays import camera_ray
+from vtray.transport.integrators.lamps import nearest_lamp
 from vtray.transport.interaction import Interaction, interact
-from vtray.transport.lights.light import light_count, light_target, load_power
-from vtray.transport.lights.soft_light import SoftLights, aim_at, component_count
+from vtray.transport.lights.light import (
+    lamp_light,
+    light_count,
+    light_target,
+    load_power,
+    soft_worth,
+)
+from vtray.transport.lights.soft_light import SoftLights, aim_at, component_count, soft_count
 from vtray.transport.materials.lambert import lambert_cosine
 from vtray.transport.materials.material import load_material, scattered
+from vtray.transport.sampling.estimate import (
+    counted_variance,
+    needs_more,
+    no_estimate,
+    shares_of,
+    with_fan,
+)
 from vtray.transport.sampling.fans import Fans, fan_keys
 from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
 from vtray.transport.scene_arrays import SceneArrays
@@ -35,13 +49,15 @@ class TracedPixel(NamedTuple):
     ray
         The camera ray.
     distance
-        Along the ray to the hit, ``inf`` if there is none.
+        Along the ray to the hit or to a lamp, ``inf`` if there is none.
     primitive
         What is hit, or ``NOTHING``.
     interaction
         Where it is hit; without meaning if nothing is.
     value
         Linear red, green and blue.
+    lamp
+        The row of the lamp that is seen, or ``NOTHING``; then nothing is hit.
     """
 
     ray: Ray
@@ -49,6 +65,7 @@ class TracedPixel(NamedTuple):
     primitive: int
     interaction: Interaction
     value: Vec
+    lamp: int
 
 
 @kernel
@@ -78,9 +95,12 @@ def trace_pixel(
     ray = camera_ray(scene.camera, column, row)
     hit = nearest_hit(scene.world, ray, stack)
     value = (0.0, 0.0, 0.0)
+    nowhere = Interaction(ray.origin, ray.direction, 0.0, False)
+    lamp, distance = nearest_lamp(ray, hit.distance, scene.lights.visible)
+    if lamp != NOTHING:
+        return TracedPixel(ray, distance, NOTHING, nowhere, lamp_light(scene.lights, lamp), lamp)
     if hit.primitive == NOTHING:
-        nowhere = Interaction(ray.origin, ray.direction, 0.0, False)
-        return TracedPixel(ray, hit.distance, hit.primitive, nowhere, value)
+        return TracedPixel(ray, hit.distance, hit.primitive, nowhere, value, NOTHING)
     found = interact(scene.world, ray, hit.distance, hit.group, hit.slot)
     material = load_material(scene.materials, hit.primitive, found.is_second)
     plane_depth = dot(found.point, scene.camera.forward)
@@ -101,11 +121,10 @@ def trace_pixel(
         if blockers[light] == NOTHING:
             power = load_power(scene.lights, light)
             value = add(value, scattered(material, cosines[light], power))
-    return TracedPixel(ray, hit.distance, hit.primitive, found, value)
+    return TracedPixel(ray, hit.distance, hit.primitive, found, value, NOTHING)
 
 
-@kernel
-def trace_fan(
+def _trace_fan(
     scene: SceneArrays,
     soft: SoftLights,
     traced: TracedPixel,
@@ -113,25 +132,26 @@ def trace_fan(
     row: int,
     light: int,
     fans: Fans,
+    number: int,
     seed: int,
     stack: Stack,
     fan: Fan,
     blockers: NDArray[np.int64],
-) -> tuple[Vec, Vec]:
-    """Trace the rays from the hit of a pixel to one soft light, one by one.
+) -> tuple[Vec, float]:
+    """Trace the rays of a fan from the hit of a pixel to one soft light, one by one.
 
     Parameters
     ----------
     scene, soft
         The scene, and its soft lights.
     traced
-        The pixel, with the light of all lights before this one.
+        The pixel.
     column, row
         The pixel, from the left and from the top.
     light
         The light, counted among the soft ones.
-    fans, seed
-        Which rays are cast.
+    fans, number, seed
+        Which rays are cast: those of the fan of this number, from 0.
     stack
         Scratch memory.
     fan
@@ -141,14 +161,16 @@ def trace_fan(
 
     Returns
     -------
-    shares, value
-        How much of each component of the light arrives, and the pixel's value with them.
+    shares, spread
+        How much of each component of the light arrives, and the variance of that, as the fan alone
+        tells it.
     """
-    point, normal, error_scale, is_second = traced.interaction
+    point, normal, error_scale, _ = traced.interaction
     start = Start(point, dot(point, scene.camera.forward), error_scale)
     aim = aim_at(soft, light, start, normal)
     keys, forward = fan_keys(column, row, light, seed), scene.camera.forward
-    spread_fan(fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, 0, keys)
+    place = number * fans.rays
+    spread_fan(fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, place, keys)
     end_scale = soft.error_scale[light] + error_scale
     for ray in range(fans.rays):
         blockers[ray] = NOTHING
@@ -156,10 +178,71 @@ def trace_fan(
             segment = fan_segment(fan, ray, start, end_scale)
             blockers[ray] = first_between(scene.world, segment, stack)
             fan[BLOCKED + ray] = 0.0 if blockers[ray] == NOTHING else 1.0
-    components, value = component_count(soft, light), traced.value
-    shares = arriving_shares(fan, fans.rays, components)
-    material = load_material(scene.materials, traced.primitive, is_second)
-    for component in range(components):
+    return arriving_shares(fan, fans.rays, component_count(soft, light), aim, normal)
+
+
+trace_fan, _trace_any_fan = kernel(_trace_fan), device(_trace_fan)
+"""What traces one fan, for Python and for kernels."""
+
+
+class TracedLamp(NamedTuple):
+    """What all fans from a hit to a soft light tell.
+
+    Attributes
+    ----------
+    shares
+        How much of each component of the light arrives.
+    counted
+        The variance of that, as a part of what all lights may have.
+    fans
+        How many fans that took.
+    value
+        The light of the pixel with all that arrives.
+    """
+
+    shares: Vec
+    counted: float
+    fans: int
+    value: Vec
+
+
+@kernel
+def trace_lamp(
+    scene: SceneArrays,
+    soft: SoftLights,
+    traced: TracedPixel,
+    column: int,
+    row: int,
+    light: int,
+    fans: Fans,
+    spent: float,
+    seed: int,
+    stack: Stack,
+    fan: Fan,
+    blockers: NDArray[np.int64],
+) -> TracedLamp:
+    """Trace all fans from the hit of a pixel to one soft light.
+
+    Parameters
+    ----------
+    scene, soft, column, row, light, fans, seed, stack, fan, blockers
+        As for `trace_fan`.
+    traced
+        The pixel, with the light of all lights before this one.
+    spent
+        What these have of the variance that all may have.
+    """
+    material = load_material(scene.materials, traced.primitive, traced.interaction.is_second)
+    worth, estimate = soft_worth(scene.lights, soft, light, material), no_estimate()
+    while needs_more(estimate, fans, worth, spent, light, soft_count(soft)):
+        number = estimate.fans
+        shares, spread = _trace_any_fan(
+            scene, soft, traced, column, row, light, fans, number, seed, stack, fan, blockers
+        )
+        estimate = with_fan(estimate, shares, spread)
+    shares, value = shares_of(estimate), traced.value
+    counted = counted_variance(estimate, fans, worth)
+    for component in range(component_count(soft, light)):
         power = load_power(scene.lights, soft.row[light] + component)
         value = add(value, scattered(material, shares[component], power))
-    return shares, value
+    return TracedLamp(shares, counted, estimate.fans, value)

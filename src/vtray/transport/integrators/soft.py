@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.cone import CLOSED, MANY, find_touching
 from vtray.geometry.packets.fan import Start, count_open
 from vtray.geometry.packets.packet import (
     BLOCK,
@@ -12,6 +13,7 @@ from vtray.geometry.packets.packet import (
     ERROR_SCALE,
     KEPT,
     LAMBERT,
+    NOISE,
     NORMAL,
     PLANE_DEPTH,
     POINT,
@@ -24,20 +26,42 @@ from vtray.geometry.packets.packet import (
     store,
 )
 from vtray.geometry.packets.workspace import Workspace
-from vtray.geometry.stopped import find_stopped
+from vtray.geometry.stopped import Bundle, stop_by_all, stop_by_touching
 from vtray.geometry.vector import Vec, add
 from vtray.transport.film import Rows
 from vtray.transport.light_buffer import KeptLight
-from vtray.transport.lights.light import Lights, light_count, load_power
+from vtray.transport.lights.light import Lights, light_count, load_power, soft_worth
 from vtray.transport.lights.lighting import light_bit
-from vtray.transport.lights.soft_light import SoftLights, aim_at, component_count, soft_count
+from vtray.transport.lights.soft_light import (
+    SoftLights,
+    aim_at,
+    component_count,
+    cone_of,
+    is_above,
+    is_below,
+    is_cone,
+    middle_share,
+    soft_count,
+)
 from vtray.transport.materials.material import Material, scattered
+from vtray.transport.sampling.estimate import (
+    counted_variance,
+    needs_more,
+    no_estimate,
+    shares_of,
+    with_fan,
+    with_unseen,
+)
 from vtray.transport.sampling.fans import Fans, fan_keys
 from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
 from vtray.transport.scene_arrays import SceneArrays
 
 NARROW = 0.1
 """Up to this spread, which a lamp has that is seen under 50 degrees, its rays are kept together."""
+
+
+NO_SHARES = (0.0, 0.0, 0.0)
+"""Those of a light of which nothing arrives."""
 
 
 class Arriving(NamedTuple):
@@ -47,6 +71,8 @@ class Arriving(NamedTuple):
     ----------
     shares
         The mean weights of all rays, one for each component of the light.
+    variance, counted
+        That of the shares, as it is estimated, and as a part of what all lights may have.
     cast, arrived
         How many rays were cast, and how many arrive.
     is_narrow
@@ -54,9 +80,18 @@ class Arriving(NamedTuple):
     """
 
     shares: Vec
+    variance: float
+    counted: float
     cast: int
     arrived: int
     is_narrow: bool
+
+
+@device
+def clear_noise(packet: Packet, hits: int) -> None:
+    """Start with light of no variance."""
+    for hit in range(hits):
+        packet[NOISE + hit] = 0.0
 
 
 @device
@@ -72,6 +107,7 @@ def add_soft_lights(
     fans: Fans | None,
     seed: int,
     shadows: Rows,
+    error: Rows,
     kept: KeptLight | None,
     work: Workspace,
 ) -> int:
@@ -91,6 +127,8 @@ def add_soft_lights(
         Which rays are cast.
     shadows
         Not None if it is wanted which lights something keeps from the hits.
+    error
+        Not None if it is wanted how wrong the light may be.
     kept
         Out: what each light adds, if that is kept.
     work
@@ -104,15 +142,22 @@ def add_soft_lights(
                 lane = packet.view(np.int64)[SOURCE + hit]
                 pixel = work.pixels[begin + lane // samples]
                 column, row = block.left + (pixel & (BLOCK - 1)), block.top + pixel // BLOCK
-                point = (first + lane % samples) * fans.rays * fans.rounds
+                point = (first + lane % samples) * fans.rays * fans.fans
+                material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
+                spent = 0.0
                 for light in range(soft_count(soft)):
                     keys = fan_keys(column, row, light, seed)
-                    arriving = _arriving(packet, hit, scene, soft, light, fans, point, keys, work)
+                    worth = soft_worth(scene.lights, soft, light, material)
+                    arriving = _arriving(
+                        packet, hit, scene, soft, light, worth, spent, fans, point, keys, work
+                    )
+                    spent += arriving.counted
                     for component in range(component_count(soft, light)):
                         part, share = soft.row[light] + component, arriving.shares[component]
                         _add_share(packet, hit, scene.lights, part, share)
                         _keep_share(packet, lane, part, share, kept)
                     _note_shadow(packet, hit, scene.lights, light, arriving, shadows)
+                    _add_noise(packet, hit, worth, arriving.variance, error)
                     cast += arriving.cast
     return cast
 
@@ -124,31 +169,50 @@ def _arriving(
     scene: SceneArrays,
     soft: SoftLights,
     light: int,
+    worth: float,
+    spent: float,
     fans: Fans,
     first: int,
     keys: tuple[int, int],
     work: Workspace,
 ) -> Arriving:
-    """Return what arrives of a light at a hit, after one round if all its rays tell the same."""
+    """Return what arrives of a light at a hit, by as many fans as its variance asks for.
+
+    What the lights before it left of the variance that all may have is shared with those after it.
+    """
     point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
     start = Start(point, packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
     aim = aim_at(soft, light, start, normal)
-    is_narrow = aim.spread < NARROW
-    fan, forward, components = work.fan, scene.camera.forward, component_count(soft, light)
-    end_scale = soft.error_scale[light] + start.error_scale
-    total = 0.0, 0.0, 0.0
-    cast, arrived, rounds = 0, 0, 0
-    while rounds < fans.rounds and (rounds == 0 or 0 < arrived < cast):
-        place = first + rounds * fans.rays
+    is_narrow, forward = aim.spread < NARROW, scene.camera.forward
+    touching, count = work.touching, MANY
+    if is_below(aim, normal):
+        return Arriving(NO_SHARES, 0.0, 0.0, 0, 0, is_narrow)
+    if is_narrow and is_cone(aim):
+        count = find_touching(cone_of(aim, start, forward), scene.world, touching, work.stack)
+        # What a cone as a whole tells is what all its rays would.
+        if count == 0 and is_above(aim, normal):
+            shares = middle_share(aim, normal), 0.0, 0.0
+            return Arriving(shares, 0.0, 0.0, fans.rays, fans.rays, is_narrow)
+        if count == CLOSED and is_above(aim, normal):
+            return Arriving(NO_SHARES, 0.0, 0.0, fans.rays, 0, is_narrow)
+    fan, components = work.fan, component_count(soft, light)
+    bundle = Bundle(fan, fans.rays, start, soft.error_scale[light] + start.error_scale)
+    estimate, cast, arrived, lights = no_estimate(), 0, 0, soft_count(soft)
+    while needs_more(estimate, fans, worth, spent, light, lights):
+        place = first + estimate.fans * fans.rays
         cast += spread_fan(
             fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, place, keys
         )
-        find_stopped(fan, fans.rays, is_narrow, start, end_scale, scene.world, work.stack)
-        total = add(total, arriving_shares(fan, fans.rays, components))
+        if count >= 0:
+            stop_by_touching(bundle, scene.world, touching, count)
+        else:
+            stop_by_all(bundle, scene.world, work.stack)
+        shares, spread = arriving_shares(fan, fans.rays, components, aim, normal)
+        estimate = with_fan(estimate, shares, spread)
         arrived += count_open(fan, fans.rays)
-        rounds += 1
-    shares = total[0] / rounds, total[1] / rounds, total[2] / rounds
-    return Arriving(shares, cast, arrived, is_narrow)
+    variance = with_unseen(estimate, fans.rays)
+    counted = counted_variance(estimate, fans, worth)
+    return Arriving(shares_of(estimate), variance, counted, cast, arrived, is_narrow)
 
 
 @device
@@ -158,6 +222,13 @@ def _add_share(packet: Packet, hit: int, lights: Lights, row: int, share: float)
     material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
     added = scattered(material, share, power)
     store(packet, VALUE, hit, add(load(packet, VALUE, hit), added))
+
+
+@device
+def _add_noise(packet: Packet, hit: int, worth: float, variance: float, error: Rows) -> None:
+    """Add the variance of what a soft light adds to a hit."""
+    if error is not None:
+        packet[NOISE + hit] += worth * worth * variance
 
 
 @device

@@ -7,9 +7,11 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.occlusion import Target
-from vtray.geometry.vector import pick
-from vtray.transport.lights.soft_light import SoftLights
-from vtray.transport.materials.material import Power
+from vtray.geometry.packets.packet import NO_PRIMITIVE
+from vtray.geometry.vector import Vec, pick
+from vtray.transport.lights.soft_light import SoftLights, component_count
+from vtray.transport.lights.visible import VisibleLamps
+from vtray.transport.materials.material import Material, Power, scattered
 
 Floats = NDArray[np.float64]
 
@@ -35,6 +37,8 @@ class Lights(NamedTuple):
     soft
         The lights that are no points; None where there are none, so that no code is compiled for
         them.
+    visible
+        Those that the camera sees; None where there are none, so that no code is compiled for them.
     intensity
         The intensities of all components, (components,).
     color
@@ -48,6 +52,7 @@ class Lights(NamedTuple):
     error_scale: Floats
     points: int | None
     soft: SoftLights | None
+    visible: VisibleLamps | None
     intensity: Floats
     color: Floats
 
@@ -68,6 +73,34 @@ def load_power(lights: Lights, row: int) -> Power:
 
 
 @device
+def soft_worth(lights: Lights, soft: SoftLights, light: int, material: Material) -> float:
+    """Return the largest channel of what all of a soft light adds to a surface, squarely."""
+    worth = 0.0
+    for component in range(component_count(soft, light)):
+        power = load_power(lights, soft.row[light] + component)
+        red, green, blue = scattered(material, 1.0, power)
+        worth = max(worth, red, green, blue)
+    return worth
+
+
+@device
 def light_target(lights: Lights, light: int) -> Target:
     """Return where the shadow rays to a light end."""
     return Target(pick(lights, light), lights.plane_depth[light], lights.error_scale[light])
+
+
+@device
+def lamp_light(lights: Lights, row: int) -> Vec:
+    """Return what is seen of a lamp: white where its strength and its colour are 1."""
+    power = load_power(lights, row)
+    shown = 255.0 * power.intensity
+    return shown * power.color[0], shown * power.color[1], shown * power.color[2]
+
+
+@device
+def lamp_number(row: int) -> int:
+    """Return the number of a lamp among what rays meet: below that of nothing.
+
+    The same leads back from there to the row of the light.
+    """
+    return NO_PRIMITIVE - 1 - row

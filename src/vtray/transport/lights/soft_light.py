@@ -7,16 +7,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.cone import Cone
 from vtray.geometry.packets.fan import Start
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, dot, scale, sub
+from vtray.transport.lights.rectangle import (
+    Rectangles,
+    SeenRectangle,
+    see_rectangle,
+    spread_and_share,
+)
 from vtray.transport.lights.sky import Skies
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-SUN, SPHERE, AROUND = 0, 1, 2
-"""The kinds: far away in a cone of directions, a sphere, and light from all sides."""
+SUN, SPHERE, AROUND, RECTANGLE = 0, 1, 2, 3
+"""The kinds: far away in a cone of directions, a sphere, light from all sides, and a rectangle."""
 
 NO_SKY = -1
 """Stands for the number of a sky, where a light is none whose colour changes."""
@@ -25,8 +32,12 @@ ALL_AROUND = 2.0
 """The spread of light from all directions."""
 
 
+CLEARLY = 1e-9
+"""By so much a cone is above the horizon, or below it, if no rounding can change that."""
+
+
 class SoftLights(NamedTuple):
-    """Lights that are no points, all (n,) but for the last two.
+    """Lights that are no points; columns are (n,).
 
     Attributes
     ----------
@@ -35,19 +46,22 @@ class SoftLights(NamedTuple):
     x, y, z
         Where they are; for a sun, the unit direction towards its middle.
     size
-        The radius of a sphere; for a sun 1 minus the cosine of half its angle; for light from all
-        sides how far away something can be that stops it.
+        The radius of a sphere; half the edges of a rectangle together; for a sun 1 minus the cosine
+        of half its angle; for light from all sides how far away something can be that stops it.
     error_scale
         What the rounding of the ends of rays to them is relative to, beside their starts.
+    falls_off
+        Whether they get weaker with distance, as a lamp of a given radiance does.
     sky
         Their number among the skies whose colour changes with the direction, ``NO_SKY`` for others.
     row
         The first row of their components in `Lights.intensity` and `Lights.color`.
     far
         How long rays are that end nowhere: much longer than all in the scene.
+    rectangles
+        How the rectangles stand; None where there are none, so that no code is compiled for them.
     skies
-        The skies whose colour changes with the direction; None where there are none, so that no
-        code is compiled for them.
+        The skies whose colour changes with the direction; None where there are none, likewise.
     """
 
     kind: Integers
@@ -56,9 +70,11 @@ class SoftLights(NamedTuple):
     z: Floats
     size: Floats
     error_scale: Floats
+    falls_off: NDArray[np.bool_]
     sky: Integers
     row: Integers
     far: float
+    rectangles: Rectangles | None
     skies: Skies | None
 
 
@@ -70,11 +86,16 @@ class Aim(NamedTuple):
     kind, place, size
         As in `SoftLights`.
     axis
-        The unit direction to its middle, or the normal of the surface for light from all sides.
+        The unit direction to its middle, or the normal of the surface for a rectangle and for light
+        from all sides.
     spread
         1 minus the cosine of half the angle under which it is seen.
     share
-        What makes the mean weight 1 on a surface that faces it squarely.
+        What a ray counts where it is square to the surface.
+    whole
+        What all of a cone brings that is square to it.
+    seen
+        A rectangle as it is seen; None if the scene has none.
     sky
         As in `SoftLights`.
     """
@@ -85,6 +106,8 @@ class Aim(NamedTuple):
     axis: Vec
     spread: float
     share: float
+    whole: float
+    seen: SeenRectangle | None
     sky: int
 
 
@@ -98,6 +121,9 @@ def soft_count(soft: SoftLights) -> int:
 @device
 def component_count(soft: SoftLights, light: int) -> int:
     """Return how many numbers say what a light adds: 3 for one whose colour changes, else 1."""
+    # Where there are no such skies, the compiler knows the number.
+    if soft.skies is None:
+        return 1
     return 1 if soft.sky[light] == NO_SKY else 3
 
 
@@ -110,19 +136,77 @@ def aim_at(soft: SoftLights, light: int, start: Start, normal: Vec) -> Aim:
     """
     kind, size = soft.kind[light], soft.size[light]
     place = soft.x[light], soft.y[light], soft.z[light]
+    error_scale, falls_off = soft.error_scale[light], soft.falls_off[light]
+    seen = see_rectangle(soft.rectangles, light, place, error_scale, falls_off, start)
     if kind == SUN:
         # The mean of the cosine over a cone around the normal is 1 - spread / 2.
         share = 1.0 / (1.0 - 0.5 * size)
-        return Aim(SUN, scale(soft.far, place), soft.far, place, size, share, NO_SKY)
+        return Aim(SUN, scale(soft.far, place), soft.far, place, size, share, 1.0, seen, NO_SKY)
     if kind == SPHERE:
         way = sub(place, start.point)
         distance2 = dot(way, way)
-        outside = size + ROUNDING * (soft.error_scale[light] + start.error_scale)
+        outside = size + ROUNDING * (error_scale + start.error_scale)
         if distance2 > outside * outside:
             sine2 = size * size / distance2
             spread = sine2 / (1.0 + math.sqrt(1.0 - sine2))
             axis = scale(1.0 / math.sqrt(distance2), way)
-            return Aim(SPHERE, place, size, axis, spread, 1.0 / (1.0 - 0.5 * spread), NO_SKY)
+            # The solid angle of the cone is 2 pi spread.
+            share = 2.0 * spread if falls_off else 1.0 / (1.0 - 0.5 * spread)
+            whole = share * (1.0 - 0.5 * spread) if falls_off else 1.0
+            return Aim(SPHERE, place, size, axis, spread, share, whole, seen, NO_SKY)
         # Inside, its light comes from all sides.
-        return Aim(SPHERE, place, size, normal, ALL_AROUND, 1.0, NO_SKY)
-    return Aim(AROUND, place, size, normal, ALL_AROUND, 1.0, soft.sky[light])
+        return Aim(SPHERE, place, size, normal, ALL_AROUND, 1.0, 1.0, seen, NO_SKY)
+    if kind == RECTANGLE:
+        spread, share = spread_and_share(seen)
+        return Aim(RECTANGLE, place, size, normal, spread, share, 0.0, seen, NO_SKY)
+    return Aim(AROUND, place, size, normal, ALL_AROUND, 1.0, 1.0, seen, soft.sky[light])
+
+
+@device
+def is_cone(aim: Aim) -> bool:
+    """Tell whether a light is seen as a cone of less than half of all directions."""
+    is_round = aim.kind in (SUN, SPHERE)
+    return is_round and aim.spread < 1.0
+
+
+@device
+def middle_share(aim: Aim, normal: Vec) -> float:
+    """Return the share of a cone above the horizon that nothing stops: that of its middle."""
+    return aim.whole * dot(normal, aim.axis)
+
+
+@device
+def is_above(aim: Aim, normal: Vec) -> bool:
+    """Tell whether all of a cone is above the horizon of a surface."""
+    return is_cone(aim) and dot(normal, aim.axis) > _sine(aim) + CLEARLY
+
+
+@device
+def is_below(aim: Aim, normal: Vec) -> bool:
+    """Tell whether all of a cone is below the horizon of a surface."""
+    return is_cone(aim) and dot(normal, aim.axis) < -_sine(aim) - CLEARLY
+
+
+@device
+def _sine(aim: Aim) -> float:
+    """Return the sine of half the angle of a cone."""
+    return math.sqrt(aim.spread * (2.0 - aim.spread))
+
+
+@device
+def cone_of(aim: Aim, start: Start, forward: Vec) -> Cone:
+    """Return the cone of the rays to a light that is not all around.
+
+    Parameters
+    ----------
+    aim, start
+        The light, and where the rays start.
+    forward
+        The unit direction in which the camera looks.
+    """
+    shortest = longest = aim.size
+    if aim.kind == SPHERE:
+        way = sub(aim.place, start.point)
+        longest = math.sqrt(dot(way, way))
+        shortest = longest - aim.size
+    return Cone(start, aim.axis, 1.0 - aim.spread, _sine(aim), shortest, longest, forward)

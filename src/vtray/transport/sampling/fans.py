@@ -1,10 +1,10 @@
 """Where the shadow rays of a surface point aim within a light: a fan of points of the unit square.
 
-Each sample of a pixel has one fan for each light, the next block of Sobol's sequence. Both a fan
-and all fans of a pixel together fill the square evenly. Eight points at a time, which kernels do at
-once, are near each other: they share an elementary cell, a side of which is a power of 1/2, in the
-places of its size. Scrambling moves whole cells, and so does going from a block to the next; thus
-one order of a fan's points is right for all of them.
+Each sample of a pixel has its fans for each light, the next blocks of Sobol's sequence. Both a fan
+and all fans of a pixel together fill the square evenly. Points that follow each other are near each
+other: each two share an elementary cell, a side of which is a power of 1/2, in the places of its
+size, and each 4, 8 ... a larger one. Scrambling moves whole cells, and so does going from a block
+to the next; thus one order of a fan's points is right for all of them.
 
 References
 ----------
@@ -13,6 +13,7 @@ intervals there); Owen, "Randomly permuted (t,m,s)-nets", 1995; Hilbert, "Ueber 
 Abbildung einer Linie auf ein Flächenstück", 1891 (the order of the cells).
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -23,7 +24,7 @@ from vtray.transport.sampling.sobol import LIGHT_FANS, pixel_keys, scrambled, so
 
 Integers = NDArray[np.int64]
 
-RUN = 8
+RUN = 2
 """Points in a row that share a cell."""
 
 
@@ -33,8 +34,11 @@ WHOLE_FAN = 64
 LEAST_FAN = 16
 """Rays of each of many samples of a pixel."""
 
-MOST_ROUNDS = 8
+MOST_FANS = 64
 """Fans from the one hit of a pixel to one light at the most."""
+
+MOST_FANS_OF_SAMPLES = 256
+"""The same of all samples of a pixel, where each has more than one."""
 
 
 class Fans(NamedTuple):
@@ -44,29 +48,57 @@ class Fans(NamedTuple):
     ----------
     rays
         Rays from a hit to a light at a time.
-    rounds
-        How often that is repeated where some of them arrive and others do not.
+    fans
+        How often that is repeated at the most, while the estimated variance is too large.
     points
         What `fan_points` returns.
+    error
+        The standard error that the light at a hit may have.
+    by_light
+        Whether that is meant of light; else of the sum of the shares of all lamps, so that nothing
+        depends on intensities and colours.
     """
 
     rays: int
-    rounds: int
+    fans: int
     points: Integers
+    error: float
+    by_light: bool
 
 
-def fans_of_middles(samples: int) -> Fans:
-    """Return the fans of middle rays in a picture with so many samples."""
-    rounds = min(max(samples // 4, 1), MOST_ROUNDS)
-    return Fans(WHOLE_FAN, rounds, fan_points(WHOLE_FAN, rounds))
+class Noise(NamedTuple):
+    """How noisy soft light may be.
+
+    Attributes
+    ----------
+    error
+        The standard error of a pixel.
+    by_light
+        Whether it is one of light; see `Fans`.
+    """
+
+    error: float
+    by_light: bool
+
+    def of_one(self, samples: int) -> float:
+        """Return the standard error that the light at one of the samples of a pixel may have."""
+        return self.error * math.sqrt(samples)
 
 
-def fans_of_samples(samples: int) -> Fans:
+def fans_of_middles(noise: Noise) -> Fans:
+    """Return the fans of rays through the middles of pixels."""
+    points = fan_points(WHOLE_FAN, MOST_FANS)
+    return Fans(WHOLE_FAN, MOST_FANS, points, noise.error, noise.by_light)
+
+
+def fans_of_samples(samples: int, noise: Noise) -> Fans:
     """Return the fans of pixels with so many samples, more than 1, which share their rays."""
     rays = LEAST_FAN
     while 2 * rays * samples <= WHOLE_FAN:
         rays *= 2
-    return Fans(rays, 1, fan_points(rays, samples))
+    fans = max(MOST_FANS_OF_SAMPLES // samples, 1)
+    points = fan_points(rays, fans * samples)
+    return Fans(rays, fans, points, noise.of_one(samples), noise.by_light)
 
 
 def fan_points(fan: int, samples: int) -> Integers:
@@ -111,7 +143,7 @@ def fan_point(points: Integers, k: int, keys: tuple[int, int]) -> tuple[float, f
     points
         What `fan_points` returns.
     k
-        Its number: ``fan * sample + ray``.
+        Its number: ``rays * fan + ray``.
     keys
         What `fan_keys` returns.
     """

@@ -17,16 +17,26 @@ from vtray.geometry.packets.fan import (
     END,
     END_PLANE_DEPTH,
     FAN,
+    LENGTH,
     WEIGHT,
     Fan,
     Start,
     count_open,
-    direction_of,
+    load_direction,
     set_direction,
 )
 from vtray.geometry.vector import Vec, add, dot, scale, sub
+from vtray.transport.lights.rectangle import SeenRectangle, length_of_ray
 from vtray.transport.lights.sky import Skies
-from vtray.transport.lights.soft_light import ALL_AROUND, SPHERE, Aim
+from vtray.transport.lights.soft_light import (
+    ALL_AROUND,
+    RECTANGLE,
+    SPHERE,
+    Aim,
+    is_above,
+    middle_share,
+)
+from vtray.transport.lights.spherical_rectangle import rectangle_direction
 from vtray.transport.sampling.fans import fan_point
 from vtray.transport.sampling.sky_rays import spread_to_sky
 from vtray.transport.sampling.warps import cone_direction, cosine_direction
@@ -73,22 +83,34 @@ def spread_fan(
 @device
 def _spread_evenly(fan: Fan, rays: int, aim: Aim, normal: Vec) -> None:
     """Turn points into directions to a light of one colour, and set what the rays count."""
-    if aim.spread == ALL_AROUND:
+    if aim.kind == RECTANGLE:
+        _spread_over_rectangle(fan, rays, aim.seen)
+    elif aim.spread == ALL_AROUND:
         for ray in range(rays):
-            u, v, _ = direction_of(fan, ray)
+            u, v, _ = load_direction(fan, ray)
             set_direction(fan, ray, cosine_direction(u, v, normal))
     else:
         for ray in range(rays):
-            u, v, _ = direction_of(fan, ray)
+            u, v, _ = load_direction(fan, ray)
             set_direction(fan, ray, cone_direction(u, v, aim.axis, aim.spread))
     for ray in range(rays):
         _set_weight(fan, ray, aim, normal)
 
 
 @device
+def _spread_over_rectangle(fan: Fan, rays: int, seen: SeenRectangle | None) -> None:
+    """Set the directions of rays to a rectangle."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if seen is not None:
+        for ray in range(rays):
+            u, v, _ = load_direction(fan, ray)
+            set_direction(fan, ray, rectangle_direction(u, v, seen.shape))
+
+
+@device
 def _set_weight(fan: Fan, ray: int, aim: Aim, normal: Vec) -> None:
     """Set what a ray counts; one that counts nothing is not cast."""
-    cosine = max(dot(normal, direction_of(fan, ray)), 0.0)
+    cosine = max(dot(normal, load_direction(fan, ray)), 0.0)
     weight = 1.0 if aim.spread == ALL_AROUND else aim.share * cosine
     fan[WEIGHT + ray] = weight
     fan[BLOCKED + ray] = 0.0 if weight > 0.0 else 1.0
@@ -97,29 +119,37 @@ def _set_weight(fan: Fan, ray: int, aim: Aim, normal: Vec) -> None:
 @device
 def _set_end(fan: Fan, ray: int, aim: Aim, start: Start, forward: Vec) -> None:
     """Set where a ray ends."""
-    direction = direction_of(fan, ray)
-    way = scale(_length(aim, start.point, direction), direction)
+    direction = load_direction(fan, ray)
+    length = _length(aim, start.point, direction)
+    way = scale(length, direction)
     x, y, z = add(start.point, way)
     fan[END + ray] = x
     fan[END + FAN + ray] = y
     fan[END + 2 * FAN + ray] = z
+    fan[LENGTH + ray] = length
     fan[END_PLANE_DEPTH + ray] = start.plane_depth + dot(way, forward)
 
 
 @device
 def _length(aim: Aim, point: Vec, direction: Vec) -> float:
-    """Return how long a ray is: up to the near side of a sphere, or the far one from inside."""
+    """Return how long a ray is: to a rectangle, a sphere, or the far side of one from inside."""
     way = sub(aim.place, point)
     middle = dot(way, direction)
     approach = sub(way, scale(middle, direction))
     half_chord = math.sqrt(max(aim.size * aim.size - dot(approach, approach), 0.0))
     side = middle + half_chord if aim.spread == ALL_AROUND else middle - half_chord
-    return side if aim.kind == SPHERE else aim.size
+    length = side if aim.kind == SPHERE else aim.size
+    return length_of_ray(aim.seen, direction) if aim.kind == RECTANGLE else length
 
 
 @device
-def arriving_shares(fan: Fan, rays: int, components: int) -> Vec:
-    """Return the mean weights of the rays of a fan, 0 for one that something stops.
+def arriving_shares(
+    fan: Fan, rays: int, components: int, aim: Aim, normal: Vec
+) -> tuple[Vec, float]:
+    """Return how much of each component of a light arrives, and the variance of that.
+
+    This is the mean weight of all rays, 0 for those stopped; the variance is that of the noisiest
+    component. Of a cone of which all arrives, it is known without noise: the cosine at its middle.
 
     Parameters
     ----------
@@ -127,17 +157,34 @@ def arriving_shares(fan: Fan, rays: int, components: int) -> Vec:
         The rays, so many.
     components
         How many weights each of them has: 1, which comes first, or 3.
+    aim, normal
+        The light, and the unit normal of the surface.
     """
-    first = _mean_weight(fan, rays, 0)
+    if is_above(aim, normal) and count_open(fan, rays) == rays:
+        return (middle_share(aim, normal), 0.0, 0.0), 0.0
+    first, spread = _arriving_share(fan, rays, 0)
     if components == 1:
-        return first, 0.0, 0.0
-    return first, _mean_weight(fan, rays, 1), _mean_weight(fan, rays, 2)
+        return (first, 0.0, 0.0), spread
+    second, second_spread = _arriving_share(fan, rays, 1)
+    third, third_spread = _arriving_share(fan, rays, 2)
+    return (first, second, third), max(spread, second_spread, third_spread)
 
 
 @device
-def _mean_weight(fan: Fan, rays: int, component: int) -> float:
-    """Return the mean of one of the weights of the rays."""
-    total, begin = 0.0, WEIGHT + component * FAN
+def _arriving_share(fan: Fan, rays: int, component: int) -> tuple[float, float]:
+    """Return the mean of one of the weights of the rays, and the variance of that."""
+    total = 0.0
     for ray in range(rays):
-        total += fan[begin + ray] if fan[BLOCKED + ray] == 0.0 else 0.0
-    return total / rays
+        total += _brought(fan, ray, component)
+    squares = 0.0
+    for pair in range(rays // 2):
+        one, other = 2 * pair, 2 * pair + 1
+        difference = _brought(fan, one, component) - _brought(fan, other, component)
+        squares += difference * difference
+    return total / rays, squares / (rays * rays)
+
+
+@device
+def _brought(fan: Fan, ray: int, component: int) -> float:
+    """Return what a ray brings: one of its weights, 0 if something stops it."""
+    return fan[WEIGHT + component * FAN + ray] if fan[BLOCKED + ray] == 0.0 else 0.0

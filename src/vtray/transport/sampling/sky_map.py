@@ -9,9 +9,9 @@ import math
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.circle import cosine_sine
 from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.transport.lights.sky import Skies, light_at, sky_axis
-from vtray.transport.sampling.circle import cosine_sine
 
 
 class MapPlace(NamedTuple):

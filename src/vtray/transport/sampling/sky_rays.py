@@ -11,7 +11,7 @@ Veach, Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Renderin
 """
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.fan import BLOCKED, FAN, WEIGHT, Fan, direction_of, set_direction
+from vtray.geometry.packets.fan import BLOCKED, FAN, WEIGHT, Fan, load_direction, set_direction
 from vtray.geometry.vector import Vec, dot, scale
 from vtray.transport.lights.sky import Brightness, Skies, light_at
 from vtray.transport.sampling.sky_brightness import bright_density, bright_direction
@@ -37,10 +37,10 @@ def spread_to_sky(fan: Fan, rays: int, skies: Skies | None, sky: int, normal: Ve
     if sky < 0:
         return False
     for ray in range(rays):
-        u, v, _ = direction_of(fan, ray)
+        u, v, _ = load_direction(fan, ray)
         set_direction(fan, ray, _sky_direction(u, v, normal, skies, skies.bright, sky))
     for ray in range(rays):
-        direction = direction_of(fan, ray)
+        direction = load_direction(fan, ray)
         _set_weights(fan, ray, _sky_weights(direction, normal, skies, skies.bright, sky))
     return True
 

@@ -17,8 +17,8 @@ hemisphere); Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6 (1)
 import math
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.circle import cosine_sine
 from vtray.geometry.vector import Vec
-from vtray.transport.sampling.circle import cosine_sine
 
 
 @device

@@ -1,6 +1,6 @@
-"""Sines and cosines up to an eighth of a turn, for kernels.
+"""Sines and cosines up to an eighth of a turn, and angles, for kernels.
 
-They are polynomials, the same to the last bit on every machine, without a branch.
+They are polynomials and roots, the same to the last bit on every machine; the sines have no branch.
 
 References
 ----------
@@ -8,7 +8,11 @@ Remez, "Sur la détermination des polynômes d'approximation de degré donnée",
 are those whose largest error over the range is least, then rounded to doubles.
 """
 
+import math
+
 from vtray.base.compiler.compiled import device
+
+PI = 3.141592653589793
 
 
 @device
@@ -35,3 +39,29 @@ def cosine_sine(eighths: float) -> tuple[float, float]:
     sine = sine * t - 0.08074551218828009
     sine = sine * t + 0.7853981633974483
     return cosine, sine * eighths
+
+
+@device
+def angle_of(along: float, across: float) -> float:
+    """Return the angle of the vector (along, across) from (1, 0), from -pi to pi, in radians.
+
+    It is within 2e-15 of itself: the tangent of the half of it is that of a triangle, and halved
+    three times more until Taylor's series leaves out less than ``0.2**22 / 23 < 2e-17`` of it.
+
+    Parameters
+    ----------
+    along, across
+        The vector, neither so long nor so short that squares cannot be had; that of length 0 has
+        the angle 0.
+    """
+    if across == 0.0:
+        return 0.0 if along >= 0.0 else PI
+    length = math.sqrt(along * along + across * across)
+    tangent = across / (length + along) if along > 0.0 else (length - along) / across
+    for _ in range(3):
+        tangent = tangent / (1.0 + math.sqrt(1.0 + tangent * tangent))
+    t = tangent * tangent
+    series = 0.0
+    for k in range(21, 0, -2):
+        series = 1.0 / k - t * series
+    return 16.0 * tangent * series

@@ -1,11 +1,11 @@
-"""Sines and cosines for kernels against the decimal module, digit by digit."""
+"""Sines, cosines and angles for kernels against the decimal module, digit by digit."""
 
 import math
 import random
 from decimal import Decimal, localcontext
 
 from vtray.base.compiler.compiled import uncompiled
-from vtray.transport.sampling.circle import cosine_sine
+from vtray.geometry.circle import angle_of, cosine_sine
 
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494")
 DRAW = random.Random(7)
@@ -50,3 +50,33 @@ def test_symmetric_and_exact_in_the_middle() -> None:
 def test_compiled_equals_plain_python() -> None:
     for eighths in EIGHTHS:
         assert cosine_sine(eighths) == uncompiled(cosine_sine)(eighths)
+
+
+def test_angles_against_the_series() -> None:
+    ways = [
+        (1.0, 0.0),
+        (1.0, 1.0),
+        (0.0, 3.0),
+        (0.0, -2.0),
+        (-1.0, 1e-100),
+        (-4.0, -4.0),
+        (7.0, 5e-300),
+    ]
+    for _ in range(2000):
+        along, across = (DRAW.uniform(-1, 1) * 10 ** DRAW.uniform(-20, 20) for _ in range(2))
+        ways.append((along, across))
+    for along, across in ways:
+        angle = angle_of(along, across)
+        assert abs(angle) <= math.pi * (1 + 2e-15)
+        with localcontext(prec=60):
+            # What is left of the vector's angle when it is turned back by this one.
+            cosine, sine = true_sines(Decimal(angle))
+            x, y = Decimal(along), Decimal(across)
+            rest = (cosine * y - sine * x) / (x * x + y * y).sqrt()
+            assert cosine * x + sine * y > 0
+            assert abs(rest) <= Decimal("2e-15") * abs(Decimal(angle))
+
+
+def test_angles_along_the_axis() -> None:
+    assert (angle_of(2.0, 0.0), angle_of(0.0, 0.0), angle_of(-2.0, 0.0)) == (0, 0, math.pi)
+    assert angle_of(3.0, 4.0) == -angle_of(3.0, -4.0) == uncompiled(angle_of)(3.0, 4.0)

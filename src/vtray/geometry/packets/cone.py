@@ -1,0 +1,336 @@
+"""What may stand between a point and a lamp that is seen in a cone of directions.
+
+Before any ray is cast to a lamp, its cone as a whole tells whether all rays arrive, or none, or
+which few shapes can stop some of them. Whatever rounding could decide, some of them may be stopped.
+"""
+
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.compiler.compiled import device
+from vtray.geometry.dispatch import Shape, Verbs, with_bounded
+from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_margin, upper_limit
+from vtray.geometry.packets.fan import Start
+from vtray.geometry.packets.stack import Stack, push_met
+from vtray.geometry.rounding import MARGIN, ROUNDING
+from vtray.geometry.shapes.plane import load_plane, plane_side
+from vtray.geometry.vector import Vec, add, dot, scale, sub
+from vtray.geometry.world import (
+    PLANE,
+    SPHERE,
+    Group,
+    Hierarchy,
+    Places,
+    ToBoxes,
+    World,
+    group_count,
+    hierarchy_of,
+    hierarchy_of_places,
+    load_group,
+    placed_row,
+    range_of,
+)
+
+MOST = 8
+"""So many shapes may touch a cone. Among more, its rays meet different ones: they search alone."""
+
+CLOSED = -1
+"""In place of how many shapes touch a cone: one stops all rays."""
+
+MANY = -2
+"""Likewise: more than ``MOST``."""
+
+SLIGHT = 1e-7
+"""More than the error of a sine that is worked out from a cosine near 1."""
+
+_ASIDE, _TOUCHES, _COVERS = 0, 1, 2
+
+
+class Touching(NamedTuple):
+    """The shapes that touch a cone.
+
+    Attributes
+    ----------
+    row, slot
+        What `load_group` finds the group of each by, and its slot, (``MOST``,).
+    """
+
+    row: NDArray[np.int64]
+    slot: NDArray[np.int64]
+
+
+def new_touching() -> Touching:
+    """Return the scratch memory of one thread."""
+    return Touching(np.zeros(MOST, np.int64), np.zeros(MOST, np.int64))
+
+
+class Cone(NamedTuple):
+    """A cone of rays.
+
+    Attributes
+    ----------
+    start
+        Where they start.
+    axis
+        The unit vector in its middle.
+    cosine, sine
+        Those of half its angle, which is less than a right one.
+    shortest, longest
+        How long its rays are at the least and at the most.
+    forward
+        The unit direction in which the camera looks.
+    """
+
+    start: Start
+    axis: Vec
+    cosine: float
+    sine: float
+    shortest: float
+    longest: float
+    forward: Vec
+
+
+@device
+def find_touching(cone: Cone, world: World, touching: Touching, stack: Stack) -> int:
+    """Find the shapes that touch a cone.
+
+    Parameters
+    ----------
+    cone, world
+        The cone, and what it can touch.
+    touching
+        Out: the shapes.
+    stack
+        Scratch memory.
+
+    Returns
+    -------
+    int
+        How many there are, or ``CLOSED`` or ``MANY``.
+    """
+    count = 0
+    for row in range(group_count(world)):
+        count = _find_in_group(cone, world, load_group(world, row), touching, count, stack, 0)
+        if count < 0:
+            return count
+    return _find_placed(cone, world, world.places, touching, count, stack)
+
+
+@device
+def _find_in_group(
+    cone: Cone,
+    world: World,
+    group: Group,
+    touching: Touching,
+    count: int,
+    stack: Stack,
+    base: int,
+) -> int:
+    """Find those of a group; return how many there are then."""
+    hierarchy = hierarchy_of(group)
+    return _search_shapes(cone, world, hierarchy, touching, count, stack, base, _find_slots, group)
+
+
+@device
+def _find_placed(
+    cone: Cone, world: World, places: Places | None, touching: Touching, count: int, stack: Stack
+) -> int:
+    """Find those that are placed; return how many there are then."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if places is not None:
+        hierarchy = hierarchy_of_places(places)
+        return _search_places(
+            cone, world, hierarchy, touching, count, stack, 0, _find_places, places
+        )
+    return count
+
+
+@device
+def _find_places(
+    cone: Cone,
+    world: World,
+    places: Places,
+    begin: int,
+    end: int,
+    touching: Touching,
+    count: int,
+    stack: Stack,
+    base: int,
+) -> int:
+    """Find those of the groups of a range of places; return how many there are then."""
+    for at in range(begin, end):
+        item = places.item[at]
+        for row in range(places.rows[item], places.rows[item + 1]):
+            group = load_group(world, placed_row(world, at, row))
+            count = _find_in_group(cone, world, group, touching, count, stack, base)
+            if count < 0:
+                return count
+    return count
+
+
+@device
+def _find_slots(
+    cone: Cone,
+    world: World,
+    group: Group,
+    begin: int,
+    end: int,
+    touching: Touching,
+    count: int,
+    stack: Stack,  # noqa: ARG001
+    base: int,  # noqa: ARG001
+) -> int:
+    """Find those of a range of slots; return how many there are then."""
+    for slot in range(begin, end):
+        relation = _relation_to(cone, world, group, slot)
+        if relation == _COVERS:
+            return CLOSED
+        if relation == _TOUCHES:
+            if count == MOST:
+                return MANY
+            touching.row[count] = group.row
+            touching.slot[count] = slot
+            count += 1
+    return count
+
+
+@device
+def _relation_to(cone: Cone, world: World, group: Group, slot: int) -> int:
+    """Tell how a cone and a shape lie to each other."""
+    if group.kind == PLANE:
+        plane = load_plane(world.planes, slot, group.place)
+        side = plane_side(plane, cone.start.point)
+        error_scale = cone.start.error_scale + plane.error_scale
+        return _relation_to_plane(cone, side, dot(plane.normal, cone.axis), error_scale)
+    relation: int = with_bounded(world, group, slot, _relation_to_shape, (cone, group.kind))
+    return relation
+
+
+@device
+def _relation_to_plane(cone: Cone, side: float, rise: float, error_scale: float) -> int:
+    """Tell whether a plane may stop rays of a cone.
+
+    Parameters
+    ----------
+    cone
+        The cone.
+    side, error_scale
+        How far its start is from the plane, and what the rounding error of that is relative to.
+    rise
+        The plane's normal times the axis.
+    """
+    away = rise if side > 0.0 else -rise
+    across = math.sqrt(max(1.0 - away * away, 0.0)) + SLIGHT
+    least = away * cone.cosine - across * cone.sine - SLIGHT
+    reaches = least * cone.longest + abs(side) <= MARGIN * error_scale
+    starts_on = abs(side) <= ROUNDING * error_scale
+    return _TOUCHES if reaches and not starts_on else _ASIDE
+
+
+@device
+def _relation_to_shape(
+    shape: Shape,
+    verbs: Verbs,  # noqa: ARG001
+    number: int,  # noqa: ARG001
+    arguments: tuple[Cone, int],
+) -> int:
+    """Tell how a cone and a shape that is none of planes lie to each other, by its ball."""
+    cone, kind = arguments
+    start, axis = cone.start, cone.axis
+    way = sub(shape.center, start.point)
+    margin = MARGIN * (shape.error_scale + start.error_scale)
+    ahead, distance2 = dot(way, axis), dot(way, way)
+    approach = sub(way, scale(ahead, axis))
+    aside = math.sqrt(dot(approach, approach))
+    # How far the centre is from the nearest and from the farthest side of the cone.
+    near, far = aside * cone.cosine - ahead * cone.sine, aside * cone.cosine + ahead * cone.sine
+    if near > shape.radius + margin or ahead > cone.longest + shape.radius + margin:
+        return _ASIDE
+    if kind != SPHERE:
+        return _TOUCHES
+    outside = distance2 - shape.radius * shape.radius
+    bound = ROUNDING * (shape.error_scale + start.error_scale)
+    # Rays that start outside, or on it, and lead away from its centre do not meet a sphere.
+    nearest = ahead * cone.cosine + aside * cone.sine
+    if outside >= -bound * (2.0 * shape.radius + bound) and nearest < -margin:
+        return _ASIDE
+    reach = math.sqrt(distance2) + shape.radius + margin
+    is_before = start.plane_depth + dot(way, cone.forward) > shape.radius + margin
+    is_between = outside > 4.0 * margin * (shape.radius + margin) and reach < cone.shortest
+    is_ahead = ahead * cone.cosine > aside * cone.sine
+    covers = is_before and is_between and is_ahead and far < shape.radius - margin
+    return _COVERS if covers else _TOUCHES
+
+
+def _search(
+    cone: Cone,
+    world: World,
+    hierarchy: Hierarchy,
+    touching: Touching,
+    count: int,
+    stack: Stack,
+    base: int,
+    visit: Callable[[Cone, World, Any, int, int, Touching, int, Stack, int], int],
+    subject: Any,  # noqa: ANN401
+) -> int:
+    """Visit the leaves of a hierarchy that touch a cone, the nearest first.
+
+    Parameters
+    ----------
+    cone, world, hierarchy
+        The cone, and the hierarchy.
+    touching, count
+        The shapes found so far, and how many there are.
+    stack, base
+        Scratch memory, and what waits there already, which stays.
+    visit, subject
+        What is called for each leaf, and what it is given, beside the range that the leaf names.
+
+    Returns
+    -------
+    int
+        As of `find_touching`.
+    """
+    beam = _cone_beam(cone, hierarchy.to_boxes)
+    end = cone.longest * hierarchy.to_boxes.ratio * (1.0 + MARGIN)
+    near, far = lower_limit(beam, 0.0), upper_limit(beam, end)
+    stack.node[base] = hierarchy.root
+    waiting = base + 1
+    while waiting > base:
+        waiting -= 1
+        child = stack.node[waiting]
+        if child >= 0:
+            waiting = push_met(world.bvh, child, beam, near, far, stack, waiting)
+        else:
+            begin, after = range_of(hierarchy, child)
+            count = visit(cone, world, subject, begin, after, touching, count, stack, waiting)
+            if count < 0:
+                return count
+    return count
+
+
+_search_places, _search_shapes = device(_search), device(_search)
+"""Two searches: one through what is placed, one through what stands at a place. They are
+two, as the compiler takes what calls itself for recursion, whatever it is given."""
+
+
+@device
+def _cone_beam(cone: Cone, to_boxes: ToBoxes) -> Beam:
+    """Return the beam around a cone, in the boxes' space."""
+    apex = add(scale(to_boxes.ratio, cone.start.point), to_boxes.offset)
+    x, y, z = cone.axis
+    low = _least(x, cone), _least(y, cone), _least(z, cone)
+    high = -_least(-x, cone), -_least(-y, cone), -_least(-z, cone)
+    margin = shape_margin(to_boxes, apex, cone.start.error_scale)
+    return make_beam(apex, apex, low, high, margin)
+
+
+@device
+def _least(component: float, cone: Cone) -> float:
+    """Return a bound on a component of all directions of a cone, given that of its axis."""
+    across = math.sqrt(max(1.0 - component * component, 0.0))
+    return component * cone.cosine - (across + SLIGHT) * cone.sine - SLIGHT

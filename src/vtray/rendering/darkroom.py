@@ -1,0 +1,105 @@
+"""From light to pictures: what all pictures of a render have in common, parts of it too."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.image.exposure import white_of
+from vtray.image.image import Image
+from vtray.image.surfaces import Surfaces
+from vtray.rendering.growth import Part
+from vtray.scene.scene import Scene
+from vtray.scene.settings import RenderSettings
+from vtray.transport.sampling.fans import Noise
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Darkroom:
+    """Makes pictures of light.
+
+    Attributes
+    ----------
+    scene
+        The scene as it is rendered.
+    original
+        The scene with its camera as it was given.
+    settings
+        The settings.
+    look
+        Gives what the middle rays meet.
+    sky
+        Gives the light of the skies of a scene where its pixels are not covered.
+    lock
+        A picture whose exposure is taken, or None.
+    threads
+        How many threads to use at the most.
+    """
+
+    scene: Scene
+    original: Scene
+    settings: RenderSettings
+    look: Callable[[], Surfaces]
+    sky: Callable[[Scene, Floats], Floats]
+    lock: object
+    threads: int
+
+    def part(self, part: Part) -> Image:
+        """Return the picture of what there is so far."""
+        peak = max(float(part.linear.max()), 0.0)
+        return self.picture(part.linear, part.coverage, peak, partial=part.done)
+
+    def picture(
+        self,
+        linear: Floats,
+        coverage: Floats | None,
+        peak: float,
+        *,
+        error: Floats | None = None,
+        noise: Noise | None = None,
+        relighting: Callable[[Scene], Floats] | None = None,
+        denoising: Callable[[Scene, Floats], Floats] | None = None,
+        partial: float | None = None,
+    ) -> Image:
+        """Return the picture of some light; see `Image` and `Rendered`.
+
+        Parameters
+        ----------
+        linear
+            Light as it was traced.
+        error, noise, relighting, partial
+            What the picture has.
+        denoising
+            Gives the light of a scene without grain, if the picture shall have that.
+        coverage
+            How much of each pixel is covered; None for what the middle rays say.
+        peak
+            The largest channel of light.
+        """
+        raw = linear
+        if denoising is not None:
+            linear = denoising(self.scene, raw)
+            peak = max(float(linear.max()), 0.0)
+        return Image(
+            linear,
+            None,
+            white_of(self.settings.exposure, peak, self.lock),
+            self.scene,
+            self.settings,
+            {},
+            look=self.look,
+            alpha=coverage,
+            error=error,
+            noise=noise,
+            relighting=relighting,
+            raw=raw,
+            denoising=denoising,
+            threads=self.threads,
+            original=self.original,
+            locked=self.lock is not None,
+            partial=partial,
+            sky=self.sky,
+        )

@@ -1,0 +1,148 @@
+"""What tells a denoiser where the surfaces of a picture begin and end: colours and normals.
+
+They must be as sharp as the light that they guide. Where pixels have one ray, they are those of the
+middle rays. Where pixels have samples, rays on a grid within each of them are weighted by the same
+filter.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.pool import run_tasks
+from vtray.base.tiles import Tile, split_into_tiles
+from vtray.rendering.engines.engine import Plan, trace
+from vtray.scene.settings import RenderSettings
+from vtray.transport.camera_rays import CameraFrame
+from vtray.transport.film import Film
+from vtray.transport.materials.material import Materials
+from vtray.transport.sampling.filters import FILTERS
+from vtray.transport.sampling.pixel_samples import middle_rays
+from vtray.transport.scene_arrays import SceneArrays
+
+Floats = NDArray[np.float64]
+
+GRID = 4
+"""Rays across and down a pixel that has samples."""
+
+WANTED = ("distance", "normal", "primitive", "half")
+"""What is traced: as for depth, normals and ids, so that the kernel is the same."""
+
+
+class Guides(NamedTuple):
+    """What surfaces are like, as seen in each pixel.
+
+    Attributes
+    ----------
+    albedo
+        The share of light that they scatter, (height, width, 3); 0 where nothing is.
+    normals
+        Normals in world space, shorter where several are mixed, (height, width, 3).
+    cover
+        How much of a pixel is covered, (height, width).
+    """
+
+    albedo: Floats
+    normals: Floats
+    cover: Floats
+
+
+def find_guides(scene: SceneArrays, settings: RenderSettings, threads: int) -> Guides:
+    """Return the guides of a picture.
+
+    Parameters
+    ----------
+    scene
+        The arrays of the scene.
+    settings
+        How the picture is taken.
+    threads
+        How many threads to use at the most.
+    """
+    camera = scene.camera
+    side, weights = _filter(settings)
+    fine = scene._replace(camera=_finer(camera, side))
+    plan = Plan(middle_rays(), WANTED)
+    before = len(weights) // 2
+    found = np.empty((camera.height, camera.width, 7))
+
+    def find(tile: Tile) -> None:
+        left, top = side * tile.left - before, side * tile.top - before
+        right, bottom = side * (tile.right - 1) + before + 1, side * (tile.bottom - 1) + before + 1
+        film, _ = trace(fine, plan, Tile(left, top, right, bottom))
+        rows = _weighted(_surfaces(film, scene.materials), weights, side)
+        columns = _weighted(rows.swapaxes(0, 1), weights, side)
+        found[tile.top : tile.bottom, tile.left : tile.right] = columns.swapaxes(0, 1)
+
+    run_tasks(split_into_tiles(camera.width, camera.height), lambda: find, threads)
+    # Filters with negative sides go a little beyond.
+    return Guides(found[..., :3].clip(0.0, 1.0), found[..., 3:6], found[..., 6].clip(0.0, 1.0))
+
+
+def albedo_of(materials: Materials, primitive: NDArray[Any], half: NDArray[Any]) -> Floats:
+    """Return the share of light that primitives scatter, each channel from 0 to 1.
+
+    Parameters
+    ----------
+    materials
+        The materials of all primitives.
+    primitive, half
+        The numbers of the primitives, and 1 for their second halves, of any shape.
+
+    Returns
+    -------
+    array
+        Of the same shape, with three channels each.
+    """
+    k = np.searchsorted(materials.first, primitive, side="right") - 1
+    place = (primitive - materials.first[k]) % np.maximum(materials.each[k], 1)
+    row = np.where(
+        half == 1,
+        materials.end_row[k] + place * materials.end_step[k],
+        materials.color_row[k] + place * materials.color_step[k],
+    )
+    lambert = materials.lambert[materials.lambert_row[k] + place * materials.lambert_step[k]]
+    shares: Floats = (materials.color[row] / 255.0 * lambert[..., None]).clip(0.0, 1.0)
+    return shares
+
+
+def _surfaces(film: Film, materials: Materials) -> Floats:
+    """Return albedo, normal and 1 for a hit, all 0 for none, (height, width, 7)."""
+    found = np.zeros((*film.primitive.shape, 7))
+    hit = film.primitive >= 0
+    found[hit, :3] = albedo_of(materials, film.primitive[hit], film.half[hit])
+    found[hit, 3:6] = film.normal[hit]
+    found[hit, 6] = 1.0
+    return found
+
+
+def _filter(settings: RenderSettings) -> tuple[int, Floats]:
+    """Return how many rays a pixel has across and down, and what they weigh from side to side."""
+    if settings.samples == 1:
+        return 1, np.ones(1)
+    kernel = FILTERS[settings.filter]
+    reach = int(kernel.radius * GRID)
+    weights = kernel.value(np.arange(-reach, reach + 1) / GRID)
+    weights[[0, -1]] *= 0.5  # of which the half lies within
+    return GRID, weights / weights.sum()
+
+
+def _weighted(rows: Floats, weights: Floats, step: int) -> Floats:
+    """Return the weighted means of rows, one for so many steps, without the margins."""
+    count = (len(rows) - len(weights)) // step + 1
+    total = np.zeros((count, *rows.shape[1:]))
+    for k, weight in enumerate(weights):
+        total += weight * rows[k : k + step * (count - 1) + 1 : step]
+    return total
+
+
+def _finer(camera: CameraFrame, side: int) -> CameraFrame:
+    """Return a camera with the same view, and so many pixels for each across and down."""
+    across, down, distance = camera.pixel
+    return camera._replace(
+        pixel=(across / side, down / side, distance),
+        shift=(camera.shift[0] / side, camera.shift[1] / side),
+        width=side * camera.width,
+        height=side * camera.height,
+    )

@@ -1,0 +1,124 @@
+"""How noisy soft light may be: what is estimated, and how far from a long render pictures are."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import vtray
+from conftest import JIT, compiled_only
+from vtray import render
+
+SIZE = (48, 36) if JIT else (6, 5)
+SUN = vtray.Sun((0.5, 0.6, -1), 0.8, angle=30)
+LIGHTS: dict[str, list[Any]] = {
+    "ambient": [vtray.Ambient()],
+    "large sun": [SUN],
+    "three": [SUN, vtray.SphereLight((-4, -2, 5), 1.5, 0.4), vtray.Ambient(0.5)],
+}
+
+
+def scene_of(lights: list[Any], kind: str = "balls") -> vtray.Scene:
+    """Return white balls on a floor, or what is made to fool those who look at few rays."""
+    random = np.random.default_rng(3)
+    scene = vtray.Scene()
+    if kind == "balls":
+        centers = random.uniform((-2, -2, 0.2), (2, 2, 2.4), (60, 3))
+        scene.add_spheres(centers, random.uniform(0.1, 0.5, 60))
+    elif kind == "thin shadows":
+        bars = np.linspace(-3, 3, 60)
+        starts = np.stack([bars, np.full(60, -9.0), np.full(60, 2.0)], axis=1)
+        scene.add_cylinders(starts, starts + np.array([0, 18, 0]), 0.012)
+    else:  # a wall of balls with a hole
+        x, y = (side.ravel() for side in np.meshgrid(np.arange(-9, 10), np.arange(-9, 10)))
+        wall = np.stack([x, y, np.full(len(x), 2.0)], axis=1)
+        scene.add_spheres(wall[(x != 0) | (y != 0)], 0.8)
+    scene.add_plane((0, 0, 0), normal=(0, 0, 1))
+    eye = (0, -9, 5) if kind == "balls" else (0, -4, 1.2)
+    scene.camera = vtray.Camera.look_at(eye, (0, 0, 0.3), (0, 0, 1), 35, SIZE)
+    scene.lights = lights
+    return scene
+
+
+@compiled_only
+@pytest.mark.parametrize("kind", ["balls", "thin shadows", "hole"])
+@pytest.mark.parametrize("lights", LIGHTS.values(), ids=LIGHTS)
+def test_errors_are_what_is_off_from_a_long_render(lights: list[Any], kind: str) -> None:
+    scene = scene_of(lights, kind)
+    long = render(scene, exposure=1.0, tolerance=2e-3, seed=9)
+    for tolerance in (0.03, 0.008):
+        image = render(scene, exposure=1.0, tolerance=tolerance)
+        # What no ray may see counts as well: half a ray of each light.
+        assert image.error.max() <= np.hypot(tolerance, 0.5 / 64 * 1.5) * image.white
+        off = np.abs(image.linear - long.linear).max(axis=2)
+        allowed = np.hypot(image.error, long.error)
+        seen = np.isfinite(image.depth)
+        # Not too small on the whole, nor by far anywhere; bars finer than rays fool it most.
+        honest = 1.0 if kind == "balls" else 1.2
+        assert np.sqrt((off[seen] ** 2).mean()) < honest * np.sqrt((allowed[seen] ** 2).mean())
+        assert (off > 3 * allowed + 1e-9).mean() < 0.02
+        assert (off < 6 * allowed + 1e-9).all()
+    # Nor useless.
+    if kind == "balls":
+        assert image.error[seen].mean() < 4 * off[seen].mean() + 1e-3 * image.white
+
+
+@compiled_only
+def test_a_smaller_tolerance_takes_more_rays_and_is_nearer() -> None:
+    scene = scene_of(LIGHTS["three"])
+    long = render(scene, exposure=1.0, tolerance=1e-3, seed=9)
+    images = [render(scene, exposure=1.0, tolerance=part) for part in (1.0, 0.01, 0.003)]
+    rays = [image.stats["rays"] for image in images]
+    off = [np.abs(image.linear - long.linear).mean() for image in images]
+    assert rays == sorted(rays)
+    assert rays[2] > 2 * rays[0]
+    assert off == sorted(off, reverse=True)
+    assert off[2] < 0.5 * off[0]
+
+
+def test_tolerance_is_meant_of_what_becomes_white() -> None:
+    scene = scene_of(LIGHTS["ambient"])
+    image = render(scene, tolerance=0.02)
+    assert image.error.max() <= 0.02 * image.white
+    faint = scene_of([vtray.Ambient(1e-3)])
+    assert np.abs(render(faint, tolerance=0.02).pixels - 1.0 * image.pixels).max() <= 1
+
+
+@compiled_only
+def test_errors_of_samples_are_what_seeds_differ_by() -> None:
+    scene = scene_of(LIGHTS["three"])
+    images = [render(scene, exposure=1.0, samples=8, seed=seed) for seed in range(24)]
+    spread = np.std([image.linear for image in images], axis=0).max(axis=2)
+    estimated = np.sqrt(np.mean([image.error**2 for image in images], axis=0))
+    edges = spread > 2.0
+    assert edges.sum() > 100
+    ratio = estimated[edges] / spread[edges]
+    assert ratio.mean() > 1.0
+    assert (ratio > 0.6).mean() > 0.98
+
+
+def test_hard_lights_have_no_error_and_changed_pictures_none_that_is_known() -> None:
+    scene = scene_of([vtray.Light((3, -4, 9))])
+    image = render(scene)
+    assert not image.error.any()
+    assert image.error.shape == image.depth.shape
+    kept = render(scene_of(LIGHTS["ambient"]), keep_lights=True, tolerance=1.0)
+    assert kept.error.any()
+    assert kept.expose(0.5).error.any()
+    assert np.isnan(kept.relight([0.5]).error).all()
+
+
+@compiled_only
+@pytest.mark.parametrize("samples", [1, 4])
+def test_kept_light_does_not_look_at_light(samples: int) -> None:
+    scene = scene_of(LIGHTS["three"])
+    options: dict[str, Any] = {"keep_lights": True, "tolerance": 0.01, "samples": samples}
+    image = render(scene, **options)
+    relit = image.relight([0.0, 3.0, 0.1])
+    np.testing.assert_array_equal(relit.linear, render(relit.scene, **options).linear)
+
+
+@pytest.mark.parametrize("value", [0, -1, "x", float("nan"), float("inf")])
+def test_wrong_tolerances_are_one_line(value: object) -> None:
+    with pytest.raises(vtray.SceneError, match="tolerance: .*got"):
+        render(scene_of(LIGHTS["ambient"]), tolerance=value)
