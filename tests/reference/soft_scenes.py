@@ -54,6 +54,7 @@ def soft_scene(seed: int, kind: str, by: float = 0.0, **camera: Any) -> Scene:
         **camera,
     }
     lights = [soft_light(random, at, centers, radii) for _ in range(6)]
+    lights.append(colorful_sky(random))
     lights.insert(int(random.integers(4)), {**light(*at((4, 4, -5)), intensity=0.3)})
     for item in lights:
         if random.random() < 0.5:
@@ -63,7 +64,7 @@ def soft_scene(seed: int, kind: str, by: float = 0.0, **camera: Any) -> Scene:
 
 def soft_light(random: Random, at: Any, centers: np.ndarray, radii: np.ndarray) -> Scene:
     """Return a light of any kind and size, often in an object or around the scene."""
-    kind = random.integers(11)
+    kind = random.integers(9)
     measure = "radiance" if kind > 2 and random.random() < 0.3 else "intensity"
     power = {measure: float(random.uniform(0.1, 1))}
     if kind == 0:
@@ -76,8 +77,6 @@ def soft_light(random: Random, at: Any, centers: np.ndarray, radii: np.ndarray) 
         }
     if kind == 1:
         return {"type": "sky", "radiance": float(random.uniform(0.1, 1))}
-    if kind > 8:
-        return colorful_sky(random)
     if kind == 2:
         distance = {"distance": float(random.choice([1e-9, 0.1, 1.0, 2.5, 100.0]))}
         return {"type": "ambient", **power, **(distance if random.random() < 0.8 else {})}

@@ -214,8 +214,9 @@ def test_kept_light_has_three_numbers_of_a_gradient(samples: int) -> None:
     spots = np.random.default_rng(7).lognormal(sigma=2, size=(8, 16, 3))
     scene.lights += [vtray.Sun((0.2, 0, -1)), vtray.Sky(0.1), vtray.Sky(image=spots)]
     scene.add_light((3, 3, 3))
-    image = render(scene, samples=samples, keep_lights=True)
+    options: dict[str, Any] = {"samples": samples, "keep_lights": True}
+    image = render(scene, **options)
     relit = image.relight([0.3, 0.8, 0.0, 0.2, 1.5])
-    np.testing.assert_array_equal(relit.linear, render(relit.scene, samples=samples).linear)
+    np.testing.assert_array_equal(relit.linear, render(relit.scene, **options).linear)
     colored = image.recolor(1, "teal")
-    np.testing.assert_array_equal(colored.linear, render(colored.scene, samples=samples).linear)
+    np.testing.assert_array_equal(colored.linear, render(colored.scene, **options).linear)
