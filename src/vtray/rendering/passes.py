@@ -7,16 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.memory import check_memory_of_lights
-from vtray.base.pool import Progress, run_tasks
+from vtray.base.pool import Progress
 from vtray.base.tiles import TILE, Tile, split_into_tiles
 from vtray.rendering.engines.engine import Engine, trace_to
 from vtray.rendering.engines.threads import Threads
 from vtray.scene.settings import RenderSettings
 from vtray.transport.film import Film, new_film
 from vtray.transport.light_buffer import KeptLight, new_kept_light
-from vtray.transport.sampling.adaptive import mark_rows
 from vtray.transport.sampling.fans import Fans, fans_of_middles, fans_of_samples
-from vtray.transport.sampling.filters import FILTERS
 from vtray.transport.sampling.pixel_samples import (
     Sampling,
     filter_footprint,
@@ -28,7 +26,7 @@ from vtray.transport.scene_arrays import SceneArrays
 ONE_RAY = ("linear",)
 """What is wanted of a picture with one ray a pixel."""
 
-SAMPLES = ("linear", "coverage", "primitive", "half", "shadows", "rims")
+SAMPLES = ("linear", "coverage", "mixed")
 """What is wanted of one with samples."""
 
 
@@ -108,16 +106,15 @@ class Tracer:
         fans = self._fans(fans_of_middles, samples)
         middles = middle_rays(footprint, before_samples=True, fans=fans, seed=seed)
         found = self._middles(middles, keep, *SAMPLES)
-        film = found.film
-        marks, peak = self._mark(film, settings)
-        np.greater_equal(film.primitive, 0, out=film.coverage)
-        kept = found.kept
+        film, kept = found.film, found.kept
+        marks = film.mixed
         if keep:
             kept = (*kept, self._keep(marks, samples))
             film = film._replace(kept=kept[-1])
         sampling = filter_samples(settings, marks, self._fans(fans_of_samples, samples))
         sampled = self._trace(sampling, film)
-        return Traced(film, max(peak, sampled.peak), found.rays + sampled.rays, kept)
+        peak, rays = max(found.peak, sampled.peak), found.rays + sampled.rays
+        return Traced(film, peak, rays, kept)
 
     def _fans(self, make: Callable[[int], Fans], samples: int) -> Fans | None:
         """Return which rays are cast to soft lights, if there are any."""
@@ -139,20 +136,6 @@ class Tracer:
         first = np.where(marks, (first - 1) * samples, -1)
         return new_kept_light(first, count, lights)
 
-    def _mark(self, film: Film, settings: RenderSettings) -> tuple[NDArray[np.bool_], float]:
-        """Return which pixels need samples, and the largest channel of the others."""
-        width, height = self._size
-        film = film._replace(kept=None)  # one kernel, whether light is kept or not
-        marks = np.empty((height, width), np.bool_)
-        near = int(np.ceil(FILTERS[settings.filter].radius))
-        peaks = []
-
-        def mark(top: int) -> None:
-            peaks.append(mark_rows(film, near, top, min(top + TILE, height), marks))
-
-        run_tasks(range(0, height, TILE), lambda: mark, self._threads)
-        return marks, max(peaks)
-
     def _trace(self, sampling: Sampling, film: Film) -> Traced:
         """Cast rays, and write to a film."""
         tiles = split_into_tiles(*self._size, self._tile)
@@ -171,8 +154,6 @@ def compile_kernels(scene: SceneArrays, settings: RenderSettings, *, keep: bool 
     """Compile what is needed to trace a scene, or load it from disk; see `Tracer.light`."""
     has_samples = settings.samples > 1
     film = new_film(0, 0, *(SAMPLES if has_samples else ONE_RAY))
-    if has_samples:
-        mark_rows(film, 0, 0, 0, np.zeros((0, 0), np.bool_))
     if keep:
         film = film._replace(kept=new_kept_light(np.zeros((0, 0), np.int64), 0, 0))
     fans = None if scene.lights.soft is None else fans_of_middles(1)

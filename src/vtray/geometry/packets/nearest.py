@@ -6,15 +6,19 @@ from collections.abc import Callable
 import numpy as np
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.bundle import Bundle, Crossing, camera_bundle
 from vtray.geometry.dispatch import Shape, Verbs, with_bounded
 from vtray.geometry.packets.packet import (
+    ALL_MET,
     DISTANCE,
     LANES,
     MET,
+    MIXED,
+    NEAREST,
     NO_PRIMITIVE,
     OCTET,
     PRIMITIVE,
-    RIM,
+    RIVAL,
     Packet,
     Sheaf,
     join_met,
@@ -24,7 +28,7 @@ from vtray.geometry.packets.ray_bounds import find_farthest, octets_met
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Footprint, Ray, has_width
 from vtray.geometry.rounding import MARGIN
-from vtray.geometry.shapes.plane import load_plane, plane_distance
+from vtray.geometry.shapes.plane import load_plane, plane_crossing, plane_distance
 from vtray.geometry.world import Group, World
 
 
@@ -35,17 +39,28 @@ def clear_hits(packet: Packet, lanes: int) -> None:
     for lane in range(lanes):
         packet[DISTANCE + lane] = math.inf
         numbers[PRIMITIVE + lane] = NO_PRIMITIVE
-        packet[RIM + lane] = math.inf
+        packet[NEAREST + lane] = math.inf
+        packet[RIVAL + lane] = math.inf
+        packet[ALL_MET + lane] = math.inf
 
 
 @device
-def nearest_planes(packet: Packet, lanes: int, sheaf: Sheaf, world: World, group: Group) -> None:
+def nearest_planes(
+    packet: Packet,
+    lanes: int,
+    sheaf: Sheaf,
+    footprint: Footprint,
+    world: World,
+    group: Group,
+) -> None:
     """Let planes take the lanes in which they are nearer than the hits so far."""
     for slot in range(group.begin, group.end):
         plane = load_plane(world.planes, slot, group.place)
         number = group.number + world.planes.number[slot]
         met = join_met(group.row, slot)
         _take_lanes(packet, 0, lanes, sheaf, met, number, plane, plane_distance)
+        if has_width(footprint):
+            _note_crossings(packet, 0, lanes, sheaf, footprint, plane, plane_crossing)
 
 
 @device
@@ -102,8 +117,8 @@ def _take_octets(
             end = begin + OCTET
             _take_lanes(packet, begin, end, sheaf, met_here, number, shape, verbs.distance_to)
             if has_width(footprint):
-                _note_rims(packet, lane, sheaf, footprint, shape, verbs.outline)
-            find_farthest(packet, lane // OCTET, 1, work.cones)
+                _note_crossings(packet, begin, end, sheaf, footprint, shape, verbs.crossing)
+            find_farthest(packet, lane // OCTET, 1, footprint, work.cones)
         met >>= 1
         lane += OCTET
 
@@ -134,16 +149,35 @@ def _take_lanes(
 
 
 @device
-def _note_rims(
+def _note_crossings(
     packet: Packet,
-    first: int,
+    begin: int,
+    end: int,
     sheaf: Sheaf,
     footprint: Footprint,
     shape: Shape,
-    outline_of: Callable[[Shape, Ray, Footprint], float],
+    crossing_of: Callable[[Shape, Bundle], Crossing],
 ) -> None:
-    """Note the distance of a shape's outline in those of eight lanes that it passes near."""
-    begin = first & (LANES - 1)
-    for lane in range(begin, begin + OCTET):
-        outline = outline_of(shape, load_ray(packet, sheaf, lane), footprint)
-        packet[RIM + lane] = min(outline, packet[RIM + lane])
+    """Note where all that belongs to the pixels of some lanes meets a shape."""
+    for lane in range(begin, end):
+        bundle = camera_bundle(load_ray(packet, sheaf, lane), footprint)
+        near, far = crossing_of(shape, bundle)
+        nearest = packet[NEAREST + lane]
+        packet[RIVAL + lane] = min(packet[RIVAL + lane], max(nearest, near))
+        packet[NEAREST + lane] = min(nearest, near)
+        packet[ALL_MET + lane] = min(packet[ALL_MET + lane], far)
+
+
+@device
+def find_mixed(packet: Packet, lanes: int) -> None:
+    """Set field ``MIXED``: all rays of a lane's bundle hit one same shape first, or nothing.
+
+    That is so if one is in the way of all of them, and no other is met before that; which must be
+    true of the ray itself, too.
+    """
+    for lane in range(lanes):
+        distance, nearest = packet[DISTANCE + lane], packet[NEAREST + lane]
+        last = packet[ALL_MET + lane]
+        is_one = (nearest <= distance) & (distance <= last) & (last < packet[RIVAL + lane])
+        is_none = (nearest == math.inf) & (distance == math.inf)
+        packet[MIXED + lane] = 0.0 if (is_one & (last < math.inf)) | is_none else 1.0

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.bundle import Bundle, Crossing
 from vtray.geometry.dispatch import Shape, Verbs, with_bounded
 from vtray.geometry.packets.packet import (
     BLOCKED,
@@ -18,11 +19,13 @@ from vtray.geometry.packets.packet import (
     OCTET,
     PLANE_DEPTH,
     POINT,
+    REACH,
     SOURCE,
     Packet,
     load,
     split_met,
 )
+from vtray.geometry.packets.patch import is_open, note_plane, note_solid
 from vtray.geometry.packets.shaft import outside_shaft
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Segment
@@ -46,11 +49,15 @@ class Target(NamedTuple):
         Its distance in front of the image plane.
     error_scale
         What its rounding error is relative to, beside what stands in the way.
+    is_wide
+        Whether rays from the patches around the points are asked for as well; None where they never
+        are, so that no code is compiled for them.
     """
 
     place: Vec
     plane_depth: float
     error_scale: float
+    is_wide: bool | None = None
 
 
 class Bounds(NamedTuple):
@@ -103,6 +110,18 @@ def box_of(bounds: Bounds) -> PointBox:
     """Return the box of points within bounds."""
     center = scale(0.5, add(bounds.low, bounds.high))
     return PointBox(center, scale(0.5, sub(bounds.high, bounds.low)), bounds.error_scale)
+
+
+@device
+def widened_box(packet: Packet, hits: int, box: PointBox, is_wide: bool | None) -> PointBox:
+    """Return a box of points widened by their patches, if these are asked for."""
+    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_wide:
+            most = 0.0
+            for lane in range(hits):
+                most = max(most, packet[REACH + lane])
+            return PointBox(box.center, add(box.half, (most, most, most)), box.error_scale)
+    return box
 
 
 @device
@@ -194,13 +213,15 @@ def block_by_planes(
     """Mark the points that planes hide from a light; tell whether any is left."""
     for slot in range(group.begin, group.end):
         plane = load_plane(world.planes, slot, group.place)
+        number = group.number + world.planes.number[slot]
+        _note_plane(packet, hits, target, target.is_wide, plane, number)
         # Worked out here: in the loop over lanes, the compiler did not see that it is always the
         # same, and it took a quarter more time.
         end = end_side(plane, target.place, target.error_scale)
         nearest = work.above[slot] if end < 0.0 else work.below[slot]
         if end != 0.0 and _crosses(nearest, abs(end), bounds.plane_depth, target.plane_depth):
             _block_lanes(packet, 0, hits, target, (plane, end), hides_side)
-            if not _any_open(packet, hits):
+            if not _any_open(packet, hits, target.is_wide):
                 return False
     return True
 
@@ -223,11 +244,11 @@ def _crosses(nearest: float, end: float, plane_depth: float, end_plane_depth: fl
 
 
 @device
-def _any_open(packet: Packet, hits: int) -> bool:
+def _any_open(packet: Packet, hits: int, is_wide: bool | None) -> bool:
     """Tell whether nothing so far hides a light from any of the points."""
     count = 0
     for lane in range(hits):
-        count += 1 if packet[BLOCKED + lane] == 0.0 else 0
+        count += 1 if is_open(packet, lane, is_wide) else 0
     return count > 0
 
 
@@ -265,12 +286,13 @@ def block_by_slot(
 def _block_by_shape(
     shape: Shape,
     verbs: Verbs,
-    number: int,  # noqa: ARG001
+    number: int,
     arguments: tuple[Packet, int, int, Target],
 ) -> None:
     """Mark the points of a range that a shape hides from a light."""
     packet, begin, end, target = arguments
     _block_octets(packet, begin, end, target, shape, verbs.hides)
+    _note_solid(packet, begin, end, target, target.is_wide, number, shape, verbs.crossing)
 
 
 @device
@@ -333,3 +355,36 @@ def _block_lanes(
             target.error_scale,
         )
         packet[BLOCKED + lane] = 1.0 if hides(shape, segment) else packet[BLOCKED + lane]
+
+
+@device
+def _note_plane(
+    packet: Packet,
+    hits: int,
+    target: Target,
+    is_wide: bool | None,
+    plane: PlaneShape,
+    number: int,
+) -> None:
+    """Note what a plane does to the light on patches, if these are asked for."""
+    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_wide:
+            note_plane(packet, hits, target.place, target.plane_depth, number, plane)
+
+
+@device
+def _note_solid(
+    packet: Packet,
+    begin: int,
+    end: int,
+    target: Target,
+    is_wide: bool | None,
+    number: int,
+    shape: Shape,
+    crossing_of: Callable[[Shape, Bundle], Crossing],
+) -> None:
+    """Note what a shape does to the light on patches of a range, if these are asked for."""
+    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_wide:
+            place, plane_depth = target.place, target.plane_depth
+            note_solid(packet, begin, end, place, plane_depth, number, shape, crossing_of)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import (
+    ALL_MET,
     DIRECTION,
     DISTANCE,
     LANES,
@@ -22,7 +23,7 @@ from vtray.geometry.packets.packet import (
     Sheaf,
     start_apart,
 )
-from vtray.geometry.ray import Footprint, reach_at
+from vtray.geometry.ray import Footprint, has_width, reach_at
 from vtray.geometry.vector import Vec, add, cross, dot, lower, scale, sub, upper
 
 OCTETS = LANES // OCTET
@@ -36,7 +37,7 @@ LOW = 8 * OCTETS  # the least and the greatest components of the directions
 HIGH = 11 * OCTETS
 FIRST = 14 * OCTETS  # the least and the greatest coordinates of the starts
 LAST = 17 * OCTETS
-FARTHEST = 20 * OCTETS  # the largest distance of the hits so far
+FARTHEST = 20 * OCTETS  # the largest distance at which hits so far leave something to find
 ROWS = 21
 
 Cones = NDArray[np.float64]
@@ -117,8 +118,14 @@ def farthest_of(cones: Cones, first: int, count: int) -> float:
 
 
 @device
-def find_farthest(packet: Packet, first: int, count: int, cones: Cones) -> None:
-    """Find the largest distance of the hits so far in each of some octets."""
+def find_farthest(
+    packet: Packet, first: int, count: int, footprint: Footprint, cones: Cones
+) -> None:
+    """Find the largest distance in each of some octets at which hits so far leave some to find.
+
+    That is where their rays hit; with a footprint, where all rays in it do, if one shape is in the
+    way of all. If none is, they do not see the same, whatever is farther away.
+    """
     # Doubles ≥ 0 are in the order of their bits, and a maximum of integers can be vectorised.
     bits = packet.view(np.int64)
     for octet in range(first, first + count):
@@ -127,6 +134,12 @@ def find_farthest(packet: Packet, first: int, count: int, cones: Cones) -> None:
         for lane in range(begin, begin + OCTET):
             far = max(far, bits[DISTANCE + lane])
         cones[FARTHEST + octet] = np.int64(far).view(np.float64)
+        if has_width(footprint):
+            farthest = 0.0
+            for lane in range(begin, begin + OCTET):
+                met = packet[ALL_MET + lane]
+                farthest = max(farthest, met if met < math.inf else packet[DISTANCE + lane])
+            cones[FARTHEST + octet] = farthest
 
 
 @device

@@ -130,7 +130,9 @@ def _search(
     _, first, count, sheaf, footprint = rays
     bvh, ratio, stack = world.bvh, hierarchy.to_boxes.ratio, work.stack
     beam = _part_beam(first, count, sheaf, footprint, hierarchy.to_boxes, work)
-    start = lower_limit(beam, -sheaf.plane_depth * ratio * (1.0 - MARGIN))
+    # The rays of a footprint may be steeper than those in their middle.
+    before = -sheaf.plane_depth * (1.0 - MARGIN) / (1.0 + footprint.growth)
+    start = lower_limit(beam, before * ratio)
     far = upper_limit(beam, farthest_of(work.cones, first, count) * ratio)
     stack.node[base] = hierarchy.root
     stack.enter[base] = start

@@ -15,8 +15,8 @@ from vtray.geometry.packets.packet import (
     NORMAL,
     PLANE_DEPTH,
     POINT,
-    SHADOWS,
     SOURCE,
+    UNEVEN,
     VALUE,
     Block,
     Packet,
@@ -26,10 +26,8 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.stopped import find_stopped
 from vtray.geometry.vector import add
-from vtray.transport.film import Rows
 from vtray.transport.light_buffer import KeptLight
 from vtray.transport.lights.light import Lights, light_count, load_power
-from vtray.transport.lights.lighting import light_bit
 from vtray.transport.lights.soft_light import SoftLights, aim_at, soft_count
 from vtray.transport.materials.material import Material, scattered
 from vtray.transport.sampling.fans import Fans, fan_keys
@@ -71,7 +69,7 @@ def add_soft_lights(
     soft: SoftLights | None,
     fans: Fans | None,
     seed: int,
-    shadows: Rows,
+    is_wide: bool | None,
     kept: KeptLight | None,
     work: Workspace,
 ) -> int:
@@ -89,8 +87,8 @@ def add_soft_lights(
         The scene, and its soft lights.
     fans, seed
         Which rays are cast.
-    shadows
-        Not None if it is wanted which lights something keeps from the hits.
+    is_wide
+        Whether it is asked if pixels look the same everywhere; None where it never is.
     kept
         Out: what each light adds, if that is kept.
     work
@@ -106,11 +104,12 @@ def add_soft_lights(
                 column, row = block.left + (pixel & (BLOCK - 1)), block.top + pixel // BLOCK
                 point = (first + lane % samples) * fans.rays * fans.rounds
                 for light in range(soft_count(soft)):
+                    if _is_uneven(packet, hit, scene, soft, light, is_wide, work):
+                        break
                     keys = fan_keys(column, row, light, seed)
                     arriving = _arriving(packet, hit, scene, soft, light, fans, point, keys, work)
                     _add_share(packet, hit, scene.lights, light, arriving.share)
                     _keep_share(packet, lane, scene.lights, light, arriving.share, kept)
-                    _note_shadow(packet, hit, scene.lights, light, arriving, shadows)
                     cast += arriving.cast
     return cast
 
@@ -165,12 +164,17 @@ def _keep_share(
 
 
 @device
-def _note_shadow(
-    packet: Packet, hit: int, lights: Lights, light: int, arriving: Arriving, shadows: Rows
-) -> None:
-    """Note whether a light that throws shadows with edges is hidden, in part or as a whole."""
-    if shadows is not None:  # noqa: SIM102 - by itself, it is known to the compiler
-        if arriving.is_narrow and arriving.arrived < arriving.cast:
-            number = light_count(lights) + 2 * light
-            packet[SHADOWS + hit] += light_bit(number)
-            packet[SHADOWS + hit] += light_bit(number + 1) if arriving.arrived == 0 else 0.0
+def _is_uneven(
+    packet: Packet,
+    hit: int,
+    scene: SceneArrays,
+    soft: SoftLights,
+    light: int,
+    is_wide: bool | None,
+    work: Workspace,
+) -> bool:
+    """Tell whether the pixel of a hit gets samples, for one of the lights so far or this one."""
+    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_wide:
+            return packet[UNEVEN + hit] != 0.0
+    return False

@@ -39,7 +39,8 @@ class Sampling(NamedTuple):
     positive
         Up to which distance the filter is not negative.
     footprint
-        Outlines of spheres as near to a ray as that are noted; without width where nobody asks.
+        What belongs to the pixel of a ray, where it is asked whether all of it looks the same;
+        else without width.
     marks
         The pixels that are traced, (height, width), or (0, 0) for all.
     """
@@ -90,7 +91,9 @@ def filter_footprint(settings: RenderSettings, camera: CameraFrame) -> Footprint
     """Return how wide the part of the scene is that a pixel is made of."""
     reach = FILTERS[settings.filter].radius * math.sqrt(2.0)
     width, height, distance = camera.pixel
-    growth = min(reach * max(width, height) / distance, WIDEST)
+    tangent = min(reach * max(width, height) / distance, 1.0)
+    # Seen askew, it is wider beside the middle ray than seen squarely, by no more than that.
+    growth = tangent / (1.0 - 0.25 * tangent * tangent) if tangent < 1.0 else WIDEST
     return Footprint(reach * max(camera.shift), growth)
 
 
