@@ -2,9 +2,10 @@
 
 A bundle is what proves that rays beside each other tell the same: those of all samples that a pixel
 may have, or those from a patch of a surface to a light. At a distance ``t`` along its middle ray,
-its rays are at ``origin + t * direction + width(t) * e``, each with an offset ``e`` of its own from
-one ellipse: the shadow of a disc of radius 1, square to ``sight``, on a plane. For the rays of a
-camera that plane is square to them; for shadow rays it is the surface on which they start.
+its rays are at ``origin + t * direction + width(t) * e``, each with an offset ``e`` of its own. For
+the rays of a camera the offsets fill a disc of radius 1, square to the middle ray. For shadow rays
+they fill an ellipse: the shadow that such a disc around a ray of the camera throws along this ray
+on the surface where they start.
 
 Whatever is left open counts as touched: the bounds may be wide, but are never too narrow.
 """
@@ -26,27 +27,28 @@ class Bundle(NamedTuple):
         The ray in the middle.
     width, growth
         How wide the bundle is at its start, and by how much it grows with each unit of length.
-    sight, slant
-        Of the ellipse of offsets: the direction to which the disc is square, and the normal of the
-        plane, divided by its product with that direction.
     stretch
         The length of the longest offset.
+    sight, slant
+        Of an ellipse, the direction of the ray of the camera, and the normal of the surface divided
+        by its product with that; None for a disc. The surface that rays of a disc meet is looked
+        at, so that its edges and halves count.
     first, last
         What the rays meet counts from there on, for each of them from somewhere between the two.
-    is_seen
-        Whether the surface that is met is looked at, so that its edges and halves count.
+    is_cut
+        Whether a shape may begin before that.
     """
 
     origin: Vec
     direction: Vec
     width: float
     growth: float
-    sight: Vec
-    slant: Vec
     stretch: float
+    sight: Vec | None
+    slant: Vec | None
     first: float
     last: float
-    is_seen: bool
+    is_cut: bool
 
 
 class Crossing(NamedTuple):
@@ -65,24 +67,13 @@ class Crossing(NamedTuple):
 
 
 @device
-def camera_bundle(ray: Ray, footprint: Footprint) -> Bundle:
-    """Return the rays of a pixel, which count from the image plane on."""
+def image_plane_range(ray: Ray, footprint: Footprint) -> tuple[float, float]:
+    """Return from where to where the rays of a pixel pass through the image plane."""
     height, descent = -ray.plane_depth, ray.forward
     spread = math.sqrt(max(1.0 - descent * descent, 0.0))
     least, most = descent - footprint.growth * spread, descent + footprint.growth * spread
     end = (height + footprint.width * spread) / least if least > 0.0 else math.inf
-    return Bundle(
-        ray.origin,
-        ray.direction,
-        footprint.width,
-        footprint.growth,
-        ray.direction,
-        ray.direction,
-        1.0,
-        (height - footprint.width * spread) / most,
-        end,
-        True,
-    )
+    return (height - footprint.width * spread) / most, end
 
 
 @device
@@ -94,8 +85,56 @@ def bundle_width(bundle: Bundle, distance: float) -> float:
 @device
 def spread_along(bundle: Bundle, direction: Vec) -> float:
     """Return how far the offsets of a bundle reach in a direction."""
-    offset = sub(direction, scale(dot(bundle.sight, direction), bundle.slant))
+    return _spread_along(bundle.direction, bundle.sight, bundle.slant, direction)
+
+
+@device
+def _spread_along(middle: Vec, sight: Vec | None, slant: Vec | None, direction: Vec) -> float:
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if sight is not None:  # noqa: SIM102
+        if slant is not None:
+            offset = sub(direction, scale(dot(sight, direction), slant))
+            return math.sqrt(dot(offset, offset))
+    offset = sub(direction, scale(dot(middle, direction), middle))
     return math.sqrt(dot(offset, offset))
+
+
+@device
+def spread_beside(bundle: Bundle, beside: Vec, gap: float) -> float:
+    """Return how far the offsets reach in the direction of a vector square to the middle ray.
+
+    `gap` is the length of the vector; any direction will do for one of length 0.
+    """
+    return _spread_beside(bundle.sight, bundle.slant, beside, gap)
+
+
+@device
+def _spread_beside(sight: Vec | None, slant: Vec | None, beside: Vec, gap: float) -> float:
+    if sight is not None:  # noqa: SIM102
+        if slant is not None:
+            offset = sub(beside, scale(dot(sight, beside), slant))
+            return math.sqrt(dot(offset, offset)) / gap if gap > 0.0 else 0.0
+    return 1.0
+
+
+@device
+def spread_ahead(bundle: Bundle) -> float:
+    """Return how far the offsets reach along the middle ray."""
+    return _spread_ahead(bundle.direction, bundle.sight, bundle.slant)
+
+
+@device
+def _spread_ahead(middle: Vec, sight: Vec | None, slant: Vec | None) -> float:
+    if sight is not None:  # noqa: SIM102
+        if slant is not None:
+            return _spread_along(middle, sight, slant, middle)
+    return 0.0
+
+
+@device
+def is_looked_at(sight: Vec | None) -> bool:
+    """Tell whether edges and halves of what a bundle meets count, given its `sight`."""
+    return sight is None
 
 
 @device

@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 from vtray.base.memory import check_memory_of_lights
 from vtray.base.pool import Progress
 from vtray.base.tiles import TILE, Tile, split_into_tiles
+from vtray.geometry.shapes import cylinder, sphere
+from vtray.geometry.world import World
 from vtray.rendering.engines.engine import Engine, trace_to
 from vtray.rendering.engines.threads import Threads
 from vtray.scene.settings import RenderSettings
@@ -104,7 +106,8 @@ class Tracer:
         footprint = filter_footprint(settings, self._scene.camera)
         samples, seed = int(settings.samples), int(settings.seed)
         fans = self._fans(fans_of_middles, samples)
-        middles = middle_rays(footprint, before_samples=True, fans=fans, seed=seed)
+        thickest = _thickest(self._scene.world)
+        middles = middle_rays(footprint, thickest, before_samples=True, fans=fans, seed=seed)
         found = self._middles(middles, keep, *SAMPLES)
         film, kept = found.film, found.kept
         marks = film.mixed
@@ -148,6 +151,14 @@ class Tracer:
         tell, before, passes = self._progress, self._done, self._passes
         self._done += tiles
         return tell and (lambda done, _: tell(before + done, passes * tiles))
+
+
+def _thickest(world: World) -> float:
+    """Return the radius of the thickest solid, in the kernels' space."""
+    radii = [world.spheres.data[3 :: sphere.SIZE]]
+    if world.cylinders is not None:
+        radii.append(world.cylinders.data[6 :: cylinder.SIZE])
+    return max(float(of_kind.max(initial=0.0)) for of_kind in radii) * world.scale
 
 
 def compile_kernels(scene: SceneArrays, settings: RenderSettings, *, keep: bool = False) -> None:

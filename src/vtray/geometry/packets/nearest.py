@@ -6,12 +6,14 @@ from collections.abc import Callable
 import numpy as np
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.bundle import Bundle, Crossing, camera_bundle
+from vtray.geometry.bundle import Bundle, Crossing, image_plane_range
 from vtray.geometry.dispatch import Shape, Verbs, with_bounded
 from vtray.geometry.packets.packet import (
     ALL_MET,
     DISTANCE,
+    FIRST,
     LANES,
+    LAST,
     MET,
     MIXED,
     NEAREST,
@@ -24,9 +26,18 @@ from vtray.geometry.packets.packet import (
     join_met,
     load_ray,
 )
-from vtray.geometry.packets.ray_bounds import find_farthest, octets_met
+from vtray.geometry.packets.ray_bounds import (
+    Cones,
+    ball_distance,
+    find_farthest,
+    is_known_mixed,
+    latest_start,
+    note_latest,
+    note_mixed,
+    octets_met,
+)
 from vtray.geometry.packets.workspace import Workspace
-from vtray.geometry.ray import Footprint, Ray, has_width
+from vtray.geometry.ray import Footprint, Ray, has_width, width_at
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.plane import load_plane, plane_crossing, plane_distance
 from vtray.geometry.world import Group, World
@@ -45,6 +56,22 @@ def clear_hits(packet: Packet, lanes: int) -> None:
 
 
 @device
+def find_starts(
+    packet: Packet, lanes: int, sheaf: Sheaf, footprint: Footprint, cones: Cones
+) -> None:
+    """Find from where on what the bundles of lanes meet counts, if they have a width."""
+    if not has_width(footprint):
+        return
+    for lane in range(lanes):
+        first, last = image_plane_range(load_ray(packet, sheaf, lane), footprint)
+        packet[FIRST + lane] = first
+        packet[LAST + lane] = last
+    for lane in range(0, lanes, OCTET):
+        note_latest(packet, lane, cones)
+        note_mixed(packet, lane, cones)
+
+
+@device
 def nearest_planes(
     packet: Packet,
     lanes: int,
@@ -60,7 +87,7 @@ def nearest_planes(
         met = join_met(group.row, slot)
         _take_lanes(packet, 0, lanes, sheaf, met, number, plane, plane_distance)
         if has_width(footprint):
-            _note_crossings(packet, 0, lanes, sheaf, footprint, plane, plane_crossing)
+            _note_crossings(packet, 0, lanes, sheaf, footprint, True, plane, plane_crossing)
 
 
 @device
@@ -109,6 +136,8 @@ def _take_octets(
     met = octets_met(
         work.cones, first, count, sheaf, shape.center, shape.radius + margin, footprint
     )
+    distance = ball_distance(shape.center, shape.radius, sheaf)
+    may_cover = shape.radius > width_at(footprint, distance)
     lane = first * OCTET
     while met > 0:
         if met & 1:
@@ -116,8 +145,11 @@ def _take_octets(
             begin = lane & (LANES - 1)
             end = begin + OCTET
             _take_lanes(packet, begin, end, sheaf, met_here, number, shape, verbs.distance_to)
-            if has_width(footprint):
-                _note_crossings(packet, begin, end, sheaf, footprint, shape, verbs.crossing)
+            if has_width(footprint) and (may_cover or not is_known_mixed(work.cones, lane)):
+                is_cut = distance <= latest_start(work.cones, lane)
+                cross = verbs.crossing
+                _note_crossings(packet, begin, end, sheaf, footprint, is_cut, shape, cross)
+                note_mixed(packet, lane, work.cones)
             find_farthest(packet, lane // OCTET, 1, footprint, work.cones)
         met >>= 1
         lane += OCTET
@@ -155,12 +187,25 @@ def _note_crossings(
     end: int,
     sheaf: Sheaf,
     footprint: Footprint,
+    is_cut: bool,
     shape: Shape,
     crossing_of: Callable[[Shape, Bundle], Crossing],
 ) -> None:
     """Note where all that belongs to the pixels of some lanes meets a shape."""
     for lane in range(begin, end):
-        bundle = camera_bundle(load_ray(packet, sheaf, lane), footprint)
+        ray = load_ray(packet, sheaf, lane)
+        bundle = Bundle(
+            ray.origin,
+            ray.direction,
+            footprint.width,
+            footprint.growth,
+            1.0,
+            None,
+            None,
+            packet[FIRST + lane],
+            packet[LAST + lane],
+            is_cut,
+        )
         near, far = crossing_of(shape, bundle)
         nearest = packet[NEAREST + lane]
         packet[RIVAL + lane] = min(packet[RIVAL + lane], max(nearest, near))
@@ -180,4 +225,4 @@ def find_mixed(packet: Packet, lanes: int) -> None:
         last = packet[ALL_MET + lane]
         is_one = (nearest <= distance) & (distance <= last) & (last < packet[RIVAL + lane])
         is_none = (nearest == math.inf) & (distance == math.inf)
-        packet[MIXED + lane] = 0.0 if (is_one & (last < math.inf)) | is_none else 1.0
+        packet[MIXED + lane] = 0.0 if is_one | is_none else 1.0

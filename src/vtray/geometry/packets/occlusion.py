@@ -17,6 +17,7 @@ from vtray.geometry.packets.packet import (
     MET,
     NORMAL,
     OCTET,
+    OWNER,
     PLANE_DEPTH,
     POINT,
     REACH,
@@ -182,6 +183,25 @@ def find_sides(packet: Packet, hits: int, world: World, work: Workspace) -> None
 
 
 @device
+def find_close_planes(packet: Packet, hits: int, world: World, work: Workspace) -> None:
+    """Find the planes that the patches of a packet reach, and on which they are not."""
+    numbers = packet.view(np.int64)
+    for row in range(group_count(world)):
+        group = load_group(world, row)
+        if group.kind == PLANE:
+            for slot in range(group.begin, group.end):
+                plane = load_plane(world.planes, slot, group.place)
+                number, count = group.number + world.planes.number[slot], 0
+                for lane in range(hits):
+                    side = plane_side(plane, load(packet, POINT, lane))
+                    is_close = (abs(side) <= packet[REACH + lane]) & (
+                        numbers[OWNER + lane] != number
+                    )
+                    count += 1 if is_close else 0
+                work.close[slot] = count > 0
+
+
+@device
 def _find_sides_of(
     packet: Packet, hits: int, plane: PlaneShape, slot: int, work: Workspace
 ) -> None:
@@ -213,12 +233,13 @@ def block_by_planes(
     """Mark the points that planes hide from a light; tell whether any is left."""
     for slot in range(group.begin, group.end):
         plane = load_plane(world.planes, slot, group.place)
-        number = group.number + world.planes.number[slot]
-        _note_plane(packet, hits, target, target.is_wide, plane, number)
         # Worked out here: in the loop over lanes, the compiler did not see that it is always the
         # same, and it took a quarter more time.
         end = end_side(plane, target.place, target.error_scale)
         nearest = work.above[slot] if end < 0.0 else work.below[slot]
+        if work.close[slot] or nearest < math.inf:
+            number = group.number + world.planes.number[slot]
+            _note_plane(packet, hits, target.is_wide, plane, number)
         if end != 0.0 and _crosses(nearest, abs(end), bounds.plane_depth, target.plane_depth):
             _block_lanes(packet, 0, hits, target, (plane, end), hides_side)
             if not _any_open(packet, hits, target.is_wide):
@@ -292,7 +313,7 @@ def _block_by_shape(
     """Mark the points of a range that a shape hides from a light."""
     packet, begin, end, target = arguments
     _block_octets(packet, begin, end, target, shape, verbs.hides)
-    _note_solid(packet, begin, end, target, target.is_wide, number, shape, verbs.crossing)
+    _note_solid(packet, begin, end, target.is_wide, number, shape, verbs.crossing)
 
 
 @device
@@ -361,7 +382,6 @@ def _block_lanes(
 def _note_plane(
     packet: Packet,
     hits: int,
-    target: Target,
     is_wide: bool | None,
     plane: PlaneShape,
     number: int,
@@ -369,7 +389,7 @@ def _note_plane(
     """Note what a plane does to the light on patches, if these are asked for."""
     if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
         if is_wide:
-            note_plane(packet, hits, target.place, target.plane_depth, number, plane)
+            note_plane(packet, hits, number, plane)
 
 
 @device
@@ -377,7 +397,6 @@ def _note_solid(
     packet: Packet,
     begin: int,
     end: int,
-    target: Target,
     is_wide: bool | None,
     number: int,
     shape: Shape,
@@ -386,5 +405,4 @@ def _note_solid(
     """Note what a shape does to the light on patches of a range, if these are asked for."""
     if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
         if is_wide:
-            place, plane_depth = target.place, target.plane_depth
-            note_solid(packet, begin, end, place, plane_depth, number, shape, crossing_of)
+            note_solid(packet, begin, end, number, shape, crossing_of)

@@ -76,6 +76,9 @@ RIVAL = _fields.scalar()
 shape."""
 ALL_MET = _fields.scalar()
 """By that distance all its rays have met one same shape; infinite if that is not sure."""
+FIRST = _fields.scalar()
+LAST = _fields.scalar()
+"""From where to where they pass through the image plane."""
 MIXED = _fields.scalar()
 """1 where the rays of the bundle may not all see the same, else 0."""
 LIGHT = _fields.vector()
@@ -113,8 +116,17 @@ BEND = _fields.scalar()
 """One divided by the radius of the surface, 0 where it is flat."""
 PATCH = _fields.scalar()
 """How wide the bundle is in which the part of the surface is seen that belongs to the pixel."""
+STRETCH = _fields.scalar()
 REACH = _fields.scalar()
-"""How far that part reaches from the hit."""
+"""How much wider that part is on the surface, and how far it reaches from the hit."""
+AIM = _fields.vector()
+AIM_LENGTH = _fields.scalar()
+"""The unit direction to a light, and how far it is."""
+IN_FRONT = _fields.scalar()
+ALL_IN_FRONT = _fields.scalar()
+"""How far any or all shadow rays from that part to the light are in front of the image plane."""
+HIDABLE = _fields.scalar()
+"""1 where a solid of the scene may be wide enough to hide all of that part, else 0."""
 UNEVEN = _fields.scalar()
 """1 where that part may not look the same everywhere, by what is known so far, else 0."""
 TOUCHED = _fields.scalar()

@@ -5,22 +5,26 @@ there is settled where one shape is in the way of the whole bundle; where nothin
 it is lit; else it may be lit in part. The result does not depend on the order of shapes.
 """
 
-import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bundle import Bundle, Crossing
 from vtray.geometry.packets.packet import (
+    AIM,
+    AIM_LENGTH,
+    ALL_IN_FRONT,
     BLOCKED,
+    HIDABLE,
+    IN_FRONT,
     NORMAL,
     OWNER,
     PATCH,
-    PLANE_DEPTH,
     POINT,
-    REACH,
     SETTLED,
+    STRETCH,
     TOUCHED,
     TOWARDS,
     UNEVEN,
@@ -28,7 +32,7 @@ from vtray.geometry.packets.packet import (
     load,
 )
 from vtray.geometry.shapes.plane import PlaneShape, plane_crossing
-from vtray.geometry.vector import Vec, dot, scale, sub
+from vtray.geometry.vector import dot, scale, sub
 
 OPEN, MIDDLE, DARK, UNEVEN_ALREADY = 0.0, 1.0, 2.0, 3.0
 """What is known in field ``SETTLED``: nothing; that all but the hit itself does not matter, as it
@@ -50,38 +54,22 @@ def is_open(packet: Packet, lane: int, is_wide: bool | None) -> bool:
 
 
 @device
-def patch_bundle(packet: Packet, lane: int, end: Vec) -> tuple[Bundle, float]:
-    """Return the rays from a patch to a point of light, and how far that is."""
-    point, normal, view = load(packet, POINT, lane), load(packet, NORMAL, lane), load(
-        packet, TOWARDS, lane
-    )
-    way = sub(end, point)
-    length = math.sqrt(dot(way, way))
-    direction = way[0] / length, way[1] / length, way[2] / length
-    slant = scale(1.0 / dot(view, normal), normal)
-    width = packet[PATCH + lane]
-    stretch = packet[REACH + lane] / width
-    bundle = Bundle(
-        point, direction, width, -width / length, view, slant, stretch, 0.0, 0.0, False
-    )
-    return bundle, length
-
-
-@device
-def from_within(bundle: Bundle) -> Bundle:
-    """Return the bundle with what is met near its start left out: the surface that it starts on."""
-    start = 4.0 * bundle.width * bundle.stretch
+def load_bundle(packet: Packet, lane: int, skips_own: bool) -> Bundle:
+    """Return the rays from a patch to a light; if so, without what is met where they start."""
+    stretch, width = packet[STRETCH + lane], packet[PATCH + lane]
+    start = 4.0 * width * stretch if skips_own else 0.0
     return Bundle(
-        bundle.origin,
-        bundle.direction,
-        bundle.width,
-        bundle.growth,
-        bundle.sight,
-        bundle.slant,
-        bundle.stretch,
+        load(packet, POINT, lane),
+        load(packet, AIM, lane),
+        width,
+        -width / packet[AIM_LENGTH + lane],
+        stretch,
+        load(packet, TOWARDS, lane),
+        # The normal is on the side that the ray came from.
+        scale(-stretch, load(packet, NORMAL, lane)),
         start,
         start,
-        False,
+        True,
     )
 
 
@@ -106,52 +94,44 @@ def note_solid(
     packet: Packet,
     begin: int,
     end: int,
-    light: Vec,
-    light_plane_depth: float,
     number: int,
-    shape: tuple,  # type: ignore[type-arg]
-    crossing_of: Callable[..., Crossing],
+    shape: Any,  # noqa: ANN401
+    crossing_of: Callable[[Any, Bundle], Crossing],
 ) -> None:
-    """Note of the patches of some lanes what a solid does to the light from a point."""
+    """Note of the patches of some lanes what a solid does to the light that they are asked for."""
     numbers = packet.view(np.int64)
     for lane in range(begin, end):
-        bundle, length = patch_bundle(packet, lane, light)
         is_own = numbers[OWNER + lane] == number
         outward = sub(load(packet, POINT, lane), shape.center)
         is_outside = dot(load(packet, NORMAL, lane), outward) > 0.0
-        near, far = crossing_of(shape, from_within(bundle) if is_own else bundle)
+        near, far = crossing_of(shape, load_bundle(packet, lane, is_own))
         # Above its horizon, a solid is not in its own way.
         hides_nothing = is_own & is_outside
-        near, far = math.inf if hides_nothing else near, math.inf if hides_nothing else far
-        _note_lane(packet, lane, length, light_plane_depth, near, far)
+        _note_lane(packet, lane, near, far, hides_nothing, packet[HIDABLE + lane] != 0.0)
 
 
 @device
-def note_plane(
-    packet: Packet, hits: int, light: Vec, light_plane_depth: float, number: int, plane: PlaneShape
-) -> None:
-    """Note of all patches what a plane does to the light from a point."""
+def note_plane(packet: Packet, hits: int, number: int, plane: PlaneShape) -> None:
+    """Note of all patches what a plane does to the light that they are asked for."""
     numbers = packet.view(np.int64)
     for lane in range(hits):
-        bundle, length = patch_bundle(packet, lane, light)
-        near, far = plane_crossing(plane, bundle)
-        is_own = numbers[OWNER + lane] == number
-        near, far = math.inf if is_own else near, math.inf if is_own else far
-        _note_lane(packet, lane, length, light_plane_depth, near, far)
+        near, far = plane_crossing(plane, load_bundle(packet, lane, False))
+        _note_lane(packet, lane, near, far, numbers[OWNER + lane] == number, True)
 
 
 @device
 def _note_lane(
-    packet: Packet, lane: int, length: float, light_plane_depth: float, near: float, far: float
+    packet: Packet, lane: int, near: float, far: float, hides_nothing: bool, may_hide: bool
 ) -> None:
-    """Note of a patch where its shadow rays, of some length, first meet something."""
-    reach = packet[REACH + lane]
-    least, most = crossed_share(packet[PLANE_DEPTH + lane], reach, light_plane_depth)
-    touches = near < NEAR_END * most * length
+    """Note of a patch where its shadow rays first meet something, which may hide all of it."""
+    touches = (near < packet[IN_FRONT + lane]) & (not hides_nothing)
     settled = packet[SETTLED + lane]
-    is_dark = (far < NEAR_END * least * length) & (settled == OPEN)
+    is_dark = touches & (far < packet[ALL_IN_FRONT + lane])
+    found = DARK if is_dark else OPEN
+    # Where nothing can hide all of it, what touches it is enough.
+    found = found if may_hide else UNEVEN_ALREADY if touches else OPEN
     packet[TOUCHED + lane] = 1.0 if touches else packet[TOUCHED + lane]
-    packet[SETTLED + lane] = DARK if is_dark else settled
+    packet[SETTLED + lane] = found if settled == OPEN else settled
 
 
 @device
@@ -161,4 +141,5 @@ def judge_patches(packet: Packet, hits: int) -> None:
         settled, is_hit_dark = packet[SETTLED + lane], packet[BLOCKED + lane] != 0.0
         in_part = (settled == OPEN) & ((packet[TOUCHED + lane] != 0.0) | is_hit_dark)
         wrong = (settled == DARK) & (not is_hit_dark)
-        packet[UNEVEN + lane] = 1.0 if in_part | wrong else packet[UNEVEN + lane]
+        is_uneven = in_part | wrong | (settled == UNEVEN_ALREADY)
+        packet[UNEVEN + lane] = 1.0 if is_uneven else packet[UNEVEN + lane]

@@ -17,8 +17,11 @@ from vtray.geometry.packets.packet import (
     DIRECTION,
     DISTANCE,
     LANES,
+    LAST,
+    NEAREST,
     OCTET,
     ORIGIN,
+    RIVAL,
     Packet,
     Sheaf,
     start_apart,
@@ -38,7 +41,9 @@ HIGH = 11 * OCTETS
 FIRST = 14 * OCTETS  # the least and the greatest coordinates of the starts
 LAST = 17 * OCTETS
 FARTHEST = 20 * OCTETS  # the largest distance at which hits so far leave something to find
-ROWS = 21
+KNOWN = 21 * OCTETS  # 1 where no ray can see only one thing, but for what covers all it sees
+LATEST = 22 * OCTETS  # where the last of all that belongs to its pixels passes the image plane
+ROWS = 23
 
 Cones = NDArray[np.float64]
 
@@ -123,8 +128,8 @@ def find_farthest(
 ) -> None:
     """Find the largest distance in each of some octets at which hits so far leave some to find.
 
-    That is where their rays hit; with a footprint, where all rays in it do, if one shape is in the
-    way of all. If none is, they do not see the same, whatever is farther away.
+    That is where their rays hit; with a footprint, where all rays in it do, if they hit one shape.
+    If they do not, they never will, whatever is farther away.
     """
     # Doubles ≥ 0 are in the order of their bits, and a maximum of integers can be vectorised.
     bits = packet.view(np.int64)
@@ -137,9 +142,52 @@ def find_farthest(
         if has_width(footprint):
             farthest = 0.0
             for lane in range(begin, begin + OCTET):
-                met = packet[ALL_MET + lane]
-                farthest = max(farthest, met if met < math.inf else packet[DISTANCE + lane])
+                met, distance = packet[ALL_MET + lane], packet[DISTANCE + lane]
+                farthest = max(farthest, met if met < packet[RIVAL + lane] else distance)
             cones[FARTHEST + octet] = farthest
+
+
+@device
+def ball_distance(center: Vec, radius: float, sheaf: Sheaf) -> float:
+    """Return how far away a ball is at the least along any ray."""
+    from_origin = sub(center, sheaf.origin)
+    return max(math.sqrt(dot(from_origin, from_origin)) - sheaf.extent - radius, 0.0)
+
+
+@device
+def note_mixed(packet: Packet, lane: int, cones: Cones) -> None:
+    """Note if all bundles of an octet, of this first lane, meet more than one shape or its edge."""
+    begin = lane & (LANES - 1)
+    count = 0
+    for at in range(begin, begin + OCTET):
+        met = packet[ALL_MET + at]
+        is_mixed = (packet[NEAREST + at] < math.inf) & (not met < packet[RIVAL + at])
+        count += 1 if is_mixed else 0
+    cones[KNOWN + lane // OCTET] = 1.0 if count == OCTET else 0.0
+
+
+@device
+def is_known_mixed(cones: Cones, lane: int) -> bool:
+    """Tell what `note_mixed` noted: nothing changes that but a shape that covers a whole bundle."""
+    is_known: bool = cones[KNOWN + lane // OCTET] > 0.0
+    return is_known
+
+
+@device
+def note_latest(packet: Packet, lane: int, cones: Cones) -> None:
+    """Note where the last bundle of an octet, of this first lane, passes the image plane."""
+    begin = lane & (LANES - 1)
+    latest = 0.0
+    for at in range(begin, begin + OCTET):
+        latest = max(latest, packet[LAST + at])
+    cones[LATEST + lane // OCTET] = latest
+
+
+@device
+def latest_start(cones: Cones, lane: int) -> float:
+    """Return what `note_latest` noted."""
+    latest: float = cones[LATEST + lane // OCTET]
+    return latest
 
 
 @device

@@ -1,7 +1,7 @@
 """What the rays of a packet meet, and what hides a light from its points, group by group."""
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.nearest import clear_hits, nearest_planes, nearest_slots
+from vtray.geometry.packets.nearest import clear_hits, find_starts, nearest_planes, nearest_slots
 from vtray.geometry.packets.occlusion import (
     Bounds,
     Target,
@@ -46,6 +46,7 @@ def find_nearest(
     """
     find_cones(packet, lanes, sheaf, work.cones)
     clear_hits(packet, lanes)
+    find_starts(packet, lanes, sheaf, footprint, work.cones)
     for row in range(group_count(world)):
         group = load_group(world, row)
         if group.kind == PLANE:

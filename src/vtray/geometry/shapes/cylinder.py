@@ -9,7 +9,15 @@ import math
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.bundle import Bundle, Crossing, bundle_width, first_crossing, spread_along
+from vtray.geometry.bundle import (
+    Bundle,
+    Crossing,
+    bundle_width,
+    first_crossing,
+    is_looked_at,
+    spread_along,
+    spread_beside,
+)
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
@@ -313,7 +321,7 @@ def cylinder_crossing(cylinder: CylinderShape, bundle: Bundle) -> Crossing:
     enters = Crossing(any_inside.near, all_before.near)
     leaves = Crossing(end, any_inside.far)
     found = first_crossing(enters, leaves, covers, bundle)
-    if bundle.is_seen & (found.far < math.inf):
+    if is_looked_at(bundle.sight) and found.far < math.inf:
         reverse = Line(line.height, -line.rise, line.beside, scale(-1.0, line.aside))
         is_one = (
             _is_one_part(cylinder, line, bundle, before, enters)
@@ -360,7 +368,7 @@ def _any_inside(cylinder: CylinderShape, line: Line, bundle: Bundle) -> Span:
     # Beside the axis, the bundle may be narrower than its longest offset.
     gap2 = dot(beside, beside)
     gap = math.sqrt(gap2)
-    across = spread_along(bundle, scale(1.0 / gap if gap > 0.0 else 0.0, beside))
+    across = spread_beside(bundle, beside, gap)
     width = max(bundle_width(bundle, span.near), bundle_width(bundle, span.far))
     misses = (at == closest) & (gap - width * across > cylinder.side_radius)
     misses = misses | (span.near > span.far)

@@ -4,7 +4,14 @@ import math
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.bundle import Bundle, Crossing, bundle_width, first_crossing, spread_along
+from vtray.geometry.bundle import (
+    Bundle,
+    Crossing,
+    bundle_width,
+    first_crossing,
+    spread_ahead,
+    spread_beside,
+)
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
@@ -187,8 +194,7 @@ def sphere_crossing(sphere: SphereShape, bundle: Bundle) -> Crossing:
     middle = dot(to_center, bundle.direction)
     beside = sub(to_center, scale(middle, bundle.direction))
     gap = math.sqrt(dot(beside, beside))
-    along = spread_along(bundle, scale(1.0 / gap if gap > 0.0 else 0.0, beside))
-    ahead = spread_along(bundle, bundle.direction)
+    along, ahead = spread_beside(bundle, beside, gap), spread_ahead(bundle)
     radius = sphere.radius
     widths = (
         bundle_width(bundle, middle - radius),
@@ -200,16 +206,14 @@ def sphere_crossing(sphere: SphereShape, bundle: Bundle) -> Crossing:
     touches = gap - widths[1] * along <= radius * math.sqrt(1.0 + slope * slope)
     covers = _all_inside(bundle, gap, along, widths[1], radius) > 0.0
     before, behind = max(widths[0], widths[1]), max(widths[1], widths[2])
-    enters = Crossing(
-        middle - _any_chord(gap, along, ahead, before, radius),
-        middle - _all_chord(bundle, gap, along, ahead, before, radius),
-    )
-    leaves = Crossing(
-        middle + _all_chord(bundle, gap, along, ahead, behind, radius),
-        middle + _any_chord(gap, along, ahead, behind, radius),
-    )
-    last = leaves.far if touches & (radius > 0.0) else -math.inf
-    return first_crossing(enters, Crossing(leaves.near, last), covers, bundle)
+    any_chord = _any_chord(gap, along, ahead, before, radius)
+    all_chord = _all_chord(bundle, gap, along, ahead, before, radius)
+    enters = Crossing(middle - any_chord, middle - all_chord)
+    if bundle.is_cut & (behind > before):
+        any_chord = _any_chord(gap, along, ahead, behind, radius)
+        all_chord = _all_chord(bundle, gap, along, ahead, behind, radius)
+    last = middle + any_chord if touches & (radius > 0.0) else -math.inf
+    return first_crossing(enters, Crossing(middle + all_chord, last), covers, bundle)
 
 
 @device

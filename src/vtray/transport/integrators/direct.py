@@ -4,7 +4,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
-from vtray.geometry.packets.occlusion import Target, bound_points, find_sides, own_sphere
+from vtray.geometry.packets.occlusion import (
+    Target,
+    bound_points,
+    find_close_planes,
+    find_sides,
+    own_sphere,
+)
 from vtray.geometry.packets.packet import (
     BLOCK,
     COLUMN,
@@ -202,8 +208,9 @@ def _find_surfaces(
             leave_mixed(packet, lanes)
     hits = gather_interactions(packet, lanes, sampling.rays, sheaf, footprint, scene, work)
     if mixed is not None:  # noqa: SIM102
-        if has_width(footprint):
-            find_patches(packet, hits, footprint)
+        if has_width(footprint) and hits > 0:
+            find_patches(packet, hits, footprint, sampling.thickest)
+            find_close_planes(packet, hits, scene.world, work)
     return hits
 
 

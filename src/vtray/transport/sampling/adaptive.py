@@ -27,18 +27,25 @@ import numpy as np
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.occlusion import Target
 from vtray.geometry.packets.packet import (
+    AIM,
+    AIM_LENGTH,
+    ALL_IN_FRONT,
     BEND,
+    HIDABLE,
+    IN_FRONT,
     LENGTH,
     MIXED,
     NO_PRIMITIVE,
     NORMAL,
     OWNER,
     PATCH,
+    PLANE_DEPTH,
     POINT,
     PRIMITIVE,
     REACH,
     SETTLED,
     SOURCE,
+    STRETCH,
     TOUCHED,
     TOWARDS,
     UNEVEN,
@@ -47,9 +54,9 @@ from vtray.geometry.packets.packet import (
     load,
     store,
 )
-from vtray.geometry.packets.patch import MIDDLE, OPEN, UNEVEN_ALREADY
+from vtray.geometry.packets.patch import MIDDLE, NEAR_END, OPEN, UNEVEN_ALREADY, crossed_share
 from vtray.geometry.ray import Footprint, width_at
-from vtray.geometry.vector import dot, sub
+from vtray.geometry.vector import dot, scale, sub
 
 ROUGHLY = 1.5
 """How much wider than in the middle a patch is taken: more than perspective and the curve of the
@@ -78,8 +85,8 @@ def leave_mixed(packet: Packet, lanes: int) -> None:
 
 
 @device
-def find_patches(packet: Packet, hits: int, footprint: Footprint) -> None:
-    """Set the patches of the hits of a packet."""
+def find_patches(packet: Packet, hits: int, footprint: Footprint, thickest: float) -> None:
+    """Set the patches of the hits of a packet; `thickest` is the radius of the thickest solid."""
     numbers = packet.view(np.int64)
     for hit in range(hits):
         width = width_at(footprint, packet[LENGTH + hit])
@@ -88,7 +95,9 @@ def find_patches(packet: Packet, hits: int, footprint: Footprint) -> None:
         # Towards its horizon, a plane's part of a pixel has no end.
         is_slanted = footprint.growth > LIMIT_OF_BEND * cosine
         packet[PATCH + hit] = ROUGHLY * width
+        packet[STRETCH + hit] = 1.0 / cosine
         packet[REACH + hit] = ROUGHLY * width / cosine
+        packet[HIDABLE + hit] = 1.0 if packet[REACH + hit] <= thickest else 0.0
         packet[UNEVEN + hit] = 1.0 if is_bent | is_slanted else 0.0
         numbers[OWNER + hit] = numbers[PRIMITIVE + numbers[SOURCE + hit]]
 
@@ -110,6 +119,12 @@ def ask_of_light(packet: Packet, hits: int, target: Target) -> None:
         packet[UNEVEN + hit] = uneven
         packet[SETTLED + hit] = UNEVEN_ALREADY if uneven != 0.0 else settled
         packet[TOUCHED + hit] = 0.0
+        depth = packet[PLANE_DEPTH + hit]
+        least, most = crossed_share(depth, reach, target.plane_depth)
+        store(packet, AIM, hit, scale(1.0 / length, way))
+        packet[AIM_LENGTH + hit] = length
+        packet[IN_FRONT + hit] = NEAR_END * most * length
+        packet[ALL_IN_FRONT + hit] = NEAR_END * least * length
 
 
 @device

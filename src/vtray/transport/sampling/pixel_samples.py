@@ -41,6 +41,8 @@ class Sampling(NamedTuple):
     footprint
         What belongs to the pixel of a ray, where it is asked whether all of it looks the same;
         else without width.
+    thickest
+        The radius of the thickest solid, as kernels count, where that is asked.
     marks
         The pixels that are traced, (height, width), or (0, 0) for all.
     """
@@ -52,6 +54,7 @@ class Sampling(NamedTuple):
     places: NDArray[np.float64]
     positive: float
     footprint: Footprint
+    thickest: float
     marks: NDArray[np.bool_]
 
 
@@ -60,6 +63,7 @@ _NO_FOOTPRINT = Footprint(0.0, 0.0)
 
 def middle_rays(
     footprint: Footprint = _NO_FOOTPRINT,
+    thickest: float = 0.0,
     *,
     before_samples: bool = False,
     fans: Fans | None = None,
@@ -68,7 +72,7 @@ def middle_rays(
     """Return one ray for each pixel, through its middle; if samples follow, for the same kernel."""
     none = np.zeros((0, 0), np.bool_)
     points = sobol_points(1) if before_samples else None
-    return Sampling(1, seed, points, fans, np.zeros(2), math.inf, footprint, none)
+    return Sampling(1, seed, points, fans, np.zeros(2), math.inf, footprint, thickest, none)
 
 
 def filter_samples(
@@ -83,6 +87,7 @@ def filter_samples(
         filter_places(settings.filter),
         FILTERS[settings.filter].positive,
         _NO_FOOTPRINT,
+        0.0,
         marks,
     )
 
