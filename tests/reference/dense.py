@@ -14,7 +14,7 @@ FINE = 48
 
 
 def dense_picture(document: dict[str, Any], filter_name: str, fine: int = FINE) -> np.ndarray:
-    """Return the light of a scene, (height, width, 3), each pixel a mean of fine * fine rays and more.
+    """Return the light of a scene, (height, width, 3), each pixel a mean of fine * fine and more.
 
     The same view is rendered with pixels as fine as that, and with a margin as wide as the filter,
     which then weighs them.

@@ -17,6 +17,7 @@ from vtray.geometry.shapes.cylinder import (
     cylinder_distance,
     cylinder_hides,
     cylinder_is_aside,
+    cylinder_is_outside,
     cylinder_surface,
     load_cylinder,
 )
@@ -26,6 +27,7 @@ from vtray.geometry.shapes.plane import (
     plane_distance,
     plane_hides,
     plane_is_aside,
+    plane_is_outside,
     plane_surface,
 )
 from vtray.geometry.shapes.sphere import (
@@ -34,6 +36,7 @@ from vtray.geometry.shapes.sphere import (
     sphere_distance,
     sphere_hides,
     sphere_is_aside,
+    sphere_is_outside,
     sphere_surface,
 )
 from vtray.geometry.shapes.surface import Surface
@@ -56,6 +59,8 @@ class Verbs(NamedTuple):
         Tells whether a ray is sure to miss a shape, at less cost: worth asking one ray at a time.
     hides
         Tells whether a shape stands between two points.
+    is_outside
+        Tells whether a point of the surface is looked at from outside, given the normal there.
     crossing
         Returns from where to where the rays of a bundle first meet a shape.
     surface
@@ -66,6 +71,7 @@ class Verbs(NamedTuple):
     distance_to: Callable[[Shape, Ray], float]
     is_aside: Callable[[Shape, Ray], bool]
     hides: Callable[[Shape, Segment], bool]
+    is_outside: Callable[[Shape, Vec, Vec], bool]
     crossing: Callable[[Shape, Bundle], Crossing]
     surface: Callable[[Shape, Vec, float], Surface]
 
@@ -79,7 +85,14 @@ def with_any(world: World, group: Group, slot: int, action: Action, arguments: A
     """Return what an action returns for a shape of a group of any kind."""
     if group.kind == PLANE:
         plane = load_plane(world.planes, slot, group.place)
-        verbs = Verbs(plane_distance, plane_is_aside, plane_hides, plane_crossing, plane_surface)
+        verbs = Verbs(
+            plane_distance,
+            plane_is_aside,
+            plane_hides,
+            plane_is_outside,
+            plane_crossing,
+            plane_surface,
+        )
         return action(plane, verbs, group.number + world.planes.number[slot], arguments)
     return with_bounded(world, group, slot, action, arguments)
 
@@ -107,12 +120,18 @@ def _with_one_of(
                 cylinder_distance,
                 cylinder_is_aside,
                 cylinder_hides,
+                cylinder_is_outside,
                 cylinder_crossing,
                 cylinder_surface,
             )
             return action(cylinder, verbs, group.number + cylinders.number[slot], arguments)
     sphere = load_sphere(spheres, slot, group.place)
     verbs_of_spheres = Verbs(
-        sphere_distance, sphere_is_aside, sphere_hides, sphere_crossing, sphere_surface
+        sphere_distance,
+        sphere_is_aside,
+        sphere_hides,
+        sphere_is_outside,
+        sphere_crossing,
+        sphere_surface,
     )
     return action(sphere, verbs_of_spheres, group.number + spheres.number[slot], arguments)

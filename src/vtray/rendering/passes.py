@@ -116,8 +116,8 @@ class Tracer:
             film = film._replace(kept=kept[-1])
         sampling = filter_samples(settings, marks, self._fans(fans_of_samples, samples))
         sampled = self._trace(sampling, film)
-        peak, rays = max(found.peak, sampled.peak), found.rays + sampled.rays
-        return Traced(film, peak, rays, kept)
+        peak, cast = max(found.peak, sampled.peak), found.rays + sampled.rays
+        return Traced(film, peak, cast, kept)
 
     def _fans(self, make: Callable[[int], Fans], samples: int) -> Fans | None:
         """Return which rays are cast to soft lights, if there are any."""

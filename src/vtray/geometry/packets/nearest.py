@@ -11,14 +11,14 @@ from vtray.geometry.dispatch import Shape, Verbs, with_bounded
 from vtray.geometry.packets.packet import (
     ALL_MET,
     DISTANCE,
-    FIRST,
     LANES,
-    LAST,
     MET,
     MIXED,
     NEAREST,
     NO_PRIMITIVE,
     OCTET,
+    PASSED,
+    PASSING,
     PRIMITIVE,
     RIVAL,
     Packet,
@@ -64,8 +64,8 @@ def find_starts(
         return
     for lane in range(lanes):
         first, last = image_plane_range(load_ray(packet, sheaf, lane), footprint)
-        packet[FIRST + lane] = first
-        packet[LAST + lane] = last
+        packet[PASSING + lane] = first
+        packet[PASSED + lane] = last
     for lane in range(0, lanes, OCTET):
         note_latest(packet, lane, cones)
         note_mixed(packet, lane, cones)
@@ -202,8 +202,8 @@ def _note_crossings(
             1.0,
             None,
             None,
-            packet[FIRST + lane],
-            packet[LAST + lane],
+            packet[PASSING + lane],
+            packet[PASSED + lane],
             is_cut,
         )
         near, far = crossing_of(shape, bundle)

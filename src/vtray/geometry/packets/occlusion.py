@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.bundle import Bundle, Crossing
 from vtray.geometry.dispatch import Shape, Verbs, with_bounded
 from vtray.geometry.packets.packet import (
     BLOCKED,
@@ -313,7 +312,7 @@ def _block_by_shape(
     """Mark the points of a range that a shape hides from a light."""
     packet, begin, end, target = arguments
     _block_octets(packet, begin, end, target, shape, verbs.hides)
-    _note_solid(packet, begin, end, target.is_wide, number, shape, verbs.crossing)
+    _note_solid(packet, begin, end, target.is_wide, number, shape, verbs)
 
 
 @device
@@ -400,9 +399,9 @@ def _note_solid(
     is_wide: bool | None,
     number: int,
     shape: Shape,
-    crossing_of: Callable[[Shape, Bundle], Crossing],
+    verbs: Verbs,
 ) -> None:
     """Note what a shape does to the light on patches of a range, if these are asked for."""
     if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
         if is_wide:
-            note_solid(packet, begin, end, number, shape, crossing_of)
+            note_solid(packet, begin, end, number, shape, verbs.is_outside, verbs.crossing)

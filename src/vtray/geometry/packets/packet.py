@@ -76,8 +76,8 @@ RIVAL = _fields.scalar()
 shape."""
 ALL_MET = _fields.scalar()
 """By that distance all its rays have met one same shape; infinite if that is not sure."""
-FIRST = _fields.scalar()
-LAST = _fields.scalar()
+PASSING = _fields.scalar()
+PASSED = _fields.scalar()
 """From where to where they pass through the image plane."""
 MIXED = _fields.scalar()
 """1 where the rays of the bundle may not all see the same, else 0."""

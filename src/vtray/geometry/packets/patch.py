@@ -32,7 +32,7 @@ from vtray.geometry.packets.packet import (
     load,
 )
 from vtray.geometry.shapes.plane import PlaneShape, plane_crossing
-from vtray.geometry.vector import dot, scale, sub
+from vtray.geometry.vector import Vec, scale
 
 OPEN, MIDDLE, DARK, UNEVEN_ALREADY = 0.0, 1.0, 2.0, 3.0
 """What is known in field ``SETTLED``: nothing; that all but the hit itself does not matter, as it
@@ -49,7 +49,8 @@ def is_open(packet: Packet, lane: int, is_wide: bool | None) -> bool:
     if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
         if is_wide:
             settled = packet[SETTLED + lane]
-            return (settled == OPEN) | ((settled == MIDDLE) & is_hit_open)
+            is_asked: bool = (settled == OPEN) | ((settled == MIDDLE) & is_hit_open)
+            return is_asked
     return is_hit_open
 
 
@@ -96,14 +97,14 @@ def note_solid(
     end: int,
     number: int,
     shape: Any,  # noqa: ANN401
+    is_outside_of: Callable[[Any, Vec, Vec], bool],
     crossing_of: Callable[[Any, Bundle], Crossing],
 ) -> None:
     """Note of the patches of some lanes what a solid does to the light that they are asked for."""
     numbers = packet.view(np.int64)
     for lane in range(begin, end):
         is_own = numbers[OWNER + lane] == number
-        outward = sub(load(packet, POINT, lane), shape.center)
-        is_outside = dot(load(packet, NORMAL, lane), outward) > 0.0
+        is_outside = is_outside_of(shape, load(packet, POINT, lane), load(packet, NORMAL, lane))
         near, far = crossing_of(shape, load_bundle(packet, lane, is_own))
         # Above its horizon, a solid is not in its own way.
         hides_nothing = is_own & is_outside

@@ -17,10 +17,10 @@ from vtray.geometry.packets.packet import (
     DIRECTION,
     DISTANCE,
     LANES,
-    LAST,
     NEAREST,
     OCTET,
     ORIGIN,
+    PASSED,
     RIVAL,
     Packet,
     Sheaf,
@@ -179,7 +179,7 @@ def note_latest(packet: Packet, lane: int, cones: Cones) -> None:
     begin = lane & (LANES - 1)
     latest = 0.0
     for at in range(begin, begin + OCTET):
-        latest = max(latest, packet[LAST + at])
+        latest = max(latest, packet[PASSED + at])
     cones[LATEST + lane // OCTET] = latest
 
 

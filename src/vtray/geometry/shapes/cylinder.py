@@ -1,4 +1,4 @@
-"""The cylinder with flat caps: where a ray meets it, what it hides, its normal, and where bundles meet it.
+"""The cylinder with flat caps: where a ray meets it, what it hides, its normal, its bundles.
 
 A cylinder is what an endless one and the slab between two planes have in common. A line is within
 each from one distance to another, and so within both from the larger of the first to the smaller of
@@ -293,6 +293,13 @@ def is_second_half(cylinder: CylinderShape, point: Vec, error_scale: float) -> b
     height = dot(sub(point, cylinder.start), cylinder.axis)
     error_bound = ROUNDING * (cylinder.error_scale + error_scale)
     return height - 0.5 * cylinder.length > error_bound
+
+
+@device
+def cylinder_is_outside(cylinder: CylinderShape, point: Vec, normal: Vec) -> bool:
+    """Tell whether a point of a cylinder is looked at from outside, given the normal there."""
+    is_outside: bool = dot(normal, sub(point, cylinder.center)) > 0.0
+    return is_outside
 
 
 @device

@@ -136,6 +136,12 @@ def plane_blocks(
 
 
 @device
+def plane_is_outside(plane: PlaneShape, point: Vec, normal: Vec) -> bool:  # noqa: ARG001
+    """Return True: a plane has no inside."""
+    return True
+
+
+@device
 def plane_crossing(plane: PlaneShape, bundle: Bundle) -> Crossing:
     """Return from where to where the rays of a bundle meet a plane.
 

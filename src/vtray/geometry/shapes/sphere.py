@@ -183,6 +183,13 @@ def sphere_blocks(
 
 
 @device
+def sphere_is_outside(sphere: SphereShape, point: Vec, normal: Vec) -> bool:
+    """Tell whether a point of a sphere is looked at from outside, given the normal there."""
+    is_outside: bool = dot(normal, sub(point, sphere.center)) > 0.0
+    return is_outside
+
+
+@device
 def sphere_crossing(sphere: SphereShape, bundle: Bundle) -> Crossing:
     """Return from where to where the rays of a bundle first meet a sphere.
 

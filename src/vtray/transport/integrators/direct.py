@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
+from vtray.geometry.packets.nearest import find_mixed
 from vtray.geometry.packets.occlusion import (
     Target,
     bound_points,
@@ -26,7 +27,6 @@ from vtray.geometry.packets.packet import (
     start_apart,
     store,
 )
-from vtray.geometry.packets.nearest import find_mixed
 from vtray.geometry.packets.patch import judge_patches
 from vtray.geometry.packets.search import find_blocked, find_nearest
 from vtray.geometry.packets.workspace import Workspace

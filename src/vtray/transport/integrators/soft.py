@@ -26,6 +26,7 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.stopped import find_stopped
 from vtray.geometry.vector import add
+from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
 from vtray.transport.light_buffer import KeptLight
 from vtray.transport.lights.light import Lights, light_count, load_power
 from vtray.transport.lights.soft_light import SoftLights, aim_at, soft_count
@@ -33,9 +34,6 @@ from vtray.transport.materials.material import Material, scattered
 from vtray.transport.sampling.fans import Fans, fan_keys
 from vtray.transport.sampling.light_rays import arriving_share, spread_fan
 from vtray.transport.scene_arrays import SceneArrays
-
-NARROW = 0.1
-"""Up to this spread, which a lamp has that is seen under 50 degrees, its rays are kept together."""
 
 
 class Arriving(NamedTuple):
@@ -47,14 +45,11 @@ class Arriving(NamedTuple):
         The mean weight of all rays.
     cast, arrived
         How many rays were cast, and how many arrive.
-    is_narrow
-        Whether the light is seen under a small angle, so that its shadows have edges.
     """
 
     share: float
     cast: int
     arrived: int
-    is_narrow: bool
 
 
 @device
@@ -141,7 +136,7 @@ def _arriving(
         total += arriving_share(fan, fans.rays)
         arrived += count_open(fan, fans.rays)
         rounds += 1
-    return Arriving(total / rounds, cast, arrived, is_narrow)
+    return Arriving(total / rounds, cast, arrived)
 
 
 @device
@@ -176,5 +171,8 @@ def _is_uneven(
     """Tell whether the pixel of a hit gets samples, for one of the lights so far or this one."""
     if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
         if is_wide:
-            return packet[UNEVEN + hit] != 0.0
+            uneven: bool = packet[UNEVEN + hit] != 0.0
+            uneven = uneven or is_lit_unevenly(packet, hit, scene, soft, light, work)
+            packet[UNEVEN + hit] = 1.0 if uneven else 0.0
+            return uneven
     return False

@@ -19,6 +19,7 @@ from vtray.geometry.vector import add, sub
 from vtray.transport.materials.lambert import cosine_of, is_above
 from vtray.transport.materials.material import Material, Power, scattered
 
+
 @device
 def find_facing(packet: Packet, hits: int, bounds: Bounds, target: Target) -> int:
     """Set field ``BLOCKED`` for a light, if any point faces it; return how many do.
