@@ -39,16 +39,11 @@ def cut_by_the_image_plane() -> Scene:
 
 
 def just_outside_the_picture() -> Scene:
-    """Return a ball and a shadow whose edges lie beside the picture, within reach of the filter."""
-    wall = plane((0, 0, 5), (0, 0, -1), color={"r": 40, "g": 40, "b": 90})
-    ball = sphere((1e3 - 10 * 0.1 - 0.06, 0, 4.0), 1e3 - 1.8)
-    return scene(
-        [wall, ball],
-        [light(-3, 0, -9)],
-        size=[36, 26],
-        resolution=[0.1, 0.1],
-        projection="orthographic",
-    )
+    """Return two walls whose edge is a third of a pixel beside the last column of the picture."""
+    black = {"r": 0, "g": 0, "b": 0}
+    walls = [plane((0, 0, 5), (0, 0, -1)), plane((1.73, 0, 5), (-2, 0, -1), color=black)]
+    view = {"size": [36, 26], "resolution": [0.1, 0.1], "projection": "orthographic"}
+    return scene(walls, [light(-3, 0, -9)], **view)
 
 
 def small_balls() -> Scene:
@@ -62,15 +57,46 @@ def small_balls() -> Scene:
 
 
 def many_lights() -> Scene:
-    """Return a ball over a floor that keeps one half of 108 lights from a place, or the other."""
-    lights = []
-    for k in range(108):
-        side = -1 if k < 54 else 1
-        lights.append(light(6 * side, 0.001 * k, -20, intensity=1 / 54))
-    bars = [cylinder((3 * side, -9, -4), (3 * side, 9, -4), 1.0) for side in (-1, 1)]
-    floor = plane((0, 0, 5), (0, 0, -1))
+    """Return a bar over a floor, the first of 107 lights, and two more within a ball."""
+    lights = [light(-6, 0.001 * k, -20, intensity=1e-3) for k in range(107)]
+    lights[0] = light(6, 0, -20)
+    for k in (52, 105):
+        lights[k] = light(-9, 0, -3)
+    bar, floor = cylinder((3, -9, -3.5), (3, 9, -3.5), 0.8), plane((0, 0, 5), (0, 0, -1))
     size = {"center": {"x": 0, "y": 0, "z": -5}, "size": [36, 26], "resolution": [0.2, 0.2]}
-    return scene([*bars, floor], lights, **size, projection="orthographic")
+    ball = sphere((-9, 0, -3), 0.3)
+    return scene([bar, ball, floor], lights, **size, projection="orthographic")
+
+
+def mixture(seed: int) -> Scene:
+    """Return a random scene of all kinds of shapes, some of them copied, and lights."""
+    random = Random(seed)
+
+    def place(size: float, z: float) -> tuple[float, float, float]:
+        return random.uniform(-size, size), random.uniform(-size, size), z + random.uniform(-2, 2)
+
+    def color() -> dict[str, int]:
+        return {c: random.randrange(60, 256) for c in "rgb"}
+
+    def solids(count: int) -> list[Scene]:
+        found: list[Scene] = []
+        for _ in range(count):
+            radius, at = 10 ** random.uniform(-2, 0), place(2.5, 5)
+            if random.random() < 0.5:
+                found.append(sphere(at, radius, color=color()))
+            else:
+                end = tuple(a + random.uniform(-2, 2) for a in at)
+                found.append(cylinder(at, end, radius / 2, color=color()))
+        return found
+
+    shifts = [dict(zip("xyz", place(2, 0), strict=True)) for _ in range(3)]
+    copies = {"type": "copies", "objects": solids(3), "at": shifts}
+    normal = random.uniform(-1, 1), random.uniform(-1, 1), -1
+    wall = plane((0, 0, 8), normal, color=color())
+    lights = [light(*place(9, random.choice([-12, -2, 3])), intensity=0.5) for _ in range(2)]
+    view = {"projection": random.choice(["perspective", "orthographic"])}
+    objects = [*solids(6), wall, *([copies] if seed % 2 else [])]
+    return scene(objects, lights, size=[30, 22], resolution=[0.15, 0.15], **view)
 
 
 SCENES = {

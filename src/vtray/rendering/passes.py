@@ -110,7 +110,7 @@ class Tracer:
         middles = middle_rays(footprint, thickest, before_samples=True, fans=fans, seed=seed)
         found = self._middles(middles, keep, *SAMPLES)
         film, kept = found.film, found.kept
-        marks = film.mixed
+        marks = film.mixed.copy()  # the film is written anew
         if keep:
             kept = (*kept, self._keep(marks, samples))
             film = film._replace(kept=kept[-1])

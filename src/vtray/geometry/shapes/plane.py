@@ -159,6 +159,7 @@ def plane_crossing(plane: PlaneShape, bundle: Bundle) -> Crossing:
     # Some rays start on its other side.
     near = -math.inf if height < wide else near
     far = math.inf if height < wide else far
+    far = max(near, far)  # beyond a light, where it does not matter, the order is another
     is_met = (near < math.inf) & (far > bundle.first)
     is_clear = near > bundle.last
     return Crossing(

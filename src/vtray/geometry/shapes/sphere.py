@@ -204,7 +204,7 @@ def sphere_crossing(sphere: SphereShape, bundle: Bundle) -> Crossing:
     along, ahead = spread_beside(bundle, beside, gap), spread_ahead(bundle)
     radius = sphere.radius
     widths = (
-        bundle_width(bundle, middle - radius),
+        bundle_width(bundle, middle - radius - bundle.width * ahead),
         bundle_width(bundle, middle),
         bundle_width(bundle, middle + radius),
     )
