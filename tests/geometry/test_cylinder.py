@@ -11,8 +11,8 @@ from vtray.geometry.ray import Footprint, Ray, Segment
 from vtray.geometry.shapes.columns import Columns, Place
 from vtray.geometry.shapes.cylinder import (
     CylinderShape,
-    cylinder_distance,
     cylinder_crossing,
+    cylinder_distance,
     cylinder_hides,
     cylinder_pole,
     is_second_half,
@@ -266,7 +266,7 @@ def test_surface(point: Point, pole: Point, is_round: bool, is_second: bool) -> 
         ((-3, 0, 3.85), ACROSS, 1, INF),
         ((0, 0, 0), UP, 1, INF),  # the middle of a cap
         ((0, 0.95, 0), UP, 1, 4),
-        ((0, 1.05, 0), UP, 1, 3.9),
+        ((0, 1.05, 0), UP, 1, 4),
         ((0, 1.15, 0), UP, 1, INF),
         ((0, -4, 0), SLANTED, 1, 5),  # the edge between cap and side
         ((0, -3.8, 0), SLANTED, 1, INF),
@@ -274,7 +274,7 @@ def test_surface(point: Point, pole: Point, is_round: bool, is_second: bool) -> 
         ((0, 5, 12), (0, -0.6, -0.8), 1, INF),
         ((0, -4, 0), SLANTED, -6, INF),  # which is behind the image plane
         ((0, -2.8, 3), SLANTED, 1, INF),  # the far edge
-        ((0, -2.8, 3), SLANTED, -3.5, 3),  # seen from within
+        ((0, -2.8, 3), SLANTED, -3.5, 6.2),  # seen from within
         ((-3, 0, 5), ACROSS, -9, INF),  # all of it is behind the image plane
     ],
 )

@@ -378,6 +378,10 @@ def _any_inside(cylinder: CylinderShape, line: Line, bundle: Bundle) -> Span:
     across = spread_beside(bundle, beside, gap)
     width = max(bundle_width(bundle, span.near), bundle_width(bundle, span.far))
     misses = (at == closest) & (gap - width * across > cylinder.side_radius)
+    # Along the axis, it may pass by as well.
+    widest = bundle.stretch * max(bundle_width(bundle, low), bundle_width(bundle, high))
+    nearest = gap - math.sqrt(square) * (high - low) - widest
+    misses = misses | ((not is_bounded) & (nearest > cylinder.side_radius))
     misses = misses | (span.near > span.far)
     misses = misses | (cylinder.side_radius <= 0.0) | (cylinder.length <= 0.0)
     return Span(math.inf if misses else span.near, -math.inf if misses else span.far)
