@@ -31,7 +31,7 @@ from vtray.transport.light_buffer import KeptLight
 from vtray.transport.lights.light import Lights, light_count, load_power
 from vtray.transport.lights.soft_light import SoftLights, aim_at, soft_count
 from vtray.transport.materials.material import Material, scattered
-from vtray.transport.sampling.fans import Fans, fan_keys
+from vtray.transport.sampling.fans import Fans, fan_keys, fan_of_sample
 from vtray.transport.sampling.light_rays import arriving_share, spread_fan
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -97,11 +97,13 @@ def add_soft_lights(
                 lane = packet.view(np.int64)[SOURCE + hit]
                 pixel = work.pixels[begin + lane // samples]
                 column, row = block.left + (pixel & (BLOCK - 1)), block.top + pixel // BLOCK
-                point = (first + lane % samples) * fans.rays * fans.rounds
+                sample = first + lane % samples
                 for light in range(soft_count(soft)):
                     if _is_uneven(packet, hit, scene, soft, light, is_wide, work):
                         break
                     keys = fan_keys(column, row, light, seed)
+                    number = fan_of_sample(fans.levels, sample, column, row, light, seed)
+                    point = number * fans.rays * fans.rounds
                     arriving = _arriving(packet, hit, scene, soft, light, fans, point, keys, work)
                     _add_share(packet, hit, scene.lights, light, arriving.share)
                     _keep_share(packet, lane, scene.lights, light, arriving.share, kept)

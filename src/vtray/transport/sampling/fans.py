@@ -19,7 +19,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
-from vtray.transport.sampling.sobol import LIGHT_FANS, pixel_keys, scrambled, sobol_points
+from vtray.transport.sampling.sobol import (
+    FAN_ORDER,
+    LIGHT_FANS,
+    pixel_keys,
+    scrambled,
+    shuffled,
+    sobol_points,
+)
 
 Integers = NDArray[np.int64]
 
@@ -46,19 +53,22 @@ class Fans(NamedTuple):
         Rays from a hit to a light at a time.
     rounds
         How often that is repeated where some of them arrive and others do not.
+    levels
+        A pixel's samples share ``2**levels`` fans.
     points
         What `fan_points` returns.
     """
 
     rays: int
     rounds: int
+    levels: int
     points: Integers
 
 
 def fans_of_middles(samples: int) -> Fans:
     """Return the fans of middle rays in a picture with so many samples."""
     rounds = min(max(samples // 4, 1), MOST_ROUNDS)
-    return Fans(WHOLE_FAN, rounds, fan_points(WHOLE_FAN, rounds))
+    return Fans(WHOLE_FAN, rounds, 0, fan_points(WHOLE_FAN, rounds))
 
 
 def fans_of_samples(samples: int) -> Fans:
@@ -66,7 +76,8 @@ def fans_of_samples(samples: int) -> Fans:
     rays = LEAST_FAN
     while 2 * rays * samples <= WHOLE_FAN:
         rays *= 2
-    return Fans(rays, 1, fan_points(rays, samples))
+    levels = (samples - 1).bit_length()
+    return Fans(rays, 1, levels, fan_points(rays, 1 << levels))
 
 
 def fan_points(fan: int, samples: int) -> Integers:
@@ -94,12 +105,23 @@ def fan_points(fan: int, samples: int) -> Integers:
 
 @device
 def fan_keys(column: int, row: int, light: int, seed: int) -> tuple[int, int]:
-    """Return what scrambles the fans of a pixel for a light, which is given by its number.
-
-    Within one pixel, points of the same number for two lights are in the same halves of the square,
-    or in opposite ones, as chance has it; over pixels they are independent.
-    """
+    """Return what scrambles the fans of a pixel for a light, which is given by its number."""
     return pixel_keys(column, row, LIGHT_FANS + light, seed)
+
+
+@device
+def fan_of_sample(levels: int, sample: int, column: int, row: int, light: int, seed: int) -> int:
+    """Return which of its ``2**levels`` fans for a light a sample of a pixel has.
+
+    In the order of the samples, those of two lights, and the places in the image, would be alike:
+    points of the same number are in the same halves of the square, or all in opposite ones.
+
+    References
+    ----------
+    Burley, "Practical Hash-based Owen Scrambling", JCGT 9 (4), 2020, section 3.
+    """
+    key, _ = pixel_keys(column, row, FAN_ORDER + light, seed)
+    return shuffled(sample, levels, key)
 
 
 @device
