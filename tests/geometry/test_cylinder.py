@@ -299,7 +299,7 @@ def test_bundles_grow() -> None:
     start, way = (0.0, -3.0, 1.0), (0.0, 0.6, 0.8)
     for growth, is_met in ((0.16, False), (0.188, True)):
         bundle = Bundle(start, way, 0.0, growth, 1.0, None, None, 0.0, 0.0, True)
-        assert (cylinder_crossing(shape, bundle).near < INF) is is_met
+        assert (cylinder_crossing(shape, bundle).near < INF) == is_met
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
