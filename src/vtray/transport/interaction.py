@@ -110,7 +110,7 @@ def gather_interactions(
     lanes: int,
     samples: int,
     sheaf: Sheaf,
-    footprint: Footprint,
+    footprint: Footprint | None,
     scene: SceneArrays,
     work: Workspace,
 ) -> int:
@@ -146,7 +146,7 @@ def _fetch(
     hit: int,
     lane: int,
     sheaf: Sheaf,
-    footprint: Footprint,
+    footprint: Footprint | None,
     scene: SceneArrays,
 ) -> None:
     """Bring together what a hit is made of."""

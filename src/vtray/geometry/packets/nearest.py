@@ -57,9 +57,11 @@ def clear_hits(packet: Packet, lanes: int) -> None:
 
 @device
 def find_starts(
-    packet: Packet, lanes: int, sheaf: Sheaf, footprint: Footprint, cones: Cones
+    packet: Packet, lanes: int, sheaf: Sheaf, footprint: Footprint | None, cones: Cones
 ) -> None:
     """Find from where on what the bundles of lanes meet counts, if they have a width."""
+    if footprint is None:
+        return
     if not has_width(footprint):
         return
     for lane in range(lanes):
@@ -76,7 +78,7 @@ def nearest_planes(
     packet: Packet,
     lanes: int,
     sheaf: Sheaf,
-    footprint: Footprint,
+    footprint: Footprint | None,
     world: World,
     group: Group,
 ) -> None:
@@ -96,7 +98,7 @@ def nearest_slots(
     first: int,
     count: int,
     sheaf: Sheaf,
-    footprint: Footprint,
+    footprint: Footprint | None,
     world: World,
     group: Group,
     begin: int,
@@ -128,7 +130,7 @@ def _take_octets(
     shape: Shape,
     verbs: Verbs,
     number: int,
-    arguments: tuple[tuple[Packet, int, int, Sheaf, Footprint, Workspace], int],
+    arguments: tuple[tuple[Packet, int, int, Sheaf, Footprint | None, Workspace], int],
 ) -> None:
     """Test a shape for those of some octets that it may meet."""
     (packet, first, count, sheaf, footprint, work), met_here = arguments
@@ -186,12 +188,14 @@ def _note_crossings(
     begin: int,
     end: int,
     sheaf: Sheaf,
-    footprint: Footprint,
+    footprint: Footprint | None,
     is_cut: bool,
     shape: Shape,
     crossing_of: Callable[[Shape, Bundle], Crossing],
 ) -> None:
     """Note where all that belongs to the pixels of some lanes meets a shape."""
+    if footprint is None:
+        return
     for lane in range(begin, end):
         ray = load_ray(packet, sheaf, lane)
         bundle = Bundle(

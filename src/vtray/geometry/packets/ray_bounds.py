@@ -124,7 +124,7 @@ def farthest_of(cones: Cones, first: int, count: int) -> float:
 
 @device
 def find_farthest(
-    packet: Packet, first: int, count: int, footprint: Footprint, cones: Cones
+    packet: Packet, first: int, count: int, footprint: Footprint | None, cones: Cones
 ) -> None:
     """Find the largest distance in each of some octets at which hits so far leave some to find.
 
@@ -198,7 +198,7 @@ def octets_met(
     sheaf: Sheaf,
     center: Vec,
     radius: float,
-    footprint: Footprint,
+    footprint: Footprint | None,
 ) -> int:
     """Return a bit for each of some octets whose rays or footprints a ball may meet.
 

@@ -25,7 +25,7 @@ def find_nearest(
     lanes: int,
     part: int,
     sheaf: Sheaf,
-    footprint: Footprint,
+    footprint: Footprint | None,
     world: World,
     work: Workspace,
 ) -> None:
@@ -71,7 +71,7 @@ def _find_nearest_placed(
     lanes: int,
     part: int,
     sheaf: Sheaf,
-    footprint: Footprint,
+    footprint: Footprint | None,
     world: World,
     places: Places | None,
     work: Workspace,

@@ -55,7 +55,7 @@ from vtray.geometry.packets.packet import (
     store,
 )
 from vtray.geometry.packets.patch import MIDDLE, NEAR_END, OPEN, UNEVEN_ALREADY, crossed_share
-from vtray.geometry.ray import Footprint, width_at
+from vtray.geometry.ray import Footprint, growth_of, width_at
 from vtray.geometry.vector import dot, scale, sub
 
 ROUGHLY = 1.5
@@ -85,7 +85,7 @@ def leave_mixed(packet: Packet, lanes: int) -> None:
 
 
 @device
-def find_patches(packet: Packet, hits: int, footprint: Footprint, thickest: float) -> None:
+def find_patches(packet: Packet, hits: int, footprint: Footprint | None, thickest: float) -> None:
     """Set the patches of the hits of a packet; `thickest` is the radius of the thickest solid."""
     numbers = packet.view(np.int64)
     for hit in range(hits):
@@ -93,7 +93,7 @@ def find_patches(packet: Packet, hits: int, footprint: Footprint, thickest: floa
         cosine = -dot(load(packet, TOWARDS, hit), load(packet, NORMAL, hit))
         is_bent = width * packet[BEND + hit] > LIMIT_OF_BEND * cosine * cosine
         # Towards its horizon, a plane's part of a pixel has no end.
-        is_slanted = footprint.growth > LIMIT_OF_BEND * cosine
+        is_slanted = growth_of(footprint) > LIMIT_OF_BEND * cosine
         packet[PATCH + hit] = ROUGHLY * width
         packet[STRETCH + hit] = 1.0 / cosine
         packet[REACH + hit] = ROUGHLY * width / cosine

@@ -40,7 +40,7 @@ class Sampling(NamedTuple):
         Up to which distance the filter is not negative.
     footprint
         What belongs to the pixel of a ray, where it is asked whether all of it looks the same;
-        else without width.
+        else without width, or None where no pixel has more than one ray.
     thickest
         The radius of the thickest solid, as kernels count, where that is asked.
     marks
@@ -53,7 +53,7 @@ class Sampling(NamedTuple):
     fans: Fans | None
     places: NDArray[np.float64]
     positive: float
-    footprint: Footprint
+    footprint: Footprint | None
     thickest: float
     marks: NDArray[np.bool_]
 
@@ -72,7 +72,8 @@ def middle_rays(
     """Return one ray for each pixel, through its middle; if samples follow, for the same kernel."""
     none = np.zeros((0, 0), np.bool_)
     points = sobol_points(1) if before_samples else None
-    return Sampling(1, seed, points, fans, np.zeros(2), math.inf, footprint, thickest, none)
+    wide = footprint if before_samples else None
+    return Sampling(1, seed, points, fans, np.zeros(2), math.inf, wide, thickest, none)
 
 
 def filter_samples(
