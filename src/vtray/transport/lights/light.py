@@ -70,9 +70,10 @@ def load_power(lights: Lights, light: int) -> Power:
 
 
 @device
-def light_target(lights: Lights, light: int) -> Target:
-    """Return where the shadow rays to a light end."""
-    return Target(pick(lights, light), lights.plane_depth[light], lights.error_scale[light])
+def light_target(lights: Lights, light: int, is_wide: bool | None = None) -> Target:
+    """Return where the shadow rays to a light end; `is_wide` is that of `Target`."""
+    plane_depth, error_scale = lights.plane_depth[light], lights.error_scale[light]
+    return Target(pick(lights, light), plane_depth, error_scale, is_wide)
 
 
 @device
