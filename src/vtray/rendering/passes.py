@@ -10,6 +10,7 @@ from vtray.base.memory import check_memory_of_lights
 from vtray.base.pool import Progress
 from vtray.base.tiles import TILE, Tile, split_into_tiles
 from vtray.geometry.packets.packet import NO_PRIMITIVE
+from vtray.geometry.ray import Footprint
 from vtray.geometry.shapes import cylinder, sphere
 from vtray.geometry.world import World
 from vtray.rendering.engines.engine import Engine, trace_to
@@ -171,6 +172,8 @@ class Tracer:
     def _draft(self, growth: Growth, sampling: Sampling, keep: bool, *wanted: str) -> None:
         """Trace what is shown of the picture until its own pixels are there."""
         scene = self._scene._replace(camera=draft_camera(self._scene.camera))
+        if sampling.footprint is not None:  # none waits for samples
+            sampling = sampling._replace(footprint=Footprint(0.0, 0.0))
         width, height = scene.camera.width, scene.camera.height
         film = new_film(width, height, *wanted)
         growth.begin_draft(film, *self._size)

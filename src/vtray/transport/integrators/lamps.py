@@ -102,11 +102,13 @@ def _mix_lane(
 ) -> None:
     """Set field ``MIXED`` for one lane."""
     ray, distance = load_ray(packet, sheaf, lane), packet[DISTANCE + lane]
-    if packet.view(np.int64)[PRIMITIVE + lane] < NO_PRIMITIVE:
+    met = packet.view(np.int64)[PRIMITIVE + lane]
+    if met < NO_PRIMITIVE:
         packet[MIXED + lane] = 1.0 if packet[NEAREST + lane] <= distance else 0.0
     for k in range(lamp_count(lamps)):
         outline = lamp_outline(lamps, k, ray, footprint)
-        if outline <= distance and outline < math.inf:
+        is_own = lamp_number(lamps.light[k]) == met
+        if outline < math.inf and (is_own or outline <= distance):
             packet[MIXED + lane] = 1.0
 
 
