@@ -27,17 +27,25 @@ class Stack(NamedTuple):
         The nodes and leaves that wait, and where the beam enters them, as its bounds count.
     entered
         The same for the children of one node, (8,).
+    rays
+        The rays of a fan for which a node waits.
     """
 
     node: NDArray[np.int64]
     enter: NDArray[np.float32]
     entered: NDArray[np.float32]
+    rays: NDArray[np.uint64]
 
 
 def new_stack() -> Stack:
     """Return the scratch memory of one thread."""
     size = LEVELS * STACK
-    return Stack(np.zeros(size, np.int64), np.zeros(size, np.float32), np.zeros(WIDTH, np.float32))
+    return Stack(
+        np.zeros(size, np.int64),
+        np.zeros(size, np.float32),
+        np.zeros(WIDTH, np.float32),
+        np.zeros(size, np.uint64),
+    )
 
 
 @device

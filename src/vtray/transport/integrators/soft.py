@@ -37,6 +37,7 @@ from vtray.transport.lights.soft_light import (
     cone_of,
     is_above,
     is_below,
+    longest_ray,
     soft_count,
 )
 from vtray.transport.materials.material import Material, scattered
@@ -151,7 +152,8 @@ def _arriving(
         if count == CLOSED and is_above(aim, normal):
             return Arriving(0.0, fans.rays, 0, is_narrow)
     fan = work.fan
-    bundle = Bundle(fan, fans.rays, start, soft.error_scale[light] + start.error_scale)
+    end_scale = soft.error_scale[light] + start.error_scale
+    bundle = Bundle(fan, fans.rays, start, normal, end_scale, longest_ray(aim, start))
     total, cast, arrived, rounds = 0.0, 0, 0, 0
     while rounds < fans.rounds and (rounds == 0 or 0 < arrived < cast):
         place = first + rounds * fans.rays
