@@ -8,15 +8,18 @@ rays. What is found is what a loop over all rays and all shapes would find.
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.between import is_occluded_below, is_occluded_by_placed
-from vtray.geometry.bvh.tree import EMPTY, WIDTH, Bvh, child_box, leaf_range
+from vtray.geometry.bits import lowest_bit
+from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh, leaf_range
 from vtray.geometry.dispatch import Shape, Verbs, with_any, with_bounded
 from vtray.geometry.packets.beam import ray_beam, shape_margin
 from vtray.geometry.packets.cone import Touching
 from vtray.geometry.packets.fan import (
     BLOCKED,
+    FAN,
     LENGTH,
     Fan,
     Start,
@@ -26,15 +29,20 @@ from vtray.geometry.packets.fan import (
 from vtray.geometry.packets.fan_rays import (
     NONE,
     ONE,
+    SINGLE_HUGE,
+    View,
+    balls_seen,
     count_bits,
     first_bit,
     narrow_directions,
     open_rays,
-    rays_near,
+    rays_along,
+    set_ball,
+    view_from,
 )
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.rounding import MARGIN, ROUNDING
-from vtray.geometry.vector import Vec, add, dot, scale, sub
+from vtray.geometry.vector import Vec, add, dot, magnitude, scale, sub
 from vtray.geometry.world import (
     NO_TREE,
     SPHERE,
@@ -128,6 +136,8 @@ def _stop_by_tree(bundle: Bundle, world: World, group: Group, stack: Stack) -> N
     ratio, offset = group.to_boxes.ratio, group.to_boxes.offset
     apex = add(scale(ratio, start.point), offset)
     margin = shape_margin(group.to_boxes, apex, start.error_scale)
+    view = view_from(apex, bundle.normal, margin, ratio * bundle.longest)
+    few = FEW if magnitude(apex) < SINGLE_HUGE else FAN + 1
     narrow_directions(fan, bundle.rays)
     unstopped = open_rays(fan, bundle.rays)
     stack.node[0] = group.root
@@ -140,13 +150,8 @@ def _stop_by_tree(bundle: Bundle, world: World, group: Group, stack: Stack) -> N
         if rays == NONE:
             continue
         if node < 0:
-            begin, end = leaf_range(node)
-            for slot in range(begin, end):
-                arguments = bundle, group.kind, ratio, rays
-                hidden = with_bounded(world, group, slot, _hidden_rays, arguments)
-                rays &= ~hidden
-                unstopped &= ~hidden
-        elif count_bits(rays) < FEW:
+            unstopped &= ~_stop_by_leaf(bundle, world, group, node, rays, stack)
+        elif count_bits(rays) < few:
             while rays != NONE:
                 ray = first_bit(rays)
                 rays &= rays - ONE
@@ -157,9 +162,7 @@ def _stop_by_tree(bundle: Bundle, world: World, group: Group, stack: Stack) -> N
                     fan[BLOCKED + ray] = 1.0
                     unstopped &= ~(ONE << np.uint64(ray))
         else:
-            waiting = _push_near(
-                bundle, world.bvh, node, apex, margin, ratio * bundle.longest, rays, stack, waiting
-            )
+            waiting = _push_near(bundle, world.bvh, node, view, rays, stack, waiting)
 
 
 @device
@@ -167,41 +170,69 @@ def _push_near(
     bundle: Bundle,
     bvh: Bvh,
     node: int,
-    apex: Vec,
-    margin: float,
-    longest: float,
+    view: View,
     rays: np.uint64,
     stack: Stack,
     base: int,
 ) -> int:
     """Push the children of a node that some of its rays may meet; return the stack's new height."""
-    top = base
-    for k in range(WIDTH):
-        child = bvh.child[node * WIDTH + k]
-        if child != EMPTY:
-            low, high = child_box(bvh, node, k)
-            way = sub(scale(0.5, add(low, high)), apex)
-            half = scale(0.5, sub(high, low))
-            if dot(way, bundle.normal) + _reach_along(half, bundle.normal) < -margin:
-                continue
-            # No box reaches farther than 8: the square is that of a radius wider by the margin.
-            radius2 = dot(half, half) + margin * (16.0 + margin)
-            distance2 = dot(way, way)
-            if distance2 > 2.0 * (longest * longest + radius2):
-                continue
-            near = rays & rays_near(bundle.fan, bundle.rays, way, distance2 - radius2, margin, True)
-            if near != NONE:
-                stack.node[top] = child
-                stack.rays[top] = near
-                top += 1
+    top, balls = base, stack.balls
+    seen = balls_seen(bvh, node * SIDES, view, balls)
+    while seen != 0:
+        k = lowest_bit(seen)
+        seen &= seen - 1
+        way = balls[k], balls[WIDTH + k], balls[2 * WIDTH + k]
+        near = rays & rays_along(bundle.fan, bundle.rays, way, balls[3 * WIDTH + k])
+        if near != NONE:
+            stack.node[top] = bvh.child[node * WIDTH + k]
+            stack.rays[top] = near
+            top += 1
     return top
 
 
 @device
-def _reach_along(half: Vec, direction: Vec) -> float:
-    """Return how far a box reaches from its middle in a direction, given half its extents."""
-    x, y, z = direction
-    return half[0] * abs(x) + half[1] * abs(y) + half[2] * abs(z)
+def _stop_by_leaf(
+    bundle: Bundle,
+    world: World,
+    group: Group,
+    leaf: int,
+    rays: np.uint64,
+    stack: Stack,
+) -> np.uint64:
+    """Mark those of some rays that shapes of a leaf stop, and return them."""
+    balls, count, stopped = stack.balls, 0, NONE
+    begin, end = leaf_range(leaf)
+    for slot in range(begin, end):
+        stack.slot[count] = slot
+        arguments = bundle, group.kind, group.to_boxes.ratio, balls, count
+        count += with_bounded(world, group, slot, _see_ball, arguments)
+    for k in range(count):
+        way = balls[k], balls[WIDTH + k], balls[2 * WIDTH + k]
+        near = rays_along(bundle.fan, bundle.rays, way, balls[3 * WIDTH + k]) & rays & ~stopped
+        if near != NONE:
+            stopped |= with_bounded(world, group, stack.slot[k], _hidden_rays, (bundle, near))
+    return stopped
+
+
+@device
+def _see_ball(
+    shape: Shape,
+    verbs: Verbs,  # noqa: ARG001
+    number: int,  # noqa: ARG001
+    arguments: tuple[Bundle, int, float, NDArray[np.float32], int],
+) -> int:
+    """Set the ball around a shape; return 1 if any of it is above the horizon, else 0."""
+    bundle, kind, ratio, balls, k = arguments
+    start = bundle.start
+    way = scale(ratio, sub(shape.center, start.point))
+    radius, error_scale = ratio * shape.radius, ratio * (shape.error_scale + start.error_scale)
+    margin, bound = MARGIN * error_scale, ROUNDING * error_scale
+    distance2, wide = dot(way, way), radius + margin
+    # A ball around another shape says nothing of where rays start.
+    starts_on = distance2 - radius * radius >= -bound * (2.0 * radius + bound)
+    starts_inside = (kind != SPHERE) | (not starts_on)
+    set_ball(balls, k, way, distance2 - wide * wide, margin, starts_inside)
+    return 1 if dot(way, bundle.normal) + radius >= -margin else 0
 
 
 @device
@@ -209,27 +240,15 @@ def _hidden_rays(
     shape: Shape,
     verbs: Verbs,
     number: int,  # noqa: ARG001
-    arguments: tuple[Bundle, int, float, np.uint64],
+    arguments: tuple[Bundle, np.uint64],
 ) -> np.uint64:
     """Mark those of some rays that a shape stops, and return them."""
-    bundle, kind, ratio, rays = arguments
-    fan, start = bundle.fan, bundle.start
-    way = scale(ratio, sub(shape.center, start.point))
-    radius, error_scale = ratio * shape.radius, ratio * (shape.error_scale + start.error_scale)
-    margin = MARGIN * error_scale
-    if dot(way, bundle.normal) + radius < -margin:
-        return NONE
-    distance2, wide = dot(way, way), radius + margin
-    tangent2, starts_inside = distance2 - wide * wide, True
-    if kind == SPHERE and tangent2 <= 0.0:
-        bound = ROUNDING * error_scale
-        starts_inside = distance2 - radius * radius < -bound * (2.0 * radius + bound)
-    rays &= rays_near(fan, bundle.rays, way, tangent2, margin, starts_inside)
-    hidden = NONE
+    bundle, rays = arguments
+    fan, hidden = bundle.fan, NONE
     while rays != NONE:
         ray = first_bit(rays)
         rays &= rays - ONE
-        if verbs.hides(shape, fan_segment(fan, ray, start, bundle.end_scale)):
+        if verbs.hides(shape, fan_segment(fan, ray, bundle.start, bundle.end_scale)):
             fan[BLOCKED + ray] = 1.0
             hidden |= ONE << np.uint64(ray)
     return hidden

@@ -90,18 +90,6 @@ def leaf_range(code: int) -> tuple[int, int]:
     return first, first + (~code & COUNT_MASK)
 
 
-@device
-def child_box(bvh: Bvh, node: int, k: int) -> tuple[Vec, Vec]:
-    """Return the least and the greatest coordinates of the box of a node's child, if it has one."""
-    sides, x = bvh.sides, node * SIDES + k
-    y, z, high = x + WIDTH, x + 2 * WIDTH, 3 * WIDTH
-    # To compiled code, `float` leaves numbers as narrow as they are.
-    return (
-        (np.float64(sides[x]), np.float64(sides[y]), np.float64(sides[z])),
-        (np.float64(sides[x + high]), np.float64(sides[y + high]), np.float64(sides[z + high])),
-    )
-
-
 def new_bvh(nodes: int) -> Bvh:
     """Return room for nodes."""
     return Bvh(np.empty(nodes * SIDES, np.float32), np.empty(nodes * WIDTH, np.int32))
