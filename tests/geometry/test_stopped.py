@@ -5,12 +5,15 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import vtray
-from conftest import JIT
+from conftest import JIT, compiled_only
 from vtray import Scene
 from vtray.base.compiler.compiled import device, uncompiled
 from vtray.geometry.between import is_occluded
+from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh
 from vtray.geometry.packets.fan import (
     BLOCKED,
     DIRECTION,
@@ -24,7 +27,7 @@ from vtray.geometry.packets.fan import (
     fan_segment,
     new_fan,
 )
-from vtray.geometry.packets.fan_rays import count_bits, first_bit, octet_within
+from vtray.geometry.packets.fan_rays import View, balls_seen, count_bits, first_bit, octet_within
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.stopped import Bundle, stop_by_all
 from vtray.geometry.vector import Vec, add, dot, magnitude, scale
@@ -138,6 +141,25 @@ def test_octets_are_asked_as_numpy_asks_them() -> None:
         first = 2 * SINGLES + 8 * int(random.integers(8))
         met = ask_octet(singles, first, FAN, way, least)
         assert met == uncompiled(octet_within)(singles, first, FAN, way, least)
+
+
+@device
+def ask_balls(bvh: Any, view: Any, balls: Any) -> Any:
+    return balls_seen(bvh, SIDES, view, balls)
+
+
+@compiled_only
+@given(
+    st.lists(st.floats(-4, 4, width=32), min_size=SIDES, max_size=SIDES),
+    st.lists(st.floats(-1e3, 1e3, width=32), min_size=8, max_size=8),
+)
+def test_balls_are_seen_as_numpy_has_them(sides: list[float], numbers: list[float]) -> None:
+    bvh = Bvh(np.float32([0.0] * SIDES + sides), np.zeros(2 * WIDTH, np.int32))
+    values = tuple(map(np.float32, numbers))
+    view = View(values[:3], values[3:6], abs(values[6]), abs(values[7]))
+    balls, expected = np.zeros((2, 4 * WIDTH), np.float32)
+    assert ask_balls(bvh, view, balls) == uncompiled(balls_seen)(bvh, SIDES, view, expected)
+    assert balls.tobytes() == expected.tobytes()
 
 
 def test_bits_are_counted_and_found() -> None:

@@ -56,6 +56,9 @@ from vtray.geometry.world import (
 FEW = 8
 """Fewer rays than these search below a node alone."""
 
+FEW_IN_LEAF = 2
+"""Up to so many rays are asked about all shapes of a leaf, and not about their balls first."""
+
 
 class Bundle(NamedTuple):
     """The rays of a fan.
@@ -202,13 +205,16 @@ def _stop_by_leaf(
     """Mark those of some rays that shapes of a leaf stop, and return them."""
     balls, count, stopped = stack.balls, 0, NONE
     begin, end = leaf_range(leaf)
+    is_worth_it = count_bits(rays) > FEW_IN_LEAF
     for slot in range(begin, end):
         stack.slot[count] = slot
         arguments = bundle, group.kind, group.to_boxes.ratio, balls, count
-        count += with_bounded(world, group, slot, _see_ball, arguments)
+        count += with_bounded(world, group, slot, _see_ball, arguments) if is_worth_it else 1
     for k in range(count):
-        way = balls[k], balls[WIDTH + k], balls[2 * WIDTH + k]
-        near = rays_along(bundle.fan, bundle.rays, way, balls[3 * WIDTH + k]) & rays & ~stopped
+        near = rays & ~stopped
+        if is_worth_it:
+            way = balls[k], balls[WIDTH + k], balls[2 * WIDTH + k]
+            near &= rays_along(bundle.fan, bundle.rays, way, balls[3 * WIDTH + k])
         if near != NONE:
             stopped |= with_bounded(world, group, stack.slot[k], _hidden_rays, (bundle, near))
     return stopped

@@ -23,9 +23,6 @@ OCTET = 8
 NONE = np.uint64(0)
 """The set of no rays."""
 
-ALL = np.uint64(2**64 - 1)
-"""The set of all rays."""
-
 ONE = np.uint64(1)
 
 SINGLE_ERROR = 2.0**-20
