@@ -24,7 +24,9 @@ DIRECTION = 6 * FAN
 """A unit vector."""
 LENGTH = 9 * FAN
 """How long it is."""
-SIZE = 10 * FAN
+SINGLES = 10 * FAN
+"""Its direction in single precision, two in the place of one number."""
+SIZE = 12 * FAN
 
 Fan = NDArray[np.float64]
 """The fields of all rays, one after the other, as those of a packet."""

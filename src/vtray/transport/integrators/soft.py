@@ -39,6 +39,7 @@ from vtray.transport.lights.soft_light import (
     is_above,
     is_below,
     is_cone,
+    longest_ray,
     middle_share,
     soft_count,
 )
@@ -192,7 +193,8 @@ def _arriving(
         if count == CLOSED and is_above(aim, normal):
             return Arriving(0.0, 0.0, 0.0, fans.rays, 0)
     fan = work.fan
-    bundle = Bundle(fan, fans.rays, start, soft.error_scale[light] + start.error_scale)
+    end_scale = soft.error_scale[light] + start.error_scale
+    bundle = Bundle(fan, fans.rays, start, normal, end_scale, longest_ray(aim, start))
     estimate, cast, arrived, lights = no_estimate(), 0, 0, soft_count(soft)
     while needs_more(estimate, fans, worth, spent, light, lights):
         place = first + estimate.fans * fans.rays
