@@ -85,7 +85,7 @@ WRONG = [
         for bad in ("0", "-1", "inf", "nan", "1e999", "MAX", "", "1_0")
     ),
     *(
-        ("--background", bad, f"black, transparent, {COLOR}")
+        ("--background", bad, f"black, transparent, sky, {COLOR}")
         for bad in ("#12345", "#12345g", "", "(1,2,3)")
     ),
     *(("--bits", bad, "8 or 16") for bad in ("7", "0", "", "16.0")),
@@ -114,8 +114,8 @@ def test_wrong_values(
         (["--filter", "sinc"], "argument --filter: invalid choice: 'sinc' (choose from"),
         (
             ["--background", "oramge"],
-            f"argument --background: expected black, transparent, {COLOR}, got oramge; did you "
-            'mean "orange"?; usage: ',
+            f"argument --background: expected black, transparent, sky, {COLOR}, got oramge; did "
+            'you mean "orange"?; usage: ',
         ),
         (["--alpha", "--background", "black"], "argument --background: not allowed with"),
     ],

@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+from soft_scenes import colorful_sky
 
 SHARE = 0.4
 """How many of the random scenes hold them, from 0 to 1."""
@@ -29,7 +30,9 @@ def _light(random: Random, scene: Scene) -> Scene:
     camera = scene["camera"]
     size = camera["resolution"][0] * camera["size"][0]
     power = {"intensity": float(random.uniform(0.2, 1))} if random.random() < 0.8 else {}
-    kind = random.choice(["sun", "sphere", "rectangle", "sky", "ambient"])
+    kind = random.choice(["sun", "sphere", "rectangle", "sky", "colorful sky", "ambient"])
+    if kind == "colorful sky":
+        return colorful_sky(random)
     if kind == "sun":
         angle = random.choice([0.0, 1e-300, 1e-9, 0.53, 5.0, 60.0, 179.0, 180.0])
         way = random.choice([1.0, 1e-3, 1e9]) * _way(random)

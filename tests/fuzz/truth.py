@@ -82,6 +82,10 @@ def _fault_of_soft_lights(scene: Scene) -> str | None:
             other = _render(item, few, samples=samples, seed=SEED)
             if not np.array_equal(first.linear, other.linear):
                 return "soft lights: not the picture of few objects written out"
+    if any(item.get("type") == "sky" for item in scene["lights"]):
+        seen = _render(scene, ALL, background="sky").with_sky
+        if not np.isfinite(seen).all() or (seen < 0).any():
+            return "the sky is not finite, or below 0"
     image = _render(scene, ALL, seed=SEED)
     hits = np.argwhere(image.ids[..., 0] >= 0)
     pixels = [(int(column), int(row)) for row, column in hits[:: max(len(hits) // 3, 1)]]

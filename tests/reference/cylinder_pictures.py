@@ -1,6 +1,5 @@
 """Pictures with cylinders beside those of the oracle, as far as rounding allows."""
 
-import json
 from typing import Any
 
 import numpy as np
@@ -15,7 +14,7 @@ Scene = dict[str, Any]
 def load(document: Scene) -> vtray.Scene:
     """Return a scene; a cylinder may have a `color_end`, as only those of arrays have."""
     plain = [_without_ends(item) for item in document["objects"]]
-    scene = vtray.loads(json.dumps({**document, "objects": plain}))
+    scene = vtray.load_dict({**document, "objects": plain})
     pairs = zip(scene.objects, document["objects"], strict=True)
     scene.objects = [_with_ends(found, item) for found, item in pairs]
     return scene

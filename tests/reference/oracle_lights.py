@@ -14,6 +14,7 @@ import oracle
 import sample_places
 from oracle import ROUNDING, dot
 from oracle_rectangle import panel_of
+from oracle_sky import SkyOracle, is_colorful
 
 Array = np.ndarray
 Scene = dict[str, Any]
@@ -27,6 +28,8 @@ FAR = Long(2) ** 2000
 PI = 4 * np.arctan(Long(1))
 TURN = Long(2) ** -46
 """By how much rounding may turn a direction."""
+SKY_TURN = Long(1e-6)
+"""The same of one that is chosen by brightness: beside what is dark, a root makes much of it."""
 CHANGES = [(0, 0), (1, 1), (-1, -1), (1, -1), (-1, 1)]
 """How objects are larger, and rays askew, in units of what rounding may amount to."""
 
@@ -64,7 +67,7 @@ class Fan(NamedTuple):
     directions, lengths
         Unit vectors, and how long the rays are.
     weights
-        What they count where they arrive.
+        What they count where they arrive, (rays, 1), or (rays, 3) for red, green and blue.
     arrives
         Whether they do.
     doubt
@@ -86,20 +89,20 @@ class Fan(NamedTuple):
     middle: float | None
 
     @property
-    def share(self) -> float:
-        """What arrives of the light."""
+    def shares(self) -> Array:
+        """What arrives of the light, (1,) or (3,)."""
         if self.middle is not None and self.arrives.all():
-            return self.middle
-        return float(np.where(self.arrives, self.weights, 0).mean())
+            return np.array([self.middle])
+        return np.where(self.arrives[:, None], self.weights, 0).mean(axis=0)
 
     @property
-    def doubted_share(self) -> float:
+    def doubted_shares(self) -> Array:
         """What rays in doubt may make of it more, or less."""
-        doubted = float(np.where(self.doubt, np.maximum(self.weights, 0), 0).mean())
-        if self.middle is None or not doubted or not (self.arrives | self.doubt).all():
+        doubted = np.where(self.doubt[:, None], np.maximum(self.weights, 0), 0).mean(axis=0)
+        if self.middle is None or not doubted.any() or not (self.arrives | self.doubt).all():
             return doubted
         # With all rays, the share is that at the middle, and not the mean of so few.
-        return doubted + abs(self.middle - float(self.weights.mean()))
+        return doubted + np.abs(self.middle - self.weights.mean(axis=0))
 
 
 class _Rays(NamedTuple):
@@ -132,6 +135,11 @@ class SoftOracle:
         self.plain = oracle._Render(scene, np.float64)
         self.exact = oracle._Render(scene, Long)
         self.lights = [item for item in scene["lights"] if item.get("type", "point") != "point"]
+        camera = scene["camera"]
+        up = self.exact.vector(camera["up"]) if "up" in camera else -self.exact.down
+        self.skies = {
+            k: SkyOracle(one, up) for k, one in enumerate(self.lights) if is_colorful(one)
+        }
 
     def hit(self, column: int, row: int) -> Hit | None:
         """Return what the ray through the middle of a pixel meets."""
@@ -170,15 +178,20 @@ class SoftOracle:
             [sample_places.owen(numbers[k], np.uint64(keys[k])) for k in range(2)], axis=-1
         )
         with np.errstate(all="ignore"):
-            return self._fan(hit, self.lights[light], points)
+            return self._fan(hit, self.lights[light], points, self.skies.get(light))
 
-    def _fan(self, hit: Hit, light: Scene, points: Array) -> Fan:
+    def _fan(self, hit: Hit, light: Scene, points: Array, sky: SkyOracle | None) -> Fan:
         if light["type"] == "rectangle":
             return self._fan_to_rectangle(hit, light, points)
         point, normal = hit.point.astype(Long), hit.normal.astype(Long)
         aim = self._aim(hit, light)
         is_around = aim.spread is None
-        x, y = disc(points.astype(Long))
+        by_brightness = np.zeros(len(points), bool)
+        inner = points
+        if sky is not None and sky.is_by_brightness:
+            by_brightness = points[:, 0] < 0.5
+            inner = np.stack([np.mod(2 * points[:, 0], 1), points[:, 1]], axis=-1)
+        x, y = disc(inner.astype(Long))
         squared, turn = x * x + y * y, aim.turn
         if aim.spread is None:
             height, stretch = np.sqrt(np.maximum(1 - squared, 0)), Long(1)
@@ -190,16 +203,20 @@ class SoftOracle:
         one, other = frame(aim.axis)
         beside = (stretch * x)[:, None] * one + (stretch * y)[:, None] * other
         ways = beside + height[:, None] * aim.axis
+        if sky is not None and by_brightness.any():
+            ways[by_brightness] = sky.bright_ways(inner[by_brightness])
+            turn = np.where(by_brightness, SKY_TURN, turn)
         cosines, weights = dot(ways, normal), np.ones(len(points), Long)
         if aim.spread is not None:
             squarely = (1 - aim.spread / 2) if "radiance" not in light else 1 / (2 * aim.spread)
             weights = np.maximum(cosines, 0) / squarely
+        weights = weights[:, None] if sky is None else sky.weights(ways, normal)
         lengths, length_errors = self._lengths(hit, light, aim, ways, turn)
         rays = _Rays(point, hit.error, ways, lengths, hit.error + aim.error, turn)
         sure, maybe = self._stopped(rays)
-        faces = weights > 0
+        faces = (weights > 0).any(axis=1)
         arrives = faces & ~self._stopped(rays, CHANGES[:1])[1]
-        grazes = (np.abs(cosines) <= 2 * turn) & (not is_around)
+        grazes = (np.abs(cosines) <= 2 * turn) & (by_brightness | (not is_around))
         doubt = aim.is_doubtful | (faces & maybe & ~sure) | grazes
         turns = np.broadcast_to(turn, lengths.shape)
         middle = None
@@ -228,13 +245,13 @@ class SoftOracle:
         vague = min(Long(2) ** -60 / panel.solid_angle, 1) * max(panel.half) / panel.height
         turn = TURN * slope + 2 * vague + reach / (32 * panel.height)
         cosines = dot(ways, normal)
-        weights = share * np.maximum(cosines, 0)
+        weights = (share * np.maximum(cosines, 0))[:, None]
         steep = dot(ways, panel.toward)
         lengths = panel.height / steep
         length_errors = reach + lengths * turn / steep
         rays = _Rays(point, hit.error, ways, lengths, hit.error + error, turn)
         sure, maybe = self._stopped(rays)
-        faces = weights > 0
+        faces = weights[:, 0] > 0
         arrives = faces & ~self._stopped(rays, CHANGES[:1])[1]
         doubt = is_doubtful | (faces & maybe & ~sure) | (np.abs(cosines) <= 2 * turn)
         return Fan(points, ways, lengths, weights, arrives, doubt, turn, length_errors, None)

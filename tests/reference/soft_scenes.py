@@ -63,7 +63,7 @@ def soft_scene(seed: int, kind: str, by: float = 0.0, **camera: Any) -> Scene:
 
 def soft_light(random: Random, at: Any, centers: np.ndarray, radii: np.ndarray) -> Scene:
     """Return a light of any kind and size, often in an object or around the scene."""
-    kind = random.integers(9)
+    kind = random.integers(11)
     measure = "radiance" if kind > 2 and random.random() < 0.3 else "intensity"
     power = {measure: float(random.uniform(0.1, 1))}
     if kind == 0:
@@ -76,6 +76,8 @@ def soft_light(random: Random, at: Any, centers: np.ndarray, radii: np.ndarray) 
         }
     if kind == 1:
         return {"type": "sky", "radiance": float(random.uniform(0.1, 1))}
+    if kind > 8:
+        return colorful_sky(random)
     if kind == 2:
         distance = {"distance": float(random.choice([1e-9, 0.1, 1.0, 2.5, 100.0]))}
         return {"type": "ambient", **power, **(distance if random.random() < 0.8 else {})}
@@ -91,6 +93,26 @@ def soft_light(random: Random, at: Any, centers: np.ndarray, radii: np.ndarray) 
     size = float(random.choice([0.0, 1e-9, 0.1, 0.5, 1.5, 7.0, 50.0]))
     size = float(radii[which]) * 0.8 if kind == 3 and random.random() < 0.5 else size
     return {"type": "sphere", "location": xyz(*at(place)), "radius": size, **power}
+
+
+def colorful_sky(random: Random) -> Scene:
+    """Return a sky with a gradient, or with a picture, smooth or with bright spots."""
+    sky: Scene = {"type": "sky", "radiance": float(random.uniform(0.1, 1))}
+    if random.random() < 0.6:
+        sky["up"] = xyz(*random.normal(size=3).tolist())
+    if random.random() < 0.4:
+        names = ("zenith", "horizon", "ground")
+        given = [name for name in names if random.random() < 0.7]
+        values = random.integers(0, 256, (3, 3)).tolist()
+        colors = (dict(zip("rgb", value, strict=True)) for value in values)
+        return {**sky, "gradient": dict(zip(given, colors, strict=False))}
+    height, width = random.integers(1, 12, 2).tolist()
+    spread = float(random.choice([0.3, 1.0, 3.0]))
+    picture = random.lognormal(sigma=spread, size=(height, width, 3))
+    picture[random.random((height, width)) < random.choice([0.0, 0.5])] = 0.0
+    picture[0, 0] = 1.0
+    picture = picture.astype(np.float32).tolist()
+    return {**sky, "image": picture, "rotation": float(random.uniform(-400, 400))}
 
 
 def edges(random: Random) -> tuple[Scene, Scene]:

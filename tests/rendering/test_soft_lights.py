@@ -21,6 +21,11 @@ SIZE = (40, 30) if JIT else (12, 9)
 STEP = 5 if JIT else 2
 
 
+def spotted() -> np.ndarray:
+    """Return the picture of a sky with bright spots."""
+    return np.random.default_rng(8).lognormal(sigma=2, size=(16, 32, 3))
+
+
 def soft_lights() -> list[Any]:
     return [
         vtray.Ambient(0.4),
@@ -31,6 +36,8 @@ def soft_lights() -> list[Any]:
         vtray.RectangleLight((-1, 0.5, 2), ((0.4, 0, 0), (0, 0.3, 0)), radiance=2),
         vtray.SphereLight((2, 1, 3), 0.3, radiance=4),
         vtray.Sky(0.2, color=(160, 192, 255)),
+        vtray.Sky(0.3, (255, 200, 180), vtray.Gradient(), up=(0, 0.2, 1)),
+        vtray.Sky(0.1, image=spotted(), rotation=-70),
         vtray.Ambient(0.3, distance=0.7),
     ]
 
@@ -97,7 +104,7 @@ def test_threads_and_tiles_change_nothing(samples: int) -> None:
 def test_relit_and_recolored_pictures_are_those_rendered_anew(samples: int) -> None:
     options: dict[str, Any] = {"samples": samples, "keep_lights": True}
     image = render(scene_of("copies"), **options)
-    relit = image.relight([0.1, 0.9, 0.0, 2.0, 0.3, 5.0, 0.0, 0.5, 0.2])
+    relit = image.relight([0.1, 0.9, 0.0, 2.0, 0.3, 5.0, 0.0, 0.5, 0.7, 0.1, 0.2])
     np.testing.assert_array_equal(relit.linear, render(relit.scene, **options).linear)
     assert not np.array_equal(relit.linear, image.linear)
     colored = image.recolor(1, "purple")

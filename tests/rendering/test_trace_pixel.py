@@ -543,3 +543,29 @@ def test_image_plane_at_the_eye_gives_way_to_the_edges_of_the_view() -> None:
         assert "eye\nimage plane 1e-06 in front" in texts(ax)
         assert "image plane" not in texts(ax)
         assert not marks(ax, "s")
+
+
+def test_words_on_skies_of_many_colors() -> None:
+    world = lit_floor()
+    spots = np.random.default_rng(1).lognormal(sigma=2, size=(8, 16, 3))
+    world.lights = [
+        vtray.Sky(gradient=vtray.Gradient(), color=(255, 51, 255)),
+        vtray.Sky(0.5, image=spots),
+    ]
+    world.camera = world.camera.replace(size=(2, 4), resolution=(0.5, 0.5))
+    image = vtray.render(world, seed=1)
+    tree = vtray.trace_pixel(image, 1, 3)
+    text = str(tree)
+    for number, fan in enumerate(tree.lights):
+        assert isinstance(fan, ShadowFan)
+        assert fan.shares is not None
+        assert fan.share == pytest.approx(sum(fan.shares) / 3)
+        weights = [ray.weight for ray in fan.rays if ray.arrives]
+        assert fan.share == pytest.approx(sum(weights) / 64)
+        shares, adds = (
+            f"({', '.join(f'{part:.6g}' for part in parts)})" for parts in (fan.shares, fan.adds)
+        )
+        first = f"lights[{number}]    sky: {fan.arriving} of 64 rays arrive, {shares} of its light"
+        assert f"{first}\n  adds       {adds} = share {shares} x lambert 0.5 x radiance" in text
+    total = np.sum([fan.adds for fan in tree.lights], axis=0)
+    np.testing.assert_allclose(image.linear[3, 1], total, rtol=1e-12)

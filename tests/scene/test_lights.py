@@ -58,7 +58,7 @@ def test_what_may_be_left_out() -> None:
         (Sun, 3),
         (SphereLight, 4),
         (RectangleLight, 4),
-        (Sky, 2),
+        (Sky, 6),
         (Ambient, 3),
     ):
         parameters = inspect.signature(kind).parameters.values()
@@ -129,6 +129,16 @@ def test_what_may_be_left_out() -> None:
             "RectangleLight.radiance: expected either this or the intensity, not both, got 0",
         ),
         (lambda: Sky(-1), "Sky.radiance: expected a number ≥ 0, got -1"),
+        (lambda: Sky(gradient=(1, 2, 3)), "Sky.gradient: expected Gradient, got (1, 2, 3)"),  # type: ignore[arg-type]
+        (
+            lambda: Scene().add_sky(gradient={"zenit": "red"}),
+            "add_sky: gradient: expected a Gradient, or a dictionary of some of zenith, horizon, "
+            "ground, got {'zenit': 'red'}",
+        ),
+        (
+            lambda: Scene().add_sky(gradient={"zenith": "redd"}),
+            "add_sky: gradient: zenith: ",
+        ),
         (lambda: Sky(color="red"), "Sky.color: expected Color or three numbers, got 'red'"),  # type: ignore[arg-type]
         (lambda: Ambient(-1), "Ambient.intensity: expected a number ≥ 0, got -1"),
         (lambda: Ambient(distance=0), "Ambient.distance: expected a number > 0, got 0"),

@@ -13,7 +13,7 @@ from scene_text import TEXT, changed, message_of, read, replaced
 from strategies import colors, directions, places
 
 import vtray
-from vtray import Ambient, Color, Light, RectangleLight, Sky, SphereLight, Sun
+from vtray import Ambient, Color, Gradient, Light, RectangleLight, Sky, SphereLight, Sun
 from vtray.scene.checks.json_tree import JsonTree
 from vtray.scene.checks.scene_check import FileChecker
 from vtray.scene.files.in_file import SceneInFile
@@ -81,6 +81,12 @@ READ: list[tuple[dict[str, Any], AnyLight]] = [
     ),
     ({"type": "sky"}, Sky()),
     ({"type": "sky", "radiance": 0.5, "color": RED}, Sky(0.5, (255, 0, 0))),
+    ({"type": "sky", "gradient": {}}, Sky(gradient=Gradient())),
+    ({"type": "sky", "gradient": None, "up": None}, Sky()),
+    (
+        {"type": "sky", "gradient": {"zenith": RED}, "up": PLACE, "rotation": -30},
+        Sky(gradient=Gradient((255, 0, 0)), up=(1, 2, 3), rotation=-30),
+    ),
     ({"type": "ambient"}, Ambient(1, math.inf)),
     ({"type": "ambient", "intensity": 0, "distance": 7}, Ambient(0, 7)),
     ({"type": "ambient", "distance": 5e-324, "color": WHITE}, Ambient(distance=5e-324)),
@@ -171,6 +177,17 @@ BAD: list[tuple[object, str, str]] = [
     ),
     ({"type": "sky", "radiance": -1}, "radiance", "expected a number ≥ 0, got -1"),
     ({"type": "sky", "radiance": "1"}, "radiance", 'expected a number ≥ 0, got "1"'),
+    (
+        {"type": "sky", "gradient": RED["r"]},
+        "gradient",
+        "expected an object with the keys zenith, horizon and ground, got 255",
+    ),
+    (
+        {"type": "sky", "gradient": {"ground": {**RED, "b": 0.5}}},
+        "gradient.ground.b",
+        "expected an integer from 0 to 255, got 0.5",
+    ),
+    ({"type": "sky", "rotation": "left"}, "rotation", 'expected a finite number, got "left"'),
     ({"type": "ambient", "distance": 0}, "distance", "expected a number > 0, got 0"),
     ({"type": "ambient", "distance": None}, "distance", "expected a number > 0, got null"),
     ({"type": "ambient", "distance": "inf"}, "distance", 'expected a number > 0, got "inf"'),
@@ -227,6 +244,7 @@ def test_numbers_that_json_does_not_have() -> None:
         ({**BALL, "radience": 2}, "radience", "radiance"),
         ({**PANEL, "edge": 2}, "edge", "edges"),
         ({"type": "sky", "intensity": 2}, "intensity", "radiance"),
+        ({"type": "sky", "gradient": {"horison": RED}}, "gradient.horison", "horizon"),
         ({"type": "ambient", "distanse": 2}, "distanse", "distance"),
     ],
 )

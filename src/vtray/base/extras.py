@@ -11,6 +11,7 @@ PACKAGES = {
     "diff": ("flip-evaluator",),
     "figure": ("matplotlib",),
     "formats": ("OpenEXR", "tifffile"),
+    "sky": ("OpenImageIO",),
 }
 """What the extras install."""
 

@@ -97,8 +97,9 @@ def _check_picture(scene: "Scene", options: argparse.Namespace) -> None:
     """Raise an error if the output is a part of the scene, or cannot hold the picture."""
     from vtray.image.formats.image_format import check_format, find_format
     from vtray.scene.arrays import check_spares_data
+    from vtray.scene.light_types import images_of
 
-    check_spares_data(options.output, scene.objects)
+    check_spares_data(options.output, [*scene.objects, *images_of(scene.lights)])
     background = options.background or scene.render.background
     size = options.size or scene.render.size or scene.camera.size
     how = check_format(options.output, options.bits, options.aov or (), background, size)

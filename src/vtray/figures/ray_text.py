@@ -63,15 +63,16 @@ def _describe_light(way: WayToLight, hit: Hit) -> list[str]:
     name = f"lights[{way.light}]"
     if isinstance(way, ShadowFan):
         first = f"{name:12} {way.kind}: {way.arriving} of {len(way.rays)} rays arrive"
-        first += f", {way.share:.6g} of its light"
+        shown = f"{way.share:.6g}" if way.shares is None else _vector(way.shares)
+        first += f", {shown} of its light"
         factor, strength = "share", way.measure
-        amount = way.share
+        amount = shown
     else:
         first = f"{name:12} towards {_vector(way.direction)}, {way.distance:.10g} away"
-        factor, strength, amount = "cosine", "intensity", way.cosine
+        factor, strength, amount = "cosine", "intensity", f"{way.cosine:.6g}"
     if not way.arrives:
         return [first, f"  adds       nothing: {_obstacle(way)}"]
-    factors = f"{factor} {amount:.6g} x lambert {hit.surface.lambert:g}"
+    factors = f"{factor} {amount} x lambert {hit.surface.lambert:g}"
     factors += f" x {strength} {way.intensity:g} x color"
     if way.color != WHITE:
         factors += f" x {_vector([channel / 255 for channel in way.color])} of the light"
@@ -90,14 +91,17 @@ def _obstacle(way: WayToLight) -> str:
 
 def _describe_exposure(exposed: Exposed, tree: TracedRays) -> list[str]:
     """Return the lines on the value before and after exposure."""
-    lines = []
+    lines, share = [], f"{100 * exposed.background:.3g}"
     if exposed.light != tree.light:
         lines.append(f"samples      {_vector(exposed.light)}, the mean of all rays of the pixel")
+    if exposed.sky is not None:
+        lines.append(f"sky          {_vector(exposed.sky)}, seen in {share} % of the pixel")
     what = "the brightest channel of the picture" if exposed.brightest else "what becomes 255"
     white = f"{exposed.white:.10g}"
     formula = f"floor(255 x light / {white}), {white} is {what}"
     lines.append(f"exposure     {formula if exposed.white > 0.0 else 'the whole picture is black'}")
-    behind = f", {100 * exposed.background:.3g} % of it background" if exposed.background else ""
+    is_color = exposed.background and exposed.sky is None
+    behind = f", {share} % of it background" if is_color else ""
     lines.append(f"value        ({', '.join(map(str, exposed.value))}){behind}")
     return lines
 

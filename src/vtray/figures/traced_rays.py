@@ -141,7 +141,8 @@ class FanRay:
         How far away the light is that way, in scene units; ``inf`` if it is without end.
     weight
         What the ray counts if nothing stops it: 1 on average for a light that the surface faces
-        squarely, 0 for a ray that goes below the surface.
+        squarely, 0 for a ray that goes below the surface. Of a sky whose colour changes with the
+        direction, the mean of what it counts for red, green and blue.
     blocker
         A surface on its way, or None.
     """
@@ -176,13 +177,17 @@ class ShadowFan:
     rays
         The rays. With one sample a pixel, those of the picture.
     share
-        How much of the light arrives: the mean weight of its rays, 0 for those that do not.
+        How much of the light arrives: the mean weight of its rays, 0 for those that do not. Of a
+        sky whose colour changes with the direction, the mean over red, green and blue.
     adds
         The red, green and blue that the light adds to the pixel.
     color
         The red, green and blue of the light, from 0 to 255.
     measure
         What its strength is called: "intensity" or "radiance".
+    shares
+        How much arrives of red, green and blue of a sky whose colour changes with the direction;
+        None for other lights.
     """
 
     light: int
@@ -194,6 +199,7 @@ class ShadowFan:
     adds: Vec
     color: Vec
     measure: str
+    shares: Vec | None = None
 
     @property
     def arriving(self) -> int:
@@ -262,6 +268,8 @@ class Exposed:
         Whether that is the brightest channel of the picture.
     background
         The share of the pixel that shows the background, from 0 to 1; 0 if that is black.
+    sky
+        The red, green and blue that the sky adds where it is the background, else None.
     value
         The pixel's channels in the picture, from 0 to 255.
     """
@@ -270,6 +278,7 @@ class Exposed:
     white: float
     brightest: bool
     background: float
+    sky: Vec | None
     value: tuple[int, ...]
 
 

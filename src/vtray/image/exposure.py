@@ -13,7 +13,7 @@ from vtray.base.compiler.compiled import kernel
 from vtray.base.errors import RenderError
 from vtray.base.pool import run_tasks
 from vtray.base.tiles import TILE
-from vtray.scene.light_types import AnyLight, strength_of
+from vtray.scene.light_types import AnyLight, brightest
 from vtray.scene.settings import Background, Exposure
 from vtray.scene.vectors import Color
 
@@ -23,7 +23,7 @@ BRIGHTEST = sys.float_info.max / 2.0**17
 
 def check_brightness(lights: Sequence[AnyLight]) -> None:
     """Raise RenderError if the lights are so bright that a pixel could overflow."""
-    total = sum(map(strength_of, lights))
+    total = sum(map(brightest, lights))
     if total > BRIGHTEST:
         message = f"lights: the intensities add up to {total:g}, expected at most {BRIGHTEST:g}"
         raise RenderError(message)
@@ -46,7 +46,7 @@ def develop(
     white
         What becomes the maximum, as does what is more; if it is 0, the picture is black.
     background
-        What is seen where nothing is.
+        What is seen where nothing is; a sky belongs to the light.
     alpha
         Gives how much of each pixel is covered, (height, width); called only where it matters.
     threads
@@ -60,8 +60,9 @@ def develop(
         The pixels, uint8 or uint16, (height, width, 3), or with alpha, not premultiplied,
         (height, width, 4).
     """
+    is_light = background in ("black", "sky")
     if bits != 8:
-        cover = alpha() if background != "black" else np.ones(linear.shape[:2])
+        cover = np.ones(linear.shape[:2]) if is_light else alpha()
         exposed = put_on_background(linear, white, background, cover, 2**bits - 1)
         return exposed.astype(np.uint16)
     pixels = np.empty(linear.shape, np.uint8)
@@ -72,7 +73,7 @@ def develop(
         _expose(light.reshape(light.size), float(white), bytes_.reshape(bytes_.size))
 
     run_tasks(range(0, len(linear), TILE), lambda: develop_rows, threads)
-    if background == "black":
+    if is_light:
         return pixels
     return put_on_background(linear, white, background, alpha(), 255).astype(np.uint8)
 

@@ -45,6 +45,9 @@ class Rendered:
         How many threads to use at the most.
     original
         The scene with its camera as it was given, whatever size was asked for.
+    sky
+        Gives the light of the skies of a scene where its pixels are not covered; called where that
+        is the background.
     """
 
     def __init__(
@@ -67,6 +70,7 @@ class Rendered:
         original: Scene | None = None,
         locked: bool = False,
         partial: float | None = None,
+        sky: Callable[[Scene, Floats], Floats] | None = None,
     ) -> None:
         self.linear = linear
         self.white = white
@@ -86,6 +90,7 @@ class Rendered:
         self._original = original or scene
         self.locked = locked
         self.partial = partial
+        self._sky = sky
 
     def __repr__(self) -> str:
         height, width = self.linear.shape[:2]
@@ -108,7 +113,7 @@ class Rendered:
             return self._pixels
         background = self.settings.background
         pixels = develop(
-            self.linear, self.white, background, lambda: self.alpha, self._threads, bits
+            self.with_sky, self.white, background, lambda: self.alpha, self._threads, bits
         )
         if bits == 8:
             self._pixels = pixels
@@ -162,6 +167,14 @@ class Rendered:
         return (self.ids[..., 0] >= 0).astype(np.float64)
 
     @cached_property
+    def with_sky(self) -> Floats:
+        """Light before exposure with that of the sky, if it is the background, (h, w, 3)."""
+        if self._sky is None or self.settings.background != "sky":
+            return self.linear
+        behind = self._sky(self.scene, self.alpha)
+        return self.linear + (1.0 - self.alpha[..., None]) * behind
+
+    @cached_property
     def error(self) -> Floats:
         """The estimated standard error of `linear`, (height, width): that of the worst channel.
 
@@ -199,7 +212,7 @@ class Rendered:
     def _again(self, lock: object, **changes: object) -> Self:
         """Return a picture of the same view with other attributes, exposed anew."""
         other = copy.copy(self)
-        for name in ("scene_hash", "error"):
+        for name in ("scene_hash", "with_sky", "error"):
             vars(other).pop(name, None)
         vars(other).update(changes, _pixels=None, locked=lock is not None)
         other.white = white_of(other.settings.exposure, max(float(other.linear.max()), 0.0), lock)

@@ -8,11 +8,12 @@ from vtray.image.formats.image_format import check_format
 from vtray.image.formats.picture import Picture
 from vtray.image.provenance import describe
 from vtray.scene.arrays import check_spares_data
+from vtray.scene.light_types import images_of
 
 
 def save_picture(picture: Picture, path: Path, bits: int | None, aov: Collection[str]) -> None:
     """Write a picture to a file; see `vtray.Image.save`."""
-    check_spares_data(path, picture.scene.objects)
+    check_spares_data(path, [*picture.scene.objects, *images_of(picture.scene.lights)])
     size = picture.linear.shape[:2]
     how = check_format(path, bits, aov, picture.settings.background, size)
     write_picture(picture, path, how._replace(provenance=describe(picture, how).to_text()))

@@ -31,6 +31,8 @@ class Darkroom:
         The settings.
     look
         Gives what the middle rays meet.
+    sky
+        Gives the light of the skies of a scene where its pixels are not covered.
     lock
         A picture whose exposure is taken, or None.
     threads
@@ -41,6 +43,7 @@ class Darkroom:
     original: Scene
     settings: RenderSettings
     look: Callable[[], Surfaces]
+    sky: Callable[[Scene, Floats], Floats]
     lock: object
     threads: int
 
@@ -98,4 +101,5 @@ class Darkroom:
             original=self.original,
             locked=self.lock is not None,
             partial=partial,
+            sky=self.sky,
         )

@@ -16,6 +16,7 @@ from vtray.geometry.vector import Vec
 from vtray.geometry.world import NO_TREE, PLANE, Groups, Places, ToBoxes, World
 from vtray.rendering.acceleration import Acceleration, Shapes
 from vtray.rendering.pack_lights import pack_lights, points_of
+from vtray.rendering.pack_skies import up_of
 from vtray.rendering.placed import Placed
 from vtray.scene.light_types import Lamp, Light, RectangleLight, SphereLight
 from vtray.scene.placing.directions import camera_axes, view_axes
@@ -71,7 +72,7 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
     arrays = SceneArrays(
         camera,
         _pack_world(planes, kept, unit, (x, y, z)),
-        pack_lights(scene.lights, origin, unit, camera),
+        pack_lights(scene.lights, origin, unit, camera, up_of(scene.camera)),
         _pack_materials(kept, planes),
     )
     return Packed(arrays, unit, scene.camera.focus - start_distance(scene.camera))

@@ -9,12 +9,14 @@ from numpy.typing import NDArray
 from vtray.base.exact_math import sine
 from vtray.geometry.vector import Vec
 from vtray.rendering.pack_rectangles import join_rectangles, pack_rectangle
+from vtray.rendering.pack_skies import changes_color, pack_skies
 from vtray.scene.light_types import (
     Ambient,
     AnyLight,
     Lamp,
     Light,
     RectangleLight,
+    Sky,
     SphereLight,
     Sun,
     falls_off,
@@ -25,7 +27,7 @@ from vtray.scene.vectors import Vector
 from vtray.transport.camera_rays import CameraFrame
 from vtray.transport.lights.light import Lights
 from vtray.transport.lights.rectangle import SIZE as RECTANGLE_SIZE
-from vtray.transport.lights.soft_light import AROUND, RECTANGLE, SPHERE, SUN, SoftLights
+from vtray.transport.lights.soft_light import AROUND, NO_SKY, RECTANGLE, SPHERE, SUN, SoftLights
 from vtray.transport.lights.visible import SIZE as LAMP_SIZE
 from vtray.transport.lights.visible import VisibleLamps
 
@@ -36,7 +38,7 @@ FAR = 2.0**221
 
 
 def pack_lights(
-    lights: Sequence[AnyLight], origin: Floats, unit: float, camera: CameraFrame
+    lights: Sequence[AnyLight], origin: Floats, unit: float, camera: CameraFrame, up: Vec
 ) -> Lights:
     """Return the arrays of all lights.
 
@@ -50,14 +52,16 @@ def pack_lights(
         The length in scene units of length 1 in the arrays.
     camera
         The camera.
+    up
+        What is up for skies that do not say it, a unit vector in world space.
     """
     hard = [light for light in lights if isinstance(light, Light)]
     soft = [light for light in lights if not isinstance(light, Light)]
     points = points_of([light.location for light in hard], unit) - origin
     x, y, z = _columns(points)
     ordered = *hard, *soft
-    colors = [(light.color.r, light.color.g, light.color.b) for light in ordered]
-    packed = _pack_soft(soft, origin, unit) if soft else None
+    parts = [part for light in ordered for part in _components_of(light)]
+    packed = _pack_soft(soft, len(hard), origin, unit, up) if soft else None
     return Lights(
         x,
         y,
@@ -66,14 +70,28 @@ def pack_lights(
         error_scale=_magnitude(x, y, z) + _magnitude(*origin),
         points=len(hard) if hard or not soft else None,
         soft=packed,
-        visible=_pack_visible(soft, packed, len(hard)) if packed else None,
-        intensity=np.array(list(map(strength_of, ordered)), float),
-        color=np.array(colors, float).reshape(-1, 3) / 255.0,
+        visible=_pack_visible(soft, packed) if packed else None,
+        intensity=np.array([intensity for intensity, _ in parts], float),
+        color=np.array([color for _, color in parts], float).reshape(-1, 3) / 255.0,
     )
 
 
-def _pack_soft(lights: Sequence[AnyLight], origin: Floats, unit: float) -> SoftLights:
-    """Return the arrays of the lights that are no points."""
+def _components_of(light: AnyLight) -> list[tuple[float, Vec]]:
+    """Return the strengths and colours, 255 for white, of the components of a light."""
+    color, strength = (
+        (float(light.color.r), float(light.color.g), float(light.color.b)),
+        strength_of(light),
+    )
+    if not changes_color(light):
+        return [(strength, color)]
+    parts = (color[0], 0.0, 0.0), (0.0, color[1], 0.0), (0.0, 0.0, color[2])
+    return [(strength, part) for part in parts]
+
+
+def _pack_soft(
+    lights: Sequence[AnyLight], first: int, origin: Floats, unit: float, up: Vec
+) -> SoftLights:
+    """Return the arrays of the lights that are no points; `first` is the row of the first."""
     x, y, z, size, error_scale = np.zeros((5, len(lights)))
     kind = np.zeros(len(lights), np.int64)
     rectangles = {
@@ -100,6 +118,9 @@ def _pack_soft(lights: Sequence[AnyLight], origin: Floats, unit: float) -> SoftL
             distance = light.distance if isinstance(light, Ambient) else math.inf
             kind[k], size[k] = AROUND, min(distance / unit, FAR)
         x[k], y[k], z[k] = place
+    skies = [light for light in lights if isinstance(light, Sky) and changes_color(light)]
+    changes = np.array([changes_color(light) for light in lights])
+    counts = np.where(changes, 3, 1)
     return SoftLights(
         kind,
         x,
@@ -108,12 +129,15 @@ def _pack_soft(lights: Sequence[AnyLight], origin: Floats, unit: float) -> SoftL
         size,
         error_scale,
         np.array(list(map(falls_off, lights))),
+        np.where(changes, np.cumsum(changes) - 1, NO_SKY),
+        first + np.cumsum(counts) - counts,
         FAR,
         join_rectangles(len(lights), rectangles),
+        pack_skies(skies, up),
     )
 
 
-def _pack_visible(lights: Sequence[AnyLight], soft: SoftLights, points: int) -> VisibleLamps | None:
+def _pack_visible(lights: Sequence[AnyLight], soft: SoftLights) -> VisibleLamps | None:
     """Return the lamps among the soft lights that the camera sees, if there are any."""
     seen = [k for k, light in enumerate(lights) if isinstance(light, Lamp) and light.visible]
     if not seen:
@@ -124,7 +148,7 @@ def _pack_visible(lights: Sequence[AnyLight], soft: SoftLights, points: int) -> 
         row[3] = soft.size[k]
         if soft.rectangles is not None:
             row[4:] = soft.rectangles.data[RECTANGLE_SIZE * k : RECTANGLE_SIZE * (k + 1)]
-    return VisibleLamps(np.array(seen) + points, data.reshape(-1), soft.error_scale[seen])
+    return VisibleLamps(soft.row[seen], data.reshape(-1), soft.error_scale[seen])
 
 
 def points_of(places: list[Vector], unit: float) -> Floats:

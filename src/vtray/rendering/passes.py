@@ -189,11 +189,14 @@ class Tracer:
 
     def _keep(self, marks: NDArray[np.bool_], samples: int) -> KeptLight:
         """Return where to keep what the samples of the marked pixels meet."""
-        count, lights = int(np.count_nonzero(marks)) * samples, len(self._scene.lights.intensity)
-        check_memory_of_lights(count, lights)
+        count, components = (
+            int(np.count_nonzero(marks)) * samples,
+            len(self._scene.lights.intensity),
+        )
+        check_memory_of_lights(count, components)
         first = np.cumsum(marks, dtype=np.int64).reshape(marks.shape)
         first = np.where(marks, (first - 1) * samples, -1)
-        return new_kept_light(first, count, lights)
+        return new_kept_light(first, count, components)
 
     def _trace(self, sampling: Sampling, film: Film) -> Traced:
         """Cast rays, and write to a film."""

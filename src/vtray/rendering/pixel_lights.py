@@ -29,6 +29,7 @@ from vtray.scene.light_types import (
 from vtray.scene.placing.directions import unit
 from vtray.scene.scene import Scene
 from vtray.transport.integrators.reference import TracedPixel, trace_fan, trace_lamp
+from vtray.transport.lights.soft_light import component_count
 from vtray.transport.sampling.fans import Noise, fans_of_middles
 
 
@@ -92,24 +93,25 @@ def trace_fans(
     ways: list[WayToLight] = []
     if noise is None:
         return ways, traced.value
-    arrays = packed.arrays
-    if arrays.lights.soft is None:
+    arrays, soft = packed.arrays, packed.arrays.lights.soft
+    if soft is None:
         return ways, traced.value
     fans, spent = fans_of_middles(noise), 0.0
     fan, stack, blockers = new_fan(), new_stack(), np.full(fans.rays, NOTHING)
     start, length = traced.interaction.point, packed.unit
     for k, light in enumerate(lit.scene.lights):
         if not isinstance(light, Light):
-            known = arrays, arrays.lights.soft, traced, *pixel, len(ways), fans
+            known = arrays, soft, traced, *pixel, len(ways), fans
             lamp = trace_lamp(*known, spent, seed, stack, fan, blockers)
+            components = uncompiled(component_count)(soft, len(ways))
             rays: list[FanRay] = []
             for number in range(lamp.fans):
                 trace_fan(*known, number, seed, stack, fan, blockers)
                 rays += [
-                    _fan_ray(lit, light, _Ray(fan, ray, start, length), int(blocker))
+                    _fan_ray(lit, light, _Ray(fan, ray, start, length, components), int(blocker))
                     for ray, blocker in enumerate(blockers)
                 ]
-            ways.append(_shadow_fan(lit, k, light, tuple(rays), lamp.share))
+            ways.append(_shadow_fan(lit, k, light, tuple(rays), lamp.shares[:components]))
             traced = traced._replace(value=lamp.value)
             spent += lamp.counted
     return ways, traced.value
@@ -124,30 +126,51 @@ def _shadow_ray(lit: Lit, number: int, light: Light, cosine: float, primitive: i
         way = (way[0] / distance, way[1] / distance, way[2] / distance)
     is_free = primitive == NOTHING
     blocker = None if is_free else find_blocker(lit.scene, lit.numbering, primitive, point, way)
-    adds = _added(lit.hit, light, cosine if is_free else 0.0)
+    arriving = cosine if is_free else 0.0
+    adds = _added(lit.hit, light, (arriving, arriving, arriving))
     color = rgb(light.color)
     return ShadowRay(number, place, light.intensity, way, distance, cosine, blocker, adds, color)
 
 
 def _shadow_fan(
-    lit: Lit, number: int, light: AnyLight, rays: tuple[FanRay, ...], share: float
+    lit: Lit, number: int, light: AnyLight, rays: tuple[FanRay, ...], shares: tuple[float, ...]
 ) -> ShadowFan:
     """Return the rays from a hit to a light that is no point."""
     kind = str(type(light).__struct_config__.tag)
-    adds, color = _added(lit.hit, light, share), rgb(light.color)
+    share, color = sum(shares) / len(shares), rgb(light.color)
     middle = _middle(lit.hit, light)
-    return ShadowFan(
-        number, kind, strength_of(light), middle, rays, share, adds, color, measure_of(light)
-    )
+    red, green, blue = shares if len(shares) == 3 else 3 * shares
+    adds = _added(lit.hit, light, (red, green, blue))
+    several = None if len(shares) == 1 else (red, green, blue)
+    strength, measure = strength_of(light), measure_of(light)
+    return ShadowFan(number, kind, strength, middle, rays, share, adds, color, measure, several)
 
 
 class _Ray(NamedTuple):
-    """A ray of a fan in the kernels' space, its start, and the length of a unit there."""
+    """A ray of a fan in the kernels' space.
+
+    Attributes
+    ----------
+    fan, ray
+        The ray.
+    start
+        Where it starts.
+    unit
+        The length of a unit there in scene units.
+    components
+        How many weights it has.
+    """
 
     fan: Fan
     ray: int
     start: Vec
     unit: float
+    components: int
+
+    def weight(self) -> float:
+        """Return what the ray counts, the mean of its weights."""
+        begin, end = WEIGHT + self.ray, WEIGHT + self.components * FAN
+        return float(sum(self.fan[begin:end:FAN])) / self.components
 
     def vector(self, field: int) -> Vec:
         """Return a field that is a vector."""
@@ -166,7 +189,7 @@ def _fan_ray(lit: Lit, light: AnyLight, ray: _Ray, primitive: int) -> FanRay:
     blocker = None
     if primitive != NOTHING:
         blocker = find_blocker(lit.scene, lit.numbering, primitive, lit.hit.point, direction)
-    return FanRay(direction, length, float(ray.fan[WEIGHT + ray.ray]), blocker)
+    return FanRay(direction, length, ray.weight(), blocker)
 
 
 def _middle(hit: Hit, light: AnyLight) -> Vec:
@@ -182,14 +205,14 @@ def _middle(hit: Hit, light: AnyLight) -> Vec:
     return hit.normal
 
 
-def _added(hit: Hit, light: AnyLight, share: float) -> Vec:
-    """Return what a light adds to a pixel, of which a share arrives."""
+def _added(hit: Hit, light: AnyLight, shares: Vec) -> Vec:
+    """Return what a light adds to a pixel, of whose red, green and blue so much arrives."""
     # In the order of the kernels, so that the sum has the same bits.
-    strength = share * hit.surface.lambert * strength_of(light)
+    strengths = [share * hit.surface.lambert * strength_of(light) for share in shares]
     red, green, blue = hit.surface.color
     tint = rgb(light.color)
     return (
-        strength * red * (tint[0] / 255),
-        strength * green * (tint[1] / 255),
-        strength * blue * (tint[2] / 255),
+        strengths[0] * red * (tint[0] / 255),
+        strengths[1] * green * (tint[1] / 255),
+        strengths[2] * blue * (tint[2] / 255),
     )

@@ -113,7 +113,7 @@ def trace_rays(
         light,
         _view(scene, packed),
         None if image is None else _exposed(image, column, row),
-        None if traced.lamp == NOTHING else _place_of(scene, int(traced.lamp)),
+        None if traced.lamp == NOTHING else _place_of(scene, packed, traced.lamp),
         scene,
     )
 
@@ -124,10 +124,11 @@ def _noise(packed: Packed, settings: RenderSettings) -> Noise | None:
     return tracer.noise(settings, known_white(settings.exposure), keep=False)
 
 
-def _place_of(scene: Scene, light: int) -> int:
-    """Return the place in `scene.lights` of a light, given its number among the arrays."""
-    places = range(len(scene.lights))
-    return sorted(places, key=lambda place: not isinstance(scene.lights[place], Light))[light]
+def _place_of(scene: Scene, packed: Packed, row: int) -> int:
+    """Return the place in `scene.lights` of a lamp, given the row of its strength in the arrays."""
+    places = [k for k, light in enumerate(scene.lights) if not isinstance(light, Light)]
+    assert packed.arrays.lights.soft is not None  # noqa: S101 - a lamp is seen
+    return places[int(np.searchsorted(packed.arrays.lights.soft.row, row))]
 
 
 def _view(scene: Scene, packed: Packed) -> View:
@@ -141,12 +142,17 @@ def _view(scene: Scene, packed: Packed) -> View:
 def _exposed(image: "Image", column: int, row: int) -> Exposed:
     """Return what a picture made of the light of a pixel."""
     red, green, blue = map(float, image.linear[row, column])
+    sky = None
+    if image.settings.background == "sky":
+        x, y, z = map(float, image.with_sky[row, column] - image.linear[row, column])
+        sky = x, y, z
     white = float(image.white)
     return Exposed(
         light=(red, green, blue),
         white=white,
         brightest=white == float(image.linear.max()),
         background=0.0 if image.settings.background == "black" else 1 - image.alpha[row, column],
+        sky=sky,
         value=tuple(int(channel) for channel in image.pixels[row, column]),
     )
 

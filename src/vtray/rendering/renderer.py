@@ -28,6 +28,7 @@ from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
 from vtray.rendering.passes import Tracer, compile_kernels
 from vtray.rendering.relighting import Relighting
+from vtray.rendering.seen_sky import SeenSky, check_sky
 from vtray.rendering.surfaces import Look
 from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.default_light import lights_of, settings_of
@@ -103,8 +104,8 @@ def render(
         it, so that for 1 a surface that a light of intensity 1 shines on squarely gets its colour.
         1 is also the default of scenes whose lights were never set.
     background
-        What is seen where nothing is: ``"black"``, the default, ``"transparent"``, or a colour in
-        any of the ways of `vtray.colors.to_rgb`.
+        What is seen where nothing is: ``"black"``, the default, ``"transparent"``, ``"sky"`` for
+        the skies among the lights, or a colour in any of the ways of `vtray.colors.to_rgb`.
     denoise
         Whether the grain of soft light is taken out by Open Image Denoise, once all is traced. The
         picture is then no longer the same on every machine; `Image.raw` is.
@@ -140,7 +141,7 @@ def render(
         The scene or a setting holds something that none may hold.
     RenderError
         The image does not fit into memory, its light is too bright for a double, `lock` is no
-        picture, or `exposure` is given too.
+        picture, or `exposure` is given too; or the background is the sky, and there is none.
     ValueError
         `threads` or `tile` is not an integer of at least 1, or `update_seconds` no number ≥ 0.
     ExtraError
@@ -164,6 +165,7 @@ def render(
         (warn or _warn)(problem)
     _check_memory(shown.camera, settings, is_shown=on_update is not None)
     check_brightness(shown.lights)
+    check_sky(shown.lights, settings)
     clock = Stopwatch()
     loaded = loading_seconds()
     kept = accelerate(scene, threads, _step_of(progress, "build"))
@@ -173,10 +175,13 @@ def render(
     clock.lap("pack")
     compile_kernels(packed.arrays, settings, keep=keep_lights)
     warm_up()
+    sky = SeenSky(packed.arrays.camera, settings, threads)
+    sky.warm_up(shown)
     clock.lap("compile")
     look = Look(shown, packed, threads)
-    original = _snapshot(scene, lights, scene.camera)
-    darkroom = Darkroom(shown, original, settings, look, lock, threads)
+    darkroom = Darkroom(
+        shown, _snapshot(scene, lights, scene.camera), settings, look, sky, lock, threads
+    )
     growth = _growth(darkroom, on_update, update_seconds)
     tracer = Tracer(packed.arrays, threads, tile, _step_of(progress, "trace"), growth)
     white = known_white(settings.exposure, lock)

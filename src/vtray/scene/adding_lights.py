@@ -1,6 +1,7 @@
 """Adds lights to a scene, with arguments in the ways that people write them."""
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, overload
 
 from vtray.base.errors import SceneError
@@ -18,9 +19,12 @@ from vtray.scene.light_types import (
     SphereLight,
     Sun,
 )
+from vtray.scene.sky_image import SkyImage, sky_image
+from vtray.scene.sky_types import Gradient
 from vtray.scene.vectors import Color, Direction, Vector
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
@@ -193,7 +197,15 @@ class AddingLights:
         return self._added(RectangleLight(place, edges, intensity, rgb, radiance, visible))
 
     @explain_unknown
-    def add_sky(self, radiance: float = 1.0, color: "AnyColor" = "white") -> Sky:
+    def add_sky(
+        self,
+        radiance: float = 1.0,
+        color: "AnyColor" = "white",
+        gradient: "Gradient | Mapping[str, AnyColor] | None" = None,
+        image: "SkyImage | NDArray[Any] | str | os.PathLike[str] | None" = None,
+        up: "Direction | Vector | Triple | None" = None,
+        rotation: float = 0.0,
+    ) -> Sky:
         """Add light from all directions.
 
         Parameters
@@ -201,14 +213,31 @@ class AddingLights:
         radiance
             Strength, ≥ 0: a white surface that sees nothing but a sky of radiance 1 shows 1.
         color
-            Colour of the light, in any of the ways of `vtray.colors.to_rgb`.
+            Colour of the light, in any of the ways of `vtray.colors.to_rgb`; that of a gradient
+            or a picture is multiplied by it.
+        gradient
+            Colours by the height above the horizon: a `Gradient`, or a dictionary of some of
+            ``"zenith"``, ``"horizon"`` and ``"ground"`` in any of the ways to write a colour.
+        image
+            A picture of the light from all directions, as a map of the globe: an array (height,
+            width, 3) of floats, 1 for the radiance of the sky, or the path of an .exr, .hdr, .png,
+            .jpg, .npy or .npz file. Not beside a gradient.
+        up
+            What is up in the world; None for the camera's `up`, or where it has none, up in the
+            picture.
+        rotation
+            By how many degrees the sky is turned around `up`, counterclockwise as seen from above.
 
         Raises
         ------
         SceneError
             If an argument is not right.
         """
-        return self._added(Sky(radiance, _color("add_sky", color)))
+        way = None if up is None else argument("add_sky", "up", up, Direction)
+        picture = None if image is None else sky_image(image, "add_sky: image")
+        colors = _gradient(gradient)
+        rgb = _color("add_sky", color)
+        return self._added(Sky(radiance, rgb, colors, picture, way, rotation))
 
     @explain_unknown
     def add_ambient(
@@ -238,6 +267,20 @@ class AddingLights:
         return light
 
 
-def _color(call: str, color: "AnyColor") -> Color:
+def _color(call: str, color: "AnyColor", name: str = "color") -> Color:
     """Return a colour, or raise SceneError naming the call."""
-    return Color(*to_rgb(color, f"{call}: color"))
+    return Color(*to_rgb(color, f"{call}: {name}"))
+
+
+def _gradient(given: "Gradient | Mapping[str, AnyColor] | None") -> Gradient | None:
+    """Return a gradient, or raise SceneError naming the call."""
+    if given is None or isinstance(given, Gradient):
+        return given
+    from vtray.scene.checks.scene_words import show
+
+    known = Gradient.__struct_fields__
+    if isinstance(given, Mapping) and all(name in known for name in given):
+        colors = {name: _color("add_sky", given[name], f"gradient: {name}") for name in given}
+        return Gradient(**colors)
+    words = f"a Gradient, or a dictionary of some of {', '.join(known)}"
+    raise SceneError(f"add_sky: gradient: expected {words}, got {show(given)}")

@@ -15,6 +15,7 @@ from vtray.base.pool import run_tasks
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.copies import Copies
 from vtray.scene.scene import Scene
+from vtray.scene.sky_image import SkyImage
 from vtray.scene.written_lights import as_written
 
 PIECE = 1 << 20
@@ -75,7 +76,11 @@ def scene_hash(scene: Scene, threads: int = THREADS) -> str:
     threads
         How many threads look at its arrays.
     """
-    lights = [as_written(light) for light in scene.lights]
+
+    def hash_image(image: SkyImage) -> str:
+        return hash_arrays(image.arrays(), threads).hex()
+
+    lights = [as_written(light, hash_image) for light in scene.lights]
     parts = [scene.camera, lights, *_parts_of(scene.objects, threads)]
     return blake3(msgspec.json.encode(parts)).hexdigest(DIGITS // 2)
 

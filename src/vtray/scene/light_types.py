@@ -14,13 +14,16 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias, TypeVar
 import msgspec
 from msgspec import Meta
 
-from vtray.scene.checks.checked import Frozen
-from vtray.scene.checks.limits import AngularSize, FieldError, NonNegative, Reach, YesOrNo
+from vtray.scene.checks.checked import Checked, Frozen, bind
+from vtray.scene.checks.limits import AngularSize, FieldError, NonNegative, Reach, Real, YesOrNo
 from vtray.scene.placing.directions import are_square, unit
+from vtray.scene.sky_image import SkyImage, sky_image
+from vtray.scene.sky_types import Gradient, check_one_of
 from vtray.scene.vectors import Color, Direction, Vector
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    import os
+    from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -205,8 +208,19 @@ class RectangleLight(Frozen, frozen=True, gc=False, tag_field="type", tag="recta
             raise FieldError("edges", "two vectors at right angles to each other")
 
 
-class Sky(Frozen, frozen=True, gc=False, tag_field="type", tag="sky"):
-    """Light from all directions, of one colour.
+class _CheckedSky(Checked):
+    """Makes construction in code take a picture in all ways that `Sky` says."""
+
+    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
+        """Bind the arguments, check and convert them, and make the object."""
+        values = bind(cls, args, kwargs)
+        if values.get("image") is not None:
+            values["image"] = sky_image(values["image"], f"{cls.__name__}.image")
+        return super().__call__(**values)
+
+
+class Sky(Frozen, metaclass=_CheckedSky, frozen=True, gc=False, tag_field="type", tag="sky"):
+    """Light from all directions: of one colour, or of colours that change with the direction.
 
     Attributes
     ----------
@@ -214,11 +228,31 @@ class Sky(Frozen, frozen=True, gc=False, tag_field="type", tag="sky"):
         Strength, ≥ 0, 1 by default: a white, fully scattering surface that sees nothing but a sky
         of radiance 1 shows 1.
     color : Color, optional
-        Colour of the light, as for Light.
+        Colour of the light, as for Light; that of a gradient or a picture is multiplied
+        by it.
+    gradient : Gradient, optional
+        Colours by the height above the horizon.
+    image : SkyImage, optional
+        A picture of the light from all directions, as a map of the globe; not beside a gradient. In
+        code, it may be given as an array (height, width, 3) of floats, 1 for the radiance of the
+        sky, or as the path of a file.
+    up : Direction, optional
+        What is up in the world; by default the camera's `up`, or where it has none, up in the
+        picture.
+    rotation : float, optional
+        By how many degrees the sky is turned around `up`, counterclockwise as seen from above.
     """
 
     radiance: NonNegative = 1.0
     color: Color = WHITE
+    gradient: Gradient | None = None
+    image: SkyImage | None = None
+    up: Direction | None = None
+    rotation: Real = 0.0
+
+    def __post_init__(self) -> None:
+        """Refuse two answers to what the colours are."""
+        check_one_of(self.gradient, self.image)
 
     @property
     def intensity(self) -> float:
@@ -227,7 +261,15 @@ class Sky(Frozen, frozen=True, gc=False, tag_field="type", tag="sky"):
 
     if TYPE_CHECKING:
 
-        def __init__(self, radiance: float = 1.0, color: "Color | Triple" = ...) -> None: ...
+        def __init__(
+            self,
+            radiance: float = 1.0,
+            color: "Color | Triple" = ...,
+            gradient: Gradient | None = None,
+            image: "SkyImage | NDArray[Any] | str | os.PathLike[str] | None" = None,
+            up: "Direction | Vector | Triple | None" = None,
+            rotation: float = 0.0,
+        ) -> None: ...
 
 
 class Ambient(Frozen, frozen=True, gc=False, tag_field="type", tag="ambient"):
@@ -271,6 +313,11 @@ class NeverSet(list[AnyLight]):
     """The lights of a new scene: none yet, which is not the same as none on purpose."""
 
 
+def images_of(lights: "Iterable[AnyLight]") -> list[SkyImage]:
+    """Return the pictures of skies."""
+    return [light.image for light in lights if isinstance(light, Sky) and light.image is not None]
+
+
 def _settle_strength(light: "Lamp") -> None:
     """Give a lamp the intensity 1 if it has no strength, and refuse two."""
     if light.radiance is None and light.intensity is None:
@@ -285,6 +332,12 @@ def strength_of(light: AnyLight) -> float:
         return light.radiance
     assert light.intensity is not None  # noqa: S101 - one of the two is given
     return light.intensity
+
+
+def brightest(light: AnyLight) -> float:
+    """Return the strength of a light, of a picture that of its brightest channel."""
+    image = light.image if isinstance(light, Sky) else None
+    return strength_of(light) * (max(image.peak, 1.0) if image else 1.0)
 
 
 def falls_off(light: AnyLight) -> bool:

@@ -31,6 +31,7 @@ from vtray.scene.light_types import (
 )
 from vtray.scene.objects import Cylinder, Object, Plane, Sphere
 from vtray.scene.settings import RenderSettings
+from vtray.scene.sky_types import Gradient
 from vtray.scene.spheres import Spheres
 from vtray.scene.vectors import Color, Direction, Vector
 
@@ -43,6 +44,7 @@ __all__ = [
     "Cylinder",
     "Cylinders",
     "Direction",
+    "Gradient",
     "Light",
     "Object",
     "Plane",

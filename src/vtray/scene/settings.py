@@ -38,7 +38,7 @@ Seed = Annotated[
 ]
 FilterName = Literal["box", "tent", "gaussian", "mitchell", "blackman-harris"]
 Exposure = Literal["max"] | Positive
-Background = Literal["black", "transparent"] | Color
+Background = Literal["black", "transparent", "sky"] | Color
 
 FILTERS: tuple[str, ...] = get_args(FilterName)
 """The names of the reconstruction filters."""
@@ -90,8 +90,8 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
         Background,
         Option(
             "COLOR",
-            'what is seen where nothing is: black, transparent, "orange", "#e0e8ff", ...',
-            'black, transparent, a name such as "orange", or digits such as "#e0e8ff"',
+            'what is seen where nothing is: black, transparent, sky, "orange", "#e0e8ff", ...',
+            'black, transparent, sky, a name such as "orange", or digits such as "#e0e8ff"',
             MappingProxyType({"--alpha": "transparent"}),
         ),
     ] = "black"
@@ -136,7 +136,7 @@ class _CheckedSettings(Checked):
         """Bind the arguments, check and convert them, and make the object."""
         values = bind(cls, args, kwargs)
         background: Any = values.get("background")
-        is_kept = isinstance(background, str) and background in ("black", "transparent")
+        is_kept = isinstance(background, str) and background in get_args(get_args(Background)[0])
         if background is not None and not is_kept:
             values["background"] = Color(*to_rgb(background, f"{cls.__name__}.background"))
         return super().__call__(**values)
@@ -163,9 +163,9 @@ class RenderSettings(
     exposure : "max" or float
         "max": the brightest channel of the picture becomes 255. A number: light is multiplied by
         it, so that for 1 a surface that a light of intensity 1 shines on squarely gets its color.
-    background : "black", "transparent" or Color
-        What is seen where there is nothing. Code may write a colour in all ways of
-        `vtray.colors.to_rgb`.
+    background : "black", "transparent", "sky" or Color
+        What is seen where there is nothing; "sky" shows the skies among the lights. Code may write
+        a colour in all ways of `vtray.colors.to_rgb`.
     denoise : bool
         Whether the grain of soft light is taken out by Open Image Denoise.
     """

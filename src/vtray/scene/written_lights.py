@@ -1,18 +1,27 @@
 """What a scene file, a dictionary and the hash of a scene say of lights: no more than is needed."""
 
+from collections.abc import Callable
 from functools import cache
 from typing import Any
 
 import msgspec
 
 from vtray.scene.light_types import WHITE, AnyLight, Light
+from vtray.scene.sky_image import SkyImage
 
 
-def as_written(light: AnyLight) -> dict[str, Any]:
+def as_written(light: AnyLight, write_image: Callable[[SkyImage], object]) -> dict[str, Any]:
     """Return the keys of a light: neither those with their default, nor the type of a point.
 
     So the files and the hashes of scenes with nothing but white points are those of the versions
     that knew no other lights.
+
+    Parameters
+    ----------
+    light
+        The light.
+    write_image
+        Gives what stands for the picture of a sky.
     """
     kind = type(light)
     if (
@@ -21,10 +30,13 @@ def as_written(light: AnyLight) -> dict[str, Any]:
         return {"location": light.location, "intensity": light.intensity}
     tag = {} if kind is Light else {"type": kind.__struct_config__.tag}
     values = ((name, getattr(light, name), default) for name, default in _defaults(kind))
-    return {
+    written = {
         **tag,
         **{name: value for name, value, default in values if value not in (default, None)},
     }
+    if isinstance(written.get("image"), SkyImage):
+        written["image"] = write_image(written["image"])
+    return written
 
 
 @cache

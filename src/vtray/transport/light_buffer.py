@@ -1,8 +1,8 @@
 """What is kept of every ray so that lights and colours can be changed without tracing again.
 
-For each ray, that is what it hit, and for each light the cosine with which it arrives there, 0
-where it does not. From these the light of the picture is added up anew, by the same operations in
-the same order as in tracing, so that not a bit differs.
+For each ray, that is what it hit, and for each component of a light the cosine with which it
+arrives there, 0 where it does not. From these the light of the picture is added up anew, by the
+same operations in the same order as in tracing, so that not a bit differs.
 """
 
 from typing import NamedTuple
@@ -42,7 +42,7 @@ class KeptLight(NamedTuple):
     weight
         What each ray counts for its pixel, 1 or -1, (places,).
     cosines
-        The cosine for each light, (lights, places).
+        The cosine for each component of a light, (components, places).
     """
 
     first: NDArray[np.int64]
@@ -52,14 +52,14 @@ class KeptLight(NamedTuple):
     cosines: NDArray[np.float64]
 
 
-def new_kept_light(first: NDArray[np.int64], places: int, lights: int) -> KeptLight:
+def new_kept_light(first: NDArray[np.int64], places: int, components: int) -> KeptLight:
     """Return what will be kept of a pass with so many rays."""
     return KeptLight(
         first,
         np.empty(places, np.int32),
         np.empty(places, np.int8),
         np.empty(places, np.int8),
-        np.zeros((lights, places)),
+        np.zeros((components, places)),
     )
 
 
@@ -131,7 +131,7 @@ def _light_of_ray(scene: SceneArrays, kept: KeptLight, place: int) -> tuple[floa
         return lamp_light(scene.lights, lamp_number(primitive))
     if primitive != NO_PRIMITIVE:
         material = load_material(scene.materials, primitive, kept.half[place] == 1)
-        for light in range(kept.cosines.shape[0]):
-            cosine, power = kept.cosines[light, place], load_power(scene.lights, light)
+        for row in range(kept.cosines.shape[0]):
+            cosine, power = kept.cosines[row, place], load_power(scene.lights, row)
             value = add(value, scattered(material, cosine, power))
     return value

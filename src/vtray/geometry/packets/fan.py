@@ -16,17 +16,17 @@ END = 0
 """Where a ray ends, a vector."""
 END_PLANE_DEPTH = 3 * FAN
 """How far before the image plane that is."""
-WEIGHT = 4 * FAN
-"""What the ray counts, if nothing stops it; 0 for a ray that is not cast."""
-BLOCKED = 5 * FAN
-"""1 where something stops it, else 0."""
-DIRECTION = 6 * FAN
+BLOCKED = 4 * FAN
+"""1 where something stops the ray, or where it is not cast, else 0."""
+DIRECTION = 5 * FAN
 """A unit vector."""
-LENGTH = 9 * FAN
+LENGTH = 8 * FAN
 """How long it is."""
-SINGLES = 10 * FAN
+WEIGHT = 9 * FAN
+"""What the ray counts, if nothing stops it: one number, or three for red, green and blue."""
+SINGLES = 12 * FAN
 """Its direction in single precision, two in the place of one number."""
-SIZE = 12 * FAN
+SIZE = 14 * FAN
 
 Fan = NDArray[np.float64]
 """The fields of all rays, one after the other, as those of a packet."""
@@ -56,15 +56,23 @@ def new_fan() -> Fan:
 
 
 @device
-def load_end(fan: Fan, ray: int) -> Vec:
-    """Return where a ray ends."""
-    return fan[END + ray], fan[END + FAN + ray], fan[END + 2 * FAN + ray]
+def set_direction(fan: Fan, ray: int, direction: Vec) -> None:
+    """Set the direction of a ray."""
+    fan[DIRECTION + ray] = direction[0]
+    fan[DIRECTION + FAN + ray] = direction[1]
+    fan[DIRECTION + 2 * FAN + ray] = direction[2]
 
 
 @device
 def load_direction(fan: Fan, ray: int) -> Vec:
     """Return the direction of a ray."""
     return fan[DIRECTION + ray], fan[DIRECTION + FAN + ray], fan[DIRECTION + 2 * FAN + ray]
+
+
+@device
+def load_end(fan: Fan, ray: int) -> Vec:
+    """Return where a ray ends."""
+    return fan[END + ray], fan[END + FAN + ray], fan[END + 2 * FAN + ray]
 
 
 @device

@@ -33,7 +33,7 @@ def write_exr(picture: Picture, how: How, file: BinaryIO) -> None:
     """Write light divided by 255 as float32, so that 1 is white in a light of intensity 1.
 
     A picture whose background is not black has alpha: its light is that of the scene alone, which
-    can be laid over any background.
+    can be laid over any background. With the sky behind, light is that of both, without alpha.
     """
     import OpenEXR
 
@@ -61,8 +61,8 @@ def _channels(picture: Picture, how: How) -> "dict[str, NDArray[Any]]":
         for k, name in enumerate(names):
             channels[name] = np.ascontiguousarray(planes if len(names) == 1 else planes[..., k])
 
-    light = picture.linear / 255.0
-    if picture.settings.background != "black":
+    light = picture.with_sky / 255.0
+    if picture.settings.background not in ("black", "sky"):
         add(("A",), picture.alpha)
         # What covers nothing sends no light; filters with negative sides leave a little.
         light = np.where(picture.alpha[..., None] > 0.0, light, 0.0)

@@ -31,6 +31,10 @@ class Picture(Protocol):
         """A hash of the scene."""
 
     @property
+    def with_sky(self) -> "Floats":
+        """Light with that of the sky, if it is the background, (height, width, 3)."""
+
+    @property
     def alpha(self) -> "Floats":
         """How much of each pixel is covered, from 0 to 1, (height, width)."""
 

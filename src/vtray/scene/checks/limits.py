@@ -38,6 +38,13 @@ END = r"(?![\s\S])"
 DataPath = Annotated[
     str, Meta(pattern=rf"\.np[yz]{END}", description="the path of a .npz or .npy file")
 ]
+ImagePath = Annotated[
+    str,
+    Meta(
+        pattern=rf"\.(exr|hdr|png|jpe?g|np[yz]){END}",
+        description="the path of an .exr, .hdr, .png, .jpg, .npy or .npz file",
+    ),
+]
 NpzPath = Annotated[str, Meta(pattern=rf"\.npz{END}", description="the path of a .npz file")]
 
 

@@ -17,6 +17,9 @@ _UNIONS = (types.UnionType, typing.Union)
 _SHOWN_ITEMS = 4
 _SHOWN_DEPTH = 2
 
+_SYNONYMS = {"intensity": "radiance"}
+"""Words that do not look like those that are meant."""
+
 SHOWN_UNKNOWN = 20
 """Unknown keys of which there are warnings; of more, only how many there are."""
 
@@ -36,7 +39,8 @@ def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
         return "a list" if in_code else "an array"
     if in_code:
         names = either(cls.__name__ for cls in structs)
-        triple = len(structs) == 1 and len(structs[0].__struct_fields__) == 3
+        kinds = [field.type for field in msgspec.structs.fields(structs[0])]
+        triple = len(structs) == 1 and len(kinds) == 3 and not any(map(struct_kinds, kinds))
         return f"{names} or three numbers" if triple else names
     plain = untagged(structs)
     if plain is None:
@@ -131,7 +135,8 @@ class Unknown:
             self._more += 1
             return
         what = self._what
-        close = nearest(word, known)
+        meant = _SYNONYMS.get(word)
+        close = quoted(meant) if meant in known else nearest(word, known)
         text = f"unknown {what}, ignored; the nearest known {what} is {close}"
         self._lines.append(f"{place}: {text}")
 

@@ -9,14 +9,23 @@ from msgspec import UNSET, Meta, UnsetType
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import Arrays
 from vtray.scene.camera import Camera
-from vtray.scene.checks.limits import DataPath, FieldError, Fraction, NonNegative, NpzPath
+from vtray.scene.checks.limits import (
+    DataPath,
+    FieldError,
+    Fraction,
+    ImagePath,
+    NonNegative,
+    NpzPath,
+    Real,
+)
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.light_types import AnyLight
+from vtray.scene.light_types import WHITE, Ambient, Light, RectangleLight, SphereLight, Sun
 from vtray.scene.objects import Cylinder, Plane, Sphere
 from vtray.scene.settings import RenderSettings
+from vtray.scene.sky_types import Gradient, check_one_of
 from vtray.scene.spheres import Spheres
-from vtray.scene.vectors import Color, Vector
+from vtray.scene.vectors import Color, Direction, Vector
 
 
 class HolderInFile(msgspec.Struct, frozen=True, omit_defaults=True):
@@ -150,6 +159,44 @@ ARRAYS_IN_FILE = [kind for kind in KINDS if issubclass(kind, ArraysInFile)]
 HOLDERS_IN_FILE = [kind for kind in KINDS if issubclass(kind, HolderInFile)]
 
 
+class SkyInFile(msgspec.Struct, frozen=True, omit_defaults=True, tag_field="type", tag="sky"):
+    """Light from all directions: of one colour, or of colours that change with the direction.
+
+    Attributes
+    ----------
+    radiance : float, optional
+        Strength, ≥ 0, 1 by default: a white, fully scattering surface that sees nothing but a sky
+        of radiance 1 shows 1.
+    color : Color, optional
+        Colour of the light, as for Light; that of a gradient or a picture is multiplied by it.
+    gradient : Gradient, optional
+        Colours by the height above the horizon.
+    image : str, optional
+        Path of a picture of the light from all directions, as a map of the globe, relative to the
+        scene file: .exr, .hdr, .png or .jpg; a .npz file with the array image, or a .npy file. Not
+        beside a gradient.
+    up : Direction, optional
+        What is up in the world; by default the camera's `up`, or where it has none, up in the
+        picture.
+    rotation : float, optional
+        By how many degrees the sky is turned around `up`, counterclockwise as seen from above.
+    """
+
+    radiance: NonNegative = 1.0
+    color: Color = WHITE
+    gradient: Gradient | None = None
+    image: ImagePath | None = None
+    up: Direction | None = None
+    rotation: Real = 0.0
+
+    def __post_init__(self) -> None:
+        """Refuse two answers to what the colours are."""
+        check_one_of(self.gradient, self.image)
+
+
+LightInFile: TypeAlias = Light | Sun | SphereLight | RectangleLight | SkyInFile | Ambient
+
+
 class SceneInFile(msgspec.Struct, omit_defaults=True):
     """All that a picture is made from.
 
@@ -157,7 +204,7 @@ class SceneInFile(msgspec.Struct, omit_defaults=True):
     ----------
     camera : Camera
         Where the picture is taken from.
-    lights : list of Light, Sun, SphereLight, RectangleLight, Sky or Ambient
+    lights : list of Light, Sun, SphereLight, RectangleLight, SkyInFile or Ambient
         The lights; may be empty.
     objects : list of Sphere, Cylinder, Plane, SpheresInFile, CylindersInFile or CopiesInFile
         The objects; may be empty.
@@ -166,6 +213,6 @@ class SceneInFile(msgspec.Struct, omit_defaults=True):
     """
 
     camera: Camera
-    lights: list[AnyLight]
+    lights: list[LightInFile]
     objects: list[ObjectInFile]
     render: RenderSettings | UnsetType = UNSET

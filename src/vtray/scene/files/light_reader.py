@@ -12,16 +12,17 @@ from typing import Any
 
 import msgspec
 
-from vtray.scene.light_types import AnyLight, Light
+from vtray.scene.files.in_file import LightInFile
+from vtray.scene.light_types import Light
 
 _POINTS = msgspec.json.Decoder(list[Light])
-_TYPED = msgspec.json.Decoder(list[AnyLight])
+_TYPED = msgspec.json.Decoder(list[LightInFile])
 _ITEMS = msgspec.json.Decoder(list[msgspec.Raw])
 _POINT = msgspec.json.Decoder(Light)
-_ANY = msgspec.json.Decoder(AnyLight)
+_ANY = msgspec.json.Decoder(LightInFile)
 
 
-def read_lights(written: msgspec.Raw) -> list[AnyLight]:
+def read_lights(written: msgspec.Raw) -> list[LightInFile]:
     """Read lights from the value of the key `lights`.
 
     Raises
@@ -32,14 +33,14 @@ def read_lights(written: msgspec.Raw) -> list[AnyLight]:
     decoders: tuple[msgspec.json.Decoder[Any], ...] = (_POINTS, _TYPED)
     for decoder in decoders:
         try:
-            lights: list[AnyLight] = decoder.decode(written)
+            lights: list[LightInFile] = decoder.decode(written)
         except msgspec.ValidationError:
             continue
         return lights
     return [_read_one(bytes(item)) for item in _ITEMS.decode(written)]
 
 
-def read_light(written: bytes) -> tuple[AnyLight, int]:
+def read_light(written: bytes) -> tuple[LightInFile, int]:
     """Read one light, and count the colons of those of its keys that are known.
 
     Raises
@@ -51,12 +52,12 @@ def read_light(written: bytes) -> tuple[AnyLight, int]:
     return light, _count_known(light, msgspec.json.decode(written))
 
 
-def count_least(lights: Iterable[AnyLight]) -> int:
+def count_least(lights: Iterable[LightInFile]) -> int:
     """Count the colons of lights of which all keys are left out that may be."""
     return sum(_LEAST[kind] * count for kind, count in Counter(map(type, lights)).items())
 
 
-def count_known(written: msgspec.Raw, lights: Iterable[AnyLight]) -> int:
+def count_known(written: msgspec.Raw, lights: Iterable[LightInFile]) -> int:
     """Count the colons of those keys of lights that are known.
 
     Where there are more in the file, there are unknown keys, or keys given twice. Gives 0 where
@@ -69,26 +70,30 @@ def count_known(written: msgspec.Raw, lights: Iterable[AnyLight]) -> int:
     return sum(_count_known(light, item) for light, item in zip(lights, found, strict=True))
 
 
-def _read_one(written: bytes) -> AnyLight:
+def _read_one(written: bytes) -> LightInFile:
     """Read one light."""
     try:
-        light: AnyLight = _ANY.decode(written)
+        light: LightInFile = _ANY.decode(written)
     except msgspec.ValidationError:
         light = _POINT.decode(written)  # whose type is left out
     return light
 
 
-def _count_known(light: AnyLight, found: Mapping[str, object]) -> int:
+def _count_known(light: LightInFile, found: Mapping[str, object]) -> int:
     """Count the colons of those keys of a light, given as it was read, that are known."""
-    values = [getattr(light, key) for key in light.__struct_fields__ if key in found]
-    return ("type" in found) + sum(1 + _keys_within(value) for value in values)
+    return ("type" in found) + _count_within(light, found)
 
 
-def _keys_within(value: object) -> int:
-    """Count the keys of a value, all of them required."""
-    if isinstance(value, tuple):
-        return sum(map(_keys_within, value))
-    return len(value.__struct_fields__) if isinstance(value, msgspec.Struct) else 0
+def _count_within(value: object, found: object) -> int:
+    """Count the colons within a value, given as it was read, but for those of unknown keys."""
+    if isinstance(value, str):
+        return value.count(":")
+    if isinstance(value, tuple) and isinstance(found, list):
+        return sum(map(_count_within, value, found))
+    if not isinstance(value, msgspec.Struct) or not isinstance(found, Mapping):
+        return 0
+    known = (key for key in value.__struct_fields__ if key in found)
+    return sum(1 + _count_within(getattr(value, key), found[key]) for key in known)
 
 
 def _keys_of(kind: Any) -> int:  # noqa: ANN401
@@ -100,10 +105,10 @@ def _keys_of(kind: Any) -> int:  # noqa: ANN401
     return len(kind.__struct_fields__) if isinstance(kind, msgspec.StructMeta) else 0
 
 
-def _least(kind: type[AnyLight]) -> int:
+def _least(kind: type[LightInFile]) -> int:
     """Count the colons of a light of a kind of which all keys are left out that may be."""
     required = [field.type for field in msgspec.structs.fields(kind) if field.required]
     return (kind is not Light) + sum(1 + _keys_of(value) for value in required)
 
 
-_LEAST = {kind: _least(kind) for kind in typing.get_args(AnyLight)}
+_LEAST = {kind: _least(kind) for kind in typing.get_args(LightInFile)}

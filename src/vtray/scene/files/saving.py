@@ -16,6 +16,7 @@ from vtray.scene.copies import Copies
 from vtray.scene.default_light import lights_of
 from vtray.scene.files.in_file import HOLDERS_IN_FILE, HolderInFile, SceneInFile
 from vtray.scene.settings import RenderSettings
+from vtray.scene.sky_image import SkyImage
 from vtray.scene.vectors import Color
 from vtray.scene.written_lights import as_written
 
@@ -40,8 +41,15 @@ def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
         entry, arrays[name] = _split(item, name, shared)
         return entry
 
+    def write_image(image: SkyImage) -> str:
+        """Return the name of the file of a picture; keep its pixels for it."""
+        name = _unused_name(target, arrays)
+        _check_own(target, name, image)
+        arrays[name] = {"image": image.pixels}
+        return name
+
     objects = [in_file(item) for item in scene.objects]
-    lights: list[Any] = [as_written(light) for light in lights_of(scene)]
+    lights: list[Any] = [as_written(light, write_image) for light in lights_of(scene)]
     found = SceneInFile(scene.camera, lights, objects)
     if scene.render != RenderSettings():
         found.render = scene.render
@@ -86,15 +94,18 @@ def _arrays_of(scene: Path) -> list[str]:
 
 
 class _Naming(msgspec.Struct):
-    """A scene file, or an object in it, as far as it names files."""
+    """A scene file, or an object or a light in it, as far as it names files."""
 
     data: str = ""
+    image: Any = ""
     objects: "list[_Naming]" = []
+    lights: "list[_Naming]" = []
 
 
 def _named_in(found: _Naming) -> list[str]:
     """Return the names of files, "" where none is named."""
-    return [found.data, *(name for item in found.objects for name in _named_in(item))]
+    within = (name for item in (*found.objects, *found.lights) for name in _named_in(item))
+    return [found.data, str(found.image), *within]
 
 
 def _split(

@@ -14,8 +14,10 @@ from vtray.scene.checks.scene_words import Unknown, join, nearest, show
 from vtray.scene.copies import Copies
 from vtray.scene.default_light import lights_of
 from vtray.scene.files.scene_file import Warn, loads
+from vtray.scene.light_types import AnyLight
 from vtray.scene.objects import ARRAY_KINDS, Object
 from vtray.scene.scene import Scene
+from vtray.scene.sky_image import sky_image
 from vtray.scene.written_lights import as_written
 
 # Stands in the text for objects whose arrays stand in the dictionary.
@@ -34,7 +36,7 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
         may be a tuple or an array of NumPy. Many spheres or cylinders may hold their arrays
         themselves: ``{"type": "spheres", "center": array, "radius": 0.5, "color": array,
         "lambert": 1}``, which are not copied where `Spheres` does not; so may copies hold ``"at":
-        array``. Paths are relative to the current folder.
+        array``, and a sky ``"image": array``. Paths are relative to the current folder.
     name : str
         What messages call the dictionary.
     warn : callable, optional
@@ -56,6 +58,8 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
     given = dict(data) if isinstance(data, Mapping) else data
     if isinstance(given, dict) and isinstance(given.get("objects"), (list, tuple)):
         given["objects"] = [_without_arrays(item) for item in given["objects"]]
+    if isinstance(given, dict) and isinstance(given.get("lights"), (list, tuple)):
+        given["lights"] = [_without_image(item) for item in given["lights"]]
     try:
         text = msgspec.json.encode(given, enc_hook=_as_json)
     except (TypeError, ValueError, OverflowError, RecursionError, UnicodeEncodeError) as error:
@@ -72,6 +76,7 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
         if _kind_of_arrays(item) is not None or _are_copies(item):
             place = f"objects[{index}]"
             scene.objects[index] = _with_arrays(scene.objects[index], item, place, name, unknown)
+    scene.lights = _with_images(scene.lights, data["lights"], name)
     for line in [*warnings, *(f"{name}: {line}" for line in unknown.lines())]:
         if warn is None:
             _warn(line)
@@ -80,15 +85,50 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
     return scene
 
 
+def _has_image(item: object) -> bool:
+    """Tell whether a light of a dictionary holds a picture itself."""
+    if not isinstance(item, Mapping) or item.get("type") != "sky":
+        return False
+    return hasattr(item.get("image"), "__array__") or isinstance(item.get("image"), (list, tuple))
+
+
+def _without_image(item: Any) -> Any:  # noqa: ANN401
+    """Return a light without the picture that it holds itself."""
+    if not _has_image(item):
+        return item
+    return {key: value for key, value in item.items() if key != "image"}
+
+
+def _with_images(lights: list[AnyLight], given: Any, name: str) -> list[AnyLight]:  # noqa: ANN401
+    """Return lights with the pictures that those of a dictionary hold themselves."""
+    made = list(lights)
+    for index, item in enumerate(given):
+        if _has_image(item):
+            place = f"{name}: lights[{index}].image"
+            image = sky_image(item["image"], place)
+            try:
+                made[index] = made[index].replace(image=image)
+            except SceneError as problem:
+                raise SceneError(f"{place}: {str(problem).partition(': ')[2]}") from None
+    return made
+
+
 def to_dict(scene: Scene) -> dict[str, Any]:
     """Return a valid scene as `Scene.to_dict` does."""
     data: dict[str, Any] = {
         "camera": msgspec.to_builtins(scene.camera),
-        "lights": [msgspec.to_builtins(as_written(light)) for light in lights_of(scene)],
+        "lights": [_light_to_dict(light) for light in lights_of(scene)],
         "objects": [_object_to_dict(item) for item in scene.objects],
     }
     settings = msgspec.to_builtins(scene.render)
     return {**data, "render": settings} if settings else data
+
+
+def _light_to_dict(light: AnyLight) -> dict[str, Any]:
+    """Return a light as what a scene file says of it, or with the pixels of its picture."""
+    written = as_written(light, lambda image: image.pixels)
+    pixels = {key: written.pop(key) for key in ("image",) if key in written}
+    return {**msgspec.to_builtins(written), **pixels}
 
 
 def _object_to_dict(item: Object) -> dict[str, Any]:

@@ -17,8 +17,10 @@ from vtray.base.errors import SceneError, why_unreadable
 from vtray.base.input_file import is_given, read_input
 from vtray.scene.camera import Camera
 from vtray.scene.checks.checked import make_unchecked
-from vtray.scene.files.in_file import KINDS, HolderInFile, ObjectInFile, SceneInFile
+from vtray.scene.files.in_file import KINDS, HolderInFile, LightInFile, ObjectInFile, SceneInFile
 from vtray.scene.files.light_reader import count_known, count_least, read_light, read_lights
+from vtray.scene.files.skies import names_images, with_skies
+from vtray.scene.light_types import AnyLight
 from vtray.scene.objects import Object
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
@@ -126,15 +128,15 @@ def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
     # A colon of a path that is written as an escape is not in the file, and one inside any other
     # string is that of an unknown key or its value.
     are_known = others == count_least(lights) or others == count_known(found.lights, lights)
-    if not are_known or (in_files and b"\\u003" in raw):
+    has_paths = in_files or names_images(lights)
+    if not are_known or (has_paths and b"\\u003" in raw):
         _explain(raw, name, warn)
     objects: list[Any] = found.objects
     if in_files:
         objects = _read_arrays(found, name, folder, warn)
+    made = _read_skies(lights, name, folder)
     parts: dict[str, object] = {} if found.render is UNSET else {"render": found.render}
-    scene: Scene = make_unchecked(
-        Scene, camera=found.camera, lights=lights, objects=objects, **parts
-    )
+    scene: Scene = make_unchecked(Scene, camera=found.camera, lights=made, objects=objects, **parts)
     return scene
 
 
@@ -251,6 +253,14 @@ def _read_arrays(found: _Found, name: str, folder: str, warn: Warn) -> list[Obje
     for line in unknown:
         warn(f"{name}: {line}")
     return objects
+
+
+def _read_skies(lights: Sequence[LightInFile], name: str, folder: str) -> list[AnyLight]:
+    """Return the lights of a file with the pictures of skies that it names."""
+    try:
+        return with_skies(lights, folder)
+    except SceneError as problem:
+        raise SceneError(f"{name}: {problem}") from None
 
 
 def _warn(message: str) -> None:

@@ -13,9 +13,17 @@ from typing import Any
 import msgspec
 
 from vtray.scene.camera import Camera
-from vtray.scene.files.in_file import ARRAYS_IN_FILE, KINDS, CopiesInFile, SceneInFile
-from vtray.scene.light_types import Ambient, AnyLight, Lamp, Light
+from vtray.scene.files.in_file import (
+    ARRAYS_IN_FILE,
+    KINDS,
+    CopiesInFile,
+    LightInFile,
+    SceneInFile,
+    SkyInFile,
+)
+from vtray.scene.light_types import Ambient, Lamp, Light
 from vtray.scene.settings import RenderSettings
+from vtray.scene.sky_types import Gradient
 from vtray.scene.vectors import Color, Direction, Vector
 
 _FIELD = re.compile(r"^(\w+(?:, \w+)*) : .*\n((?:    .+\n?)+)", re.MULTILINE)
@@ -30,8 +38,8 @@ def scene_schema() -> dict[str, Any]:
         A schema of draft 2020-12. It checks all that a schema can; that a key is given only
         once, for instance, it cannot.
     """
-    values = (RenderSettings, Vector, Direction, Color)
-    lights: tuple[type[msgspec.Struct], ...] = typing.get_args(AnyLight)
+    values = (RenderSettings, Gradient, Vector, Direction, Color)
+    lights: tuple[type[msgspec.Struct], ...] = typing.get_args(LightInFile)
     classes: list[type[msgspec.Struct]] = [SceneInFile, Camera, *lights, *KINDS, *values]
     (_, parts) = msgspec.json.schema_components(classes, ref_template="#/$defs/{name}")
     for cls in classes:
@@ -47,6 +55,11 @@ def scene_schema() -> dict[str, Any]:
                 "if": {"properties": {"data": {"pattern": r"\.npy$"}}},
                 "then": {"required": keys},
             }
+    # What SkyInFile.__post_init__ checks.
+    colors = {"required": ["gradient", "image"]}
+    either = {name: {"type": "null"} for name in colors["required"]}
+    absent = [{"properties": {name: null}} for name, null in either.items()]
+    parts[SkyInFile.__name__] |= {"if": colors, "then": {"anyOf": absent}}
     # What CopiesInFile.__post_init__ checks.
     places = [key for key in CopiesInFile.__struct_fields__ if key != "objects"]
     parts[CopiesInFile.__name__]["oneOf"] = [{"required": [key]} for key in places]

@@ -67,14 +67,14 @@ def _see_lamp(
 ) -> None:
     """Let a lamp take the lanes in which it is nearer."""
     numbers = packet.view(np.int64)
-    light = lamp_light(lights, lamps.light[k])
+    light = lamp_light(lights, lamps.row[k])
     for lane in range(lanes):
         ray = load_ray(packet, sheaf, lane)
         distance, error_bound = lamp_distance(lamps, k, ray)
         is_lamp = numbers[PRIMITIVE + lane] < NO_PRIMITIVE
         if distance < packet[DISTANCE + lane] + (0.0 if is_lamp else error_bound):
             packet[DISTANCE + lane] = distance
-            numbers[PRIMITIVE + lane] = lamp_number(lamps.light[k])
+            numbers[PRIMITIVE + lane] = lamp_number(lamps.row[k])
             store(packet, LIGHT, lane, light)
 
 
@@ -107,14 +107,14 @@ def _mix_lane(
         packet[MIXED + lane] = 1.0 if packet[NEAREST + lane] <= distance else 0.0
     for k in range(lamp_count(lamps)):
         outline = lamp_outline(lamps, k, ray, footprint)
-        is_own = lamp_number(lamps.light[k]) == met
+        is_own = lamp_number(lamps.row[k]) == met
         if outline < math.inf and (is_own or outline <= distance):
             packet[MIXED + lane] = 1.0
 
 
 @device
 def nearest_lamp(ray: Ray, distance: float, lamps: VisibleLamps | None) -> tuple[int, float]:
-    """Return the light that a ray meets before a surface at a distance, and how far away it is.
+    """Return the row of the lamp that a ray meets before a surface, and how far away it is.
 
     That is ``NOTHING``, and the distance of the surface, if it meets none.
     """
@@ -123,5 +123,5 @@ def nearest_lamp(ray: Ray, distance: float, lamps: VisibleLamps | None) -> tuple
         for k in range(lamp_count(lamps)):
             at, error_bound = lamp_distance(lamps, k, ray)
             if at < distance + (error_bound if found == NOTHING else 0.0):
-                found, distance = lamps.light[k], at
+                found, distance = lamps.row[k], at
     return found, distance

@@ -19,19 +19,25 @@ from vtray.geometry.vector import Vec, add, dot, sub
 from vtray.transport.camera_rays import camera_ray
 from vtray.transport.integrators.lamps import nearest_lamp
 from vtray.transport.interaction import Interaction, interact
-from vtray.transport.lights.light import lamp_light, light_count, light_target, load_power
-from vtray.transport.lights.soft_light import SoftLights, aim_at, soft_count
+from vtray.transport.lights.light import (
+    lamp_light,
+    light_count,
+    light_target,
+    load_power,
+    soft_worth,
+)
+from vtray.transport.lights.soft_light import SoftLights, aim_at, component_count, soft_count
 from vtray.transport.materials.lambert import lambert_cosine
 from vtray.transport.materials.material import load_material, scattered
 from vtray.transport.sampling.estimate import (
     counted_variance,
     needs_more,
     no_estimate,
-    share_of,
+    shares_of,
     with_fan,
 )
 from vtray.transport.sampling.fans import Fans, fan_keys
-from vtray.transport.sampling.light_rays import arriving_share, spread_fan
+from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
 from vtray.transport.scene_arrays import SceneArrays
 
 
@@ -51,7 +57,7 @@ class TracedPixel(NamedTuple):
     value
         Linear red, green and blue.
     lamp
-        The number of the lamp that is seen, or ``NOTHING``; then nothing is hit.
+        The row of the lamp that is seen, or ``NOTHING``; then nothing is hit.
     """
 
     ray: Ray
@@ -131,7 +137,7 @@ def _trace_fan(
     stack: Stack,
     fan: Fan,
     blockers: NDArray[np.int64],
-) -> tuple[float, float]:
+) -> tuple[Vec, float]:
     """Trace the rays of a fan from the hit of a pixel to one soft light, one by one.
 
     Parameters
@@ -155,15 +161,16 @@ def _trace_fan(
 
     Returns
     -------
-    share, spread
-        How much of the light arrives, and the variance of that, as the fan alone tells it.
+    shares, spread
+        How much of each component of the light arrives, and the variance of that, as the fan alone
+        tells it.
     """
     point, normal, error_scale, _ = traced.interaction
     start = Start(point, dot(point, scene.camera.forward), error_scale)
     aim = aim_at(soft, light, start, normal)
     keys, forward = fan_keys(column, row, light, seed), scene.camera.forward
     place = number * fans.rays
-    spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, place, keys)
+    spread_fan(fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, place, keys)
     end_scale = soft.error_scale[light] + error_scale
     for ray in range(fans.rays):
         blockers[ray] = NOTHING
@@ -171,7 +178,7 @@ def _trace_fan(
             segment = fan_segment(fan, ray, start, end_scale)
             blockers[ray] = first_between(scene.world, segment, stack)
             fan[BLOCKED + ray] = 0.0 if blockers[ray] == NOTHING else 1.0
-    return arriving_share(fan, fans.rays, aim, normal)
+    return arriving_shares(fan, fans.rays, component_count(soft, light), aim, normal)
 
 
 trace_fan, _trace_any_fan = kernel(_trace_fan), device(_trace_fan)
@@ -183,8 +190,8 @@ class TracedLamp(NamedTuple):
 
     Attributes
     ----------
-    share
-        How much of the light arrives.
+    shares
+        How much of each component of the light arrives.
     counted
         The variance of that, as a part of what all lights may have.
     fans
@@ -193,7 +200,7 @@ class TracedLamp(NamedTuple):
         The light of the pixel with all that arrives.
     """
 
-    share: float
+    shares: Vec
     counted: float
     fans: int
     value: Vec
@@ -226,16 +233,16 @@ def trace_lamp(
         What these have of the variance that all may have.
     """
     material = load_material(scene.materials, traced.primitive, traced.interaction.is_second)
-    power = load_power(scene.lights, light_count(scene.lights) + light)
-    red, green, blue = scattered(material, 1.0, power)
-    worth, estimate = max(red, green, blue), no_estimate()
+    worth, estimate = soft_worth(scene.lights, soft, light, material), no_estimate()
     while needs_more(estimate, fans, worth, spent, light, soft_count(soft)):
         number = estimate.fans
-        share, spread = _trace_any_fan(
+        shares, spread = _trace_any_fan(
             scene, soft, traced, column, row, light, fans, number, seed, stack, fan, blockers
         )
-        estimate = with_fan(estimate, share, spread)
-    share = share_of(estimate)
+        estimate = with_fan(estimate, shares, spread)
+    shares, value = shares_of(estimate), traced.value
     counted = counted_variance(estimate, fans, worth)
-    value = add(traced.value, scattered(material, share, power))
-    return TracedLamp(share, counted, estimate.fans, value)
+    for component in range(component_count(soft, light)):
+        power = load_power(scene.lights, soft.row[light] + component)
+        value = add(value, scattered(material, shares[component], power))
+    return TracedLamp(shares, counted, estimate.fans, value)

@@ -27,14 +27,15 @@ from vtray.geometry.packets.packet import (
 )
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.stopped import Bundle, stop_by_all, stop_by_touching
-from vtray.geometry.vector import add
+from vtray.geometry.vector import Vec, add
 from vtray.transport.film import Rows
 from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
 from vtray.transport.light_buffer import KeptLight
-from vtray.transport.lights.light import Lights, light_count, load_power
+from vtray.transport.lights.light import Lights, load_power, soft_worth
 from vtray.transport.lights.soft_light import (
     SoftLights,
     aim_at,
+    component_count,
     cone_of,
     is_above,
     is_below,
@@ -48,13 +49,16 @@ from vtray.transport.sampling.estimate import (
     counted_variance,
     needs_more,
     no_estimate,
-    share_of,
+    shares_of,
     with_fan,
     with_unseen,
 )
 from vtray.transport.sampling.fans import Fans, fan_keys, fan_of_sample
-from vtray.transport.sampling.light_rays import arriving_share, spread_fan
+from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
 from vtray.transport.scene_arrays import SceneArrays
+
+NO_SHARES = (0.0, 0.0, 0.0)
+"""Those of a light of which nothing arrives."""
 
 
 class Arriving(NamedTuple):
@@ -62,15 +66,15 @@ class Arriving(NamedTuple):
 
     Attributes
     ----------
-    share
-        The mean weight of all rays.
+    shares
+        The mean weights of all rays, one for each component of the light.
     variance, counted
-        That of the share, as it is estimated, and as a part of what all lights may have.
+        That of the shares, as it is estimated, and as a part of what all lights may have.
     cast, arrived
         How many rays were cast, and how many arrive.
     """
 
-    share: float
+    shares: Vec
     variance: float
     counted: float
     cast: int
@@ -132,6 +136,7 @@ def add_soft_lights(
                 lane = packet.view(np.int64)[SOURCE + hit]
                 pixel = work.pixels[begin + lane // samples]
                 column, row = block.left + (pixel & (BLOCK - 1)), block.top + pixel // BLOCK
+                material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
                 sample, spent = first + lane % samples, 0.0
                 for light in range(soft_count(soft)):
                     if _is_uneven(packet, hit, scene, soft, light, is_wide, work):
@@ -139,25 +144,18 @@ def add_soft_lights(
                     keys = fan_keys(column, row, light, seed)
                     number = fan_of_sample(fans.levels, sample, column, row, light, seed)
                     point = number * fans.rays * fans.fans
-                    worth = _worth(packet, hit, scene.lights, light)
+                    worth = soft_worth(scene.lights, soft, light, material)
                     arriving = _arriving(
                         packet, hit, scene, soft, light, worth, spent, fans, point, keys, work
                     )
                     spent += arriving.counted
-                    _add_share(packet, hit, scene.lights, light, arriving.share)
-                    _keep_share(packet, lane, scene.lights, light, arriving.share, kept)
+                    for component in range(component_count(soft, light)):
+                        part, share = soft.row[light] + component, arriving.shares[component]
+                        _add_share(packet, hit, scene.lights, part, share)
+                        _keep_share(packet, lane, part, share, kept)
                     _add_noise(packet, hit, worth, arriving.variance, error)
                     cast += arriving.cast
     return cast
-
-
-@device
-def _worth(packet: Packet, hit: int, lights: Lights, light: int) -> float:
-    """Return the largest channel of what all of a soft light adds, squarely."""
-    power = load_power(lights, light_count(lights) + light)
-    material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
-    red, green, blue = scattered(material, 1.0, power)
-    return max(red, green, blue)
 
 
 @device
@@ -184,37 +182,40 @@ def _arriving(
     is_narrow, forward = aim.spread < NARROW, scene.camera.forward
     touching, count = work.touching, MANY
     if is_below(aim, normal):
-        return Arriving(0.0, 0.0, 0.0, 0, 0)
+        return Arriving(NO_SHARES, 0.0, 0.0, 0, 0)
     if is_narrow and is_cone(aim):
         count = find_touching(cone_of(aim, start, forward), scene.world, touching, work.stack)
         # What a cone as a whole tells is what all its rays would.
         if count == 0 and is_above(aim, normal):
-            return Arriving(middle_share(aim, normal), 0.0, 0.0, fans.rays, fans.rays)
+            shares = middle_share(aim, normal), 0.0, 0.0
+            return Arriving(shares, 0.0, 0.0, fans.rays, fans.rays)
         if count == CLOSED and is_above(aim, normal):
-            return Arriving(0.0, 0.0, 0.0, fans.rays, 0)
-    fan = work.fan
+            return Arriving(NO_SHARES, 0.0, 0.0, fans.rays, 0)
+    fan, components = work.fan, component_count(soft, light)
     end_scale = soft.error_scale[light] + start.error_scale
     bundle = Bundle(fan, fans.rays, start, normal, end_scale, longest_ray(aim, start))
     estimate, cast, arrived, lights = no_estimate(), 0, 0, soft_count(soft)
     while needs_more(estimate, fans, worth, spent, light, lights):
         place = first + estimate.fans * fans.rays
-        cast += spread_fan(fan, fans.rays, aim, start, normal, forward, fans.points, place, keys)
+        cast += spread_fan(
+            fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, place, keys
+        )
         if count >= 0:
             stop_by_touching(bundle, scene.world, touching, count)
         else:
             stop_by_all(bundle, scene.world, work.stack)
-        share, spread = arriving_share(fan, fans.rays, aim, normal)
-        estimate = with_fan(estimate, share, spread)
+        shares, spread = arriving_shares(fan, fans.rays, components, aim, normal)
+        estimate = with_fan(estimate, shares, spread)
         arrived += count_open(fan, fans.rays)
     variance = with_unseen(estimate, fans.rays)
     counted = counted_variance(estimate, fans, worth)
-    return Arriving(share_of(estimate), variance, counted, cast, arrived)
+    return Arriving(shares_of(estimate), variance, counted, cast, arrived)
 
 
 @device
-def _add_share(packet: Packet, hit: int, lights: Lights, light: int, share: float) -> None:
-    """Add what arrives of a soft light to a hit."""
-    power = load_power(lights, light_count(lights) + light)
+def _add_share(packet: Packet, hit: int, lights: Lights, row: int, share: float) -> None:
+    """Add what arrives of a component of a soft light to a hit."""
+    power = load_power(lights, row)
     material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
     added = scattered(material, share, power)
     store(packet, VALUE, hit, add(load(packet, VALUE, hit), added))
@@ -228,13 +229,11 @@ def _add_noise(packet: Packet, hit: int, worth: float, variance: float, error: R
 
 
 @device
-def _keep_share(
-    packet: Packet, lane: int, lights: Lights, light: int, share: float, kept: KeptLight | None
-) -> None:
-    """Keep what arrives of a soft light at the hit of a lane, after the point lights."""
+def _keep_share(packet: Packet, lane: int, row: int, share: float, kept: KeptLight | None) -> None:
+    """Keep what arrives of a component of a soft light at the hit of a lane."""
     if kept is not None:
         place = packet.view(np.int64)[KEPT + lane]
-        kept.cosines[light_count(lights) + light, place] = share
+        kept.cosines[row, place] = share
 
 
 @device

@@ -9,15 +9,18 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.occlusion import Target
 from vtray.geometry.packets.packet import NO_PRIMITIVE
 from vtray.geometry.vector import Vec, pick
-from vtray.transport.lights.soft_light import SoftLights
+from vtray.transport.lights.soft_light import SoftLights, component_count
 from vtray.transport.lights.visible import VisibleLamps
-from vtray.transport.materials.material import Power
+from vtray.transport.materials.material import Material, Power, scattered
 
 Floats = NDArray[np.float64]
 
 
 class Lights(NamedTuple):
-    """Lights: the points first, and then the soft ones.
+    """Lights: the points first, and then the soft ones, component by component.
+
+    A light whose colour changes with the direction has three components, of red, of green and of
+    blue light, each with a row of intensity and colour; all others have one.
 
     Attributes
     ----------
@@ -37,9 +40,9 @@ class Lights(NamedTuple):
     visible
         Those that the camera sees; None where there are none, so that no code is compiled for them.
     intensity
-        The intensities of all, (all,).
+        The intensities of all components, (components,).
     color
-        Their colours, 1 for white, (all, 3).
+        Their colours, 1 for white, (components, 3).
     """
 
     x: Floats
@@ -62,11 +65,22 @@ def light_count(lights: Lights) -> int:
 
 
 @device
-def load_power(lights: Lights, light: int) -> Power:
-    """Return how strong one of all lights is."""
+def load_power(lights: Lights, row: int) -> Power:
+    """Return how strong one of all components is."""
     color = lights.color
-    red, green, blue = color[light, 0], color[light, 1], color[light, 2]
-    return Power(lights.intensity[light], (red, green, blue))
+    red, green, blue = color[row, 0], color[row, 1], color[row, 2]
+    return Power(lights.intensity[row], (red, green, blue))
+
+
+@device
+def soft_worth(lights: Lights, soft: SoftLights, light: int, material: Material) -> float:
+    """Return the largest channel of what all of a soft light adds to a surface, squarely."""
+    worth = 0.0
+    for component in range(component_count(soft, light)):
+        power = load_power(lights, soft.row[light] + component)
+        red, green, blue = scattered(material, 1.0, power)
+        worth = max(worth, red, green, blue)
+    return worth
 
 
 @device
@@ -77,17 +91,17 @@ def light_target(lights: Lights, light: int, is_wide: bool | None = None) -> Tar
 
 
 @device
-def lamp_light(lights: Lights, light: int) -> Vec:
+def lamp_light(lights: Lights, row: int) -> Vec:
     """Return what is seen of a lamp: white where its strength and its colour are 1."""
-    power = load_power(lights, light)
+    power = load_power(lights, row)
     shown = 255.0 * power.intensity
     return shown * power.color[0], shown * power.color[1], shown * power.color[2]
 
 
 @device
-def lamp_number(light: int) -> int:
+def lamp_number(row: int) -> int:
     """Return the number of a lamp among what rays meet: below that of nothing.
 
-    The same leads back from there to the number of the light.
+    The same leads back from there to the row of the light.
     """
-    return NO_PRIMITIVE - 1 - light
+    return NO_PRIMITIVE - 1 - row

@@ -17,11 +17,16 @@ from vtray.transport.lights.rectangle import (
     see_rectangle,
     spread_and_share,
 )
+from vtray.transport.lights.sky import Skies
 
 Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
 
 SUN, SPHERE, AROUND, RECTANGLE = 0, 1, 2, 3
 """The kinds: far away in a cone of directions, a sphere, light from all sides, and a rectangle."""
+
+NO_SKY = -1
+"""Stands for the number of a sky, where a light is none whose colour changes."""
 
 ALL_AROUND = 2.0
 """The spread of light from all directions."""
@@ -47,21 +52,30 @@ class SoftLights(NamedTuple):
         What the rounding of the ends of rays to them is relative to, beside their starts.
     falls_off
         Whether they get weaker with distance, as a lamp of a given radiance does.
+    sky
+        Their number among the skies whose colour changes with the direction, ``NO_SKY`` for others.
+    row
+        The first row of their components in `Lights.intensity` and `Lights.color`.
     far
         How long rays are that end nowhere: much longer than all in the scene.
     rectangles
         How the rectangles stand; None where there are none, so that no code is compiled for them.
+    skies
+        The skies whose colour changes with the direction; None where there are none, likewise.
     """
 
-    kind: NDArray[np.int64]
+    kind: Integers
     x: Floats
     y: Floats
     z: Floats
     size: Floats
     error_scale: Floats
     falls_off: NDArray[np.bool_]
+    sky: Integers
+    row: Integers
     far: float
     rectangles: Rectangles | None
+    skies: Skies | None
 
 
 class Aim(NamedTuple):
@@ -82,6 +96,8 @@ class Aim(NamedTuple):
         What all of a cone brings that is square to it.
     seen
         A rectangle as it is seen; None if the scene has none.
+    sky
+        As in `SoftLights`.
     """
 
     kind: int
@@ -92,6 +108,7 @@ class Aim(NamedTuple):
     share: float
     whole: float
     seen: SeenRectangle | None
+    sky: int
 
 
 @device
@@ -99,6 +116,15 @@ def soft_count(soft: SoftLights) -> int:
     """Return how many there are."""
     count: int = soft.kind.shape[0]
     return count
+
+
+@device
+def component_count(soft: SoftLights, light: int) -> int:
+    """Return how many numbers say what a light adds: 3 for one whose colour changes, else 1."""
+    # Where there are no such skies, the compiler knows the number.
+    if soft.skies is None:
+        return 1
+    return 1 if soft.sky[light] == NO_SKY else 3
 
 
 @device
@@ -115,7 +141,7 @@ def aim_at(soft: SoftLights, light: int, start: Start, normal: Vec) -> Aim:
     if kind == SUN:
         # The mean of the cosine over a cone around the normal is 1 - spread / 2.
         share = 1.0 / (1.0 - 0.5 * size)
-        return Aim(SUN, scale(soft.far, place), soft.far, place, size, share, 1.0, seen)
+        return Aim(SUN, scale(soft.far, place), soft.far, place, size, share, 1.0, seen, NO_SKY)
     if kind == SPHERE:
         way = sub(place, start.point)
         distance2 = dot(way, way)
@@ -127,13 +153,13 @@ def aim_at(soft: SoftLights, light: int, start: Start, normal: Vec) -> Aim:
             # The solid angle of the cone is 2 pi spread.
             share = 2.0 * spread if falls_off else 1.0 / (1.0 - 0.5 * spread)
             whole = share * (1.0 - 0.5 * spread) if falls_off else 1.0
-            return Aim(SPHERE, place, size, axis, spread, share, whole, seen)
+            return Aim(SPHERE, place, size, axis, spread, share, whole, seen, NO_SKY)
         # Inside, its light comes from all sides.
-        return Aim(SPHERE, place, size, normal, ALL_AROUND, 1.0, 1.0, seen)
+        return Aim(SPHERE, place, size, normal, ALL_AROUND, 1.0, 1.0, seen, NO_SKY)
     if kind == RECTANGLE:
         spread, share = spread_and_share(seen)
-        return Aim(RECTANGLE, place, size, normal, spread, share, 0.0, seen)
-    return Aim(AROUND, place, size, normal, ALL_AROUND, 1.0, 1.0, seen)
+        return Aim(RECTANGLE, place, size, normal, spread, share, 0.0, seen, NO_SKY)
+    return Aim(AROUND, place, size, normal, ALL_AROUND, 1.0, 1.0, seen, soft.sky[light])
 
 
 @device

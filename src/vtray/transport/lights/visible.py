@@ -22,15 +22,15 @@ class VisibleLamps(NamedTuple):
 
     Attributes
     ----------
-    light
-        Their numbers among all lights, (n,).
+    row
+        The rows of their strengths in `Lights.intensity` and `Lights.color`, (n,).
     data
         ``SIZE`` numbers for each.
     error_scale
         What the rounding error of the places of all is relative to.
     """
 
-    light: NDArray[np.int64]
+    row: NDArray[np.int64]
     data: NDArray[np.float64]
     error_scale: NDArray[np.float64]
 
@@ -48,7 +48,7 @@ class Panel(NamedTuple):
 @device
 def lamp_count(lamps: VisibleLamps) -> int:
     """Return how many there are."""
-    count: int = lamps.light.shape[0]
+    count: int = lamps.row.shape[0]
     return count
 
 

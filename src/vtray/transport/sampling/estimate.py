@@ -9,6 +9,9 @@ from fan to fan, of which each is the next block of one sequence.
 A thing so small that no ray meets it is not known of. It has no say in how many rays are cast, but
 what it could stop counts as an error of half a ray.
 
+A light whose colour changes with the direction has three shares, each of which has a total; of
+their variances the largest counts. For other lights the second and the third are 0.
+
 References
 ----------
 Cochran, "Sampling Techniques", 3rd edition, 1977, section 5A.12 (collapsed strata, pairs).
@@ -17,6 +20,7 @@ Cochran, "Sampling Techniques", 3rd edition, 1977, section 5A.12 (collapsed stra
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.vector import Vec, add
 from vtray.transport.sampling.fans import Fans
 
 UNSEEN = 0.5
@@ -35,30 +39,31 @@ class Estimate(NamedTuple):
     fans
         How many there were.
     total, squares
-        The sums of their shares, and of the squares of these.
+        The sums of their shares, and of the squares of these, for each component of the light.
     spread
         The variance of the first one, from its pairs.
     """
 
     fans: int
-    total: float
-    squares: float
+    total: Vec
+    squares: Vec
     spread: float
 
 
 @device
 def no_estimate() -> Estimate:
     """Return what is known before the first fan."""
-    return Estimate(0, 0.0, 0.0, 0.0)
+    return Estimate(0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0.0)
 
 
 @device
-def with_fan(estimate: Estimate, share: float, spread: float) -> Estimate:
-    """Return what is known after one more fan, given its share and its `spread_of`."""
+def with_fan(estimate: Estimate, shares: Vec, spread: float) -> Estimate:
+    """Return what is known after one more fan, given its `light_rays.arriving_shares`."""
+    red, green, blue = shares
     return Estimate(
         estimate.fans + 1,
-        estimate.total + share,
-        estimate.squares + share * share,
+        add(estimate.total, shares),
+        add(estimate.squares, (red * red, green * green, blue * blue)),
         estimate.spread if estimate.fans > 0 else spread,
     )
 
@@ -96,24 +101,28 @@ def counted_variance(estimate: Estimate, fans: Fans, worth: float) -> float:
 
 
 @device
-def share_of(estimate: Estimate) -> float:
-    """Return the share of a light that arrives: the mean of the fans, 0 if there is none."""
-    return estimate.total / max(estimate.fans, 1)
+def shares_of(estimate: Estimate) -> Vec:
+    """Return the shares of a light that arrive: the means of the fans, 0 if there is none."""
+    fans = max(estimate.fans, 1)
+    return estimate.total[0] / fans, estimate.total[1] / fans, estimate.total[2] / fans
 
 
 @device
 def variance_of(estimate: Estimate) -> float:
-    """Return the variance of a share.
+    """Return the variance of the noisiest share.
 
     What the pairs of the first fan say counts as much as one difference between fans.
     """
     fans = max(estimate.fans, 1)
-    between = estimate.squares - estimate.total * estimate.total / fans
-    return (estimate.spread + max(between, 0.0)) / (fans * fans)
+    between = 0.0
+    for component in range(3):
+        total, squares = estimate.total[component], estimate.squares[component]
+        between = max(between, squares - total * total / fans)
+    return (estimate.spread + between) / (fans * fans)
 
 
 @device
 def with_unseen(estimate: Estimate, rays: int) -> float:
-    """Return the variance of a share, and not less than what fans of so many rays may not see."""
+    """Return the variance of the shares, at least what fans of so many rays may not see."""
     unseen = UNSEEN / (max(estimate.fans, 1) * rays)
     return max(variance_of(estimate), unseen * unseen)

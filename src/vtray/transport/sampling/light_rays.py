@@ -1,8 +1,8 @@
 """Where the rays of a fan go within a light, and what each of them counts.
 
 A fan of rays goes from a point on a surface to many places of one light. What the light adds there
-is the mean of the weights of those rays that arrive, so that it is one number, as the cosine of a
-point light is.
+is the mean of the weights of those rays that arrive: one number, as the cosine of a point light is,
+or three for a light whose colour changes with the direction.
 """
 
 import math
@@ -23,9 +23,11 @@ from vtray.geometry.packets.fan import (
     Start,
     count_open,
     load_direction,
+    set_direction,
 )
 from vtray.geometry.vector import Vec, add, dot, scale, sub
 from vtray.transport.lights.rectangle import SeenRectangle, length_of_ray
+from vtray.transport.lights.sky import Skies
 from vtray.transport.lights.soft_light import (
     ALL_AROUND,
     RECTANGLE,
@@ -36,6 +38,7 @@ from vtray.transport.lights.soft_light import (
 )
 from vtray.transport.lights.spherical_rectangle import rectangle_direction
 from vtray.transport.sampling.fans import fan_point
+from vtray.transport.sampling.sky_rays import spread_to_sky
 from vtray.transport.sampling.warps import cone_direction, cosine_direction
 
 
@@ -47,6 +50,7 @@ def spread_fan(
     start: Start,
     normal: Vec,
     forward: Vec,
+    skies: Skies | None,
     points: NDArray[np.int64],
     first: int,
     keys: tuple[int, int],
@@ -61,27 +65,36 @@ def spread_fan(
         The light, and the point with its unit normal.
     forward
         The unit direction in which the camera looks.
+    skies
+        The skies whose colour changes with the direction.
     points, first, keys
         The points that choose the rays, from the first on, and what they are scrambled by.
     """
     # A loop for each step: only so are they vectorised.
     for ray in range(rays):
         fan[DIRECTION + ray], fan[DIRECTION + FAN + ray] = fan_point(points, first + ray, keys)
+    if not spread_to_sky(fan, rays, skies, aim.sky, normal):
+        _spread_evenly(fan, rays, aim, normal)
+    for ray in range(rays):
+        _set_end(fan, ray, aim, start, forward)
+    return count_open(fan, rays)
+
+
+@device
+def _spread_evenly(fan: Fan, rays: int, aim: Aim, normal: Vec) -> None:
+    """Turn points into directions to a light of one colour, and set what the rays count."""
     if aim.kind == RECTANGLE:
         _spread_over_rectangle(fan, rays, aim.seen)
     elif aim.spread == ALL_AROUND:
         for ray in range(rays):
-            u, v = fan[DIRECTION + ray], fan[DIRECTION + FAN + ray]
-            _set_direction(fan, ray, cosine_direction(u, v, normal))
+            u, v, _ = load_direction(fan, ray)
+            set_direction(fan, ray, cosine_direction(u, v, normal))
     else:
         for ray in range(rays):
-            u, v = fan[DIRECTION + ray], fan[DIRECTION + FAN + ray]
-            _set_direction(fan, ray, cone_direction(u, v, aim.axis, aim.spread))
+            u, v, _ = load_direction(fan, ray)
+            set_direction(fan, ray, cone_direction(u, v, aim.axis, aim.spread))
     for ray in range(rays):
         _set_weight(fan, ray, aim, normal)
-    for ray in range(rays):
-        _set_end(fan, ray, aim, start, forward)
-    return count_open(fan, rays)
 
 
 @device
@@ -90,16 +103,8 @@ def _spread_over_rectangle(fan: Fan, rays: int, seen: SeenRectangle | None) -> N
     # An argument that is None is known to the compiler, which drops what depends on that alone.
     if seen is not None:
         for ray in range(rays):
-            u, v = fan[DIRECTION + ray], fan[DIRECTION + FAN + ray]
-            _set_direction(fan, ray, rectangle_direction(u, v, seen.shape))
-
-
-@device
-def _set_direction(fan: Fan, ray: int, direction: Vec) -> None:
-    """Set the direction of a ray."""
-    fan[DIRECTION + ray] = direction[0]
-    fan[DIRECTION + FAN + ray] = direction[1]
-    fan[DIRECTION + 2 * FAN + ray] = direction[2]
+            u, v, _ = load_direction(fan, ray)
+            set_direction(fan, ray, rectangle_direction(u, v, seen.shape))
 
 
 @device
@@ -138,25 +143,48 @@ def _length(aim: Aim, point: Vec, direction: Vec) -> float:
 
 
 @device
-def arriving_share(fan: Fan, rays: int, aim: Aim, normal: Vec) -> tuple[float, float]:
-    """Return how much of a light arrives, and the variance of that.
+def arriving_shares(
+    fan: Fan, rays: int, components: int, aim: Aim, normal: Vec
+) -> tuple[Vec, float]:
+    """Return how much of each component of a light arrives, and the variance of that.
 
-    This is the mean weight of all rays, 0 for those stopped. Of a cone of which all arrives, it is
-    known without noise: the cosine at its middle.
+    This is the mean weight of all rays, 0 for those stopped; the variance is that of the noisiest
+    component. Of a cone of which all arrives, it is known without noise: the cosine at its middle.
+
+    Parameters
+    ----------
+    fan, rays
+        The rays, so many.
+    components
+        How many weights each of them has: 1, which comes first, or 3.
+    aim, normal
+        The light, and the unit normal of the surface.
     """
     if is_above(aim, normal) and count_open(fan, rays) == rays:
-        return middle_share(aim, normal), 0.0
+        return (middle_share(aim, normal), 0.0, 0.0), 0.0
+    first, spread = _arriving_share(fan, rays, 0)
+    if components == 1:
+        return (first, 0.0, 0.0), spread
+    second, second_spread = _arriving_share(fan, rays, 1)
+    third, third_spread = _arriving_share(fan, rays, 2)
+    return (first, second, third), max(spread, second_spread, third_spread)
+
+
+@device
+def _arriving_share(fan: Fan, rays: int, component: int) -> tuple[float, float]:
+    """Return the mean of one of the weights of the rays, and the variance of that."""
     total = 0.0
     for ray in range(rays):
-        total += _brought(fan, ray)
+        total += _brought(fan, ray, component)
     squares = 0.0
     for pair in range(rays // 2):
-        difference = _brought(fan, 2 * pair) - _brought(fan, 2 * pair + 1)
+        one, other = 2 * pair, 2 * pair + 1
+        difference = _brought(fan, one, component) - _brought(fan, other, component)
         squares += difference * difference
     return total / rays, squares / (rays * rays)
 
 
 @device
-def _brought(fan: Fan, ray: int) -> float:
-    """Return what a ray brings: its weight, 0 if something stops it."""
-    return fan[WEIGHT + ray] if fan[BLOCKED + ray] == 0.0 else 0.0
+def _brought(fan: Fan, ray: int, component: int) -> float:
+    """Return what a ray brings: one of its weights, 0 if something stops it."""
+    return fan[WEIGHT + component * FAN + ray] if fan[BLOCKED + ray] == 0.0 else 0.0
