@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 from conftest import JIT
+from vtray.geometry.bundle import Bundle, image_plane_range
 from vtray.geometry.ray import Footprint, Ray, Segment
 from vtray.geometry.shapes.columns import Columns, Place
 from vtray.geometry.shapes.cylinder import (
     CylinderShape,
+    cylinder_crossing,
     cylinder_distance,
     cylinder_hides,
-    cylinder_outline,
     cylinder_pole,
     is_second_half,
     load_cylinder,
@@ -255,16 +256,17 @@ def test_surface(point: Point, pole: Point, is_round: bool, is_second: bool) -> 
 @pytest.mark.parametrize(
     ("origin", "direction", "plane_depth", "expected"),
     [
-        ((-3, 0, 6), ACROSS, 1, INF),  # its middle
-        ((-3, 0.95, 6), ACROSS, 1, 3 - math.sqrt(1 - 0.95**2)),  # outlines: hit
-        ((-3, 1.05, 6), ACROSS, 1, 3 - math.sqrt(1.1**2 - 1.05**2)),  # and just missed
-        ((-3, 1.15, 6), ACROSS, 1, INF),
+        ((-3, 0, 5), ACROSS, 1, INF),  # one of its halves
+        ((-3, 0, 6.05), ACROSS, 1, 2),  # and both
+        ((-3, 0.95, 5), ACROSS, 1, 3 - math.sqrt(1 - 0.95**2)),  # outlines: hit
+        ((-3, 1.05, 5), ACROSS, 1, 3 - math.sqrt(1.1**2 - 1.05**2)),  # and just missed
+        ((-3, 1.15, 5), ACROSS, 1, INF),
         ((-3, 0, 4.05), ACROSS, 1, 2),
         ((-3, 0, 3.95), ACROSS, 1, 1.9),
         ((-3, 0, 3.85), ACROSS, 1, INF),
         ((0, 0, 0), UP, 1, INF),  # the middle of a cap
         ((0, 0.95, 0), UP, 1, 4),
-        ((0, 1.05, 0), UP, 1, 3.9),
+        ((0, 1.05, 0), UP, 1, 4),
         ((0, 1.15, 0), UP, 1, INF),
         ((0, -4, 0), SLANTED, 1, 5),  # the edge between cap and side
         ((0, -3.8, 0), SLANTED, 1, INF),
@@ -272,25 +274,32 @@ def test_surface(point: Point, pole: Point, is_round: bool, is_second: bool) -> 
         ((0, 5, 12), (0, -0.6, -0.8), 1, INF),
         ((0, -4, 0), SLANTED, -6, INF),  # which is behind the image plane
         ((0, -2.8, 3), SLANTED, 1, INF),  # the far edge
-        ((0, -2.8, 3), SLANTED, -3.5, 3),  # seen from within
-        ((-3, 0, 6), ACROSS, -9, INF),  # all of it is behind the image plane
+        ((0, -2.8, 3), SLANTED, -3.5, 6.2),  # seen from within
+        ((-3, 0, 5), ACROSS, -9, INF),  # all of it is behind the image plane
     ],
 )
-def test_outline(origin: Point, direction: Point, plane_depth: float, expected: float) -> None:
+def test_edges(origin: Point, direction: Point, plane_depth: float, expected: float) -> None:
     ray = Ray(
         tuple(map(float, origin)), tuple(map(float, direction)), float(plane_depth), 1.0, 0.0, 0.0
     )
-    found = cylinder_outline(cylinder(*UPRIGHT), ray, Footprint(0.1, 0.0))
-    assert found == pytest.approx(expected, abs=0.03)
+    first, last = image_plane_range(ray, Footprint(0.1, 0.0))
+    bundle = Bundle(ray.origin, ray.direction, 0.1, 0.0, 1.0, None, None, first, last, True)
+    near, far = cylinder_crossing(cylinder(*UPRIGHT), bundle)
+    if expected < INF:
+        assert far == INF
+        assert near <= expected + 0.03
+        assert near > expected - 0.6
+    else:
+        assert near == INF or far < near + 0.7
 
 
-def test_footprints_grow_along_the_ray() -> None:
-    # The axis is nearest at 5, and 1.5 away; but nearest in widths of a pixel at 5.8.
+def test_bundles_grow() -> None:
+    # The axis is nearest at 5, and 1.5 away; but nearest in widths of the bundle at 5.8.
     shape = cylinder((1.5, 0, -5), (1.5, 0, 15), 0.5)
-    way = 0.0, 0.6, 0.8
-    ray = Ray((0.0, -3.0, 1.0), way, 1.0, 1.0, 0.0, 0.0)
-    assert cylinder_outline(shape, ray, Footprint(0.0, 0.16)) == INF
-    assert 5 < cylinder_outline(shape, ray, Footprint(0.0, 0.188)) < 6
+    start, way = (0.0, -3.0, 1.0), (0.0, 0.6, 0.8)
+    for growth, is_met in ((0.16, False), (0.188, True)):
+        bundle = Bundle(start, way, 0.0, growth, 1.0, None, None, 0.0, 0.0, True)
+        assert (cylinder_crossing(shape, bundle).near < INF) == is_met
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])

@@ -13,8 +13,14 @@ from machine_code import instructions_in
 from conftest import JIT, compiled_only, x86_only
 from vtray.base.compiler.compiled import Kernel, kernel, uncompiled
 from vtray.base.compiler.object_code import compile_object
-from vtray.transport.sampling.fans import RUN, fan_keys, fan_point, fan_points
-from vtray.transport.sampling.sobol import IMAGE_PLACE, pixel_keys, scrambled, sobol_points
+from vtray.transport.sampling.fans import RUN, fan_keys, fan_of_sample, fan_point, fan_points
+from vtray.transport.sampling.sobol import (
+    IMAGE_PLACE,
+    pixel_keys,
+    scrambled,
+    shuffled,
+    sobol_points,
+)
 
 WORDS = st.sampled_from([0, 1, 2**16, 2**31, 2**32 - 1]) | st.integers(0, 2**32 - 1)
 KEYS = st.tuples(WORDS, WORDS)
@@ -165,6 +171,42 @@ def test_lights_and_places_in_the_image_are_independent(point: int) -> None:
     related = np.array([(one * other).sum() * 12 / SIDE for one, other in pairs])
     assert np.abs(related).max() < 4
     assert (related * related).mean() < 2
+
+
+@pytest.mark.parametrize("levels", [2, 4, 6])
+def test_samples_of_two_lights_and_the_image_are_independent(levels: int) -> None:
+    samples = 1 << levels
+    points, numbers = fan_points(16, samples), sobol_points(samples).T.tolist()
+    pixels = [(x, y) for x in range(20) for y in range(20 if JIT else 5)]
+
+    def fans(x: int, y: int, light: int) -> np.ndarray:
+        keys = fan_keys(x, y, light, 0)
+        order = [fan_of_sample(levels, k, x, y, light, 0) for k in range(samples)]
+        return np.array([fan_point(points, 16 * k, keys) for k in order])
+
+    def image(x: int, y: int) -> np.ndarray:
+        keys = pixel_keys(x, y, IMAGE_PLACE, 0)
+        return np.array([[scrambled(*pair) for pair in zip(n, keys, strict=True)] for n in numbers])
+
+    found = np.array([np.hstack([fans(x, y, 0), fans(x, y, 1), image(x, y)]) for x, y in pixels])
+    # Within each pixel, as random numbers have it.
+    related = np.array([np.corrcoef(of_pixel.T) for of_pixel in found])
+    pairs = [(0, 2), (0, 3), (1, 2), (1, 3), (0, 4), (0, 5), (1, 4), (1, 5), (2, 4), (3, 5)]
+    for pair in pairs:
+        spread = np.sqrt(np.mean(related[:, *pair] ** 2))
+        assert spread < 1.5 / np.sqrt(samples - 1)
+        assert abs(related[:, *pair].mean()) < 5 * spread / np.sqrt(len(pixels))
+
+
+@given(st.integers(1, 16), WORDS)
+def test_shuffled_blocks_stay_blocks(levels: int, key: int) -> None:
+    count = 1 << min(levels, 8)
+    order = np.array([shuffled(k, levels, key) for k in range(count)])
+    for size in (1, 2, 4, 8, 16, 32, 64, 128, 256):
+        for block in order.reshape(-1, size) if size <= count else []:
+            first = block.min()
+            assert first % size == 0
+            assert sorted(block.tolist()) == list(range(first, first + size))
 
 
 @given(KEYS, st.integers(0, 64 * 3 - 1))

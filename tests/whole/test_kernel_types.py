@@ -141,7 +141,7 @@ def test_cylinders_need_what_the_first_needed(used: Callable[..., set[str]]) -> 
     image = render(post, samples=2, keep_lights=True)
     image.relight([2.0]).depth  # noqa: B018 - traces
     vtray.trace_pixel(image, 0, 0)
-    needed = ONE_RAY | {"mark_rows", "add_up_rows", "trace_pixel"}
+    needed = ONE_RAY | {"add_up_rows", "trace_pixel"}
     assert used(2) == needed
     for few in bonds(3):
         render(few)
@@ -163,7 +163,7 @@ def test_samples_other_lights_and_single_rays_need_a_kernel_each(
         image.relight([2.0]).recolor(0, "red") if objects else image.relight([2.0])
         image.expose(3.0).depth  # noqa: B018 - traces
         vtray.trace_pixel(image, 0, 0)
-    assert used(2) == ONE_RAY | {"mark_rows", "add_up_rows", "trace_pixel"}
+    assert used(2) == ONE_RAY | {"add_up_rows", "trace_pixel"}
 
 
 def test_each_purpose_has_a_tracer_of_its_own(used: Callable[..., set[str]]) -> None:
@@ -179,4 +179,4 @@ def test_each_purpose_has_a_tracer_of_its_own(used: Callable[..., set[str]]) -> 
         assert used(purposes) >= ONE_RAY
     image.depth  # noqa: B018 - traces
     image.ids  # noqa: B018 - does not trace again
-    assert used(purposes + 1) == ONE_RAY | {"mark_rows"}
+    assert used(purposes + 1) == ONE_RAY

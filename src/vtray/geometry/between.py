@@ -80,25 +80,32 @@ def _first_of_group(
 
 
 @device
-def is_occluded_by(
-    world: World, group: Group, segment: Segment, beam: Beam, length: float, stack: Stack
+def is_occluded_below(
+    world: World,
+    group: Group,
+    node: int,
+    segment: Segment,
+    beam: Beam,
+    length: float,
+    stack: Stack,
+    base: int,
 ) -> bool:
-    """Tell whether any shape of a group with a hierarchy stands between two points.
+    """Tell whether any shape below a node of a group's hierarchy stands between two points.
 
     Parameters
     ----------
-    world, group
-        The group.
+    world, group, node
+        The group, and the node.
     segment
         The way between the points.
     beam, length
         The same as a ray in the space of the group's boxes, up to this multiple of its direction.
-    stack
-        Scratch memory.
+    stack, base
+        Scratch memory, and what waits there already, which stays.
     """
-    hierarchy = hierarchy_of(group)
+    hierarchy = Hierarchy(node, group.begin, group.end, group.to_boxes)
     first = _first_in_shapes(
-        world, hierarchy, segment, beam, length, NOTHING, stack, 0, True, _first_of_slots, group
+        world, hierarchy, segment, beam, length, NOTHING, stack, base, True, _first_of_slots, group
     )
     return first != NOTHING
 

@@ -9,30 +9,34 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.ray import Footprint, Ray, Segment
+from vtray.geometry.bundle import Bundle, Crossing
+from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.shapes.cylinder import (
+    cylinder_crossing,
     cylinder_distance,
     cylinder_hides,
     cylinder_is_aside,
-    cylinder_outline,
+    cylinder_is_outside,
     cylinder_surface,
     load_cylinder,
 )
 from vtray.geometry.shapes.plane import (
     load_plane,
+    plane_crossing,
     plane_distance,
     plane_hides,
     plane_is_aside,
-    plane_outline,
+    plane_is_outside,
     plane_surface,
 )
 from vtray.geometry.shapes.sphere import (
     load_sphere,
+    sphere_crossing,
     sphere_distance,
     sphere_hides,
     sphere_is_aside,
-    sphere_outline,
+    sphere_is_outside,
     sphere_surface,
 )
 from vtray.geometry.shapes.surface import Surface
@@ -55,8 +59,10 @@ class Verbs(NamedTuple):
         Tells whether a ray is sure to miss a shape, at less cost: worth asking one ray at a time.
     hides
         Tells whether a shape stands between two points.
-    outline
-        Returns the distance at which a ray passes near an outline of a shape, or infinity.
+    is_outside
+        Tells whether a point of the surface is looked at from outside, given the normal there.
+    crossing
+        Returns from where to where the rays of a bundle first meet a shape.
     surface
         Returns the surface at a point, whose rounding error is relative to a number beside the
         shape.
@@ -65,7 +71,8 @@ class Verbs(NamedTuple):
     distance_to: Callable[[Shape, Ray], float]
     is_aside: Callable[[Shape, Ray], bool]
     hides: Callable[[Shape, Segment], bool]
-    outline: Callable[[Shape, Ray, Footprint], float]
+    is_outside: Callable[[Shape, Vec, Vec], bool]
+    crossing: Callable[[Shape, Bundle], Crossing]
     surface: Callable[[Shape, Vec, float], Surface]
 
 
@@ -78,7 +85,14 @@ def with_any(world: World, group: Group, slot: int, action: Action, arguments: A
     """Return what an action returns for a shape of a group of any kind."""
     if group.kind == PLANE:
         plane = load_plane(world.planes, slot, group.place)
-        verbs = Verbs(plane_distance, plane_is_aside, plane_hides, plane_outline, plane_surface)
+        verbs = Verbs(
+            plane_distance,
+            plane_is_aside,
+            plane_hides,
+            plane_is_outside,
+            plane_crossing,
+            plane_surface,
+        )
         return action(plane, verbs, group.number + world.planes.number[slot], arguments)
     return with_bounded(world, group, slot, action, arguments)
 
@@ -106,12 +120,18 @@ def _with_one_of(
                 cylinder_distance,
                 cylinder_is_aside,
                 cylinder_hides,
-                cylinder_outline,
+                cylinder_is_outside,
+                cylinder_crossing,
                 cylinder_surface,
             )
             return action(cylinder, verbs, group.number + cylinders.number[slot], arguments)
     sphere = load_sphere(spheres, slot, group.place)
     verbs_of_spheres = Verbs(
-        sphere_distance, sphere_is_aside, sphere_hides, sphere_outline, sphere_surface
+        sphere_distance,
+        sphere_is_aside,
+        sphere_hides,
+        sphere_is_outside,
+        sphere_crossing,
+        sphere_surface,
     )
     return action(sphere, verbs_of_spheres, group.number + spheres.number[slot], arguments)

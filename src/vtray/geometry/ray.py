@@ -85,19 +85,32 @@ def ray_point(ray: Ray, distance: float) -> Vec:
 
 
 @device
-def has_width(footprint: Footprint) -> bool:
+def has_width(footprint: Footprint | None) -> bool:
     """Tell whether a footprint is more than the ray itself."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if footprint is None:
+        return False
     return (footprint.width > 0.0) | (footprint.growth > 0.0)
 
 
 @device
-def width_at(footprint: Footprint, distance: float) -> float:
+def width_at(footprint: Footprint | None, distance: float) -> float:
     """Return how far from a ray its pixel's part of the scene reaches at a distance."""
+    if footprint is None:
+        return 0.0
     return footprint.width + footprint.growth * distance
 
 
 @device
-def reach_at(footprint: Footprint, distance: float) -> float:
+def growth_of(footprint: Footprint | None) -> float:
+    """Return by how much a footprint grows with each unit of length along the ray."""
+    if footprint is None:
+        return 0.0
+    return footprint.growth
+
+
+@device
+def reach_at(footprint: Footprint | None, distance: float) -> float:
     """Return how far from a ray a shape may be that the ray would meet if it were a width larger.
 
     Larger to all sides, it reaches farther than that beyond its edges.

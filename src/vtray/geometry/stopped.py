@@ -1,27 +1,63 @@
 """Which rays of a fan something stops on their way to a light.
 
-Shapes that have no hierarchy are asked about all rays at once; through hierarchies each ray goes
-alone. What is found is what a loop over all rays and all shapes would find.
+All rays go through a hierarchy together: for each box that waits there is the set of those that may
+meet it. Where these are few, each goes on alone. Shapes that have no hierarchy are asked about all
+rays. What is found is what a loop over all rays and all shapes would find.
 """
 
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from vtray.base.compiler.compiled import device
-from vtray.geometry.between import is_occluded_by, is_occluded_by_placed
-from vtray.geometry.dispatch import Shape, Verbs, with_any
+from vtray.geometry.between import is_occluded_below, is_occluded_by_placed
+from vtray.geometry.bits import lowest_bit
+from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh, leaf_range
+from vtray.geometry.dispatch import Shape, Verbs, with_any, with_bounded
 from vtray.geometry.packets.beam import ray_beam, shape_margin
 from vtray.geometry.packets.cone import Touching
 from vtray.geometry.packets.fan import (
     BLOCKED,
+    FAN,
     LENGTH,
     Fan,
     Start,
     fan_segment,
     load_direction,
 )
+from vtray.geometry.packets.fan_rays import (
+    NONE,
+    ONE,
+    SINGLE_HUGE,
+    View,
+    balls_seen,
+    count_bits,
+    first_bit,
+    narrow_directions,
+    open_rays,
+    rays_along,
+    set_ball,
+    view_from,
+)
 from vtray.geometry.packets.stack import Stack
-from vtray.geometry.vector import add, scale
-from vtray.geometry.world import NO_TREE, Group, Places, World, group_count, load_group
+from vtray.geometry.rounding import MARGIN, ROUNDING
+from vtray.geometry.vector import Vec, add, dot, magnitude, scale, sub
+from vtray.geometry.world import (
+    NO_TREE,
+    SPHERE,
+    Group,
+    Places,
+    World,
+    group_count,
+    load_group,
+)
+
+FEW = 8
+"""Fewer rays than these search below a node alone."""
+
+FEW_IN_LEAF = 2
+"""Up to so many rays are asked about all shapes of a leaf, and not about their balls first."""
 
 
 class Bundle(NamedTuple):
@@ -31,16 +67,20 @@ class Bundle(NamedTuple):
     ----------
     fan, rays
         The fan, and how many there are.
-    start
-        Where they start.
+    start, normal
+        Where they start, and the unit normal of the surface there, above which they all are.
     end_scale
         What the rounding errors of their ends are relative to.
+    longest
+        No ray is longer.
     """
 
     fan: Fan
     rays: int
     start: Start
+    normal: Vec
     end_scale: float
+    longest: float
 
 
 @device
@@ -85,7 +125,7 @@ def stop_by_all(bundle: Bundle, world: World, stack: Stack) -> None:
 @device
 def _stop_by_shape(shape: Shape, verbs: Verbs, number: int, bundle: Bundle) -> int:
     """Mark the rays that a shape stops."""
-    fan, rays, start, end_scale = bundle
+    fan, rays, start, _, end_scale, _ = bundle
     for ray in range(rays):
         segment = fan_segment(fan, ray, start, end_scale)
         fan[BLOCKED + ray] = 1.0 if verbs.hides(shape, segment) else fan[BLOCKED + ray]
@@ -94,18 +134,130 @@ def _stop_by_shape(shape: Shape, verbs: Verbs, number: int, bundle: Bundle) -> i
 
 @device
 def _stop_by_tree(bundle: Bundle, world: World, group: Group, stack: Stack) -> None:
-    """Mark the rays that shapes of a group with a hierarchy stop, ray by ray."""
+    """Mark the rays that shapes of a group with a hierarchy stop."""
     fan, start = bundle.fan, bundle.start
     ratio, offset = group.to_boxes.ratio, group.to_boxes.offset
     apex = add(scale(ratio, start.point), offset)
     margin = shape_margin(group.to_boxes, apex, start.error_scale)
-    for ray in range(bundle.rays):
-        if fan[BLOCKED + ray] == 0.0:
-            segment = fan_segment(fan, ray, start, bundle.end_scale)
-            beam = ray_beam(apex, load_direction(fan, ray), margin)
-            length = fan[LENGTH + ray] * ratio
-            hidden = is_occluded_by(world, group, segment, beam, length, stack)
-            fan[BLOCKED + ray] = 1.0 if hidden else 0.0
+    view = view_from(apex, bundle.normal, margin, ratio * bundle.longest)
+    few = FEW if magnitude(apex) < SINGLE_HUGE else FAN + 1
+    narrow_directions(fan, bundle.rays)
+    unstopped = open_rays(fan, bundle.rays)
+    stack.node[0] = group.root
+    stack.rays[0] = unstopped
+    waiting = 1
+    while waiting > 0:
+        waiting -= 1
+        node = stack.node[waiting]
+        rays = stack.rays[waiting] & unstopped
+        if rays == NONE:
+            continue
+        if node < 0:
+            unstopped &= ~_stop_by_leaf(bundle, world, group, node, rays, stack)
+        elif count_bits(rays) < few:
+            while rays != NONE:
+                ray = first_bit(rays)
+                rays &= rays - ONE
+                segment = fan_segment(fan, ray, start, bundle.end_scale)
+                beam = ray_beam(apex, load_direction(fan, ray), margin)
+                length = fan[LENGTH + ray] * ratio
+                if is_occluded_below(world, group, node, segment, beam, length, stack, waiting):
+                    fan[BLOCKED + ray] = 1.0
+                    unstopped &= ~(ONE << np.uint64(ray))
+        else:
+            waiting = _push_near(bundle, world.bvh, node, view, rays, stack, waiting)
+
+
+@device
+def _push_near(
+    bundle: Bundle,
+    bvh: Bvh,
+    node: int,
+    view: View,
+    rays: np.uint64,
+    stack: Stack,
+    base: int,
+) -> int:
+    """Push the children of a node that some of its rays may meet; return the stack's new height."""
+    top, balls = base, stack.balls
+    seen = balls_seen(bvh, node * SIDES, view, balls)
+    while seen != 0:
+        k = lowest_bit(seen)
+        seen &= seen - 1
+        way = balls[k], balls[WIDTH + k], balls[2 * WIDTH + k]
+        near = rays & rays_along(bundle.fan, bundle.rays, way, balls[3 * WIDTH + k])
+        if near != NONE:
+            stack.node[top] = bvh.child[node * WIDTH + k]
+            stack.rays[top] = near
+            top += 1
+    return top
+
+
+@device
+def _stop_by_leaf(
+    bundle: Bundle,
+    world: World,
+    group: Group,
+    leaf: int,
+    rays: np.uint64,
+    stack: Stack,
+) -> np.uint64:
+    """Mark those of some rays that shapes of a leaf stop, and return them."""
+    balls, count, stopped = stack.balls, 0, NONE
+    begin, end = leaf_range(leaf)
+    is_worth_it = count_bits(rays) > FEW_IN_LEAF
+    for slot in range(begin, end):
+        stack.slot[count] = slot
+        arguments = bundle, group.kind, group.to_boxes.ratio, balls, count
+        count += with_bounded(world, group, slot, _see_ball, arguments) if is_worth_it else 1
+    for k in range(count):
+        near = rays & ~stopped
+        if is_worth_it:
+            way = balls[k], balls[WIDTH + k], balls[2 * WIDTH + k]
+            near &= rays_along(bundle.fan, bundle.rays, way, balls[3 * WIDTH + k])
+        if near != NONE:
+            stopped |= with_bounded(world, group, stack.slot[k], _hidden_rays, (bundle, near))
+    return stopped
+
+
+@device
+def _see_ball(
+    shape: Shape,
+    verbs: Verbs,  # noqa: ARG001
+    number: int,  # noqa: ARG001
+    arguments: tuple[Bundle, int, float, NDArray[np.float32], int],
+) -> int:
+    """Set the ball around a shape; return 1 if any of it is above the horizon, else 0."""
+    bundle, kind, ratio, balls, k = arguments
+    start = bundle.start
+    way = scale(ratio, sub(shape.center, start.point))
+    radius, error_scale = ratio * shape.radius, ratio * (shape.error_scale + start.error_scale)
+    margin, bound = MARGIN * error_scale, ROUNDING * error_scale
+    distance2, wide = dot(way, way), radius + margin
+    # A ball around another shape says nothing of where rays start.
+    starts_on = distance2 - radius * radius >= -bound * (2.0 * radius + bound)
+    starts_inside = (kind != SPHERE) | (not starts_on)
+    set_ball(balls, k, way, distance2 - wide * wide, margin, starts_inside)
+    return 1 if dot(way, bundle.normal) + radius >= -margin else 0
+
+
+@device
+def _hidden_rays(
+    shape: Shape,
+    verbs: Verbs,
+    number: int,  # noqa: ARG001
+    arguments: tuple[Bundle, np.uint64],
+) -> np.uint64:
+    """Mark those of some rays that a shape stops, and return them."""
+    bundle, rays = arguments
+    fan, hidden = bundle.fan, NONE
+    while rays != NONE:
+        ray = first_bit(rays)
+        rays &= rays - ONE
+        if verbs.hides(shape, fan_segment(fan, ray, bundle.start, bundle.end_scale)):
+            fan[BLOCKED + ray] = 1.0
+            hidden |= ONE << np.uint64(ray)
+    return hidden
 
 
 @device

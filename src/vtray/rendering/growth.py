@@ -77,7 +77,7 @@ class Growth:
         """Begin with the draft of a picture of this size."""
         film.linear.fill(0.0)  # so that all of it can be shown, whatever is done
         if film.coverage is not None:
-            film.primitive.fill(-1)
+            film.coverage.fill(0.0)
             self._coverage = np.zeros((height, width))
         self._linear = np.zeros((height, width, 3))
         drawn_height, drawn_width = film.linear.shape[:2]
@@ -164,12 +164,15 @@ class Growth:
             self._take(self._film, place, place)
 
     def _take(self, film: Film, source: tuple[Any, ...], target: tuple[Any, ...]) -> None:
-        """Take over pixels of a film."""
-        self._linear[target] = film.linear[source]
+        """Take over pixels of a film; those that wait for samples stay as in the draft."""
+        waits = False
+        if film.mixed is not None and self._nearest is None and not self._has_samples:
+            waits = film.mixed[source]
+        keep = np.asarray(waits)[..., None]
+        self._linear[target] = np.where(keep, self._linear[target], film.linear[source])
         if self._coverage is not None:
-            is_known = self._has_samples
-            cover = film.coverage[source] if is_known else film.primitive[source] >= 0
-            self._coverage[target] = cover
+            known = film.coverage[source]
+            self._coverage[target] = np.where(waits, self._coverage[target], known)
 
 
 def draft_camera(camera: CameraFrame) -> CameraFrame:

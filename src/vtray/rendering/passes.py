@@ -7,18 +7,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.memory import check_memory_of_lights
-from vtray.base.pool import Progress, run_tasks
+from vtray.base.pool import Progress
 from vtray.base.tiles import TILE, Tile, split_into_tiles
 from vtray.geometry.packets.packet import NO_PRIMITIVE
+from vtray.geometry.ray import Footprint
+from vtray.geometry.shapes import cylinder, sphere
+from vtray.geometry.world import World
 from vtray.rendering.engines.engine import Engine, trace_to
 from vtray.rendering.engines.threads import Threads
 from vtray.rendering.growth import DRAFT_TILE, Growth, draft_camera
 from vtray.scene.settings import RenderSettings
 from vtray.transport.film import Film, new_film
 from vtray.transport.light_buffer import KeptLight, new_kept_light
-from vtray.transport.sampling.adaptive import mark_rows
 from vtray.transport.sampling.fans import Noise, fans_of_middles, fans_of_samples
-from vtray.transport.sampling.filters import FILTERS
 from vtray.transport.sampling.pixel_samples import (
     Sampling,
     filter_footprint,
@@ -27,7 +28,7 @@ from vtray.transport.sampling.pixel_samples import (
 )
 from vtray.transport.scene_arrays import SceneArrays
 
-SAMPLES = ("linear", "error", "coverage", "primitive", "half", "shadows", "rims")
+SAMPLES = ("linear", "error", "coverage", "mixed")
 """What is wanted of one with samples."""
 
 SPARSE = 8
@@ -119,18 +120,18 @@ class Tracer:
             return found._replace(film=_covered(found.film), noise=noise)
         self._passes = 2
         footprint = filter_footprint(settings, self._scene.camera)
-        middles = middle_rays(footprint, before_samples=True, fans=fans, seed=seed)
+        thickest = _thickest(self._scene.world)
+        middles = middle_rays(footprint, thickest, before_samples=True, fans=fans, seed=seed)
         found = self._middles(middles, keep, *SAMPLES)
-        film = found.film
-        marks, peak = self._mark(film, settings)
-        film = _covered(film)
-        kept = found.kept
+        film, kept = found.film, found.kept
+        marks = film.mixed.copy()  # the film is written anew
         if keep:
             kept = (*kept, self._keep(marks, samples))
             film = film._replace(kept=kept[-1])
         fans = None if noise is None else fans_of_samples(samples, noise)
         sampled = self._trace(filter_samples(settings, marks, fans), film)
-        return Traced(film, max(peak, sampled.peak), found.rays + sampled.rays, noise, kept)
+        peak, cast = max(found.peak, sampled.peak), found.rays + sampled.rays
+        return Traced(film, peak, cast, noise, kept)
 
     def noise(self, settings: RenderSettings, white: float | None, *, keep: bool) -> Noise | None:
         """Return how noisy soft light may be, if there is any; the parameters are those of `light`.
@@ -171,6 +172,8 @@ class Tracer:
     def _draft(self, growth: Growth, sampling: Sampling, keep: bool, *wanted: str) -> None:
         """Trace what is shown of the picture until its own pixels are there."""
         scene = self._scene._replace(camera=draft_camera(self._scene.camera))
+        if sampling.footprint is not None:  # none waits for samples
+            sampling = sampling._replace(footprint=Footprint(0.0, 0.0))
         width, height = scene.camera.width, scene.camera.height
         film = new_film(width, height, *wanted)
         growth.begin_draft(film, *self._size)
@@ -194,20 +197,6 @@ class Tracer:
         first = np.cumsum(marks, dtype=np.int64).reshape(marks.shape)
         first = np.where(marks, (first - 1) * samples, -1)
         return new_kept_light(first, count, components)
-
-    def _mark(self, film: Film, settings: RenderSettings) -> tuple[NDArray[np.bool_], float]:
-        """Return which pixels need samples, and the largest channel of the others."""
-        width, height = self._size
-        film = film._replace(kept=None)  # one kernel, whether light is kept or not
-        marks = np.empty((height, width), np.bool_)
-        near = int(np.ceil(FILTERS[settings.filter].radius))
-        peaks = []
-
-        def mark(top: int) -> None:
-            peaks.append(mark_rows(film, near, top, min(top + TILE, height), marks))
-
-        run_tasks(range(0, height, TILE), lambda: mark, self._threads)
-        return marks, max(peaks)
 
     def _trace(self, sampling: Sampling, film: Film) -> Traced:
         """Cast rays, and write to a film."""
@@ -250,13 +239,19 @@ def _covered(film: Film) -> Film:
     return film._replace(coverage=(film.primitive != NO_PRIMITIVE).astype(float))
 
 
+def _thickest(world: World) -> float:
+    """Return the radius of the thickest solid, in the kernels' space."""
+    radii = [world.spheres.data[3 :: sphere.SIZE]]
+    if world.cylinders is not None:
+        radii.append(world.cylinders.data[6 :: cylinder.SIZE])
+    return max(float(of_kind.max(initial=0.0)) for of_kind in radii) * world.scale
+
+
 def compile_kernels(scene: SceneArrays, settings: RenderSettings, *, keep: bool = False) -> None:
     """Compile what is needed to trace a scene, or load it from disk; see `Tracer.light`."""
     has_samples = settings.samples > 1
     soft = scene.lights.soft
     film = new_film(0, 0, *(SAMPLES if has_samples else one_ray(scene)))
-    if has_samples:
-        mark_rows(film, 0, 0, 0, np.zeros((0, 0), np.bool_))
     if keep:
         film = film._replace(kept=new_kept_light(np.zeros((0, 0), np.int64), 0, 0))
     fans = None if soft is None else fans_of_middles(Noise(math.inf, by_light=True))

@@ -25,16 +25,17 @@ GOLDEN_ANGLE = 180 * (3 - math.sqrt(5))
 """In degrees: points that turn by it from one to the next never line up."""
 
 
-KEY, FILL, RIM, AROUND = 0.42, 0.22, 0.26, 0.45
-"""The parts of studio light: with all of them, what is brightest shows about 1."""
+KEY, FILL, RIM, FRONT, AROUND = 0.36, 0.2, 0.26, 0.2, 0.52
+"""The parts of studio light: what faces the camera or the key, with nothing near, shows about 1."""
 
 
 def studio(scene: HasCamera, intensity: float = 1.0) -> list[AnyLight]:
     """Return the light of a studio: soft, and from all sides; that of scenes without lights.
 
     A large lamp, the key, is 40 degrees to the left and 45 above, a weaker one to the right fills
-    its shadows, and one from behind draws rims; ambient light shows what is deep and what is open.
-    With an exposure of 1, the brightest surfaces show their own colour.
+    its shadows, a weak one from the camera reaches whatever is seen, and one from behind draws
+    rims; ambient light shows what is deep and what is open. With an exposure of 1, surfaces that
+    face the camera or the key show their own colour.
 
     Parameters
     ----------
@@ -46,7 +47,7 @@ def studio(scene: HasCamera, intensity: float = 1.0) -> list[AnyLight]:
     Returns
     -------
     list
-        Three `Sun`, so that a floor is lit evenly as far as it goes, and an `Ambient`.
+        Four `Sun`, so that a floor is lit evenly as far as it goes, and an `Ambient`.
 
     Raises
     ------
@@ -59,6 +60,7 @@ def studio(scene: HasCamera, intensity: float = 1.0) -> list[AnyLight]:
         studio.sun(direction(-40, 45), 20.0, KEY * strength),
         studio.sun(direction(50, 15), 40.0, FILL * strength),
         studio.sun(direction(140, 40), 20.0, RIM * strength),
+        studio.sun(direction(0, 0), 10.0, FRONT * strength),
         Ambient(AROUND * strength),
     ]
 

@@ -13,12 +13,11 @@ from vtray.geometry.packets.packet import (
     HALF,
     LANES,
     LIGHT,
+    MIXED,
     NO_PRIMITIVE,
     NOISE,
     NORMAL,
     PRIMITIVE,
-    RIM,
-    SHADOWS,
     SOURCE,
     VALUE,
     WEIGHT,
@@ -49,6 +48,9 @@ class Film(NamedTuple):
         Share of the pixel in which something is hit, (height, width); None for one ray a pixel.
     error
         The standard error of light, that of the channel that has the largest, (height, width).
+    mixed
+        Whether what its filter weighs may not all look like the middle, (height, width); None
+        likewise.
     distance
         Along the middle ray, in the unit of the arrays, infinite for no hit, (height, width).
     normal
@@ -57,10 +59,6 @@ class Film(NamedTuple):
         What the middle ray hits, -1 for nothing, (height, width).
     half
         1 where that is the second half of a shape that has two, else 0, (height, width).
-    shadows
-        A number for the lights that something keeps from the middle ray's hit, (height, width).
-    rims
-        Whether the outline of a sphere passes near the middle ray, (height, width).
     kept
         What is kept of all rays to change lights and colours afterwards.
     """
@@ -70,12 +68,11 @@ class Film(NamedTuple):
     linear: Rows
     coverage: Rows
     error: Rows
+    mixed: Rows
     distance: Rows
     normal: Rows
     primitive: Rows
     half: Rows
-    shadows: Rows
-    rims: Rows
     kept: KeptLight | None
 
 
@@ -91,12 +88,11 @@ def new_film(width: int, height: int, *wanted: str, left: int = 0, top: int = 0)
         linear=rows("linear", np.float64, 3),
         coverage=rows("coverage"),
         error=rows("error"),
+        mixed=rows("mixed", np.bool_),
         distance=rows("distance"),
         normal=rows("normal", np.float64, 3),
         primitive=rows("primitive", np.int32),
         half=rows("half", np.int8),
-        shadows=rows("shadows"),
-        rims=rows("rims", np.bool_),
         kept=None,
     )
 
@@ -235,8 +231,8 @@ def write_middles(
     _write_distances(packet, block, begin, end, pixels, film.distance)
     _write_primitives(packet, block, begin, end, pixels, film.primitive)
     _write_halves(packet, block, begin, end, pixels, film.half)
-    _write_rims(packet, block, begin, end, pixels, film.rims)
-    _write_shadows(packet, block, begin, end, hits, pixels, film.shadows)
+    _write_coverage(packet, block, begin, end, pixels, film.coverage)
+    _write_mixed(packet, block, begin, end, pixels, film.mixed)
     _write_noise(packet, block, begin, end, hits, pixels, film.error)
     return peak
 
@@ -281,17 +277,28 @@ def _write_halves(
 
 
 @device
-def _write_rims(
-    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, rims: Rows
+def _write_coverage(
+    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, coverage: Rows
 ) -> None:
-    """Write whether the rays pass near an outline that they could see."""
-    if rims is None:
+    """Write whether the rays hit anything."""
+    if coverage is None:
+        return
+    numbers = packet.view(np.int64)
+    for lane in range(end - begin):
+        row, column = _place(block, pixels[begin + lane])
+        coverage[row, column] = 1.0 if numbers[PRIMITIVE + lane] != NO_PRIMITIVE else 0.0
+
+
+@device
+def _write_mixed(
+    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, mixed: Rows
+) -> None:
+    """Write which pixels get samples."""
+    if mixed is None:
         return
     for lane in range(end - begin):
         row, column = _place(block, pixels[begin + lane])
-        rim = packet[RIM + lane]
-        # Where neither is, both are infinite.
-        rims[row, column] = (rim <= packet[DISTANCE + lane]) & (rim < math.inf)
+        mixed[row, column] = packet[MIXED + lane] != 0.0
 
 
 @device
@@ -369,28 +376,6 @@ def _write_normals(
         row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
         for axis in range(3):
             normals[row, column, axis] = packet[NORMAL + axis * LANES + hit]
-
-
-@device
-def _write_shadows(
-    packet: Packet,
-    block: Block,
-    begin: int,
-    end: int,
-    hits: int,
-    pixels: Pixels,
-    shadows: Rows,
-) -> None:
-    """Write the numbers of the lights that something keeps from the hits."""
-    if shadows is None:
-        return
-    numbers = packet.view(np.int64)
-    for lane in range(end - begin):
-        row, column = _place(block, pixels[begin + lane])
-        shadows[row, column] = 0.0
-    for hit in range(hits):
-        row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
-        shadows[row, column] = packet[SHADOWS + hit]
 
 
 @device

@@ -8,6 +8,7 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.dispatch import Shape, Verbs, with_any
 from vtray.geometry.packets.coherence import CLUSTER, cluster_hits, list_hits
 from vtray.geometry.packets.packet import (
+    BEND,
     COLOR,
     CURVED,
     DISTANCE,
@@ -34,8 +35,8 @@ from vtray.geometry.packets.packet import (
     store,
 )
 from vtray.geometry.packets.workspace import Workspace
-from vtray.geometry.ray import Ray, ray_point
-from vtray.geometry.shapes.surface import Surface, normal_at
+from vtray.geometry.ray import Footprint, Ray, has_width, ray_point
+from vtray.geometry.shapes.surface import Surface, bend_at, normal_at
 from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.geometry.world import Group, World, has_trees, load_group
 from vtray.transport.materials.material import load_material
@@ -105,18 +106,25 @@ def interact(world: World, ray: Ray, distance: float, row: int, slot: int) -> In
 
 @device
 def gather_interactions(
-    packet: Packet, lanes: int, samples: int, sheaf: Sheaf, scene: SceneArrays, work: Workspace
+    packet: Packet,
+    lanes: int,
+    samples: int,
+    sheaf: Sheaf,
+    footprint: Footprint | None,
+    scene: SceneArrays,
+    work: Workspace,
 ) -> int:
     """Bring the hits of a packet together, as interactions with no light yet; return how many.
 
     Where there are hierarchies, they are in clusters. Field ``SOURCE`` says where each came from.
+    Field ``BEND`` is set if the footprint has a width.
     """
     if has_trees(scene.world):
         hits = cluster_hits(packet, lanes, CLUSTER * min(samples, OCTET), work)
     else:
         hits = list_hits(packet, lanes, work)
     for hit in range(hits):
-        _fetch(packet, hit, work.order[hit], sheaf, scene)
+        _fetch(packet, hit, work.order[hit], sheaf, footprint, scene)
     # A loop of its own, only so is it vectorised.
     for hit in range(hits):
         origin = load(packet, START, hit) if start_apart(sheaf) else sheaf.origin
@@ -133,7 +141,14 @@ def gather_interactions(
 
 
 @device
-def _fetch(packet: Packet, hit: int, lane: int, sheaf: Sheaf, scene: SceneArrays) -> None:
+def _fetch(
+    packet: Packet,
+    hit: int,
+    lane: int,
+    sheaf: Sheaf,
+    footprint: Footprint | None,
+    scene: SceneArrays,
+) -> None:
     """Bring together what a hit is made of."""
     numbers, world = packet.view(np.int64), scene.world
     row, slot = split_met(numbers[MET + lane])
@@ -142,6 +157,8 @@ def _fetch(packet: Packet, hit: int, lane: int, sheaf: Sheaf, scene: SceneArrays
     surface = surface_at(world, load_group(world, row), slot, point, error_scale)
     store(packet, NORMAL, hit, surface.pole)
     packet[CURVED + hit] = 1.0 if surface.is_round else 0.0
+    if has_width(footprint):
+        packet[BEND + hit] = bend_at(surface, point)
     packet[ERROR_SCALE + hit] = surface.error_scale
     store(packet, TOWARDS, hit, ray.direction)
     if start_apart(sheaf):

@@ -17,8 +17,8 @@ from numba import types
 from vtray.geometry.bvh.tree import WIDTH
 
 _WORD = ir.IntType(32)
-_SINGLES = ir.VectorType(ir.FloatType(), WIDTH)
-_ALIGNED_TO = 4
+SINGLES = ir.VectorType(ir.FloatType(), WIDTH)
+ALIGNED_TO = 4
 _READ, _KEEP, _DATA = 0, 3, 1
 
 Code = tuple[Any, Callable[[Any, Any, Any, Any], Any]]
@@ -34,24 +34,24 @@ def write_boxes_met(
         bvh, first, near, far, start, end, entered = values
         struct = signature.args[0]
         field = struct.fields.index("sides")
-        sides = _data(context, builder, struct[field], builder.extract_value(bvh, field))
+        sides = data_of(context, builder, struct[field], builder.extract_value(bvh, field))
 
         def narrowed(limit: Any, bounds: Any, order: str) -> Any:
             """Return a limit, or the bound of an axis that is nearer, for each box."""
-            found = _in_all_lanes(builder, limit)
+            found = in_all_lanes(builder, limit)
             for axis in range(3):
                 side, factor, term = (builder.extract_value(bounds, (k, axis)) for k in range(3))
                 place = builder.gep(sides, [builder.add(first, side)])
-                place = builder.bitcast(place, _SINGLES.as_pointer())
-                bound = builder.load(place, align=_ALIGNED_TO)
-                bound = builder.fmul(bound, _in_all_lanes(builder, factor))
-                bound = builder.fadd(bound, _in_all_lanes(builder, term))
+                place = builder.bitcast(place, SINGLES.as_pointer())
+                bound = builder.load(place, align=ALIGNED_TO)
+                bound = builder.fmul(bound, in_all_lanes(builder, factor))
+                bound = builder.fadd(bound, in_all_lanes(builder, term))
                 found = builder.select(builder.fcmp_ordered(order, bound, found), bound, found)
             return found
 
         enter, leave = narrowed(start, near, ">"), narrowed(end, far, "<")
-        out = _data(context, builder, signature.args[6], entered)
-        builder.store(enter, builder.bitcast(out, _SINGLES.as_pointer()), align=_ALIGNED_TO)
+        out = data_of(context, builder, signature.args[6], entered)
+        builder.store(enter, builder.bitcast(out, SINGLES.as_pointer()), align=ALIGNED_TO)
         met = builder.fcmp_ordered("<=", enter, leave)
         return builder.zext(builder.bitcast(met, ir.IntType(WIDTH)), ir.IntType(64))
 
@@ -62,7 +62,7 @@ def write_fetch_early(_: object, values: Any, at: Any) -> Code:
     """Return the code of `fetch_early`."""
 
     def write(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        data = _data(context, builder, signature.args[0], arguments[0])
+        data = data_of(context, builder, signature.args[0], arguments[0])
         place = builder.gep(data, [arguments[1]])
         place = builder.bitcast(place, ir.IntType(8).as_pointer())
         kind = ir.FunctionType(ir.VoidType(), [place.type, _WORD, _WORD, _WORD])
@@ -73,14 +73,14 @@ def write_fetch_early(_: object, values: Any, at: Any) -> Code:
     return types.none(values, at), write
 
 
-def _data(context: Any, builder: Any, kind: Any, array: Any) -> Any:
+def data_of(context: Any, builder: Any, kind: Any, array: Any) -> Any:
     """Return the address of an array's first number."""
     return context.make_array(kind)(context, builder, array).data
 
 
-def _in_all_lanes(builder: Any, value: Any) -> Any:
+def in_all_lanes(builder: Any, value: Any) -> Any:
     """Return eight times the same number."""
-    nothing = ir.Constant(_SINGLES, ir.Undefined)
+    nothing = ir.Constant(SINGLES, ir.Undefined)
     lane = builder.insert_element(nothing, value, _WORD(0))
     lanes = ir.Constant(ir.VectorType(_WORD, WIDTH), [0] * WIDTH)
     return builder.shuffle_vector(lane, nothing, lanes)

@@ -24,7 +24,9 @@ LENGTH = 8 * FAN
 """How long it is."""
 WEIGHT = 9 * FAN
 """What the ray counts, if nothing stops it: one number, or three for red, green and blue."""
-SIZE = 12 * FAN
+SINGLES = 12 * FAN
+"""Its direction in single precision, two in the place of one number."""
+SIZE = 14 * FAN
 
 Fan = NDArray[np.float64]
 """The fields of all rays, one after the other, as those of a packet."""

@@ -6,25 +6,40 @@ from collections.abc import Callable
 import numpy as np
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.bundle import Bundle, Crossing, image_plane_range
 from vtray.geometry.dispatch import Shape, Verbs, with_bounded
 from vtray.geometry.packets.packet import (
+    ALL_MET,
     DISTANCE,
     LANES,
     MET,
+    MIXED,
+    NEAREST,
     NO_PRIMITIVE,
     OCTET,
+    PASSED,
+    PASSING,
     PRIMITIVE,
-    RIM,
+    RIVAL,
     Packet,
     Sheaf,
     join_met,
     load_ray,
 )
-from vtray.geometry.packets.ray_bounds import find_farthest, octets_met
+from vtray.geometry.packets.ray_bounds import (
+    Cones,
+    ball_distance,
+    find_farthest,
+    is_known_mixed,
+    latest_start,
+    note_latest,
+    note_mixed,
+    octets_met,
+)
 from vtray.geometry.packets.workspace import Workspace
-from vtray.geometry.ray import Footprint, Ray, has_width
+from vtray.geometry.ray import Footprint, Ray, has_width, width_at
 from vtray.geometry.rounding import MARGIN
-from vtray.geometry.shapes.plane import load_plane, plane_distance
+from vtray.geometry.shapes.plane import load_plane, plane_crossing, plane_distance
 from vtray.geometry.world import Group, World
 
 
@@ -35,17 +50,46 @@ def clear_hits(packet: Packet, lanes: int) -> None:
     for lane in range(lanes):
         packet[DISTANCE + lane] = math.inf
         numbers[PRIMITIVE + lane] = NO_PRIMITIVE
-        packet[RIM + lane] = math.inf
+        packet[NEAREST + lane] = math.inf
+        packet[RIVAL + lane] = math.inf
+        packet[ALL_MET + lane] = math.inf
 
 
 @device
-def nearest_planes(packet: Packet, lanes: int, sheaf: Sheaf, world: World, group: Group) -> None:
+def find_starts(
+    packet: Packet, lanes: int, sheaf: Sheaf, footprint: Footprint | None, cones: Cones
+) -> None:
+    """Find from where on what the bundles of lanes meet counts, if they have a width."""
+    if footprint is None:
+        return
+    if not has_width(footprint):
+        return
+    for lane in range(lanes):
+        first, last = image_plane_range(load_ray(packet, sheaf, lane), footprint)
+        packet[PASSING + lane] = first
+        packet[PASSED + lane] = last
+    for lane in range(0, lanes, OCTET):
+        note_latest(packet, lane, cones)
+        note_mixed(packet, lane, cones)
+
+
+@device
+def nearest_planes(
+    packet: Packet,
+    lanes: int,
+    sheaf: Sheaf,
+    footprint: Footprint | None,
+    world: World,
+    group: Group,
+) -> None:
     """Let planes take the lanes in which they are nearer than the hits so far."""
     for slot in range(group.begin, group.end):
         plane = load_plane(world.planes, slot, group.place)
         number = group.number + world.planes.number[slot]
         met = join_met(group.row, slot)
         _take_lanes(packet, 0, lanes, sheaf, met, number, plane, plane_distance)
+        if has_width(footprint):
+            _note_crossings(packet, 0, lanes, sheaf, footprint, True, plane, plane_crossing)
 
 
 @device
@@ -54,7 +98,7 @@ def nearest_slots(
     first: int,
     count: int,
     sheaf: Sheaf,
-    footprint: Footprint,
+    footprint: Footprint | None,
     world: World,
     group: Group,
     begin: int,
@@ -86,7 +130,7 @@ def _take_octets(
     shape: Shape,
     verbs: Verbs,
     number: int,
-    arguments: tuple[tuple[Packet, int, int, Sheaf, Footprint, Workspace], int],
+    arguments: tuple[tuple[Packet, int, int, Sheaf, Footprint | None, Workspace], int],
 ) -> None:
     """Test a shape for those of some octets that it may meet."""
     (packet, first, count, sheaf, footprint, work), met_here = arguments
@@ -94,6 +138,8 @@ def _take_octets(
     met = octets_met(
         work.cones, first, count, sheaf, shape.center, shape.radius + margin, footprint
     )
+    distance = ball_distance(shape.center, shape.radius, sheaf)
+    may_cover = shape.radius > width_at(footprint, distance)
     lane = first * OCTET
     while met > 0:
         if met & 1:
@@ -101,9 +147,12 @@ def _take_octets(
             begin = lane & (LANES - 1)
             end = begin + OCTET
             _take_lanes(packet, begin, end, sheaf, met_here, number, shape, verbs.distance_to)
-            if has_width(footprint):
-                _note_rims(packet, lane, sheaf, footprint, shape, verbs.outline)
-            find_farthest(packet, lane // OCTET, 1, work.cones)
+            if has_width(footprint) and (may_cover or not is_known_mixed(work.cones, lane)):
+                is_cut = distance <= latest_start(work.cones, lane)
+                cross = verbs.crossing
+                _note_crossings(packet, begin, end, sheaf, footprint, is_cut, shape, cross)
+                note_mixed(packet, lane, work.cones)
+            find_farthest(packet, lane // OCTET, 1, footprint, work.cones)
         met >>= 1
         lane += OCTET
 
@@ -134,16 +183,50 @@ def _take_lanes(
 
 
 @device
-def _note_rims(
+def _note_crossings(
     packet: Packet,
-    first: int,
+    begin: int,
+    end: int,
     sheaf: Sheaf,
-    footprint: Footprint,
+    footprint: Footprint | None,
+    is_cut: bool,
     shape: Shape,
-    outline_of: Callable[[Shape, Ray, Footprint], float],
+    crossing_of: Callable[[Shape, Bundle], Crossing],
 ) -> None:
-    """Note the distance of a shape's outline in those of eight lanes that it passes near."""
-    begin = first & (LANES - 1)
-    for lane in range(begin, begin + OCTET):
-        outline = outline_of(shape, load_ray(packet, sheaf, lane), footprint)
-        packet[RIM + lane] = min(outline, packet[RIM + lane])
+    """Note where all that belongs to the pixels of some lanes meets a shape."""
+    if footprint is None:
+        return
+    for lane in range(begin, end):
+        ray = load_ray(packet, sheaf, lane)
+        bundle = Bundle(
+            ray.origin,
+            ray.direction,
+            footprint.width,
+            footprint.growth,
+            1.0,
+            None,
+            None,
+            packet[PASSING + lane],
+            packet[PASSED + lane],
+            is_cut,
+        )
+        near, far = crossing_of(shape, bundle)
+        nearest = packet[NEAREST + lane]
+        packet[RIVAL + lane] = min(packet[RIVAL + lane], max(nearest, near))
+        packet[NEAREST + lane] = min(nearest, near)
+        packet[ALL_MET + lane] = min(packet[ALL_MET + lane], far)
+
+
+@device
+def find_mixed(packet: Packet, lanes: int) -> None:
+    """Set field ``MIXED``: all rays of a lane's bundle hit one same shape first, or nothing.
+
+    That is so if one is in the way of all of them, and no other is met before that; which must be
+    true of the ray itself, too.
+    """
+    for lane in range(lanes):
+        distance, nearest = packet[DISTANCE + lane], packet[NEAREST + lane]
+        last = packet[ALL_MET + lane]
+        is_one = (nearest <= distance) & (distance <= last) & (last < packet[RIVAL + lane])
+        is_none = (nearest == math.inf) & (distance == math.inf)
+        packet[MIXED + lane] = 0.0 if is_one | is_none else 1.0

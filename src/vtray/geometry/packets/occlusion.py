@@ -16,13 +16,16 @@ from vtray.geometry.packets.packet import (
     MET,
     NORMAL,
     OCTET,
+    OWNER,
     PLANE_DEPTH,
     POINT,
+    REACH,
     SOURCE,
     Packet,
     load,
     split_met,
 )
+from vtray.geometry.packets.patch import is_open, note_plane, note_solid
 from vtray.geometry.packets.shaft import outside_shaft
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Segment
@@ -46,11 +49,15 @@ class Target(NamedTuple):
         Its distance in front of the image plane.
     error_scale
         What its rounding error is relative to, beside what stands in the way.
+    is_wide
+        Whether rays from the patches around the points are asked for as well; None where they never
+        are, so that no code is compiled for them.
     """
 
     place: Vec
     plane_depth: float
     error_scale: float
+    is_wide: bool | None = None
 
 
 class Bounds(NamedTuple):
@@ -103,6 +110,18 @@ def box_of(bounds: Bounds) -> PointBox:
     """Return the box of points within bounds."""
     center = scale(0.5, add(bounds.low, bounds.high))
     return PointBox(center, scale(0.5, sub(bounds.high, bounds.low)), bounds.error_scale)
+
+
+@device
+def widened_box(packet: Packet, hits: int, box: PointBox, is_wide: bool | None) -> PointBox:
+    """Return a box of points widened by their patches, if these are asked for."""
+    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_wide:
+            most = 0.0
+            for lane in range(hits):
+                most = max(most, packet[REACH + lane])
+            return PointBox(box.center, add(box.half, (most, most, most)), box.error_scale)
+    return box
 
 
 @device
@@ -163,6 +182,25 @@ def find_sides(packet: Packet, hits: int, world: World, work: Workspace) -> None
 
 
 @device
+def find_close_planes(packet: Packet, hits: int, world: World, work: Workspace) -> None:
+    """Find the planes that the patches of a packet reach, and on which they are not."""
+    numbers = packet.view(np.int64)
+    for row in range(group_count(world)):
+        group = load_group(world, row)
+        if group.kind == PLANE:
+            for slot in range(group.begin, group.end):
+                plane = load_plane(world.planes, slot, group.place)
+                number, count = group.number + world.planes.number[slot], 0
+                for lane in range(hits):
+                    side = plane_side(plane, load(packet, POINT, lane))
+                    is_close = (abs(side) <= packet[REACH + lane]) & (
+                        numbers[OWNER + lane] != number
+                    )
+                    count += 1 if is_close else 0
+                work.close[slot] = count > 0
+
+
+@device
 def _find_sides_of(
     packet: Packet, hits: int, plane: PlaneShape, slot: int, work: Workspace
 ) -> None:
@@ -198,9 +236,12 @@ def block_by_planes(
         # same, and it took a quarter more time.
         end = end_side(plane, target.place, target.error_scale)
         nearest = work.above[slot] if end < 0.0 else work.below[slot]
+        if work.close[slot] or nearest < math.inf:
+            number = group.number + world.planes.number[slot]
+            _note_plane(packet, hits, target.is_wide, plane, number)
         if end != 0.0 and _crosses(nearest, abs(end), bounds.plane_depth, target.plane_depth):
             _block_lanes(packet, 0, hits, target, (plane, end), hides_side)
-            if not _any_open(packet, hits):
+            if not _any_open(packet, hits, target.is_wide):
                 return False
     return True
 
@@ -223,11 +264,11 @@ def _crosses(nearest: float, end: float, plane_depth: float, end_plane_depth: fl
 
 
 @device
-def _any_open(packet: Packet, hits: int) -> bool:
+def _any_open(packet: Packet, hits: int, is_wide: bool | None) -> bool:
     """Tell whether nothing so far hides a light from any of the points."""
     count = 0
     for lane in range(hits):
-        count += 1 if packet[BLOCKED + lane] == 0.0 else 0
+        count += 1 if is_open(packet, lane, is_wide) else 0
     return count > 0
 
 
@@ -265,12 +306,13 @@ def block_by_slot(
 def _block_by_shape(
     shape: Shape,
     verbs: Verbs,
-    number: int,  # noqa: ARG001
+    number: int,
     arguments: tuple[Packet, int, int, Target],
 ) -> None:
     """Mark the points of a range that a shape hides from a light."""
     packet, begin, end, target = arguments
     _block_octets(packet, begin, end, target, shape, verbs.hides)
+    _note_solid(packet, begin, end, target.is_wide, number, shape, verbs)
 
 
 @device
@@ -333,3 +375,33 @@ def _block_lanes(
             target.error_scale,
         )
         packet[BLOCKED + lane] = 1.0 if hides(shape, segment) else packet[BLOCKED + lane]
+
+
+@device
+def _note_plane(
+    packet: Packet,
+    hits: int,
+    is_wide: bool | None,
+    plane: PlaneShape,
+    number: int,
+) -> None:
+    """Note what a plane does to the light on patches, if these are asked for."""
+    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_wide:
+            note_plane(packet, hits, number, plane)
+
+
+@device
+def _note_solid(
+    packet: Packet,
+    begin: int,
+    end: int,
+    is_wide: bool | None,
+    number: int,
+    shape: Shape,
+    verbs: Verbs,
+) -> None:
+    """Note what a shape does to the light on patches of a range, if these are asked for."""
+    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_wide:
+            note_solid(packet, begin, end, number, shape, verbs.is_outside, verbs.crossing)

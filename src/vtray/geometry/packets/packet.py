@@ -70,8 +70,17 @@ MET = _fields.scalar()
 """Integer: where to find what is hit; see `join_met`."""
 HALF = _fields.scalar()
 """Integer: 1 where the second half of what is hit is, else 0."""
-RIM = _fields.scalar()
-"""The distance of the nearest outline that passes near the ray."""
+NEAREST = _fields.scalar()
+RIVAL = _fields.scalar()
+"""Before that distance no ray of the lane's bundle meets anything, and before this one only one
+shape."""
+ALL_MET = _fields.scalar()
+"""By that distance all its rays have met one same shape; infinite if that is not sure."""
+PASSING = _fields.scalar()
+PASSED = _fields.scalar()
+"""From where to where they pass through the image plane."""
+MIXED = _fields.scalar()
+"""1 where the rays of the bundle may not all see the same, else 0."""
 LIGHT = _fields.vector()
 """The light along the ray."""
 
@@ -101,8 +110,31 @@ NOISE = _fields.scalar()
 
 # Its shadow rays to one light.
 BLOCKED = _fields.scalar()
-SHADOWS = _fields.scalar()
-"""A number for the lights that something blocks, of all so far."""
+
+# What tells whether the surface around a hit looks the same everywhere.
+OWNER = _fields.scalar()
+"""Integer: the number of what is hit."""
+BEND = _fields.scalar()
+"""One divided by the radius of the surface, 0 where it is flat."""
+PATCH = _fields.scalar()
+"""How wide the bundle is in which the part of the surface is seen that belongs to the pixel."""
+STRETCH = _fields.scalar()
+REACH = _fields.scalar()
+"""How much wider that part is on the surface, and how far it reaches from the hit."""
+AIM = _fields.vector()
+AIM_LENGTH = _fields.scalar()
+"""The unit direction to a light, and how far it is."""
+IN_FRONT = _fields.scalar()
+ALL_IN_FRONT = _fields.scalar()
+"""How far any or all shadow rays from that part to the light are in front of the image plane."""
+HIDABLE = _fields.scalar()
+"""1 where a solid of the scene may be wide enough to hide all of that part, else 0."""
+UNEVEN = _fields.scalar()
+"""1 where that part may not look the same everywhere, by what is known so far, else 0."""
+TOUCHED = _fields.scalar()
+"""1 where something may stand between any of it and the light, else 0."""
+SETTLED = _fields.scalar()
+"""What is known of that part and the light; see `patch`."""
 
 SIZE = _fields.size
 

@@ -13,16 +13,20 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import (
+    ALL_MET,
     DIRECTION,
     DISTANCE,
     LANES,
+    NEAREST,
     OCTET,
     ORIGIN,
+    PASSED,
+    RIVAL,
     Packet,
     Sheaf,
     start_apart,
 )
-from vtray.geometry.ray import Footprint, reach_at
+from vtray.geometry.ray import Footprint, has_width, reach_at
 from vtray.geometry.vector import Vec, add, cross, dot, lower, scale, sub, upper
 
 OCTETS = LANES // OCTET
@@ -36,8 +40,10 @@ LOW = 8 * OCTETS  # the least and the greatest components of the directions
 HIGH = 11 * OCTETS
 FIRST = 14 * OCTETS  # the least and the greatest coordinates of the starts
 LAST = 17 * OCTETS
-FARTHEST = 20 * OCTETS  # the largest distance of the hits so far
-ROWS = 21
+FARTHEST = 20 * OCTETS  # the largest distance at which hits so far leave something to find
+KNOWN = 21 * OCTETS  # 1 where no ray can see only one thing, but for what covers all it sees
+LATEST = 22 * OCTETS  # where the last of all that belongs to its pixels passes the image plane
+ROWS = 23
 
 Cones = NDArray[np.float64]
 
@@ -117,8 +123,14 @@ def farthest_of(cones: Cones, first: int, count: int) -> float:
 
 
 @device
-def find_farthest(packet: Packet, first: int, count: int, cones: Cones) -> None:
-    """Find the largest distance of the hits so far in each of some octets."""
+def find_farthest(
+    packet: Packet, first: int, count: int, footprint: Footprint | None, cones: Cones
+) -> None:
+    """Find the largest distance in each of some octets at which hits so far leave some to find.
+
+    That is where their rays hit; with a footprint, where all rays in it do, if they hit one shape.
+    If they do not, they never will, whatever is farther away.
+    """
     # Doubles ≥ 0 are in the order of their bits, and a maximum of integers can be vectorised.
     bits = packet.view(np.int64)
     for octet in range(first, first + count):
@@ -127,6 +139,55 @@ def find_farthest(packet: Packet, first: int, count: int, cones: Cones) -> None:
         for lane in range(begin, begin + OCTET):
             far = max(far, bits[DISTANCE + lane])
         cones[FARTHEST + octet] = np.int64(far).view(np.float64)
+        if has_width(footprint):
+            farthest = 0.0
+            for lane in range(begin, begin + OCTET):
+                met, distance = packet[ALL_MET + lane], packet[DISTANCE + lane]
+                farthest = max(farthest, met if met < packet[RIVAL + lane] else distance)
+            cones[FARTHEST + octet] = farthest
+
+
+@device
+def ball_distance(center: Vec, radius: float, sheaf: Sheaf) -> float:
+    """Return how far away a ball is at the least along any ray."""
+    from_origin = sub(center, sheaf.origin)
+    return max(math.sqrt(dot(from_origin, from_origin)) - sheaf.extent - radius, 0.0)
+
+
+@device
+def note_mixed(packet: Packet, lane: int, cones: Cones) -> None:
+    """Note if all bundles of an octet, of this first lane, meet more than one shape or its edge."""
+    begin = lane & (LANES - 1)
+    count = 0
+    for at in range(begin, begin + OCTET):
+        met = packet[ALL_MET + at]
+        is_mixed = (packet[NEAREST + at] < math.inf) & (not met < packet[RIVAL + at])
+        count += 1 if is_mixed else 0
+    cones[KNOWN + lane // OCTET] = 1.0 if count == OCTET else 0.0
+
+
+@device
+def is_known_mixed(cones: Cones, lane: int) -> bool:
+    """Tell what `note_mixed` noted: nothing changes that but a shape that covers a whole bundle."""
+    is_known: bool = cones[KNOWN + lane // OCTET] > 0.0
+    return is_known
+
+
+@device
+def note_latest(packet: Packet, lane: int, cones: Cones) -> None:
+    """Note where the last bundle of an octet, of this first lane, passes the image plane."""
+    begin = lane & (LANES - 1)
+    latest = 0.0
+    for at in range(begin, begin + OCTET):
+        latest = max(latest, packet[PASSED + at])
+    cones[LATEST + lane // OCTET] = latest
+
+
+@device
+def latest_start(cones: Cones, lane: int) -> float:
+    """Return what `note_latest` noted."""
+    latest: float = cones[LATEST + lane // OCTET]
+    return latest
 
 
 @device
@@ -137,7 +198,7 @@ def octets_met(
     sheaf: Sheaf,
     center: Vec,
     radius: float,
-    footprint: Footprint,
+    footprint: Footprint | None,
 ) -> int:
     """Return a bit for each of some octets whose rays or footprints a ball may meet.
 

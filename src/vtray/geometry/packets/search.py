@@ -1,13 +1,14 @@
 """What the rays of a packet meet, and what hides a light from its points, group by group."""
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.nearest import clear_hits, nearest_planes, nearest_slots
+from vtray.geometry.packets.nearest import clear_hits, find_starts, nearest_planes, nearest_slots
 from vtray.geometry.packets.occlusion import (
     Bounds,
     Target,
     block_by_few,
     block_by_planes,
     box_of,
+    widened_box,
 )
 from vtray.geometry.packets.packet import OCTET, Packet, Sheaf
 from vtray.geometry.packets.ray_bounds import find_cones, find_farthest
@@ -24,7 +25,7 @@ def find_nearest(
     lanes: int,
     part: int,
     sheaf: Sheaf,
-    footprint: Footprint,
+    footprint: Footprint | None,
     world: World,
     work: Workspace,
 ) -> None:
@@ -45,12 +46,13 @@ def find_nearest(
     """
     find_cones(packet, lanes, sheaf, work.cones)
     clear_hits(packet, lanes)
+    find_starts(packet, lanes, sheaf, footprint, work.cones)
     for row in range(group_count(world)):
         group = load_group(world, row)
         if group.kind == PLANE:
-            nearest_planes(packet, lanes, sheaf, world, group)
+            nearest_planes(packet, lanes, sheaf, footprint, world, group)
             continue
-        find_farthest(packet, 0, lanes // OCTET, work.cones)
+        find_farthest(packet, 0, lanes // OCTET, footprint, work.cones)
         for first in range(0, lanes, part):
             octet, count = first // OCTET, min(part, lanes - first) // OCTET
             if group.root == NO_TREE:
@@ -69,7 +71,7 @@ def _find_nearest_placed(
     lanes: int,
     part: int,
     sheaf: Sheaf,
-    footprint: Footprint,
+    footprint: Footprint | None,
     world: World,
     places: Places | None,
     work: Workspace,
@@ -77,7 +79,7 @@ def _find_nearest_placed(
     """Find what is nearer among what is placed, if anything is."""
     # An argument that is None is known to the compiler, which drops what depends on that alone.
     if places is not None:
-        find_farthest(packet, 0, lanes // OCTET, work.cones)
+        find_farthest(packet, 0, lanes // OCTET, footprint, work.cones)
         for first in range(0, lanes, part):
             octet, count = first // OCTET, min(part, lanes - first) // OCTET
             nearest_placed(packet, octet, count, sheaf, footprint, world, places, work)
@@ -103,7 +105,8 @@ def find_blocked(
             if not block_by_planes(packet, hits, bounds, world, group, target, work):
                 return False
         elif group.root == NO_TREE:
-            block_by_few(packet, hits, box_of(bounds), own, world, group, target, work.near)
+            box = widened_box(packet, hits, box_of(bounds), target.is_wide)
+            block_by_few(packet, hits, box, own, world, group, target, work.near)
         else:
             block_in_group(packet, world, group, target, work)
     _find_blocked_by_placed(packet, world, world.places, target, work)

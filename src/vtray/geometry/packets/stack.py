@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bits import lowest_bit
 from vtray.geometry.bvh.boxes import fetch_node
-from vtray.geometry.bvh.tree import STACK, WIDTH, Bvh
+from vtray.geometry.bvh.tree import LEAF, STACK, WIDTH, Bvh
 from vtray.geometry.packets.beam import Beam, children_met
 
 LEVELS = 2
@@ -27,17 +27,34 @@ class Stack(NamedTuple):
         The nodes and leaves that wait, and where the beam enters them, as its bounds count.
     entered
         The same for the children of one node, (8,).
+    rays
+        The rays of a fan for which a node waits.
+    balls
+        The balls around the children of one node, or the shapes of a leaf, as `balls_seen` has
+        them, (32,).
+    slot
+        The slots of these shapes, (8,).
     """
 
     node: NDArray[np.int64]
     enter: NDArray[np.float32]
     entered: NDArray[np.float32]
+    rays: NDArray[np.uint64]
+    balls: NDArray[np.float32]
+    slot: NDArray[np.int64]
 
 
 def new_stack() -> Stack:
     """Return the scratch memory of one thread."""
     size = LEVELS * STACK
-    return Stack(np.zeros(size, np.int64), np.zeros(size, np.float32), np.zeros(WIDTH, np.float32))
+    return Stack(
+        np.zeros(size, np.int64),
+        np.zeros(size, np.float32),
+        np.zeros(WIDTH, np.float32),
+        np.zeros(size, np.uint64),
+        np.zeros(4 * WIDTH, np.float32),
+        np.zeros(LEAF, np.int64),
+    )
 
 
 @device

@@ -10,7 +10,7 @@ from vtray.geometry.packets.packet import Packet, Sheaf
 from vtray.geometry.packets.ray_bounds import farthest_of, part_directions, part_starts
 from vtray.geometry.packets.stack import push_met
 from vtray.geometry.packets.workspace import Workspace
-from vtray.geometry.ray import CORNER, Footprint
+from vtray.geometry.ray import CORNER, Footprint, growth_of, width_at
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import add, scale, sub
 from vtray.geometry.world import (
@@ -26,7 +26,7 @@ from vtray.geometry.world import (
     range_of,
 )
 
-Rays = tuple[Packet, int, int, Sheaf, Footprint]
+Rays = tuple[Packet, int, int, Sheaf, Footprint | None]
 """A packet, the first of the octets that form the beam and how many there are, and what their rays
 have in common."""
 
@@ -37,7 +37,7 @@ def nearest_in_group(
     first: int,
     count: int,
     sheaf: Sheaf,
-    footprint: Footprint,
+    footprint: Footprint | None,
     world: World,
     group: Group,
     work: Workspace,
@@ -83,7 +83,7 @@ def nearest_placed(
     first: int,
     count: int,
     sheaf: Sheaf,
-    footprint: Footprint,
+    footprint: Footprint | None,
     world: World,
     places: Places,
     work: Workspace,
@@ -130,7 +130,9 @@ def _search(
     _, first, count, sheaf, footprint = rays
     bvh, ratio, stack = world.bvh, hierarchy.to_boxes.ratio, work.stack
     beam = _part_beam(first, count, sheaf, footprint, hierarchy.to_boxes, work)
-    start = lower_limit(beam, -sheaf.plane_depth * ratio * (1.0 - MARGIN))
+    # The rays of a footprint may be steeper than those in their middle.
+    before = -sheaf.plane_depth * (1.0 - MARGIN) / (1.0 + growth_of(footprint))
+    start = lower_limit(beam, before * ratio)
     far = upper_limit(beam, farthest_of(work.cones, first, count) * ratio)
     stack.node[base] = hierarchy.root
     stack.enter[base] = start
@@ -158,7 +160,7 @@ def _part_beam(
     first: int,
     count: int,
     sheaf: Sheaf,
-    footprint: Footprint,
+    footprint: Footprint | None,
     to_boxes: ToBoxes,
     work: Workspace,
 ) -> Beam:
@@ -168,8 +170,8 @@ def _part_beam(
     ratio, offset = to_boxes.ratio, to_boxes.offset
     apex = add(scale(ratio, sheaf.origin), offset)
     margin = shape_margin(to_boxes, apex, sheaf.error_scale)
-    margin += CORNER * footprint.width * ratio
-    growth = CORNER * footprint.growth
+    margin += CORNER * width_at(footprint, 0.0) * ratio
+    growth = CORNER * growth_of(footprint)
     wider = growth, growth, growth
     start, end = add(scale(ratio, near), offset), add(scale(ratio, far), offset)
     return make_beam(start, end, sub(low, wider), add(high, wider), margin)

@@ -16,7 +16,8 @@ from vtray.geometry.packets.beam import (
     upper_limit,
 )
 from vtray.geometry.packets.occlusion import PointBox, Target, block_by_slot, in_shaft
-from vtray.geometry.packets.packet import BLOCKED, ERROR_SCALE, POINT, Packet, load
+from vtray.geometry.packets.packet import ERROR_SCALE, POINT, REACH, Packet, load
+from vtray.geometry.packets.patch import is_open
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.rounding import MARGIN
@@ -96,7 +97,7 @@ def _search_all(
     """Mark what something hides from a light, cluster by cluster."""
     for k in range(1, work.cluster[0] + 1):
         begin, end = work.cluster[k], work.cluster[k + 1]
-        begin = _first_open(packet, begin, end)
+        begin = _first_open(packet, begin, end, target.is_wide)
         if begin < end:
             box = _cluster_box(packet, begin, end, target)
             cluster = Cluster(packet, end, box, _point_box(box, target), target)
@@ -104,9 +105,9 @@ def _search_all(
 
 
 @device
-def _first_open(packet: Packet, begin: int, end: int) -> int:
+def _first_open(packet: Packet, begin: int, end: int, is_wide: bool | None) -> int:
     """Return the first point of a range that nothing blocks so far, `end` if there is none."""
-    while begin < end and packet[BLOCKED + begin] != 0.0:
+    while begin < end and not is_open(packet, begin, is_wide):
         begin += 1
     return begin
 
@@ -136,7 +137,7 @@ def _block_by_leaf(
     for slot in range(first, after):
         if end - begin <= SOONER or in_shaft(world, group, slot, target, cluster.points):
             block_by_slot(packet, begin, end, world, group, slot, target)
-    return _first_open(packet, begin, end)
+    return _first_open(packet, begin, end, target.is_wide)
 
 
 @device
@@ -240,11 +241,24 @@ def _cluster_box(packet: Packet, begin: int, end: int, target: Target) -> Box:
     high = -math.inf, -math.inf, -math.inf
     error_scale = 0.0
     for lane in range(begin, end):
-        if packet[BLOCKED + lane] == 0.0:
+        if is_open(packet, lane, target.is_wide):
             from_light = sub(load(packet, POINT, lane), target.place)
             low, high = lower(low, from_light), upper(high, from_light)
             error_scale = max(error_scale, packet[ERROR_SCALE + lane])
-    return Box(low, high, error_scale)
+    return _widened(packet, begin, end, Box(low, high, error_scale), target.is_wide)
+
+
+@device
+def _widened(packet: Packet, begin: int, end: int, box: Box, is_wide: bool | None) -> Box:
+    """Return a box of points widened by their patches, if these are asked for."""
+    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_wide:
+            most = 0.0
+            for lane in range(begin, end):
+                most = max(most, packet[REACH + lane])
+            reach = most, most, most
+            return Box(sub(box.low, reach), add(box.high, reach), box.error_scale)
+    return box
 
 
 @device

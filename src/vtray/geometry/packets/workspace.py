@@ -47,6 +47,8 @@ class Workspace(NamedTuple):
         Which shapes without a hierarchy may be met, one per slot.
     above, below
         How near points come to a plane on that side, clear of rounding; infinite without any.
+    close
+        Whether patches reach a plane on which they are not.
     cones
         The cones around the octets of rays.
     stack
@@ -70,6 +72,7 @@ class Workspace(NamedTuple):
     near: NDArray[np.bool_]
     above: NDArray[np.float64]
     below: NDArray[np.float64]
+    close: NDArray[np.bool_]
     cones: Cones
     stack: Stack
     order: NDArray[np.int64]
@@ -110,6 +113,7 @@ def new_workspace(world: World) -> Workspace:
         near=np.zeros(few, np.bool_),
         above=np.zeros(planes),
         below=np.zeros(planes),
+        close=np.zeros(planes, np.bool_),
         cones=new_cones(),
         stack=new_stack(),
         order=integers(LANES),

@@ -1,4 +1,4 @@
-"""The cylinder with flat caps: where a ray meets it, what it hides, its normal and its outline.
+"""The cylinder with flat caps: where a ray meets it, what it hides, its normal, its bundles.
 
 A cylinder is what an endless one and the slab between two planes have in common. A line is within
 each from one distance to another, and so within both from the larger of the first to the smaller of
@@ -9,7 +9,16 @@ import math
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.ray import Footprint, Ray, Segment, width_at
+from vtray.geometry.bundle import (
+    Bundle,
+    Crossing,
+    bundle_width,
+    first_crossing,
+    is_looked_at,
+    spread_along,
+    spread_beside,
+)
+from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
 from vtray.geometry.shapes.surface import Surface
@@ -18,8 +27,8 @@ from vtray.geometry.vector import Vec, add, dot, magnitude, scale, sub
 SIZE = 7
 """Numbers of a cylinder in its columns: the two ends of its axis, and the radius."""
 
-SLIGHT = 2.0**-60
-"""So small a share of a slope that the end of any cylinder comes first."""
+TINY = 1e-300
+"""In place of a growth of 0, whose inverse must not be infinite times 0."""
 
 
 class CylinderShape(NamedTuple):
@@ -287,63 +296,142 @@ def is_second_half(cylinder: CylinderShape, point: Vec, error_scale: float) -> b
 
 
 @device
-def cylinder_outline(cylinder: CylinderShape, ray: Ray, footprint: Footprint) -> float:
-    """Return the distance at which a ray passes an outline or an edge, or infinity if none is near.
+def cylinder_is_outside(cylinder: CylinderShape, point: Vec, normal: Vec) -> bool:
+    """Tell whether a point of a cylinder is looked at from outside, given the normal there."""
+    is_outside: bool = dot(normal, sub(point, cylinder.center)) > 0.0
+    return is_outside
 
-    That is the case where it would meet the cylinder if that were a little larger, but not if it
-    were a little smaller; where it passes the edge of the cap that it looks at; and where it passes
-    that at which the image plane cuts the cylinder open.
+
+@device
+def cylinder_crossing(cylinder: CylinderShape, bundle: Bundle) -> Crossing:
+    """Return from where to where the rays of a bundle first meet a cylinder.
+
+    As long as a bundle is no wider than some width, none of its rays is inside before it would be
+    inside a cylinder that is so much larger to all sides, and all are where they would be inside
+    one that is so much smaller.
     """
-    line = line_beside(cylinder, ray.origin, ray.direction)
-    passing = _passing_distance(cylinder, line, ray, footprint)
-    width = width_at(footprint, max(passing, 0.0))
-    larger, smaller = _larger_span(cylinder, line, width), _larger_span(cylinder, line, -width)
+    line = line_beside(cylinder, bundle.origin, bundle.direction)
     caps = cap_span(line, 0.0, cylinder.length)
-    span = both_spans(side_span(line, cylinder.side_radius), caps)
-    is_hit = span.near < span.far
-    # Within a cylinder that is cut open, its far end is seen.
-    is_open = is_hit & (span.near * ray.forward + ray.plane_depth <= 0.0)
-    at_edge = is_hit & _is_at_edge(cylinder, line, footprint, caps.far if is_open else caps.near)
-    plane = -ray.plane_depth / ray.forward
-    from_cut = abs(signed_distance(cylinder, move_along(line, plane)))
-    at_cut = from_cut <= width_at(footprint, max(plane, 0.0))
-    is_near = (larger.near < larger.far) & (at_edge | at_cut | (smaller.near >= smaller.far))
-    # No nearer than the pixel is wide enough for it.
-    nearer = _larger_span(cylinder, line, width_at(footprint, max(larger.near, 0.0)))
-    beside = min(max(passing, larger.near), larger.far)
-    entry = nearer.near if nearer.near < nearer.far else beside
-    distance = span.near if is_hit else entry
-    return distance if is_near & (larger.far > -ray.plane_depth) else math.inf
+    own = both_spans(side_span(line, cylinder.side_radius), caps)
+    any_inside = _any_inside(cylinder, line, bundle)
+    entry = max(own.near, 0.0)
+    # A little farther on, the bundle is wider by a quarter.
+    before = 1.25 * bundle_width(bundle, entry)
+    valid = entry + 0.25 * bundle_width(bundle, entry) / max(bundle.growth, TINY)
+    if bundle.growth < 0.0:
+        before, valid = bundle_width(bundle, max(any_inside.near, 0.0)), math.inf
+    behind = max(bundle_width(bundle, own.near), bundle_width(bundle, own.far))
+    all_before = _all_inside(cylinder, line, bundle, before)
+    all_behind = _all_inside(cylinder, line, bundle, behind)
+    covers = (all_before.near < all_before.far) & (all_before.near <= valid)
+    end = all_behind.far if all_behind.near < all_behind.far else -math.inf
+    enters = Crossing(any_inside.near, all_before.near)
+    leaves = Crossing(end, any_inside.far)
+    found = first_crossing(enters, leaves, covers, bundle)
+    if is_looked_at(bundle.sight) and found.far < math.inf:
+        reverse = Line(line.height, -line.rise, line.beside, scale(-1.0, line.aside))
+        is_one = (
+            _is_one_part(cylinder, line, bundle, before, enters)
+            if found.far == enters.far
+            else _is_one_part(
+                cylinder, reverse, bundle, behind, Crossing(-leaves.far, -leaves.near)
+            )
+        )
+        return Crossing(found.near, found.far if is_one else math.inf)
+    return found
 
 
 @device
-def _larger_span(cylinder: CylinderShape, line: Line, width: float) -> Span:
-    """Return where a line would be within a cylinder that is larger to all sides."""
-    side_radius = max(cylinder.side_radius + width, 0.0)
-    caps = cap_span(line, -width, cylinder.length + width)
-    return both_spans(side_span(line, side_radius), caps)
-
-
-@device
-def _passing_distance(cylinder: CylinderShape, line: Line, ray: Ray, footprint: Footprint) -> float:
-    """Return the distance at which the fewest widths of a pixel are between a ray and the axis."""
+def _any_inside(cylinder: CylinderShape, line: Line, bundle: Bundle) -> Span:
+    """Return where any ray of a bundle may be inside a cylinder."""
     square = dot(line.aside, line.aside)
-    middle = -dot(line.beside, line.aside) / square if square > 0.0 else 0.0
-    # Farther away the axis may be farther from the ray, but pixels are wider, too.
-    approach = add(line.beside, scale(middle, line.aside))
-    slope2 = max(square - footprint.growth * footprint.growth, SLIGHT * square)
-    shift = footprint.growth * math.sqrt(dot(approach, approach))
-    shift = shift / math.sqrt(square * slope2) if square > 0.0 else 0.0
-    height = min(max(line.height + (middle + shift) * line.rise, 0.0), cylinder.length)
-    foot = add(cylinder.start, scale(height, cylinder.axis))
-    return dot(sub(foot, ray.origin), ray.direction)
+    slope = bundle.growth * bundle.stretch
+    to_center = dot(sub(cylinder.center, bundle.origin), bundle.direction)
+    # Counted from where it is nearest to the axis, as far as that is near, the sum has most digits.
+    closest = -dot(line.beside, line.aside) / square if square > 0.0 else 0.0
+    low = max(to_center - cylinder.radius, 0.0)
+    high = max(to_center + cylinder.radius, low)
+    end = -bundle.width / bundle.growth if bundle.growth < 0.0 else math.inf
+    at = min(max(closest, low), high, end)
+    beside = add(line.beside, scale(at, line.aside))
+    reach = cylinder.side_radius + bundle.stretch * bundle_width(bundle, at)
+    # |beside + s aside| <= reach + s slope
+    first = square - slope * slope
+    half = dot(beside, line.aside) - slope * reach
+    rest = dot(beside, beside) - reach * reach
+    discriminant = half * half - first * rest
+    root = math.sqrt(max(discriminant, 0.0))
+    is_bounded = first > 0.0
+    divisor = first if is_bounded else 1.0
+    near = at + (-half - root) / divisor if is_bounded else -math.inf
+    far = at + (-half + root) / divisor if is_bounded else math.inf
+    is_empty = is_bounded & (discriminant < 0.0)
+    side = Span(math.inf if is_empty else near, -math.inf if is_empty else far)
+    along = spread_along(bundle, cylinder.axis)
+    wide, growth = along * bundle.width, along * bundle.growth
+    above = _at_least(line.rise + growth, -line.height - wide)
+    below = _at_least(growth - line.rise, line.height - cylinder.length - wide)
+    span = both_spans(side, both_spans(above, below))
+    # Beside the axis, the bundle may be narrower than its longest offset.
+    gap2 = dot(beside, beside)
+    gap = math.sqrt(gap2)
+    across = spread_beside(bundle, beside, gap)
+    width = max(bundle_width(bundle, span.near), bundle_width(bundle, span.far))
+    misses = (at == closest) & (gap - width * across > cylinder.side_radius)
+    # Along the axis, it may pass by as well.
+    widest = bundle.stretch * max(bundle_width(bundle, low), bundle_width(bundle, high))
+    nearest = gap - math.sqrt(square) * (high - low) - widest
+    misses = misses | ((not is_bounded) & (nearest > cylinder.side_radius))
+    misses = misses | (span.near > span.far)
+    misses = misses | (cylinder.side_radius <= 0.0) | (cylinder.length <= 0.0)
+    return Span(math.inf if misses else span.near, -math.inf if misses else span.far)
 
 
 @device
-def _is_at_edge(cylinder: CylinderShape, line: Line, footprint: Footprint, distance: float) -> bool:
-    """Tell whether a ray is near the edge of a cap whose plane it meets at a distance."""
-    crossing = distance if line.rise != 0.0 else 0.0
-    place = add(line.beside, scale(crossing, line.aside))
-    from_edge = abs(math.sqrt(dot(place, place)) - cylinder.side_radius)
-    width = width_at(footprint, max(crossing, 0.0))
-    return (line.rise != 0.0) & (from_edge * abs(line.rise) <= width)
+def _at_least(rate: float, value: float) -> Span:
+    """Return where so many times a distance are at least a value."""
+    divisor = rate if rate != 0.0 else 1.0
+    bound = value / divisor
+    never = (rate == 0.0) & (value > 0.0)
+    near = bound if rate > 0.0 else math.inf if never else -math.inf
+    far = bound if rate < 0.0 else -math.inf if never else math.inf
+    return Span(near, far)
+
+
+@device
+def _all_inside(cylinder: CylinderShape, line: Line, bundle: Bundle, width: float) -> Span:
+    """Return where all rays of a bundle no wider than that are inside a cylinder."""
+    along = width * spread_along(bundle, cylinder.axis)
+    side_radius = max(cylinder.side_radius - width * bundle.stretch, 0.0)
+    caps = cap_span(line, along, cylinder.length - along)
+    span = both_spans(side_span(line, side_radius), caps)
+    is_there = 2.0 * along < cylinder.length
+    return Span(span.near if is_there else math.inf, span.far if is_there else -math.inf)
+
+
+@device
+def _is_one_part(
+    cylinder: CylinderShape, line: Line, bundle: Bundle, width: float, enters: Crossing
+) -> bool:
+    """Tell whether all rays of a bundle no wider than that enter one cap, or one half of the side.
+
+    Parameters
+    ----------
+    cylinder, line, bundle, width
+        The cylinder, and the rays with the middle one.
+    enters
+        From where to where they enter it.
+    """
+    wide, along = width * bundle.stretch, width * spread_along(bundle, cylinder.axis)
+    larger_side = side_span(line, cylinder.side_radius + wide)
+    smaller_side = side_span(line, max(cylinder.side_radius - wide, 0.0))
+    larger_caps = cap_span(line, -along, cylinder.length + along)
+    smaller_caps = cap_span(line, along, cylinder.length - along)
+    on_cap, on_side = (
+        larger_caps.near >= smaller_side.near,
+        larger_side.near >= smaller_caps.near,
+    )
+    first, last = line.height + enters.near * line.rise, line.height + enters.far * line.rise
+    low, high = min(first, last) - along, max(first, last) + along
+    middle = 0.5 * cylinder.length
+    return on_cap | (on_side & ((high < middle) | (low > middle)))

@@ -4,7 +4,8 @@ import math
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.ray import Footprint, Ray, Segment
+from vtray.geometry.bundle import Bundle, Crossing, spread_along
+from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
 from vtray.geometry.shapes.surface import Surface
@@ -135,9 +136,35 @@ def plane_blocks(
 
 
 @device
-def plane_outline(plane: PlaneShape, ray: Ray, footprint: Footprint) -> float:  # noqa: ARG001
-    """Return infinity: a plane has no outline."""
-    return math.inf
+def plane_is_outside(plane: PlaneShape, point: Vec, normal: Vec) -> bool:  # noqa: ARG001
+    """Return True: a plane has no inside."""
+    return True
+
+
+@device
+def plane_crossing(plane: PlaneShape, bundle: Bundle) -> Crossing:
+    """Return from where to where the rays of a bundle meet a plane.
+
+    One divided by the distance is linear in the offset, so the bounds are those of two rays.
+    """
+    height = dot(sub(plane.point, bundle.origin), plane.normal)
+    descent = dot(bundle.direction, plane.normal)
+    side = -1.0 if height < 0.0 else 1.0
+    height, descent = side * height, side * descent
+    along = spread_along(bundle, plane.normal)
+    wide, growth = bundle.width * along, bundle.growth * along
+    most, least = descent + growth, descent - growth
+    near = (height - wide) / most if most > 0.0 else math.inf
+    far = (height + wide) / least if least > 0.0 else math.inf
+    # Some rays start on its other side.
+    near = -math.inf if height < wide else near
+    far = math.inf if height < wide else far
+    far = max(near, far)  # beyond a light, where it does not matter, the order is another
+    is_met = (near < math.inf) & (far > bundle.first)
+    is_clear = near > bundle.last
+    return Crossing(
+        max(near, bundle.first) if is_met else math.inf, far if is_met & is_clear else math.inf
+    )
 
 
 @device

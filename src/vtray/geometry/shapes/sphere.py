@@ -1,10 +1,18 @@
-"""The sphere: where a ray meets it, what it hides, its normal and its outline."""
+"""The sphere: where a ray meets it, what it hides, its normal, and where bundles meet it."""
 
 import math
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.ray import Footprint, Ray, Segment, width_at
+from vtray.geometry.bundle import (
+    Bundle,
+    Crossing,
+    bundle_width,
+    first_crossing,
+    spread_ahead,
+    spread_beside,
+)
+from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
 from vtray.geometry.shapes.surface import Surface
@@ -175,17 +183,67 @@ def sphere_blocks(
 
 
 @device
-def sphere_outline(sphere: SphereShape, ray: Ray, footprint: Footprint) -> float:
-    """Return the distance at which a ray passes a sphere's outline, or infinity if none is near."""
-    from_center = sub(ray.origin, sphere.center)
-    middle = -dot(from_center, ray.direction)
-    approach = add(from_center, scale(middle, ray.direction))
-    gap2 = dot(approach, approach)
-    width = width_at(footprint, middle)
-    outer, inner = sphere.radius + width, max(sphere.radius - width, 0.0)
-    near = (gap2 < outer * outer) & (gap2 >= inner * inner) & (middle > -ray.plane_depth)
-    entry = middle - math.sqrt(max(sphere.radius * sphere.radius - gap2, 0.0))
-    return entry if near else math.inf
+def sphere_is_outside(sphere: SphereShape, point: Vec, normal: Vec) -> bool:
+    """Tell whether a point of a sphere is looked at from outside, given the normal there."""
+    is_outside: bool = dot(normal, sub(point, sphere.center)) > 0.0
+    return is_outside
+
+
+@device
+def sphere_crossing(sphere: SphereShape, bundle: Bundle) -> Crossing:
+    """Return from where to where the rays of a bundle first meet a sphere.
+
+    At the distance t an offset e is at least ``gap - along(e)`` beside the centre, where `gap` is
+    that of the middle ray, and ``|t - middle| - ahead(e)`` before or behind it; by Pythagoras, no
+    ray is inside before one distance, and all of them are from another on.
+    """
+    to_center = sub(sphere.center, bundle.origin)
+    middle = dot(to_center, bundle.direction)
+    beside = sub(to_center, scale(middle, bundle.direction))
+    gap = math.sqrt(dot(beside, beside))
+    along, ahead = spread_beside(bundle, beside, gap), spread_ahead(bundle)
+    radius = sphere.radius
+    widths = (
+        bundle_width(bundle, middle - radius - bundle.width * ahead),
+        bundle_width(bundle, middle),
+        bundle_width(bundle, middle + radius),
+    )
+    # The edge of the bundle beside the sphere is a line of this slope.
+    slope = bundle.growth * along
+    touches = gap - widths[1] * along <= radius * math.sqrt(1.0 + slope * slope)
+    covers = _all_inside(bundle, gap, along, widths[1], radius) > 0.0
+    before, behind = max(widths[0], widths[1]), max(widths[1], widths[2])
+    any_chord = _any_chord(gap, along, ahead, before, radius)
+    all_chord = _all_chord(bundle, gap, along, ahead, before, radius)
+    enters = Crossing(middle - any_chord, middle - all_chord)
+    if bundle.is_cut & (behind > before):
+        any_chord = _any_chord(gap, along, ahead, behind, radius)
+        all_chord = _all_chord(bundle, gap, along, ahead, behind, radius)
+    last = middle + any_chord if touches & (radius > 0.0) else -math.inf
+    return first_crossing(enters, Crossing(middle + all_chord, last), covers, bundle)
+
+
+@device
+def _any_chord(gap: float, along: float, ahead: float, width: float, radius: float) -> float:
+    """Return half the length within which any ray of a bundle may be inside a sphere."""
+    least = max(gap - width * along, 0.0)
+    return math.sqrt(max(radius * radius - least * least, 0.0)) + width * ahead
+
+
+@device
+def _all_chord(
+    bundle: Bundle, gap: float, along: float, ahead: float, width: float, radius: float
+) -> float:
+    """Return half a length within which all rays of a bundle are inside a sphere; 0 if none is."""
+    inside, own = max(_all_inside(bundle, gap, along, width, radius), 0.0), width * ahead
+    return max(math.sqrt(own * own + inside) - own, 0.0)
+
+
+@device
+def _all_inside(bundle: Bundle, gap: float, along: float, width: float, radius: float) -> float:
+    """Return by how much all rays are inside where the middle one is nearest, as a square."""
+    offset = width * bundle.stretch
+    return radius * radius - (gap * gap + 2.0 * gap * width * along + offset * offset)
 
 
 @device

@@ -48,3 +48,12 @@ def normal_at(pole: Vec, is_round: bool, point: Vec, direction: Vec) -> Vec:
     )
     side = -1.0 if dot(normal, direction) > 0.0 else 1.0
     return scale(side, normal)
+
+
+@device
+def bend_at(surface: Surface, point: Vec) -> float:
+    """Return one divided by the radius of a surface at a point, 0 where it is flat."""
+    outward = sub(point, surface.pole)
+    radius = math.sqrt(dot(outward, outward))
+    bend = 1.0 / radius if radius > 0.0 else math.inf
+    return bend if surface.is_round else 0.0

@@ -4,7 +4,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
-from vtray.geometry.packets.occlusion import Target, bound_points, find_sides, own_sphere
+from vtray.geometry.packets.nearest import find_mixed
+from vtray.geometry.packets.occlusion import (
+    Target,
+    bound_points,
+    find_close_planes,
+    find_sides,
+    own_sphere,
+)
 from vtray.geometry.packets.packet import (
     BLOCK,
     COLUMN,
@@ -20,8 +27,10 @@ from vtray.geometry.packets.packet import (
     start_apart,
     store,
 )
+from vtray.geometry.packets.patch import judge_patches
 from vtray.geometry.packets.search import find_blocked, find_nearest
 from vtray.geometry.packets.workspace import Workspace
+from vtray.geometry.ray import has_width
 from vtray.geometry.vector import dot
 from vtray.geometry.world import has_trees
 from vtray.transport.camera_rays import CameraFrame, camera_ray, sheaf_of
@@ -34,16 +43,17 @@ from vtray.transport.film import (
     write_middles,
     write_pixels,
 )
-from vtray.transport.integrators.lamps import see_lamps
+from vtray.transport.integrators.lamps import mix_lamps, see_lamps
 from vtray.transport.integrators.soft import add_soft_lights, clear_noise
 from vtray.transport.interaction import gather_interactions
 from vtray.transport.light_buffer import KeptLight, keep_cosines
 from vtray.transport.lights.light import light_target, load_power
-from vtray.transport.lights.lighting import (
-    add_light,
-    clear_shadows,
-    find_facing,
-    note_shadows,
+from vtray.transport.lights.lighting import add_light, find_facing
+from vtray.transport.sampling.adaptive import (
+    ask_of_light,
+    find_patches,
+    leave_mixed,
+    mix_uneven,
 )
 from vtray.transport.sampling.pixel_samples import Sampling, list_pixels, place_samples
 from vtray.transport.scene_arrays import SceneArrays
@@ -124,18 +134,16 @@ def _trace_pixels(
     for first in range(0, sampling.rays, LANES):
         last = min(first + LANES, sampling.rays)
         lanes = place_samples(packet, block, begin, end, sampling, first, last, work.pixels)
-        hits = _find_surfaces(packet, lanes, scene, sampling, film.linear, work)
+        hits = _find_surfaces(packet, lanes, scene, sampling, film.linear, film.mixed, work)
         keep_rays(packet, block, begin, end, first, last, work.pixels, film.kept)
         if hits > 0:
-            is_noted = sampling.rays == 1
             rays += _light_hits(
                 scene,
                 scene.lights.points,
                 hits,
                 film.linear,
-                film.shadows,
+                _is_wide(sampling, film.mixed),
                 film.kept,
-                is_noted,
                 packet,
                 work,
                 stop,
@@ -149,12 +157,13 @@ def _trace_pixels(
                 last,
                 hits,
                 film.linear,
-                film.shadows,
                 film.error,
+                _is_wide(sampling, film.mixed),
                 film.kept,
                 packet,
                 work,
             )
+            _mix_hits(packet, hits, _is_wide(sampling, film.mixed))
         rays += lanes
         if sampling.rays > 1:
             add_samples(packet, lanes, hits, last - first, work.sums, film.coverage)
@@ -176,12 +185,27 @@ def _trace_pixels(
 
 
 @device
+def _is_wide(sampling: Sampling, mixed: Rows) -> bool | None:
+    """Tell whether it is asked if pixels look the same everywhere; None where it never is."""
+    return None if mixed is None else has_width(sampling.footprint)
+
+
+@device
+def _mix_hits(packet: Packet, hits: int, is_wide: bool | None) -> None:
+    """Mark the lanes of hits that do not look the same around them, if that is asked."""
+    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_wide:
+            mix_uneven(packet, hits)
+
+
+@device
 def _find_surfaces(
     packet: Packet,
     lanes: int,
     scene: SceneArrays,
     sampling: Sampling,
     linear: Rows,
+    mixed: Rows,
     work: Workspace,
 ) -> int:
     """Cast the rays of a packet, and bring what they hit together; return how many hits."""
@@ -191,8 +215,18 @@ def _find_surfaces(
     part = PART if sampling.rays == 1 else LANES
     find_nearest(packet, whole, part, sheaf, sampling.footprint, scene.world, work)
     lights, footprint = scene.lights, sampling.footprint
-    see_lamps(packet, whole, sheaf, footprint, lights, lights.visible, linear)
-    return gather_interactions(packet, lanes, sampling.rays, sheaf, scene, work)
+    see_lamps(packet, whole, sheaf, lights, lights.visible, linear)
+    if mixed is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if has_width(footprint):
+            find_mixed(packet, lanes)
+            mix_lamps(packet, lanes, sheaf, footprint, lights.visible)
+            leave_mixed(packet, lanes)
+    hits = gather_interactions(packet, lanes, sampling.rays, sheaf, footprint, scene, work)
+    if mixed is not None:  # noqa: SIM102
+        if has_width(footprint) and hits > 0:
+            find_patches(packet, hits, footprint, sampling.thickest)
+            find_close_planes(packet, hits, scene.world, work)
+    return hits
 
 
 @device
@@ -201,9 +235,8 @@ def _light_hits(
     points: int | None,
     hits: int,
     linear: Rows,
-    shadows: Rows,
+    is_wide: bool | None,
     kept: KeptLight | None,
-    is_noted: bool,
     packet: Packet,
     work: Workspace,
     stop: NDArray[np.bool_],
@@ -212,9 +245,6 @@ def _light_hits(
     rays = 0
     if linear is None:
         return rays
-    if shadows is not None:  # noqa: SIM102 - by itself, it is known to the compiler
-        if is_noted:
-            clear_shadows(packet, hits)
     if points is None:
         return rays
     bounds = bound_points(packet, hits)
@@ -223,12 +253,13 @@ def _light_hits(
     for light in range(points):
         if stop[0]:
             break
-        target = light_target(scene.lights, light)
+        target = light_target(scene.lights, light, is_wide)
+        _ask_of_light(packet, hits, target, is_wide)
         facing = find_facing(packet, hits, bounds, target)
         if facing > 0:
             if find_blocked(packet, hits, bounds, own, scene.world, target, work):
                 add_light(packet, hits, target, load_power(scene.lights, light))
-            _record_light(packet, hits, target, light, shadows, kept, is_noted)
+            _record_light(packet, hits, target, light, is_wide, kept)
             rays += facing
     return rays
 
@@ -243,8 +274,8 @@ def _light_softly(
     last: int,
     hits: int,
     linear: Rows,
-    shadows: Rows,
     error: Rows,
+    is_wide: bool | None,
     kept: KeptLight | None,
     packet: Packet,
     work: Workspace,
@@ -266,11 +297,19 @@ def _light_softly(
         soft,
         fans,
         seed,
-        shadows,
         error,
+        is_wide,
         kept,
         work,
     )
+
+
+@device
+def _ask_of_light(packet: Packet, hits: int, target: Target, is_wide: bool | None) -> None:
+    """Begin to ask what a light does around the hits of a packet, if that is asked."""
+    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_wide:
+            ask_of_light(packet, hits, target)
 
 
 @device
@@ -279,14 +318,13 @@ def _record_light(
     hits: int,
     target: Target,
     light: int,
-    shadows: Rows,
+    is_wide: bool | None,
     kept: KeptLight | None,
-    is_noted: bool,
 ) -> None:
     """Record what is wanted of a light at the hits of a packet, beside what it adds."""
-    if shadows is not None:  # noqa: SIM102 - by itself, it is known to the compiler
-        if is_noted:
-            note_shadows(packet, hits, target, light)
+    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_wide:
+            judge_patches(packet, hits)
     if kept is not None:
         keep_cosines(packet, hits, target, light, kept)
 

@@ -1,21 +1,24 @@
 """Lamps that the camera sees, in the rays of a packet."""
 
+import math
+
 import numpy as np
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import (
     DISTANCE,
     LIGHT,
+    MIXED,
+    NEAREST,
     NO_PRIMITIVE,
     PRIMITIVE,
-    RIM,
     Packet,
     Sheaf,
     load_ray,
     store,
 )
 from vtray.geometry.queries import NOTHING
-from vtray.geometry.ray import Footprint, Ray, has_width
+from vtray.geometry.ray import Footprint, Ray
 from vtray.transport.film import Rows
 from vtray.transport.lights.light import Lights, lamp_light, lamp_number
 from vtray.transport.lights.visible import VisibleLamps, lamp_count, lamp_distance, lamp_outline
@@ -26,7 +29,6 @@ def see_lamps(
     packet: Packet,
     lanes: int,
     sheaf: Sheaf,
-    footprint: Footprint,
     lights: Lights,
     lamps: VisibleLamps | None,
     linear: Rows,
@@ -40,7 +42,7 @@ def see_lamps(
     packet, lanes
         The rays of so many lanes. In field ``PRIMITIVE`` lamps have numbers below those of all
         else, and ``LIGHT`` is set for them.
-    sheaf, footprint
+    sheaf
         What the rays have in common.
     lights, lamps
         All lights, and those that are seen; None if there are none.
@@ -51,7 +53,7 @@ def see_lamps(
     if lamps is not None:  # noqa: SIM102
         if linear is not None:
             for k in range(lamp_count(lamps)):
-                _see_lamp(packet, lanes, sheaf, footprint, lights, lamps, k)
+                _see_lamp(packet, lanes, sheaf, lights, lamps, k)
 
 
 @device
@@ -59,7 +61,6 @@ def _see_lamp(
     packet: Packet,
     lanes: int,
     sheaf: Sheaf,
-    footprint: Footprint,
     lights: Lights,
     lamps: VisibleLamps,
     k: int,
@@ -75,8 +76,40 @@ def _see_lamp(
             packet[DISTANCE + lane] = distance
             numbers[PRIMITIVE + lane] = lamp_number(lamps.row[k])
             store(packet, LIGHT, lane, light)
-        if has_width(footprint):
-            packet[RIM + lane] = min(packet[RIM + lane], lamp_outline(lamps, k, ray, footprint))
+
+
+@device
+def mix_lamps(
+    packet: Packet,
+    lanes: int,
+    sheaf: Sheaf,
+    footprint: Footprint | None,
+    lamps: VisibleLamps | None,
+) -> None:
+    """Set field ``MIXED`` where a lamp is seen: 1 if its outline passes near, or a surface before.
+
+    Elsewhere, it is set where the outline of a lamp passes before what is hit.
+    """
+    if lamps is not None:  # noqa: SIM102
+        if footprint is not None:
+            for lane in range(lanes):
+                _mix_lane(packet, lane, sheaf, footprint, lamps)
+
+
+@device
+def _mix_lane(
+    packet: Packet, lane: int, sheaf: Sheaf, footprint: Footprint, lamps: VisibleLamps
+) -> None:
+    """Set field ``MIXED`` for one lane."""
+    ray, distance = load_ray(packet, sheaf, lane), packet[DISTANCE + lane]
+    met = packet.view(np.int64)[PRIMITIVE + lane]
+    if met < NO_PRIMITIVE:
+        packet[MIXED + lane] = 1.0 if packet[NEAREST + lane] <= distance else 0.0
+    for k in range(lamp_count(lamps)):
+        outline = lamp_outline(lamps, k, ray, footprint)
+        is_own = lamp_number(lamps.row[k]) == met
+        if outline < math.inf and (is_own or outline <= distance):
+            packet[MIXED + lane] = 1.0
 
 
 @device

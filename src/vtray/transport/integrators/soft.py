@@ -17,8 +17,8 @@ from vtray.geometry.packets.packet import (
     NORMAL,
     PLANE_DEPTH,
     POINT,
-    SHADOWS,
     SOURCE,
+    UNEVEN,
     VALUE,
     Block,
     Packet,
@@ -29,9 +29,9 @@ from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.stopped import Bundle, stop_by_all, stop_by_touching
 from vtray.geometry.vector import Vec, add
 from vtray.transport.film import Rows
+from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
 from vtray.transport.light_buffer import KeptLight
-from vtray.transport.lights.light import Lights, light_count, load_power, soft_worth
-from vtray.transport.lights.lighting import light_bit
+from vtray.transport.lights.light import Lights, load_power, soft_worth
 from vtray.transport.lights.soft_light import (
     SoftLights,
     aim_at,
@@ -40,6 +40,7 @@ from vtray.transport.lights.soft_light import (
     is_above,
     is_below,
     is_cone,
+    longest_ray,
     middle_share,
     soft_count,
 )
@@ -52,13 +53,9 @@ from vtray.transport.sampling.estimate import (
     with_fan,
     with_unseen,
 )
-from vtray.transport.sampling.fans import Fans, fan_keys
+from vtray.transport.sampling.fans import Fans, fan_keys, fan_of_sample
 from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
 from vtray.transport.scene_arrays import SceneArrays
-
-NARROW = 0.1
-"""Up to this spread, which a lamp has that is seen under 50 degrees, its rays are kept together."""
-
 
 NO_SHARES = (0.0, 0.0, 0.0)
 """Those of a light of which nothing arrives."""
@@ -75,8 +72,6 @@ class Arriving(NamedTuple):
         That of the shares, as it is estimated, and as a part of what all lights may have.
     cast, arrived
         How many rays were cast, and how many arrive.
-    is_narrow
-        Whether the light is seen under a small angle, so that its shadows have edges.
     """
 
     shares: Vec
@@ -84,7 +79,6 @@ class Arriving(NamedTuple):
     counted: float
     cast: int
     arrived: int
-    is_narrow: bool
 
 
 @device
@@ -106,8 +100,8 @@ def add_soft_lights(
     soft: SoftLights | None,
     fans: Fans | None,
     seed: int,
-    shadows: Rows,
     error: Rows,
+    is_wide: bool | None,
     kept: KeptLight | None,
     work: Workspace,
 ) -> int:
@@ -125,10 +119,10 @@ def add_soft_lights(
         The scene, and its soft lights.
     fans, seed
         Which rays are cast.
-    shadows
-        Not None if it is wanted which lights something keeps from the hits.
     error
         Not None if it is wanted how wrong the light may be.
+    is_wide
+        Whether it is asked if pixels look the same everywhere; None where it never is.
     kept
         Out: what each light adds, if that is kept.
     work
@@ -142,11 +136,14 @@ def add_soft_lights(
                 lane = packet.view(np.int64)[SOURCE + hit]
                 pixel = work.pixels[begin + lane // samples]
                 column, row = block.left + (pixel & (BLOCK - 1)), block.top + pixel // BLOCK
-                point = (first + lane % samples) * fans.rays * fans.fans
                 material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
-                spent = 0.0
+                sample, spent = first + lane % samples, 0.0
                 for light in range(soft_count(soft)):
+                    if _is_uneven(packet, hit, scene, soft, light, is_wide, work):
+                        break
                     keys = fan_keys(column, row, light, seed)
+                    number = fan_of_sample(fans.levels, sample, column, row, light, seed)
+                    point = number * fans.rays * fans.fans
                     worth = soft_worth(scene.lights, soft, light, material)
                     arriving = _arriving(
                         packet, hit, scene, soft, light, worth, spent, fans, point, keys, work
@@ -156,7 +153,6 @@ def add_soft_lights(
                         part, share = soft.row[light] + component, arriving.shares[component]
                         _add_share(packet, hit, scene.lights, part, share)
                         _keep_share(packet, lane, part, share, kept)
-                    _note_shadow(packet, hit, scene.lights, light, arriving, shadows)
                     _add_noise(packet, hit, worth, arriving.variance, error)
                     cast += arriving.cast
     return cast
@@ -186,17 +182,18 @@ def _arriving(
     is_narrow, forward = aim.spread < NARROW, scene.camera.forward
     touching, count = work.touching, MANY
     if is_below(aim, normal):
-        return Arriving(NO_SHARES, 0.0, 0.0, 0, 0, is_narrow)
+        return Arriving(NO_SHARES, 0.0, 0.0, 0, 0)
     if is_narrow and is_cone(aim):
         count = find_touching(cone_of(aim, start, forward), scene.world, touching, work.stack)
         # What a cone as a whole tells is what all its rays would.
         if count == 0 and is_above(aim, normal):
             shares = middle_share(aim, normal), 0.0, 0.0
-            return Arriving(shares, 0.0, 0.0, fans.rays, fans.rays, is_narrow)
+            return Arriving(shares, 0.0, 0.0, fans.rays, fans.rays)
         if count == CLOSED and is_above(aim, normal):
-            return Arriving(NO_SHARES, 0.0, 0.0, fans.rays, 0, is_narrow)
+            return Arriving(NO_SHARES, 0.0, 0.0, fans.rays, 0)
     fan, components = work.fan, component_count(soft, light)
-    bundle = Bundle(fan, fans.rays, start, soft.error_scale[light] + start.error_scale)
+    end_scale = soft.error_scale[light] + start.error_scale
+    bundle = Bundle(fan, fans.rays, start, normal, end_scale, longest_ray(aim, start))
     estimate, cast, arrived, lights = no_estimate(), 0, 0, soft_count(soft)
     while needs_more(estimate, fans, worth, spent, light, lights):
         place = first + estimate.fans * fans.rays
@@ -212,7 +209,7 @@ def _arriving(
         arrived += count_open(fan, fans.rays)
     variance = with_unseen(estimate, fans.rays)
     counted = counted_variance(estimate, fans, worth)
-    return Arriving(shares_of(estimate), variance, counted, cast, arrived, is_narrow)
+    return Arriving(shares_of(estimate), variance, counted, cast, arrived)
 
 
 @device
@@ -240,12 +237,20 @@ def _keep_share(packet: Packet, lane: int, row: int, share: float, kept: KeptLig
 
 
 @device
-def _note_shadow(
-    packet: Packet, hit: int, lights: Lights, light: int, arriving: Arriving, shadows: Rows
-) -> None:
-    """Note whether a light that throws shadows with edges is hidden, in part or as a whole."""
-    if shadows is not None:  # noqa: SIM102 - by itself, it is known to the compiler
-        if arriving.is_narrow and arriving.arrived < arriving.cast:
-            number = light_count(lights) + 2 * light
-            packet[SHADOWS + hit] += light_bit(number)
-            packet[SHADOWS + hit] += light_bit(number + 1) if arriving.arrived == 0 else 0.0
+def _is_uneven(
+    packet: Packet,
+    hit: int,
+    scene: SceneArrays,
+    soft: SoftLights,
+    light: int,
+    is_wide: bool | None,
+    work: Workspace,
+) -> bool:
+    """Tell whether the pixel of a hit gets samples, for one of the lights so far or this one."""
+    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_wide:
+            uneven: bool = packet[UNEVEN + hit] != 0.0
+            uneven = uneven or is_lit_unevenly(packet, hit, scene, soft, light, work)
+            packet[UNEVEN + hit] = 1.0 if uneven else 0.0
+            return uneven
+    return False

@@ -84,9 +84,10 @@ def soft_worth(lights: Lights, soft: SoftLights, light: int, material: Material)
 
 
 @device
-def light_target(lights: Lights, light: int) -> Target:
-    """Return where the shadow rays to a light end."""
-    return Target(pick(lights, light), lights.plane_depth[light], lights.error_scale[light])
+def light_target(lights: Lights, light: int, is_wide: bool | None = None) -> Target:
+    """Return where the shadow rays to a light end; `is_wide` is that of `Target`."""
+    plane_depth, error_scale = lights.plane_depth[light], lights.error_scale[light]
+    return Target(pick(lights, light), plane_depth, error_scale, is_wide)
 
 
 @device

@@ -9,7 +9,6 @@ from vtray.geometry.packets.packet import (
     LAMBERT,
     NORMAL,
     POINT,
-    SHADOWS,
     VALUE,
     Packet,
     load,
@@ -19,9 +18,6 @@ from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import add, sub
 from vtray.transport.materials.lambert import cosine_of, is_above
 from vtray.transport.materials.material import Material, Power, scattered
-
-MANTISSA = 53
-"""Bits of a double that can stand for a light each."""
 
 
 @device
@@ -76,25 +72,3 @@ def add_light(packet: Packet, hits: int, target: Target, power: Power) -> None:
         material = Material(load(packet, COLOR, lane), packet[LAMBERT + lane])
         added = scattered(material, cosine, power)
         store(packet, VALUE, lane, add(load(packet, VALUE, lane), added))
-
-
-@device
-def clear_shadows(packet: Packet, hits: int) -> None:
-    """Start with no light blocked."""
-    for lane in range(hits):
-        packet[SHADOWS + lane] = 0.0
-
-
-@device
-def light_bit(light: int) -> float:
-    """Return a number of a light's own, as far as doubles have bits for all."""
-    return float(1 << light % MANTISSA)
-
-
-@device
-def note_shadows(packet: Packet, hits: int, target: Target, light: int) -> None:
-    """Add a number of a light's own in field ``SHADOWS`` where something blocks it."""
-    bit = light_bit(light)
-    for lane in range(hits):
-        blocked = (packet[BLOCKED + lane] != 0.0) & _is_lane_above(packet, lane, target)
-        packet[SHADOWS + lane] += bit if blocked else 0.0

@@ -210,3 +210,12 @@ def cone_of(aim: Aim, start: Start, forward: Vec) -> Cone:
         longest = math.sqrt(dot(way, way))
         shortest = longest - aim.size
     return Cone(start, aim.axis, 1.0 - aim.spread, _sine(aim), shortest, longest, forward)
+
+
+@device
+def longest_ray(aim: Aim, start: Start) -> float:
+    """Return how long a ray to a light is at the most."""
+    if aim.kind in (SPHERE, RECTANGLE):
+        way = sub(aim.place, start.point)
+        return math.sqrt(dot(way, way)) + aim.size
+    return aim.size

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import device
 from vtray.geometry.ray import Footprint, Ray, width_at
 from vtray.geometry.rounding import ROUNDING
-from vtray.geometry.shapes.sphere import SphereShape, sphere_distance, sphere_outline
+from vtray.geometry.shapes.sphere import SphereShape, sphere_distance
 from vtray.geometry.vector import Vec, add, dot, magnitude, scale, sub
 from vtray.transport.lights import rectangle
 
@@ -66,7 +66,7 @@ def lamp_distance(lamps: VisibleLamps, k: int, ray: Ray) -> tuple[float, float]:
 def lamp_outline(lamps: VisibleLamps, k: int, ray: Ray, footprint: Footprint) -> float:
     """Return the distance at which a ray passes the outline of a lamp, infinite if none is near."""
     if _is_ball(lamps, k):
-        return sphere_outline(_ball(lamps, k), ray, footprint)
+        return _ball_outline(_ball(lamps, k), ray, footprint)
     panel = _panel(lamps, k)
     one, other = scale(panel.half[0], panel.across), scale(panel.half[1], panel.up)
     way = sub(panel.middle, ray.origin)
@@ -77,6 +77,20 @@ def lamp_outline(lamps: VisibleLamps, k: int, ray: Ray, footprint: Footprint) ->
         start = add(way, scale(sign, aside))
         nearest = min(nearest, _edge_outline(start, along, ray, footprint))
     return nearest
+
+
+@device
+def _ball_outline(ball: SphereShape, ray: Ray, footprint: Footprint) -> float:
+    """Return the distance at which a ray passes the outline of a ball, or infinity."""
+    from_center = sub(ray.origin, ball.center)
+    middle = -dot(from_center, ray.direction)
+    approach = add(from_center, scale(middle, ray.direction))
+    gap2 = dot(approach, approach)
+    width = width_at(footprint, middle)
+    outer, inner = ball.radius + width, max(ball.radius - width, 0.0)
+    near = (gap2 < outer * outer) & (gap2 >= inner * inner) & (middle > -ray.plane_depth)
+    entry = middle - math.sqrt(max(ball.radius * ball.radius - gap2, 0.0))
+    return entry if near else math.inf
 
 
 @device

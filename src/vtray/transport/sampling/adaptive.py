@@ -1,65 +1,137 @@
 """Which pixels need more than one ray.
 
-A pixel gets samples if what its filter covers may not all look like its middle: if the outline of a
-shape passes through it, seen or just missed by its middle ray, or if near it another surface, the
-other half of one, or the shadow of another thing, begins. None of these questions has a threshold
-for light, so the choice depends neither on colours nor on the strength of lights. The rays by which
-pixels are chosen are not used in those that are: their samples are as unbiased as if all pixels had
-them.
+A pixel gets samples unless it is sure that all of them would see the same as the ray through its
+middle. All rays that its filter weighs are a bundle; the pixel needs no samples if
+
+- one shape is in the way of all of them before any other, or nothing is in the way of any,
+- the part of the surface that they see, a patch, is nearly flat,
+- for each light, nothing stands between it and the patch, or one shape does everywhere, or the
+  patch faces away everywhere.
+
+Shapes and shadows are bounded, so nothing is missed, however small it is. Estimated is only what
+changes smoothly: how much the light on a curved surface, near a lamp, at the horizon of a light or
+in the half-shadow of a lamp differs from its value in the middle; the limits below say how much of
+it is left. None of this depends on colours or on the strength of lights. The rays by which pixels
+are chosen are not used in those that are: their samples are as unbiased as if all pixels had them.
 
 References
 ----------
-Kirk, Arvo, "Unbiased Sampling Techniques for Image Synthesis", SIGGRAPH 1991 (why not to use them).
+Kirk, Arvo, "Unbiased Sampling Techniques for Image Synthesis", SIGGRAPH 1991 (why not to use them);
+Amanatides, "Ray Tracing with Cones", SIGGRAPH 1984 (what a pixel sees as a bundle).
 """
 
+import math
+
 import numpy as np
-from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device, kernel
-from vtray.transport.film import Film
+from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.occlusion import Target
+from vtray.geometry.packets.packet import (
+    AIM,
+    AIM_LENGTH,
+    ALL_IN_FRONT,
+    BEND,
+    HIDABLE,
+    IN_FRONT,
+    LENGTH,
+    MIXED,
+    NO_PRIMITIVE,
+    NORMAL,
+    OWNER,
+    PATCH,
+    PLANE_DEPTH,
+    POINT,
+    PRIMITIVE,
+    REACH,
+    SETTLED,
+    SOURCE,
+    STRETCH,
+    TOUCHED,
+    TOWARDS,
+    UNEVEN,
+    VALUE,
+    Packet,
+    load,
+    store,
+)
+from vtray.geometry.packets.patch import MIDDLE, NEAR_END, OPEN, UNEVEN_ALREADY, crossed_share
+from vtray.geometry.ray import Footprint, growth_of, width_at
+from vtray.geometry.vector import dot, scale, sub
 
+ROUGHLY = 1.5
+"""How much wider than in the middle a patch is taken: more than perspective and the curve of the
+surface, within the limits below, make its far side."""
 
-@kernel
-def mark_rows(film: Film, near: int, top: int, bottom: int, marks: NDArray[np.bool_]) -> float:
-    """Mark the pixels of some rows that need samples.
+LIMIT_OF_BEND = 0.25
+"""How much the normal may turn on a patch, times the cosine at which it is seen. The mean of the
+light of one lamp then differs from that in the middle by less than 3 of 255."""
 
-    Parameters
-    ----------
-    film
-        What the middle rays found: light, primitives, their halves, shadows and rims.
-    near
-        How many pixels away what is near begins.
-    top, bottom
-        The rows from the first to before the last.
-    marks
-        Out: the pixels that need samples, (height, width).
+LIMIT_OF_SWAY = 1.0 / 32.0
+"""How much the direction to a light, relative to the normal, may change where the light rises above
+the horizon. The mean then differs from the middle by less than 2 of 255."""
 
-    Returns
-    -------
-    float
-        The largest channel of the pixels that are not marked.
-    """
-    height, width = marks.shape
-    peak = 0.0
-    for row in range(top, bottom):
-        for column in range(width):
-            marks[row, column] = film.rims[row, column]
-        for other in range(max(row - near, 0), min(row + near + 1, height)):
-            for shift in range(-near, near + 1):
-                _mark_changes(film, row, other, shift, marks)
-        for column in range(width):
-            if not marks[row, column]:
-                for channel in range(3):
-                    peak = max(peak, film.linear[row, column, channel])
-    return peak
+NEARNESS = 32.0
+"""A patch must be nearer to its middle than to a light by the root of this number. The mean of the
+light then differs from that in the middle by less than 4 of 255."""
 
 
 @device
-def _mark_changes(film: Film, row: int, other: int, shift: int, marks: NDArray[np.bool_]) -> None:
-    """Mark the pixels of a row that differ from those of another, so many columns to the right."""
-    for column in range(max(0, -shift), marks.shape[1] - max(0, shift)):
-        beside = column + shift
-        surface = film.primitive[row, column] != film.primitive[other, beside]
-        half = film.half[row, column] != film.half[other, beside]
-        shadow = film.shadows[row, column] != film.shadows[other, beside]
-        marks[row, column] |= surface | half | shadow
+def leave_mixed(packet: Packet, lanes: int) -> None:
+    """Leave out what rays hit whose pixels get samples: it is not looked at."""
+    numbers = packet.view(np.int64)
+    for lane in range(lanes):
+        if packet[MIXED + lane] != 0.0:
+            numbers[PRIMITIVE + lane] = NO_PRIMITIVE
+
+
+@device
+def find_patches(packet: Packet, hits: int, footprint: Footprint | None, thickest: float) -> None:
+    """Set the patches of the hits of a packet; `thickest` is the radius of the thickest solid."""
+    numbers = packet.view(np.int64)
+    for hit in range(hits):
+        width = width_at(footprint, packet[LENGTH + hit])
+        cosine = -dot(load(packet, TOWARDS, hit), load(packet, NORMAL, hit))
+        is_bent = width * packet[BEND + hit] > LIMIT_OF_BEND * cosine * cosine
+        # Towards its horizon, a plane's part of a pixel has no end.
+        is_slanted = growth_of(footprint) > LIMIT_OF_BEND * cosine
+        packet[PATCH + hit] = ROUGHLY * width
+        packet[STRETCH + hit] = 1.0 / cosine
+        packet[REACH + hit] = ROUGHLY * width / cosine
+        packet[HIDABLE + hit] = 1.0 if packet[REACH + hit] <= thickest else 0.0
+        packet[UNEVEN + hit] = 1.0 if is_bent | is_slanted else 0.0
+        numbers[OWNER + hit] = numbers[PRIMITIVE + numbers[SOURCE + hit]]
+
+
+@device
+def ask_of_light(packet: Packet, hits: int, target: Target) -> None:
+    """Begin to ask what a light does on the patches of a packet: those that are near or turned."""
+    for hit in range(hits):
+        way = sub(target.place, load(packet, POINT, hit))
+        length2, reach = dot(way, way), packet[REACH + hit]
+        length = math.sqrt(length2)
+        height = dot(load(packet, NORMAL, hit), way)
+        # All of these are `length` times too large.
+        sway = reach * (packet[BEND + hit] * length + 1.0)
+        is_near = NEARNESS * reach * reach >= length2
+        rises = (abs(height) < sway) & (sway > LIMIT_OF_SWAY * length)
+        uneven = 1.0 if is_near | rises else packet[UNEVEN + hit]
+        settled = MIDDLE if height < sway else OPEN
+        packet[UNEVEN + hit] = uneven
+        packet[SETTLED + hit] = UNEVEN_ALREADY if uneven != 0.0 else settled
+        packet[TOUCHED + hit] = 0.0
+        depth = packet[PLANE_DEPTH + hit]
+        least, most = crossed_share(depth, reach, target.plane_depth)
+        store(packet, AIM, hit, scale(1.0 / length, way))
+        packet[AIM_LENGTH + hit] = length
+        packet[IN_FRONT + hit] = NEAR_END * most * length
+        packet[ALL_IN_FRONT + hit] = NEAR_END * least * length
+
+
+@device
+def mix_uneven(packet: Packet, hits: int) -> None:
+    """Mark the lanes of hits whose patches may not look the same everywhere; their light is 0."""
+    numbers = packet.view(np.int64)
+    for hit in range(hits):
+        if packet[UNEVEN + hit] != 0.0:
+            packet[MIXED + numbers[SOURCE + hit]] = 1.0
+            store(packet, VALUE, hit, (0.0, 0.0, 0.0))

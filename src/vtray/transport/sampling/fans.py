@@ -20,7 +20,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
-from vtray.transport.sampling.sobol import LIGHT_FANS, pixel_keys, scrambled, sobol_points
+from vtray.transport.sampling.sobol import (
+    FAN_ORDER,
+    LIGHT_FANS,
+    pixel_keys,
+    scrambled,
+    shuffled,
+    sobol_points,
+)
 
 Integers = NDArray[np.int64]
 
@@ -50,6 +57,8 @@ class Fans(NamedTuple):
         Rays from a hit to a light at a time.
     fans
         How often that is repeated at the most, while the estimated variance is too large.
+    levels
+        A pixel's samples share ``2**levels`` times as many fans.
     points
         What `fan_points` returns.
     error
@@ -61,6 +70,7 @@ class Fans(NamedTuple):
 
     rays: int
     fans: int
+    levels: int
     points: Integers
     error: float
     by_light: bool
@@ -88,7 +98,7 @@ class Noise(NamedTuple):
 def fans_of_middles(noise: Noise) -> Fans:
     """Return the fans of rays through the middles of pixels."""
     points = fan_points(WHOLE_FAN, MOST_FANS)
-    return Fans(WHOLE_FAN, MOST_FANS, points, noise.error, noise.by_light)
+    return Fans(WHOLE_FAN, MOST_FANS, 0, points, noise.error, noise.by_light)
 
 
 def fans_of_samples(samples: int, noise: Noise) -> Fans:
@@ -97,8 +107,9 @@ def fans_of_samples(samples: int, noise: Noise) -> Fans:
     while 2 * rays * samples <= WHOLE_FAN:
         rays *= 2
     fans = max(MOST_FANS_OF_SAMPLES // samples, 1)
-    points = fan_points(rays, fans * samples)
-    return Fans(rays, fans, points, noise.of_one(samples), noise.by_light)
+    levels = (samples - 1).bit_length()
+    points = fan_points(rays, fans << levels)
+    return Fans(rays, fans, levels, points, noise.of_one(samples), noise.by_light)
 
 
 def fan_points(fan: int, samples: int) -> Integers:
@@ -126,12 +137,23 @@ def fan_points(fan: int, samples: int) -> Integers:
 
 @device
 def fan_keys(column: int, row: int, light: int, seed: int) -> tuple[int, int]:
-    """Return what scrambles the fans of a pixel for a light, which is given by its number.
-
-    Within one pixel, points of the same number for two lights are in the same halves of the square,
-    or in opposite ones, as chance has it; over pixels they are independent.
-    """
+    """Return what scrambles the fans of a pixel for a light, which is given by its number."""
     return pixel_keys(column, row, LIGHT_FANS + light, seed)
+
+
+@device
+def fan_of_sample(levels: int, sample: int, column: int, row: int, light: int, seed: int) -> int:
+    """Return which of its ``2**levels`` fans for a light a sample of a pixel has.
+
+    In the order of the samples, those of two lights, and the places in the image, would be alike:
+    points of the same number are in the same halves of the square, or all in opposite ones.
+
+    References
+    ----------
+    Burley, "Practical Hash-based Owen Scrambling", JCGT 9 (4), 2020, section 3.
+    """
+    key, _ = pixel_keys(column, row, FAN_ORDER + light, seed)
+    return shuffled(sample, levels, key)
 
 
 @device

@@ -39,7 +39,10 @@ class Sampling(NamedTuple):
     positive
         Up to which distance the filter is not negative.
     footprint
-        Outlines of spheres as near to a ray as that are noted; without width where nobody asks.
+        What belongs to the pixel of a ray, where it is asked whether all of it looks the same;
+        else without width, or None where no pixel has more than one ray.
+    thickest
+        The radius of the thickest solid, as kernels count, where that is asked.
     marks
         The pixels that are traced, (height, width), or (0, 0) for all.
     """
@@ -50,7 +53,8 @@ class Sampling(NamedTuple):
     fans: Fans | None
     places: NDArray[np.float64]
     positive: float
-    footprint: Footprint
+    footprint: Footprint | None
+    thickest: float
     marks: NDArray[np.bool_]
 
 
@@ -59,6 +63,7 @@ _NO_FOOTPRINT = Footprint(0.0, 0.0)
 
 def middle_rays(
     footprint: Footprint = _NO_FOOTPRINT,
+    thickest: float = 0.0,
     *,
     before_samples: bool = False,
     fans: Fans | None = None,
@@ -67,7 +72,8 @@ def middle_rays(
     """Return one ray for each pixel, through its middle; if samples follow, for the same kernel."""
     none = np.zeros((0, 0), np.bool_)
     points = sobol_points(1) if before_samples else None
-    return Sampling(1, seed, points, fans, np.zeros(2), math.inf, footprint, none)
+    wide = footprint if before_samples else None
+    return Sampling(1, seed, points, fans, np.zeros(2), math.inf, wide, thickest, none)
 
 
 def filter_samples(
@@ -82,6 +88,7 @@ def filter_samples(
         filter_places(settings.filter),
         FILTERS[settings.filter].positive,
         _NO_FOOTPRINT,
+        0.0,
         marks,
     )
 
@@ -90,7 +97,9 @@ def filter_footprint(settings: RenderSettings, camera: CameraFrame) -> Footprint
     """Return how wide the part of the scene is that a pixel is made of."""
     reach = FILTERS[settings.filter].radius * math.sqrt(2.0)
     width, height, distance = camera.pixel
-    growth = min(reach * max(width, height) / distance, WIDEST)
+    tangent = min(reach * max(width, height) / distance, 1.0)
+    # Seen askew, it is wider beside the middle ray than seen squarely, by no more than that.
+    growth = tangent / (1.0 - 0.25 * tangent * tangent) if tangent < 1.0 else WIDEST
     return Footprint(reach * max(camera.shift), growth)
 
 

@@ -23,6 +23,9 @@ IMAGE_PLACE = 0
 LIGHT_FANS = 1 << 16
 """The purposes from here on: where in a light shadow rays aim, one purpose for each light."""
 
+FAN_ORDER = 1 << 24
+"""The purposes from here on: which sample gets which fan of a light, one purpose for each."""
+
 BITS = (1 << 32) - 1
 
 UNIT = 2.0**-32
@@ -67,13 +70,33 @@ def pixel_keys(column: int, row: int, purpose: int, seed: int) -> tuple[int, int
 @device
 def scrambled(reversed_bits: int, key: int) -> float:
     """Return a coordinate of a point, scrambled by a key, from 0 to below 1."""
+    return float(_reversed(_scrambled_bits(reversed_bits, key))) * UNIT
+
+
+@device
+def shuffled(number: int, levels: int, key: int) -> int:
+    """Return the place of a number below ``2**levels`` in an order that a key chooses.
+
+    Any block of a power of two that follows such blocks becomes another one, in some order: what is
+    a net stays one.
+    """
+    if levels == 0:
+        return number
+    unused = 32 - levels
+    bits = _scrambled_bits(_reversed(number) >> unused, key) & (1 << levels) - 1
+    return _reversed(bits) >> unused
+
+
+@device
+def _scrambled_bits(reversed_bits: int, key: int) -> int:
+    """Return an integer with each bit scrambled by a key and the bits below it."""
     bits = reversed_bits
     bits ^= bits * 0x3D20ADEA & BITS
     bits = bits + key & BITS
     bits = bits * (key >> 16 | 1) & BITS
     bits ^= bits * 0x05526C56 & BITS
     bits ^= bits * 0x53A22864 & BITS
-    return float(_reversed(bits)) * UNIT
+    return bits
 
 
 @device

@@ -1,0 +1,1 @@
+"""How pictures look without any settings, beside those of OVITO."""

@@ -1,0 +1,198 @@
+"""Whether the light of a lamp may have an edge within a patch of a surface.
+
+Between a patch and a lamp rays cross: at a share s of the way they are as far apart as the patch is
+wide times 1 - s, and the lamp is times s. What stands there throws a half-shadow on the patch, and
+that is an edge where the patch is wide beside it.
+"""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from vtray.base.compiler.compiled import device
+from vtray.geometry.bundle import Bundle
+from vtray.geometry.dispatch import Shape, Verbs, with_any
+from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_margin, upper_limit
+from vtray.geometry.packets.stack import Stack, push_met
+from vtray.geometry.rounding import MARGIN
+from vtray.geometry.vector import Vec, add, scale, sub
+from vtray.geometry.world import (
+    Group,
+    Hierarchy,
+    Places,
+    ToBoxes,
+    World,
+    group_count,
+    hierarchy_of,
+    hierarchy_of_places,
+    load_group,
+    placed_row,
+    range_of,
+)
+
+NOTHING, EDGE, ALL = 0, 1, 2
+"""What is found to stand between: nothing that throws an edge, something that does, or what keeps
+all light away."""
+
+SHARP = 0.25
+"""A half-shadow is an edge if it is narrower than the patch divided by this number. The mean of the
+light on others differs from that in the middle by less than 6 of 255."""
+
+
+class LampView(NamedTuple):
+    """The rays between a patch and a lamp.
+
+    Attributes
+    ----------
+    bundle
+        The rays.
+    within
+        The same, where what they meet counts from beyond the surface on which they start.
+    normal
+        The normal of that surface.
+    owner
+        The number of what it belongs to.
+    reach, radius, length
+        How far the patch reaches, how large the lamp is, and how far away.
+    all_in_front, in_front
+        How far all and any of these rays are in front of the image plane.
+    is_hidable
+        Whether a solid may be wide enough to hide the lamp from all of the patch.
+    error_scale
+        What the rounding error of the start is relative to.
+    """
+
+    bundle: Bundle
+    within: Bundle
+    normal: Vec
+    owner: int
+    reach: float
+    radius: float
+    length: float
+    all_in_front: float
+    in_front: float
+    is_hidable: bool
+    error_scale: float
+
+
+@device
+def has_edge(world: World, view: LampView, stack: Stack) -> bool:
+    """Tell whether something throws an edge, and nothing keeps all light away."""
+    found = NOTHING
+    for row in range(group_count(world)):
+        found = _find_in_group(world, load_group(world, row), view, found, stack, 0)
+    return _find_in_placed(world, world.places, view, found, stack) == EDGE
+
+
+@device
+def _is_settled(view: LampView, found: int) -> bool:
+    """Tell whether nothing that is found later changes the answer."""
+    return found == ALL or (found == EDGE and not view.is_hidable)
+
+
+@device
+def _find_in_group(
+    world: World, group: Group, view: LampView, found: int, stack: Stack, base: int
+) -> int:
+    hierarchy = hierarchy_of(group)
+    return _find_in_shapes(world, hierarchy, view, found, stack, base, _find_in_slots, group)
+
+
+@device
+def _find_in_placed(
+    world: World, places: Places | None, view: LampView, found: int, stack: Stack
+) -> int:
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if places is not None:
+        hierarchy = hierarchy_of_places(places)
+        return _find_in_places(world, hierarchy, view, found, stack, 0, _find_at_places, places)
+    return found
+
+
+@device
+def _find_at_places(
+    world: World,
+    places: Places,
+    begin: int,
+    end: int,
+    view: LampView,
+    found: int,
+    stack: Stack,
+    base: int,
+) -> int:
+    for at in range(begin, end):
+        item = places.item[at]
+        for row in range(places.rows[item], places.rows[item + 1]):
+            group = load_group(world, placed_row(world, at, row))
+            found = _find_in_group(world, group, view, found, stack, base)
+    return found
+
+
+@device
+def _find_in_slots(
+    world: World,
+    group: Group,
+    begin: int,
+    end: int,
+    view: LampView,
+    found: int,
+    stack: Stack,  # noqa: ARG001
+    base: int,  # noqa: ARG001
+) -> int:
+    for slot in range(begin, end):
+        found = max(found, with_any(world, group, slot, _found_of, view))
+    return found
+
+
+@device
+def _found_of(shape: Shape, verbs: Verbs, number: int, view: LampView) -> int:
+    """Return what a shape does to the light of the lamp."""
+    is_own = number == view.owner
+    if is_own and verbs.is_outside(shape, view.bundle.origin, view.normal):
+        return NOTHING
+    near, far = verbs.crossing(shape, view.within if is_own else view.bundle)
+    if far < view.all_in_front and view.is_hidable:
+        return ALL
+    apart, around = view.reach * (view.length - near), view.radius * near
+    return EDGE if near < view.in_front and apart > SHARP * around else NOTHING
+
+
+def _find_in_tree(
+    world: World,
+    hierarchy: Hierarchy,
+    view: LampView,
+    found: int,
+    stack: Stack,
+    base: int,
+    find_in: Callable[[World, Any, int, int, LampView, int, Stack, int], int],
+    subject: Any,  # noqa: ANN401
+) -> int:
+    """Return the most of what is found in the leaves of a hierarchy that the rays may meet."""
+    beam, ratio = _view_beam(view, hierarchy.to_boxes), hierarchy.to_boxes.ratio
+    near, far = lower_limit(beam, 0.0), upper_limit(beam, view.length * ratio * (1.0 + MARGIN))
+    stack.node[base] = hierarchy.root
+    waiting = base + 1
+    while waiting > base and not _is_settled(view, found):
+        waiting -= 1
+        child = stack.node[waiting]
+        if child >= 0:
+            waiting = push_met(world.bvh, child, beam, near, far, stack, waiting)
+        else:
+            begin, end = range_of(hierarchy, child)
+            found = max(found, find_in(world, subject, begin, end, view, found, stack, waiting))
+    return found
+
+
+_find_in_places, _find_in_shapes = device(_find_in_tree), device(_find_in_tree)
+"""Two ways: one through what is placed, one through what stands at a place. They are
+two, as the compiler takes what calls itself for recursion, whatever it is given."""
+
+
+@device
+def _view_beam(view: LampView, to_boxes: ToBoxes) -> Beam:
+    """Return a beam that holds the rays, in the boxes' space; its directions have length 1."""
+    ratio, offset = to_boxes.ratio, to_boxes.offset
+    start = add(scale(ratio, view.bundle.origin), offset)
+    reach = view.reach * ratio + shape_margin(to_boxes, start, view.error_scale)
+    growth = view.radius / view.length
+    wider, direction = (growth, growth, growth), view.bundle.direction
+    return make_beam(start, start, sub(direction, wider), add(direction, wider), reach)

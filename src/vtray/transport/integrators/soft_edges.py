@@ -1,0 +1,92 @@
+"""Whether the light of a lamp may have an edge in what a pixel sees around a hit."""
+
+import math
+
+import numpy as np
+
+from vtray.base.compiler.compiled import device
+from vtray.geometry.bundle import Bundle
+from vtray.geometry.edges import LampView, has_edge
+from vtray.geometry.packets.fan import Start
+from vtray.geometry.packets.packet import (
+    BEND,
+    ERROR_SCALE,
+    HIDABLE,
+    NORMAL,
+    OWNER,
+    PLANE_DEPTH,
+    POINT,
+    REACH,
+    Packet,
+    load,
+)
+from vtray.geometry.packets.patch import NEAR_END, crossed_share
+from vtray.geometry.packets.workspace import Workspace
+from vtray.geometry.vector import Vec, dot, scale, sub
+from vtray.transport.lights.soft_light import RECTANGLE, SUN, SoftLights, aim_at
+from vtray.transport.sampling.adaptive import LIMIT_OF_SWAY, NEARNESS
+from vtray.transport.scene_arrays import SceneArrays
+
+NARROW = 0.1
+"""Up to this spread, which a lamp has that is seen under 50 degrees, shadows have edges."""
+
+
+@device
+def is_lit_unevenly(
+    packet: Packet, hit: int, scene: SceneArrays, soft: SoftLights, light: int, work: Workspace
+) -> bool:
+    """Tell whether a soft light may do something else around a hit than there.
+
+    That of wide ones changes slowly.
+    """
+    point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
+    start = Start(point, packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
+    aim = aim_at(soft, light, start, normal)
+    if not aim.spread < NARROW:
+        return False
+    way, reach = sub(aim.place, point), packet[REACH + hit]
+    length = soft.far if aim.kind == SUN else math.sqrt(dot(way, way))
+    # Of half the angle under which it is seen: 1 - cosine is known.
+    cosine = 1.0 - aim.spread
+    axis, tangent = aim.axis, math.sqrt(aim.spread * (2.0 - aim.spread)) / cosine
+    if aim.kind == RECTANGLE:
+        # As the ball around it.
+        axis, tangent = scale(1.0 / length, way), aim.size / length
+    height, sway = dot(normal, axis), reach * (packet[BEND + hit] + 1.0 / length)
+    if NEARNESS * reach * reach >= length * length:
+        return True
+    if abs(height) < sway and sway > max(LIMIT_OF_SWAY, tangent):
+        return True
+    if height < -tangent:
+        return False
+    return has_edge(scene.world, _view(packet, hit, scene, axis, length, tangent), work.stack)
+
+
+@device
+def _view(
+    packet: Packet, hit: int, scene: SceneArrays, axis: Vec, length: float, tangent: float
+) -> LampView:
+    """Return the rays between a patch and a lamp."""
+    reach, radius, depth = packet[REACH + hit], tangent * length, packet[PLANE_DEPTH + hit]
+    end = depth + length * dot(axis, scene.camera.forward)
+    least, most = crossed_share(depth, reach, end)
+    growth, point = (radius - reach) / length, load(packet, POINT, hit)
+    return LampView(
+        _bundle(point, axis, reach, growth, 0.0),
+        _bundle(point, axis, reach, growth, 4.0 * reach),
+        load(packet, NORMAL, hit),
+        packet.view(np.int64)[OWNER + hit],
+        reach,
+        radius,
+        length,
+        NEAR_END * least * length,
+        NEAR_END * most * length,
+        packet[HIDABLE + hit] != 0.0,
+        packet[ERROR_SCALE + hit],
+    )
+
+
+@device
+def _bundle(point: Vec, axis: Vec, width: float, growth: float, start: float) -> Bundle:
+    """Return the rays from all of a patch to all of a lamp, from where they count on."""
+    return Bundle(point, axis, width, growth, 1.0, None, None, start, start, True)

@@ -1,0 +1,167 @@
+"""Which rays of a fan arrive: all at once through hierarchies, and one by one."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import vtray
+from conftest import JIT, compiled_only
+from vtray import Scene
+from vtray.base.compiler.compiled import device, uncompiled
+from vtray.geometry.between import is_occluded
+from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh
+from vtray.geometry.packets.fan import (
+    BLOCKED,
+    DIRECTION,
+    END,
+    END_PLANE_DEPTH,
+    FAN,
+    LENGTH,
+    SINGLES,
+    Fan,
+    Start,
+    fan_segment,
+    new_fan,
+)
+from vtray.geometry.packets.fan_rays import View, balls_seen, count_bits, first_bit, octet_within
+from vtray.geometry.packets.stack import new_stack
+from vtray.geometry.stopped import Bundle, stop_by_all
+from vtray.geometry.vector import Vec, add, dot, magnitude, scale
+from vtray.rendering import hierarchy
+from vtray.rendering.hierarchy import accelerate
+from vtray.rendering.pack import pack
+from vtray.transport.sampling.warps import cosine_direction
+
+FANS = 150 if JIT else 6
+RAYS = 64 if JIT else 16
+
+
+def scene_of(kind: str, size: float, place: float) -> Scene:
+    """Return shapes in a cube of side 2 around the origin, larger by a factor, and moved."""
+    random = np.random.default_rng(7)
+    scene = Scene()
+    count = {"loose": 300, "packed": 700, "bonds": 60, "copies": 90}[kind]
+    centers, radii = random.uniform(-1, 1, (count, 3)), random.uniform(0.02, 0.2, count)
+    scene.add_spheres(centers * size + place, radii * size)
+    if kind == "bonds":
+        ends = centers + random.normal(size=(count, 3)) * 0.3
+        scene.add_cylinders(centers * size + place, ends * size + place, 0.05 * size)
+    if kind == "copies":
+        scene.add_copies(vtray.Sphere((0, 0, 0), 0.1), random.uniform(-1, 1, (20, 3)))
+    return scene
+
+
+def set_fan(fan: Fan, start: Start, normal: Vec, length: float, forward: Vec, seed: int) -> None:
+    """Set rays above a surface, the last of which nothing needs to ask any more."""
+    for ray, (u, v) in enumerate(np.random.default_rng(seed).random((RAYS, 2))):
+        direction = uncompiled(cosine_direction)(u, v, normal)
+        end = add(start.point, scale(length, direction))
+        for axis in range(3):
+            fan[DIRECTION + axis * FAN + ray] = direction[axis]
+            fan[END + axis * FAN + ray] = end[axis]
+        fan[LENGTH + ray] = length
+        fan[END_PLANE_DEPTH + ray] = dot(end, forward)
+        fan[BLOCKED + ray] = 0.0
+    fan[BLOCKED + RAYS - 1] = 1.0
+
+
+@pytest.mark.parametrize(
+    ("kind", "size", "place"),
+    [
+        ("loose", 1, 0),
+        ("packed", 1, 0),
+        ("bonds", 1, 0),
+        ("copies", 1, 0),
+        ("loose", 1, 1e6),
+        ("packed", 1e-3, 1e7),
+        ("packed", 1e-100, 0),
+        ("loose", 1e100, 0),
+    ],
+)
+def test_what_stops_a_fan_stops_each_of_its_rays(
+    kind: str, size: float, place: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(hierarchy, "FEW", 4)
+    scene, random = scene_of(kind, size, place), np.random.default_rng(5)
+    # The image plane cuts the scene.
+    eye = place, place - 2.5 * size, place
+    scene.camera = vtray.Camera(eye, (0, 1, 0), 2.0 * size, (8, 8), (size, size))
+    arrays = pack(scene, accelerate(scene)).arrays
+    world, forward, unit = arrays.world, arrays.camera.forward, arrays.world.scale
+    stack, fan, found = new_stack(), new_fan(), []
+    spheres = next(item for item in scene.objects if isinstance(item, vtray.Spheres))
+    for k in range(FANS):
+        normal = random.normal(size=3)
+        normal = normal / math.sqrt(normal @ normal)
+        spot = random.uniform(-1.2, 1.2, 3) * size + place
+        # Most start on a sphere, as all do that belong to a hit.
+        if k % 4:
+            which = random.integers(len(spheres.center))
+            spot = spheres.center[which] + normal * np.asarray(spheres.radius)[which]
+        point = tuple(float(x) for x in spot * unit - np.array(world.origin))
+        start = Start(point, dot(point, forward), magnitude(point))
+        if start.plane_depth <= 0:
+            continue
+        above = float(normal[0]), float(normal[1]), float(normal[2])
+        length = float(random.choice([0.1, 2.0, 1e4])) * size * unit
+        set_fan(fan, start, above, length, forward, k)
+        bundle = Bundle(fan, RAYS, start, above, start.error_scale, length)
+        stop_by_all(bundle, world, stack)
+        for ray in range(RAYS - 1):
+            segment = fan_segment(fan, ray, start, start.error_scale)
+            hidden = is_occluded(world, segment, stack)
+            assert fan[BLOCKED + ray] == (1.0 if hidden else 0.0)
+            found.append(hidden)
+        assert fan[BLOCKED + RAYS - 1] == 1.0
+    assert (not JIT) or 0.03 < np.mean(found) < 0.97
+
+
+@device
+def ask_octet(singles: Any, first: Any, step: Any, way: Any, least: Any) -> Any:
+    return octet_within(singles, first, step, way, least)
+
+
+@device
+def ask_bits(bits: Any) -> Any:
+    return count_bits(bits), first_bit(bits)
+
+
+def test_octets_are_asked_as_numpy_asks_them() -> None:
+    random = np.random.default_rng(2)
+    singles = new_fan().view(np.float32)
+    singles[2 * SINGLES :] = random.normal(size=4 * FAN)
+    singles[2 * SINGLES : 2 * SINGLES + FAN] = np.round(singles[2 * SINGLES : 2 * SINGLES + FAN])
+    for _ in range(100):
+        way = tuple(np.float32(x) for x in np.round(random.normal(size=3)))
+        least = np.float32(np.round(random.normal()))
+        first = 2 * SINGLES + 8 * int(random.integers(8))
+        met = ask_octet(singles, first, FAN, way, least)
+        assert met == uncompiled(octet_within)(singles, first, FAN, way, least)
+
+
+@device
+def ask_balls(bvh: Any, view: Any, balls: Any) -> Any:
+    return balls_seen(bvh, SIDES, view, balls)
+
+
+@compiled_only
+@given(
+    st.lists(st.floats(-4, 4, width=32), min_size=SIDES, max_size=SIDES),
+    st.lists(st.floats(-1e3, 1e3, width=32), min_size=8, max_size=8),
+)
+def test_balls_are_seen_as_numpy_has_them(sides: list[float], numbers: list[float]) -> None:
+    bvh = Bvh(np.float32([0.0] * SIDES + sides), np.zeros(2 * WIDTH, np.int32))
+    values = tuple(map(np.float32, numbers))
+    view = View(values[:3], values[3:6], abs(values[6]), abs(values[7]))
+    balls, expected = np.zeros((2, 4 * WIDTH), np.float32)
+    assert ask_balls(bvh, view, balls) == uncompiled(balls_seen)(bvh, SIDES, view, expected)
+    assert balls.tobytes() == expected.tobytes()
+
+
+def test_bits_are_counted_and_found() -> None:
+    for bits in (1, 6, 2**63, 2**64 - 1, 2**40 + 2**63):
+        assert ask_bits(np.uint64(bits)) == (bits.bit_count(), (bits & -bits).bit_length() - 1)
