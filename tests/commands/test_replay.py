@@ -208,6 +208,7 @@ def test_settings_of_the_picture_reach_the_render(
             "samples": 8,
             "filter": "box",
             "seed": 5,
+            "tolerance": 0.008,
             "size": (9, 7),
             "exposure": 2.0,
             "background": vtray.Color(1, 2, 3),
