@@ -35,6 +35,9 @@ WIDTH, HEIGHT = 12, 9
 SEED = 3
 """What chooses the rays to soft lights."""
 
+ONE_FAN = 1e6
+"""A tolerance at which each hit has one fan of rays to each soft light."""
+
 
 def attempt(random: python_random.Random, folder: Path) -> None:
     """Render a random scene; if it has a fault, save it also without what does not matter."""
@@ -86,7 +89,7 @@ def _fault_of_soft_lights(scene: Scene) -> str | None:
         seen = _render(scene, ALL, background="sky").with_sky
         if not np.isfinite(seen).all() or (seen < 0).any():
             return "the sky is not finite, or below 0"
-    image = _render(scene, ALL, seed=SEED)
+    image = _render(scene, ALL, seed=SEED, tolerance=ONE_FAN)
     hits = np.argwhere(image.ids[..., 0] >= 0)
     pixels = [(int(column), int(row)) for row, column in hits[:: max(len(hits) // 3, 1)]]
     try:
