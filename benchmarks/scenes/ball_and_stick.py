@@ -58,7 +58,7 @@ def make_scenes(count: int, side: int = SIDE) -> dict[str, vtray.Scene]:
         scene.add_spheres(atoms, ATOM, color=colors)
         scene.add_plane((0, 1.1 * float(atoms[:, 1].min()), 0), (0, 1, 0), color=(230, 230, 230))
         scene.camera = vtray.Camera.fit(scene, (-0.5, -0.4, -1), size=(side, side))
-        scene.lights = vtray.lights.rembrandt(scene)[:1]
+        scene.lights = vtray.lights.rembrandt(scene, points=True)[:1]
     scenes["bonds"].add_cylinders(start, end, BOND, color=ONE, color_end=OTHER)
     return scenes
 

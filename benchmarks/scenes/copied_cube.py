@@ -35,7 +35,7 @@ def make_scene(
     scene.add_copies(vtray.Spheres(center, cube.radius, cube.color), at)
     scene.add_plane((0, -1.1, 0), (0, 1, 0), color=(230, 230, 230))
     scene.camera = vtray.Camera.fit(scene, (-0.5, -0.4, -1), size=(side, side))
-    scene.lights = vtray.lights.rembrandt(scene)[:1]
+    scene.lights = vtray.lights.rembrandt(scene, points=True)[:1]
     if written_out:
         # Seen by the same camera to the last bit, so that the picture is the same.
         moved = (at[:, None] + center).reshape(-1, 3)

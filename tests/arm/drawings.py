@@ -47,7 +47,7 @@ def many(count: int = 400, **given: object) -> Scene:
     scene.add_spheres(places, 0.2 + 0.03 * places[:, 0], **color)
     scene.add_plane((0, 0, -0.5), (0, 0, 1))
     scene.camera = Camera.fit(scene, (0.5, 1, -0.3), size=(64, 48), fov_degrees=29)
-    scene.lights = lights.rembrandt(scene)
+    scene.lights = lights.rembrandt(scene, points=True)
     return scene
 
 
@@ -67,7 +67,7 @@ def looked_at() -> Image:
     """Draw what a camera sees that looks from one point to another."""
     scene = few()
     scene.camera = Camera.look_at((2.1, 3.3, 9.7), (3, 0.5, 1), fov_degrees=51.3, size=(48, 36))
-    scene.lights = lights.loop(scene, side="right")
+    scene.lights = lights.loop(scene, side="right", points=True)
     return vtray.render(scene)
 
 
@@ -84,14 +84,14 @@ def from_behind() -> Image:
     """Draw with a camera of the plain format that looks back: its axes follow from its normal."""
     scene = few()
     scene.camera = Camera((3, 1, 30), (-0.1, 0.21, -1), 20, (48, 36), (0.2, 0.21))
-    scene.lights = lights.split(scene)
+    scene.lights = lights.split(scene, points=True)
     return vtray.render(scene)
 
 
 def on_white() -> Image:
     """Draw over a background, at a given exposure."""
     scene = few()
-    scene.lights = lights.ring(scene, count=7)
+    scene.lights = lights.ring(scene, points=True, count=7)
     return vtray.render(scene, samples=4, background="#eef0f2", exposure=0.7)
 
 
@@ -122,7 +122,7 @@ def at_places() -> Image:
     )
     scene.add_copies([vtray.Sphere((0, 0, 0), 0.2), sticks], cloud(40, 5))
     scene.camera = Camera.fit(scene, (0.3, -0.4, -1), size=(48, 36), fov_degrees=37)
-    scene.lights = lights.rembrandt(scene)
+    scene.lights = lights.rembrandt(scene, points=True)
     return vtray.render(scene, samples=2)
 
 
@@ -151,7 +151,7 @@ def numbers() -> dict[str, np.ndarray]:
     scene = few()
     found = {f"filter {name}": filter_places(name) for name in FILTERS}
     for name in ("rembrandt", "loop", "split", "butterfly", "ring", "cloudy", "lightbox"):
-        lamps = getattr(lights, name)(scene)
+        lamps = getattr(lights, name)(scene, points=True)
         places = [(p.location.x, p.location.y, p.location.z, p.intensity) for p in lamps]
         found[f"lights {name}"] = np.array(places)
     for fov in (0.01, 1, 33.3, 90, 179.9):

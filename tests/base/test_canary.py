@@ -36,7 +36,7 @@ def image() -> vtray.Image:
     scene.add_sphere((0, 0, 0), 1, color="tomato")
     scene.add_sphere((1, 1, 1), 0.5, color="teal")
     scene.camera = vtray.Camera.fit(scene, size=(12, 8))
-    scene.lights = vtray.lights.rembrandt(scene)
+    scene.lights = vtray.lights.rembrandt(scene, points=True)
     return vtray.render(scene)
 
 
@@ -307,7 +307,7 @@ from vtray.base.compiler import compiled
 scene = vtray.Scene()
 scene.add_sphere((0, 0, 0), 1)
 scene.camera = vtray.Camera.fit(scene, size=(3, 2))
-scene.lights = vtray.lights.rembrandt(scene)
+scene.lights = vtray.lights.rembrandt(scene, points=True)
 vtray.render(scene)
 print(compiled._trusted, compiled.loading_seconds())
 """

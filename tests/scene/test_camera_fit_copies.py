@@ -161,7 +161,7 @@ def test_lights_stand_as_around_the_objects_written_out() -> None:
     for scene in (one, other):
         scene.camera = Camera.fit(other, (1, 2, -1))
     for preset in (vtray.lights.rembrandt, vtray.lights.cloudy):
-        for first, second in zip(preset(one), preset(other), strict=True):
+        for first, second in zip(preset(one, points=True), preset(other, points=True), strict=True):
             places = [(p.x, p.y, p.z) for p in (first.location, second.location)]
             assert places[0] == pytest.approx(places[1], rel=1e-13, abs=1e-13)
 

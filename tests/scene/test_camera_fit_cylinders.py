@@ -201,6 +201,6 @@ def test_lights_stand_outside_of_cylinders() -> None:
     scene = Scene()
     scene.add_cylinder((0, 0, 0), (10, 0, 0), 1)
     scene.camera = Camera.fit(scene)
-    for light in vtray.lights.cloudy(scene) + vtray.lights.rembrandt(scene):
+    for light in vtray.lights.cloudy(scene, points=True) + vtray.lights.rembrandt(scene):
         place = light.location
         assert math.dist((place.x, place.y, place.z), (5, 0, 0)) > 6 * math.hypot(5, 1) * 0.99

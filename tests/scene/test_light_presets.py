@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -22,8 +23,14 @@ def scene_of(up: Any = (0, 1, 0), scale: float = 1.0) -> Scene:
     return scene
 
 
-def makers(name: str) -> Callable[..., list[vtray.Light]]:
-    maker: Callable[..., list[vtray.Light]] = getattr(lights, name)
+def makers(name: str) -> Callable[..., list[Any]]:
+    """Return a function that makes lights of points."""
+    return partial(getattr(lights, name), points=True)
+
+
+def lamp_makers(name: str) -> Callable[..., list[Any]]:
+    """Return a function that makes lights of lamps with a size."""
+    maker: Callable[..., list[Any]] = getattr(lights, name)
     return maker
 
 
@@ -90,7 +97,7 @@ def test_soft_lights(name: str, count: int) -> None:
 @pytest.mark.parametrize("up", [(0, 1, 0), (0, 0, 1), (0, 0, -2), (1, 1, 1)])
 def test_sky_is_above(up: Any) -> None:
     scene = scene_of(up)
-    found = lights.cloudy(scene, 3)
+    found = lights.cloudy(scene, 3, points=True)
     upward = np.array(up) / np.linalg.norm(up)
     rays = places(found) - np.array([2, 2.5, 3.25])
     rays /= np.linalg.norm(rays, axis=1)[:, None]
@@ -173,7 +180,7 @@ def test_sky_straight_above_the_camera() -> None:
     scene = scene_of()
     forward = scene.camera.normal
     scene.camera = Camera.fit(scene, forward, up=(forward.x + 1e-5, forward.y, forward.z))
-    assert len(lights.cloudy(scene)) == 64
+    assert len(lights.cloudy(scene, points=True)) == 64
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -206,3 +213,96 @@ def test_wrong_arguments(name: str, options: Any, message: str) -> None:
     with pytest.raises(SceneError) as caught:
         makers(name)(scene_of(), **options)
     assert str(caught.value) == f"lights.{name}: {message}"
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "message"),
+    [
+        ("loop", {"points": 2}, "points: expected true or false, got 2"),
+        ("cloudy", {"points": "yes"}, "points: expected true or false, got 'yes'"),
+        *(
+            (
+                name,
+                {"count": 9},
+                "count: how many points there are, only beside points=True; "
+                "leave it out, or add that",
+            )
+            for name in SOFT
+        ),
+    ],
+)
+def test_wrong_arguments_of_lamps(name: str, options: Any, message: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        lamp_makers(name)(scene_of(), **options)
+    assert str(caught.value) == f"lights.{name}: {message}"
+
+
+MIDDLE = np.array([2, 2.5, 3.25])
+
+
+def vector(given: Any) -> Any:
+    return np.array([given.x, given.y, given.z])
+
+
+@pytest.mark.parametrize("name", ["rembrandt", "loop", "split", "butterfly"])
+def test_lamps_stand_where_points_do(name: str) -> None:
+    scene = scene_of()
+    key, fill = lamps = lamp_makers(name)(scene, 2)
+    points = makers(name)(scene, 2)
+    assert [(lamp.location, lamp.intensity) for lamp in lamps] == [
+        (point.location, point.intensity) for point in points
+    ]
+    for lamp, degrees in ((key, 20), (fill, 40)):
+        far = np.linalg.norm(vector(lamp.location) - MIDDLE)
+        assert 2 * np.degrees(np.arcsin(lamp.radius / far)) == pytest.approx(degrees)
+
+
+def test_ring_is_around_the_lens() -> None:
+    scene = scene_of()
+    (lamp,) = lights.ring(scene, 2)
+    assert lamp.intensity == 2
+    away = vector(lamp.location) - MIDDLE
+    towards = -vector(scene.camera.normal)
+    assert away / np.linalg.norm(away) == pytest.approx(towards / np.linalg.norm(towards))
+    (edge,) = lights.ring(scene, points=True, count=1)
+    off_axis = np.linalg.norm(np.cross(vector(edge.location) - MIDDLE, away)) / (away @ away)
+    assert lamp.radius / np.linalg.norm(away) == pytest.approx(off_axis)
+
+
+def test_an_overcast_sky() -> None:
+    scene = scene_of(up=(0, 0, 1))
+    (sky,) = lights.cloudy(scene, 3)
+    assert vector(sky.up) == pytest.approx([0, 0, 1])
+    colors = sky.gradient
+    assert colors.zenith.r == 3 * colors.horizon.r
+    assert (colors.ground.r, colors.ground.g, colors.ground.b) == (0, 0, 0)
+    # A white floor with nothing above it shows the intensity.
+    floor = Scene(Camera((0, 0, 5), (0, 0, -1), 5, (4, 4), (1, 1)), [sky])
+    floor.add_plane((0, 0, 0), (0, 0, 1), color="white", lambert=1)
+    shown = vtray.render(floor, exposure=1, tolerance=0.002).linear
+    assert shown == pytest.approx(255 * 3, rel=0.01)
+
+
+def test_panels_face_the_subject_and_are_as_wide_as_far() -> None:
+    scene = scene_of()
+    panels = lights.lightbox(scene, 2)
+    points = lights.lightbox(scene, 2, points=True, count=12)
+    assert len(panels) == 3
+    for panel, grid in zip(panels, np.array_split(places(points), 3), strict=True):
+        away, edges = vector(panel.location) - MIDDLE, [vector(edge) for edge in panel.edges]
+        assert panel.intensity == 2
+        assert [np.linalg.norm(edge) for edge in edges] == pytest.approx([np.linalg.norm(away)] * 2)
+        assert [edge @ away for edge in edges] == pytest.approx([0, 0], abs=1e-9)
+        assert grid.mean(axis=0) == pytest.approx(vector(panel.location))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_lamps_go_with_the_scale(name: str) -> None:
+    usual, scaled = (lamp_makers(name)(scene_of(scale=scale)) for scale in (1.0, 1e9))
+    for one, other in zip(usual, scaled, strict=True):
+        if isinstance(one, vtray.Sky):
+            assert vector(one.up) == pytest.approx(vector(other.up), abs=1e-9)
+            continue
+        assert vector(other.location) / 1e9 == pytest.approx(vector(one.location), rel=1e-6)
+        if isinstance(one, vtray.SphereLight):
+            assert other.radius / 1e9 == pytest.approx(one.radius, rel=1e-6)

@@ -2,24 +2,31 @@
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated
-
-from msgspec import Meta
+from typing import TYPE_CHECKING
 
 from vtray.base.exact_math import cosine, sine
 from vtray.scene.checks.limits import NonNegative
-from vtray.scene.light_types import Ambient, AnyLight, Light
+from vtray.scene.light_types import Ambient, AnyLight, RectangleLight, Sky
 from vtray.scene.placing.directions import Vec, along, cross, unit
-from vtray.scene.studio import HasCamera, Side, direction, studio_of
-from vtray.scene.vectors import Direction
+from vtray.scene.sky_types import Gradient
+from vtray.scene.studio import HasCamera, Side, Studio, direction, studio_of
+from vtray.scene.vectors import Color, Direction
 
 if TYPE_CHECKING:
     from vtray.scene.vectors import Triple, Vector
 
-Count = Annotated[int, Meta(ge=1, le=4096, description="an integer from 1 to 4096")]
-
 SKY = 1000.0
-"""How far the lights of the sky are, so that they come from the same direction everywhere."""
+"""How far the points of the sky are, so that they come from the same direction everywhere."""
+
+OVERCAST = Gradient(zenith=Color(255, 255, 255), horizon=Color(85, 85, 85), ground=Color(0, 0, 0))
+"""Three times as bright straight above as at the horizon."""
+
+UPWARD = 8 / 9
+"""What a white surface shows that faces straight up, under an `OVERCAST` sky of radiance 1: the
+mean over the half sphere of ``1/3 + 2/3 h (2 - h)``, weighed by h."""
+
+RING_DEGREES = 12.0
+"""Radius of a ring light, as seen from the subject."""
 
 GOLDEN_ANGLE = 180 * (3 - math.sqrt(5))
 """In degrees: points that turn by it from one to the next never line up."""
@@ -71,8 +78,13 @@ def none(scene: HasCamera | None = None) -> list[AnyLight]:  # noqa: ARG001 - as
 
 
 def rembrandt(
-    scene: HasCamera, intensity: float = 1.0, *, side: Side = "left", ratio: float = 4.0
-) -> list[Light]:
+    scene: HasCamera,
+    intensity: float = 1.0,
+    *,
+    side: Side = "left",
+    ratio: float = 4.0,
+    points: bool = False,
+) -> list[AnyLight]:
     """Return Rembrandt light: a key high on one side, and a weak fill on the other.
 
     The key is 45 degrees to the side and 45 above; on a face it leaves a triangle of light on the
@@ -88,11 +100,13 @@ def rembrandt(
         Where the key stands in the picture, "left" or "right".
     ratio
         Key to fill, ≥ 1; a larger one gives darker shadows.
+    points
+        Whether the lamps are points, for hard shadows.
 
     Returns
     -------
-    list of Light
-        The key and the fill.
+    list
+        The key and the fill: two `SphereLight`, or two `Light`.
 
     Raises
     ------
@@ -100,12 +114,17 @@ def rembrandt(
         If the scene has no camera or no sphere, or an argument is not right.
     """
     studio = studio_of("rembrandt", scene)
-    return studio.key_and_fill(intensity, side, ratio, key=(45, 45), fill=(-30, 10))
+    return studio.key_and_fill(intensity, side, ratio, points, key=(45, 45), fill=(-30, 10))
 
 
 def loop(
-    scene: HasCamera, intensity: float = 1.0, *, side: Side = "left", ratio: float = 3.0
-) -> list[Light]:
+    scene: HasCamera,
+    intensity: float = 1.0,
+    *,
+    side: Side = "left",
+    ratio: float = 3.0,
+    points: bool = False,
+) -> list[AnyLight]:
     """Return loop light, the portrait photographer's usual one: softer shadows than Rembrandt's.
 
     The key is 35 degrees to the side and 30 above; on a face the nose throws a small loop of
@@ -114,12 +133,17 @@ def loop(
     Parameters, result and errors are those of `rembrandt`.
     """
     studio = studio_of("loop", scene)
-    return studio.key_and_fill(intensity, side, ratio, key=(35, 30), fill=(-30, 10))
+    return studio.key_and_fill(intensity, side, ratio, points, key=(35, 30), fill=(-30, 10))
 
 
 def split(
-    scene: HasCamera, intensity: float = 1.0, *, side: Side = "left", ratio: float = 8.0
-) -> list[Light]:
+    scene: HasCamera,
+    intensity: float = 1.0,
+    *,
+    side: Side = "left",
+    ratio: float = 8.0,
+    points: bool = False,
+) -> list[AnyLight]:
     """Return split light: one half bright, the other dark.
 
     The key is 90 degrees to the side and 10 above; the fill comes from the camera, three stops
@@ -128,10 +152,12 @@ def split(
     Parameters, result and errors are those of `rembrandt`.
     """
     studio = studio_of("split", scene)
-    return studio.key_and_fill(intensity, side, ratio, key=(90, 10), fill=(0, 5))
+    return studio.key_and_fill(intensity, side, ratio, points, key=(90, 10), fill=(0, 5))
 
 
-def butterfly(scene: HasCamera, intensity: float = 1.0, *, ratio: float = 3.0) -> list[Light]:
+def butterfly(
+    scene: HasCamera, intensity: float = 1.0, *, ratio: float = 3.0, points: bool = False
+) -> list[AnyLight]:
     """Return butterfly light, also called Paramount light: a key straight above the camera.
 
     The key is 50 degrees above; on a face the nose throws a shadow like a butterfly below it. The
@@ -146,11 +172,13 @@ def butterfly(scene: HasCamera, intensity: float = 1.0, *, ratio: float = 3.0) -
         Intensity of the key.
     ratio
         Key to fill, ≥ 1.
+    points
+        Whether the lamps are points, for hard shadows.
 
     Returns
     -------
-    list of Light
-        The key and the fill.
+    list
+        The key and the fill: two `SphereLight`, or two `Light`.
 
     Raises
     ------
@@ -158,28 +186,32 @@ def butterfly(scene: HasCamera, intensity: float = 1.0, *, ratio: float = 3.0) -
         If the scene has no camera or no sphere, or an argument is not right.
     """
     studio = studio_of("butterfly", scene)
-    return studio.key_and_fill(intensity, "right", ratio, key=(0, 50), fill=(0, 5))
+    return studio.key_and_fill(intensity, "right", ratio, points, key=(0, 50), fill=(0, 5))
 
 
-def ring(scene: HasCamera, intensity: float = 1.0, *, count: int = 24) -> list[Light]:
-    """Return a ring light: lamps in a circle around the camera's lens.
+def ring(
+    scene: HasCamera, intensity: float = 1.0, *, points: bool = False, count: int | None = None
+) -> list[AnyLight]:
+    """Return a ring light: a large lamp around the camera's lens.
 
-    The circle is 12 degrees from the camera's axis. Everything is lit from the front, without
-    strong shadows but for a soft rim around what is in front of something else.
+    Its edge is 12 degrees from the camera's axis. Everything is lit from the front, without strong
+    shadows but for a soft rim around what is in front of something else.
 
     Parameters
     ----------
     scene
         A scene with a camera and at least one sphere.
     intensity
-        Intensity of all lights together.
+        Intensity of all of it.
+    points
+        Whether it is a circle of points instead, whose shadows have steps.
     count
-        How many lights there are, from 1 to 4096; more give softer shadows, and take longer.
+        How many points there are, from 1 to 4096, 24 by default; only with `points`.
 
     Returns
     -------
-    list of Light
-        Lights of the same intensity.
+    list
+        A `SphereLight`, or `Light` of the same intensity.
 
     Raises
     ------
@@ -187,8 +219,10 @@ def ring(scene: HasCamera, intensity: float = 1.0, *, count: int = 24) -> list[L
         If the scene has no camera or no sphere, or an argument is not right.
     """
     studio = studio_of("ring", scene)
-    number = studio.checked("count", count, Count)
-    aside, ahead = sine(12), cosine(12)
+    number = studio.how_many(count, 24, points)
+    if not number:
+        return [studio.lamp(direction(0, 0), 2 * RING_DEGREES, studio.strength(intensity))]
+    aside, ahead = sine(RING_DEGREES), cosine(RING_DEGREES)
     turns = (360 * (k + 0.5) / number for k in range(number))
     directions = ((aside * sine(turn), aside * cosine(turn), ahead) for turn in turns)
     return studio.share(intensity, ((place, 1.0) for place in directions), number)
@@ -198,13 +232,14 @@ def cloudy(
     scene: HasCamera,
     intensity: float = 1.0,
     *,
-    count: int = 64,
     up: "Direction | Vector | Triple | None" = None,
-) -> list[Light]:
+    points: bool = False,
+    count: int | None = None,
+) -> list[AnyLight]:
     """Return the light of an overcast sky: from all sides above, with the softest shadows.
 
-    The lights are spread evenly over half a sphere. The sky is three times as bright straight above
-    as at the horizon, as that of the CIE's standard overcast sky.
+    The sky is three times as bright straight above as at the horizon, as the CIE's standard
+    overcast sky, and black below.
 
     Parameters
     ----------
@@ -213,17 +248,20 @@ def cloudy(
     intensity
         Light on a surface that faces straight up with nothing above it, as that of a single light
         there.
-    count
-        How many lights there are, from 1 to 4096; more give softer shadows, and take longer.
     up
         What is up in the world. By default the normal of the scene's first plane, on the side of
         the spheres, unless the camera's `up` is the normal of another one; without planes, the
         camera's `up`, or where it has none, up in the picture.
+    points
+        Whether the sky is of points instead, spread evenly over half a sphere, whose shadows have
+        steps.
+    count
+        How many points there are, from 1 to 4096, 64 by default; only with `points`.
 
     Returns
     -------
-    list of Light
-        Lights of different intensities.
+    list
+        A `Sky`, or `Light` of different intensities.
 
     Raises
     ------
@@ -235,7 +273,9 @@ def cloudy(
     P. Moon, D. E. Spencer: *Illumination from a non-uniform sky*, 1942.
     """
     studio = studio_of("cloudy", scene).upright(scene, up)
-    number = studio.checked("count", count, Count)
+    number = studio.how_many(count, 64, points)
+    if not number:
+        return [Sky(studio.strength(intensity) / UPWARD, gradient=OVERCAST, up=studio.up)]
     sky = []
     for k in range(number):
         height = (k + 0.5) / number  # equal steps of height are equal areas of a sphere
@@ -251,9 +291,10 @@ def lightbox(
     scene: HasCamera,
     intensity: float = 1.0,
     *,
-    count: int = 48,
     up: "Direction | Vector | Triple | None" = None,
-) -> list[Light]:
+    points: bool = False,
+    count: int | None = None,
+) -> list[AnyLight]:
     """Return the light of a tent for product photographs: large white panels on three sides.
 
     One panel is on each side, 60 degrees from the camera and 20 above the horizon, and one
@@ -265,16 +306,18 @@ def lightbox(
     scene
         A scene with a camera and at least one sphere.
     intensity
-        Intensity of each panel, all its lights together.
-    count
-        How many lights there are at least, from 1 to 4096, in three square grids.
+        Intensity of each panel.
     up
         What is up in the world, as for `cloudy`.
+    points
+        Whether each panel is a square grid of points instead, whose shadows have steps.
+    count
+        How many points there are at least, from 1 to 4096, 48 by default; only with `points`.
 
     Returns
     -------
-    list of Light
-        Lights of the same intensity.
+    list
+        Three `RectangleLight`, or `Light` of the same intensity.
 
     Raises
     ------
@@ -282,19 +325,31 @@ def lightbox(
         If the scene has no camera or no sphere, or an argument is not right.
     """
     studio = studio_of("lightbox", scene).upright(scene, up)
-    number = studio.checked("count", count, Count)
-    rows = math.isqrt(math.ceil(number / 3) - 1) + 1
+    number = studio.how_many(count, 48, points)
     panels = [direction(-60, 20), direction(60, 20), direction(0, 75)]
-    grid = [point for panel in panels for point in _panel(panel, rows)]
+    if not number:
+        return [_panel(studio, middle, studio.strength(intensity)) for middle in panels]
+    rows = math.isqrt(math.ceil(number / 3) - 1) + 1
+    grid = [point for panel in panels for point in _panel_points(panel, rows)]
     return studio.share(intensity, ((point, 1.0) for point in grid), rows * rows)
 
 
-def _panel(middle: Vec, rows: int) -> Iterator[Vec]:
+def _panel(studio: Studio, middle: Vec, intensity: float) -> RectangleLight:
+    """Return a square panel that faces the subject, as wide as it is far."""
+    edges = tuple(studio.vector(way) for way in _ways_along(middle))
+    return RectangleLight(studio.place(middle), edges, intensity)
+
+
+def _panel_points(middle: Vec, rows: int) -> Iterator[Vec]:
     """Give the places of lights in a square panel that faces the subject, as wide as it is far."""
-    level = cross((0.0, 1.0, 0.0), middle)
-    level = unit(Direction(*level))
-    steep = cross(middle, level)
+    level, steep = _ways_along(middle)
     offsets = [(k + 0.5) / rows - 0.5 for k in range(rows)]
     for a in offsets:
         for b in offsets:
             yield along(along(middle, a, level), b, steep)
+
+
+def _ways_along(middle: Vec) -> tuple[Vec, Vec]:
+    """Return the unit vectors along a panel that faces the subject: level, and upwards."""
+    level = unit(Direction(*cross((0.0, 1.0, 0.0), middle)))
+    return level, cross(middle, level)

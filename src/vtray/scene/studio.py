@@ -8,8 +8,8 @@ from msgspec import Meta
 from vtray.base.errors import SceneError
 from vtray.base.exact_math import cosine, hypotenuse, sine
 from vtray.scene.camera import Camera
-from vtray.scene.checks.limits import NonNegative
-from vtray.scene.light_types import Light, Sun
+from vtray.scene.checks.limits import NonNegative, YesOrNo
+from vtray.scene.light_types import AnyLight, Light, SphereLight, Sun
 from vtray.scene.objects import Object
 from vtray.scene.placing.bounding_sphere import bounding_sphere
 from vtray.scene.placing.bounds import balls_of, ups_of_planes
@@ -28,9 +28,13 @@ from vtray.scene.vectors import Direction
 
 Side = Literal["left", "right"]
 Ratio = Annotated[float, Meta(ge=1, description="a number ≥ 1")]
+Count = Annotated[int, Meta(ge=1, le=4096, description="an integer from 1 to 4096")]
 
 DISTANCE = 6.0
 """How far lights are from the middle of the subject, in radii of the sphere around it."""
+
+KEY_DEGREES, FILL_DEGREES = 20.0, 40.0
+"""How large a key and a fill are, as seen from there."""
 
 
 class HasCamera(Protocol):
@@ -72,43 +76,72 @@ class Studio(NamedTuple):
         """Return an argument of the function, or raise SceneError."""
         return argument(f"lights.{self.call}", name, value, kind)
 
-    def light(self, direction: Vec, intensity: float) -> Light:
-        """Return a light; the direction is right, up and towards the camera, of any length."""
-        place = self.middle
+    def strength(self, intensity: object) -> float:
+        """Return the intensity that was given, checked."""
+        strength: float = self.checked("intensity", intensity, NonNegative)
+        return strength
+
+    def how_many(self, count: object, usual: int, points: object) -> int:
+        """Return how many points there are, or 0 where a lamp has a size instead."""
+        if self.checked("points", points, YesOrNo):
+            return usual if count is None else int(self.checked("count", count, Count))
+        if count is not None:
+            words = "how many points there are, only beside points=True"
+            raise SceneError(f"lights.{self.call}: count: {words}; leave it out, or add that")
+        return 0
+
+    def vector(self, direction: Vec) -> Vec:
+        """Return how far in world space a direction leads to the right, up, and to the camera."""
+        return self._from((0.0, 0.0, 0.0), direction, self.reach)
+
+    def place(self, direction: Vec) -> Vec:
+        """Return where a lamp stands in a direction."""
+        return self._from(self.middle, direction, self.reach)
+
+    def _from(self, start: Vec, direction: Vec, length: float) -> Vec:
         for part, axis in zip(direction, (self.right, self.up, self.back), strict=True):
-            place = along(place, part * self.reach, axis)
-        return Light(place, intensity)
+            start = along(start, part * length, axis)
+        return start
+
+    def light(self, direction: Vec, intensity: float) -> Light:
+        """Return a point; the direction is right, up and towards the camera, of any length."""
+        return Light(self.place(direction), intensity)
+
+    def lamp(self, direction: Vec, angle: float, intensity: float) -> SphereLight:
+        """Return a shining ball that looks so large from the subject's middle, in degrees."""
+        return SphereLight(self.place(direction), self.reach * sine(angle / 2), intensity)
 
     def sun(self, direction: Vec, angle: float, intensity: float) -> Sun:
         """Return a lamp far away, of an angle in degrees; the direction is that of `light`."""
-        place: Vec = (0.0, 0.0, 0.0)
-        for part, axis in zip(direction, (self.right, self.up, self.back), strict=True):
-            place = along(place, -part, axis)
-        return Sun(place, intensity, angle)
+        return Sun(self._from((0.0, 0.0, 0.0), direction, -1.0), intensity, angle)
 
     def key_and_fill(
         self,
         intensity: object,
         side: object,
         ratio: object,
+        points: object,
         *,
         key: tuple[float, float],
         fill: tuple[float, float],
-    ) -> list[Light]:
+    ) -> list[AnyLight]:
         """Return two lights, each given by its angles to the key's side and above."""
-        strength = self.checked("intensity", intensity, NonNegative)
+        strength = self.strength(intensity)
         sign = -1 if self.checked("side", side, Side) == "left" else 1
         weaker = strength / self.checked("ratio", ratio, Ratio)
+        to_key, to_fill = (direction(sign * aside, above) for aside, above in (key, fill))
+        if self.checked("points", points, YesOrNo):
+            return [self.light(to_key, strength), self.light(to_fill, weaker)]
         return [
-            self.light(direction(sign * aside, above), light)
-            for (aside, above), light in ((key, strength), (fill, weaker))
+            self.lamp(to_key, KEY_DEGREES, strength),
+            self.lamp(to_fill, FILL_DEGREES, weaker),
         ]
 
     def share(
         self, intensity: object, parts: Iterable[tuple[Vec, float]], whole: float
-    ) -> list[Light]:
-        """Return lights that share an intensity, each given by its direction and its part."""
-        strength = self.checked("intensity", intensity, NonNegative)
+    ) -> list[AnyLight]:
+        """Return points that share an intensity, each given by its direction and its part."""
+        strength = self.strength(intensity)
         return [self.light(direction, strength * part / whole) for direction, part in parts]
 
     def upright(self, scene: HasCamera, up: object) -> "Studio":
