@@ -88,7 +88,7 @@ def test_files_of_plain_scenes_are_as_before(tmp_path: Path) -> None:
 TYPES = '"sphere", "cylinder", "plane", "spheres", "cylinders" or "copies"'
 PARALLEL = "expected a direction that is not parallel to normal, got"
 FILTER = 'expected "box", "tent", "gaussian", "mitchell" or "blackman-harris", got'
-BACKGROUND = 'expected "black", "transparent" or an object with the keys r, g and b, got'
+BACKGROUND = 'expected "black", "transparent", "sky" or an object with the keys r, g and b, got'
 BAD_VALUES: list[tuple[str, object, str]] = [
     ("camera.up", [0, 1, 0], "expected an object with the keys x, y and z, got [0, 1, 0]"),
     ("camera.up", "y", 'expected an object with the keys x, y and z, got "y"'),
@@ -139,13 +139,13 @@ def test_bad_values(place: str, value: object, problem: str) -> None:
             "render",
             3,
             "expected an object with the keys samples, filter, seed, size, exposure, "
-            "background and denoise, got 3",
+            "background, tolerance and denoise, got 3",
         ),
         (
             "render",
             None,
             "expected an object with the keys samples, filter, seed, size, exposure, "
-            "background and denoise, got null",
+            "background, tolerance and denoise, got null",
         ),
         ("render.size[1]", 0, "expected an integer from 1 to 2147483647, got 0"),
         ("render.background.g", 256, "expected an integer from 0 to 255, got 256"),
@@ -244,7 +244,7 @@ def settings_in_files() -> st.SearchStrategy[dict[str, Any]]:
             "seed": st.integers(0, 2**32 - 1),
             "size": st.tuples(st.integers(1, 99), st.integers(1, 99)).map(list),
             "exposure": st.just("max") | st.floats(1e-9, 1e9),
-            "background": st.sampled_from(["black", "transparent"])
+            "background": st.sampled_from(["black", "transparent", "sky"])
             | st.fixed_dictionaries(channels),
         },
     )

@@ -75,9 +75,6 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
     samples: Annotated[Samples, Option("N", "rays for each pixel that needs them")] = 1
     filter: Annotated[FilterName, Option("NAME", ", ".join(FILTERS))] = "blackman-harris"
     seed: Annotated[Seed, Option("N", "other places of the samples")] = 0
-    tolerance: Annotated[
-        Positive, Option("NUMBER", "how noisy soft light may be: the error of a pixel, 1 for white")
-    ] = TOLERANCE
     size: Annotated[
         SizePair | None,
         Option("WxH", "width and height in pixels", "width and height such as 1200x800"),
@@ -95,6 +92,9 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
             MappingProxyType({"--alpha": "transparent"}),
         ),
     ] = "black"
+    tolerance: Annotated[
+        Positive, Option("NUMBER", "how noisy soft light may be: the error of a pixel, 1 for white")
+    ] = TOLERANCE
     denoise: Annotated[
         Annotated[bool, Meta(description="true or false")],
         Option("", "take the grain of soft light out by Open Image Denoise"),
@@ -156,8 +156,6 @@ class RenderSettings(
         "gaussian", "mitchell" or "blackman-harris".
     seed : int
         Chooses among equally good places of the samples, from 0 to 2**32 - 1.
-    tolerance : float
-        How noisy soft light may be: the estimated standard error of a pixel, > 0, 1 for white.
     size : tuple of int, optional
         Width and height of the picture in pixels, instead of those of the camera; the view stays.
     exposure : "max" or float
@@ -166,6 +164,8 @@ class RenderSettings(
     background : "black", "transparent", "sky" or Color
         What is seen where there is nothing; "sky" shows the skies among the lights. Code may write
         a colour in all ways of `vtray.colors.to_rgb`.
+    tolerance : float
+        How noisy soft light may be: the estimated standard error of a pixel, > 0, 1 for white.
     denoise : bool
         Whether the grain of soft light is taken out by Open Image Denoise.
     """
@@ -177,10 +177,10 @@ class RenderSettings(
             samples: int = 1,
             filter: str = "blackman-harris",  # noqa: A002
             seed: int = 0,
-            tolerance: float = 0.008,
             size: tuple[int, int] | None = None,
             exposure: Literal["max"] | float = "max",
             background: "str | Color | Sequence[float]" = "black",
+            tolerance: float = 0.008,
             denoise: bool = False,
         ) -> None: ...
 
