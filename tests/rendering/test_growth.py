@@ -185,11 +185,9 @@ def test_pictures_come_seldom_where_they_take_long() -> None:
     grown = Growth(tell, 0.05)
     film = new_film(8, 8, "linear")
     grown.begin_draft(film, 8, 8)
-    end = time.perf_counter() + 1.0
-    while time.perf_counter() < end:
+    while len(times) < 4:
         grown.add(Tile(0, 0, 8, 8))
         grown.update(0, 9)
-    assert 2 <= len(times) <= 5
     for (_, before), (after, _) in pairwise(times):
         assert after - before > 0.17
 
@@ -250,7 +248,7 @@ def test_what_it_raises_ends_the_threads() -> None:
 @pytest.mark.parametrize("seconds", [float("inf"), 0.2])
 def test_interrupt_shows_what_there_is(seconds: float) -> None:
     world, before = heavy(), threading.active_count()
-    vtray.render(world, size=(8, 6))  # kernels are there then
+    vtray.render(world, size=(8, 6), on_update=lambda _: None)  # kernels are there then
     parts: list[vtray.Image] = []
     timer = threading.Timer(2.0, os.kill, [os.getpid(), signal.SIGINT])
     timer.start()

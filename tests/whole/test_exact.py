@@ -63,8 +63,9 @@ def render_all_ways(scene: vtray.Scene) -> None:
     scene.camera = vtray.Camera.fit(scene, size=(8, 6))
     scene.lights = [vtray.Light((2, 3, 4), 1), vtray.Light((-5, 3, 4), 2)]
     vtray.render(scene, threads=2, samples=2, keep_lights=True).relight([1, 2])
-    scene.lights += [vtray.Sun((1, 2, -3)), vtray.Ambient()]
-    vtray.render(scene, threads=2, samples=2)
+    scene.lights += [vtray.Sun((1, 2, -3)), vtray.Ambient(), vtray.Sky(gradient=vtray.Gradient())]
+    scene.add_rectangle_light((2, 3, 9), [(2, 0, 0), (0, 2, 0)], visible=True)
+    vtray.render(scene, threads=2, samples=2, background="sky")
     vtray.trace_pixel(scene, 4, 3)
 
 
