@@ -230,7 +230,9 @@ def place_run(points: Any, first: int, count: int, keys: tuple[int, int], run: A
 def test_runs_in_kernels() -> None:
     points, run = fan_points(32, 2), np.zeros(2 * RUN)
     place_run(points, 40, RUN, (3, 2**32 - 1), run)
-    np.testing.assert_array_equal(run.reshape(2, RUN).T, places(points, (3, 2**32 - 1))[40 : 40 + RUN])
+    np.testing.assert_array_equal(
+        run.reshape(2, RUN).T, places(points, (3, 2**32 - 1))[40 : 40 + RUN]
+    )
 
 
 @compiled_only

@@ -24,28 +24,31 @@ PEAK = 4.0
 """A sky that is nowhere brighter than so many times its mean needs no table."""
 
 
-def pack_brightness(maps: Sequence[Pictures]) -> Brightness | None:
-    """Return the tables of skies, given the nodes of their maps; None if no sky needs one."""
+def pack_brightness(maps: Sequence[Pictures]) -> Brightness:
+    """Return the tables of skies, given the nodes of their maps."""
     tables = [_table_of(nodes) for nodes in maps]
-    if all(table.share == 0.0 for table in tables):
-        return None
     return Brightness(
-        np.array([table.share for table in tables]),
-        np.array([table.level for table in tables]),
-        np.array([table.rows[-1] for table in tables]),
+        np.array([table.share for table in tables], float),
+        np.array([table.level for table in tables], float),
+        np.array([table.rows[-1] for table in tables], float),
         starts_of([len(table.rows) for table in tables]),
         starts_of([table.cells.size for table in tables]),
-        np.concatenate([np.append(table.band, 0.0) for table in tables]),
-        np.concatenate([table.rows for table in tables]),
-        np.concatenate([table.cells.reshape(-1) for table in tables]),
+        _joined([np.append(table.band, 0.0) for table in tables]),
+        _joined([table.rows for table in tables]),
+        _joined([table.cells for table in tables]),
     )
 
 
 def starts_of(sizes: Sequence[int]) -> Integers:
     """Return where parts of these sizes begin when they stand one after the other."""
-    counts = np.array(sizes)
+    counts = np.array(sizes, np.int64)
     starts: Integers = np.cumsum(counts) - counts
     return starts
+
+
+def _joined(parts: Sequence[Floats]) -> Floats:
+    """Return all numbers of some arrays, one after the other."""
+    return np.concatenate([np.zeros(0), *(part.reshape(-1) for part in parts)])
 
 
 class _Table(NamedTuple):

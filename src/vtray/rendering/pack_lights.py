@@ -121,6 +121,7 @@ def _pack_soft(
     skies = [light for light in lights if isinstance(light, Sky) and changes_color(light)]
     changes = np.array([changes_color(light) for light in lights])
     counts = np.where(changes, 3, 1)
+    are_rare = any(map(_is_rare, lights))
     return SoftLights(
         kind,
         x,
@@ -132,16 +133,28 @@ def _pack_soft(
         np.where(changes, np.cumsum(changes) - 1, NO_SKY),
         first + np.cumsum(counts) - counts,
         FAR,
-        join_rectangles(len(lights), rectangles),
-        pack_skies(skies, up),
+        join_rectangles(len(lights), rectangles) if are_rare else None,
+        pack_skies(skies, up) if are_rare else None,
     )
 
 
+def _is_rare(light: AnyLight) -> bool:
+    """Tell whether a light needs code that most scenes do not.
+
+    All such code is compiled together, which takes a tenth longer, so that a scene with a
+    rectangle and one with a picture for a sky share a kernel.
+    """
+    is_seen = isinstance(light, Lamp) and light.visible
+    return is_seen or isinstance(light, RectangleLight) or changes_color(light)
+
+
 def _pack_visible(lights: Sequence[AnyLight], soft: SoftLights) -> VisibleLamps | None:
-    """Return the lamps among the soft lights that the camera sees, if there are any."""
-    seen = [k for k, light in enumerate(lights) if isinstance(light, Lamp) and light.visible]
-    if not seen:
+    """Return the lamps among the soft lights that the camera sees; None where nothing is rare."""
+    if not any(map(_is_rare, lights)):
         return None
+    seen = np.array(
+        [k for k, light in enumerate(lights) if isinstance(light, Lamp) and light.visible], np.int64
+    )
     data = np.zeros((len(seen), LAMP_SIZE))
     for row, k in zip(data, seen, strict=True):
         row[:3] = soft.x[k], soft.y[k], soft.z[k]

@@ -28,10 +28,8 @@ def pack_rectangle(light: RectangleLight, length: float) -> Floats:
     return np.array([*across, *up, *cross(across, up), *half])
 
 
-def join_rectangles(count: int, rectangles: Mapping[int, Floats]) -> Rectangles | None:
-    """Return the rectangles among so many lights, by their number; None if there are none."""
-    if not rectangles:
-        return None
+def join_rectangles(count: int, rectangles: Mapping[int, Floats]) -> Rectangles:
+    """Return the rectangles among so many lights, by their number."""
     data = np.zeros((count, SIZE))
     for k, numbers in rectangles.items():
         data[k] = numbers

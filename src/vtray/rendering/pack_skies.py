@@ -28,26 +28,24 @@ def changes_color(light: AnyLight) -> bool:
     return isinstance(light, Sky) and (light.gradient is not None or light.image is not None)
 
 
-def pack_skies(skies: Sequence[Sky], up: Vec) -> Skies | None:
-    """Return the maps of skies; None if there are none.
+def pack_skies(skies: Sequence[Sky], up: Vec) -> Skies:
+    """Return the maps of skies.
 
     Parameters
     ----------
     skies
-        Those whose colour changes.
+        Those whose colour changes, any number.
     up
         What is up where they do not say it.
     """
-    if not skies:
-        return None
     pictures = [_picture_of(sky) for sky in skies]
     nodes = [_nodes_of(picture) for picture in pictures]
     return Skies(
-        np.array([_axes_of(sky, up) for sky in skies]),
-        np.array([picture.shape[1] for picture in pictures]),
-        np.array([picture.shape[0] for picture in pictures]),
+        np.array([_axes_of(sky, up) for sky in skies], float).reshape(-1, 9),
+        np.array([picture.shape[1] for picture in pictures], np.int64),
+        np.array([picture.shape[0] for picture in pictures], np.int64),
         starts_of([rows.shape[0] * rows.shape[1] for rows in nodes]),
-        np.concatenate([rows.reshape(-1, 3) for rows in nodes]),
+        np.concatenate([np.zeros((0, 3), np.float32), *(rows.reshape(-1, 3) for rows in nodes)]),
         pack_brightness(nodes),
     )
 

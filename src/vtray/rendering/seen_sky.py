@@ -77,7 +77,6 @@ class SeenSky:
         """Return the light of one sky of many colours, 1 for its radiance."""
         seen = np.zeros((*cover.shape, 3))
         skies = pack_skies([sky], up_of(scene.camera))
-        assert skies is not None  # noqa: S101
 
         def look(top: int) -> None:
             scratch = new_packet(), np.zeros(LANES, np.int64)

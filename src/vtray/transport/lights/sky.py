@@ -73,8 +73,7 @@ class Skies(NamedTuple):
     light
         Red, green and blue of all nodes, 1 for the radiance of the light, (nodes, 3).
     bright
-        The tables of those that are far brighter in places than on average; None where none is, so
-        that no code is compiled for them.
+        The tables of those that are far brighter in places than on average.
     """
 
     axes: Floats
@@ -82,7 +81,7 @@ class Skies(NamedTuple):
     rows: Integers
     first: Integers
     light: NDArray[np.float32]
-    bright: Brightness | None
+    bright: Brightness
 
 
 @device

@@ -59,9 +59,10 @@ class SoftLights(NamedTuple):
     far
         How long rays are that end nowhere: much longer than all in the scene.
     rectangles
-        How the rectangles stand; None where there are none, so that no code is compiled for them.
+        How the rectangles stand.
     skies
-        The skies whose colour changes with the direction; None where there are none, likewise.
+        The skies whose colour changes with the direction. Both are None where a scene has neither
+        and no lamp that is seen, so that no code is compiled for them.
     """
 
     kind: Integers

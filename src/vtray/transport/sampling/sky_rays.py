@@ -57,11 +57,9 @@ def _set_weights(fan: Fan, ray: int, light: Vec) -> None:
 
 @device
 def _sky_direction(
-    u: float, v: float, normal: Vec, skies: Skies, bright: Brightness | None, sky: int
+    u: float, v: float, normal: Vec, skies: Skies, bright: Brightness, sky: int
 ) -> Vec:
     """Return the direction of a ray for a point of the unit square."""
-    if bright is None:
-        return cosine_direction(u, v, normal)
     share = bright.share[sky]
     if u < share:
         return bright_direction(u / share, v, skies, bright, sky)
@@ -69,14 +67,10 @@ def _sky_direction(
 
 
 @device
-def _sky_weights(
-    direction: Vec, normal: Vec, skies: Skies, bright: Brightness | None, sky: int
-) -> Vec:
+def _sky_weights(direction: Vec, normal: Vec, skies: Skies, bright: Brightness, sky: int) -> Vec:
     """Return what a ray counts: the sky's light, times cosine over pi, over its density."""
     place = map_place(skies, sky, direction)
     light = light_at(skies, sky, place.across, place.down)
-    if bright is None:
-        return light
     share = bright.share[sky]
     if share == 0.0:
         return light
