@@ -71,3 +71,29 @@ def test_a_cone_tells_what_all_its_rays_would(kind: str) -> None:
     assert answers["open"] >= least
     assert answers["closed"] >= (3 if kind in ("few", "many") and JIT else 0)
     assert answers["some"] > 0
+
+
+@pytest.mark.parametrize(("count", "expected"), [(30, 0), (9999, MANY)])
+def test_what_lies_beside_a_cone_is_not_all_looked_at(count: int, expected: int) -> None:
+    random = np.random.default_rng(2)
+    axis = np.full(3, math.sqrt(1 / 3))
+    cosine = math.cos(math.radians(24))
+    # Of the directions whose components are those of some in the cone, which are not in it.
+    ways = random.normal(size=(10**6, 3))
+    ways /= np.sqrt((ways**2).sum(axis=1))[:, None]
+    angles = np.degrees(np.arccos(ways))
+    around = np.degrees(math.acos(axis[0]))
+    is_held = (np.abs(angles - around) < 23.5).all(axis=1)
+    ways = ways[is_held & (ways @ axis < math.cos(math.radians(25)))][:count]
+    count = len(ways)
+    scene = Scene()
+    scene.add_spheres(ways * random.uniform(5, 10, (count, 1)), 0.001)
+    scene.camera = vtray.Camera((0, 0, -1), (0, 0, 1), 1.0, (8, 8), (1, 1))
+    arrays = pack(scene, accelerate(scene)).arrays
+    unit = arrays.world.scale
+    point = tuple(-np.array(arrays.world.origin))
+    start = Start(point, dot(point, arrays.camera.forward), sum(map(abs, point)))
+    sine = math.sqrt(1 - cosine * cosine)
+    way = tuple(axis.tolist())
+    cone = Cone(start, way, cosine, sine, 20 * unit, 20 * unit, arrays.camera.forward)
+    assert find_touching(cone, arrays.world, new_touching(), new_stack()) == expected

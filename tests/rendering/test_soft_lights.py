@@ -1,6 +1,7 @@
 """Lights that are no points: what arrives, ray by ray, and against what is known."""
 
 import math
+import time
 from typing import Any
 
 import numpy as np
@@ -273,3 +274,18 @@ def test_edges_of_the_shadow_of_a_small_sun_get_samples() -> None:
     # Its half-shadows are a fifth of a pixel wide here.
     assert np.abs(soft - hard).max() < 0.1 * 255
     assert np.abs(stairs - hard).max() > 0.15 * 255
+
+
+@compiled_only
+def test_half_shadows_of_a_million_spheres_take_no_time() -> None:
+    """Most of them lie beside the rays from a patch of the floor to the lamp."""
+    places = np.stack(np.meshgrid(*3 * [np.arange(100.0)], indexing="ij"), axis=-1).reshape(-1, 3)
+    scene = vtray.Scene()
+    scene.add_spheres(places, 0.5)
+    scene.add_plane((0, 0, -0.5), (0, 0, 1))
+    scene.camera = vtray.Camera.fit(scene, direction=(-3, 4, -2.4), size=(64, 48))
+    scene.lights = [vtray.SphereLight((60, -220, 220), 50)]
+    render(scene, samples=4, size=(8, 6))  # kernels and the hierarchy are there then
+    begin = time.process_time()
+    render(scene, samples=4)
+    assert time.process_time() - begin < 4, "it takes 15 s where all are looked at"

@@ -38,6 +38,10 @@ SHARP = 0.25
 light on others differs from that in the middle by less than 6 of 255."""
 
 
+PATIENCE = 64
+"""After so many leaves of a hierarchy, something in it counts as an edge."""
+
+
 class LampView(NamedTuple):
     """The rays between a patch and a lamp.
 
@@ -55,8 +59,9 @@ class LampView(NamedTuple):
         How far the patch reaches, how large the lamp is, and how far away.
     all_in_front, in_front
         How far all and any of these rays are in front of the image plane.
-    is_hidable
-        Whether a solid may be wide enough to hide the lamp from all of the patch.
+    thickest
+        The radius of the thickest solid, 0 if none is wide enough to hide the lamp from all of the
+        patch.
     error_scale
         What the rounding error of the start is relative to.
     """
@@ -70,7 +75,7 @@ class LampView(NamedTuple):
     length: float
     all_in_front: float
     in_front: float
-    is_hidable: bool
+    thickest: float
     error_scale: float
 
 
@@ -86,7 +91,7 @@ def has_edge(world: World, view: LampView, stack: Stack) -> bool:
 @device
 def _is_settled(view: LampView, found: int) -> bool:
     """Tell whether nothing that is found later changes the answer."""
-    return found == ALL or (found == EDGE and not view.is_hidable)
+    return found == ALL or (found == EDGE and view.thickest == 0.0)
 
 
 @device
@@ -150,7 +155,7 @@ def _found_of(shape: Shape, verbs: Verbs, number: int, view: LampView) -> int:
     if is_own and verbs.is_outside(shape, view.bundle.origin, view.normal):
         return NOTHING
     near, far = verbs.crossing(shape, view.within if is_own else view.bundle)
-    if far < view.all_in_front and view.is_hidable:
+    if far < view.all_in_front and view.thickest > 0.0:
         return ALL
     apart, around = view.reach * (view.length - near), view.radius * near
     return EDGE if near < view.in_front and apart > SHARP * around else NOTHING
@@ -168,18 +173,43 @@ def _find_in_tree(
 ) -> int:
     """Return the most of what is found in the leaves of a hierarchy that the rays may meet."""
     beam, ratio = _view_beam(view, hierarchy.to_boxes), hierarchy.to_boxes.ratio
-    near, far = lower_limit(beam, 0.0), upper_limit(beam, view.length * ratio * (1.0 + MARGIN))
+    near = lower_limit(beam, 0.0)
+    hides = upper_limit(beam, _end_of_hiding(view) * ratio * (1.0 + MARGIN))
+    counts = max(hides, upper_limit(beam, _end_of_edges(view) * ratio * (1.0 + MARGIN)))
     stack.node[base] = hierarchy.root
-    waiting = base + 1
+    waiting, leaves = base + 1, 0
     while waiting > base and not _is_settled(view, found):
         waiting -= 1
         child = stack.node[waiting]
+        far = counts if found == NOTHING else hides
         if child >= 0:
             waiting = push_met(world.bvh, child, beam, near, far, stack, waiting)
+        elif leaves == PATIENCE:
+            return EDGE
         else:
+            leaves += 1
             begin, end = range_of(hierarchy, child)
             found = max(found, find_in(world, subject, begin, end, view, found, stack, waiting))
     return found
+
+
+@device
+def _end_of_edges(view: LampView) -> float:
+    """Return the distance from the patch from which on all half-shadows are wide."""
+    return view.length * view.reach / (view.reach + SHARP * view.radius)
+
+
+@device
+def _end_of_hiding(view: LampView) -> float:
+    """Return the distance from the patch from which on nothing is as wide as the rays.
+
+    Twice the radius: what is slanted to the rays begins before they are as wide.
+    """
+    room = 2.0 * view.thickest - view.reach
+    if room <= 0.0 or view.thickest == 0.0:
+        return 0.0
+    growth = view.radius - view.reach
+    return view.length if growth <= room else view.length * room / growth
 
 
 _find_in_places, _find_in_shapes = device(_find_in_tree), device(_find_in_tree)

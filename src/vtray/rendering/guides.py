@@ -19,7 +19,7 @@ from vtray.transport.film import Film
 from vtray.transport.materials.material import Materials
 from vtray.transport.sampling.filters import FILTERS
 from vtray.transport.sampling.pixel_samples import middle_rays
-from vtray.transport.scene_arrays import SceneArrays
+from vtray.transport.scene_arrays import SceneArrays, without_light
 
 Floats = NDArray[np.float64]
 
@@ -62,7 +62,7 @@ def find_guides(scene: SceneArrays, settings: RenderSettings, threads: int) -> G
     """
     camera = scene.camera
     side, weights = _filter(settings)
-    fine = scene._replace(camera=_finer(camera, side))
+    fine = without_light(scene._replace(camera=_finer(camera, side)))
     plan = Plan(middle_rays(), WANTED)
     before = len(weights) // 2
     found = np.empty((camera.height, camera.width, 7))

@@ -9,6 +9,7 @@ from vtray.rendering.numbering import find_all
 from vtray.rendering.pack import Packed
 from vtray.rendering.passes import Tracer
 from vtray.scene.scene import Scene
+from vtray.transport.scene_arrays import without_light
 
 
 class Look:
@@ -38,7 +39,7 @@ class Look:
 
     def _trace(self) -> Surfaces:
         """Trace them."""
-        film = Tracer(self._packed.arrays, self._threads).surfaces()
+        film = Tracer(without_light(self._packed.arrays), self._threads).surfaces()
         with np.errstate(over="ignore"):
             depth = film.distance * self._packed.unit + self._packed.before
         # What is farther away than a double can say is there all the same.

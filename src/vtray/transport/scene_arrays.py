@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from vtray.geometry.world import World
 from vtray.transport.camera_rays import CameraFrame
-from vtray.transport.lights.light import Lights
+from vtray.transport.lights.light import Lights, no_lights
 from vtray.transport.materials.material import Materials
 
 
@@ -15,3 +15,11 @@ class SceneArrays(NamedTuple):
     world: World
     lights: Lights
     materials: Materials
+
+
+def without_light(scene: SceneArrays) -> SceneArrays:
+    """Return the same without its lights, where only surfaces are asked for.
+
+    So their kernel is the same whatever the lights.
+    """
+    return scene._replace(lights=no_lights())

@@ -47,6 +47,10 @@ MANY = -2
 SLIGHT = 1e-7
 """More than the error of a sine that is worked out from a cosine near 1."""
 
+PATIENCE = 64
+"""After so many leaves of a hierarchy, it counts as `MANY`: what boxes of directions hold beside a
+wide cone may be most of a scene."""
+
 _ASIDE, _TOUCHES, _COVERS = 0, 1, 2
 
 
@@ -299,13 +303,16 @@ def _search(
     end = cone.longest * hierarchy.to_boxes.ratio * (1.0 + MARGIN)
     near, far = lower_limit(beam, 0.0), upper_limit(beam, end)
     stack.node[base] = hierarchy.root
-    waiting = base + 1
+    waiting, leaves = base + 1, 0
     while waiting > base:
         waiting -= 1
         child = stack.node[waiting]
         if child >= 0:
             waiting = push_met(world.bvh, child, beam, near, far, stack, waiting)
+        elif leaves == PATIENCE:
+            return MANY
         else:
+            leaves += 1
             begin, after = range_of(hierarchy, child)
             count = visit(cone, world, subject, begin, after, touching, count, stack, waiting)
             if count < 0:

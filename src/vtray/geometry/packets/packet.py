@@ -127,8 +127,8 @@ AIM_LENGTH = _fields.scalar()
 IN_FRONT = _fields.scalar()
 ALL_IN_FRONT = _fields.scalar()
 """How far any or all shadow rays from that part to the light are in front of the image plane."""
-HIDABLE = _fields.scalar()
-"""1 where a solid of the scene may be wide enough to hide all of that part, else 0."""
+THICKEST = _fields.scalar()
+"""The radius of the thickest solid where it may be wide enough to hide all of that part, else 0."""
 UNEVEN = _fields.scalar()
 """1 where that part may not look the same everywhere, by what is known so far, else 0."""
 TOUCHED = _fields.scalar()

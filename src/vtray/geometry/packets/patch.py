@@ -17,7 +17,6 @@ from vtray.geometry.packets.packet import (
     AIM_LENGTH,
     ALL_IN_FRONT,
     BLOCKED,
-    HIDABLE,
     IN_FRONT,
     NORMAL,
     OWNER,
@@ -25,6 +24,7 @@ from vtray.geometry.packets.packet import (
     POINT,
     SETTLED,
     STRETCH,
+    THICKEST,
     TOUCHED,
     TOWARDS,
     UNEVEN,
@@ -108,7 +108,7 @@ def note_solid(
         near, far = crossing_of(shape, load_bundle(packet, lane, is_own))
         # Above its horizon, a solid is not in its own way.
         hides_nothing = is_own & is_outside
-        _note_lane(packet, lane, near, far, hides_nothing, packet[HIDABLE + lane] != 0.0)
+        _note_lane(packet, lane, near, far, hides_nothing, packet[THICKEST + lane] > 0.0)
 
 
 @device

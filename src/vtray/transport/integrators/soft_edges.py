@@ -11,12 +11,12 @@ from vtray.geometry.packets.fan import Start
 from vtray.geometry.packets.packet import (
     BEND,
     ERROR_SCALE,
-    HIDABLE,
     NORMAL,
     OWNER,
     PLANE_DEPTH,
     POINT,
     REACH,
+    THICKEST,
     Packet,
     load,
 )
@@ -81,7 +81,7 @@ def _view(
         length,
         NEAR_END * least * length,
         NEAR_END * most * length,
-        packet[HIDABLE + hit] != 0.0,
+        packet[THICKEST + hit],
         packet[ERROR_SCALE + hit],
     )
 

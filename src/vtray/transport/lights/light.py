@@ -57,6 +57,12 @@ class Lights(NamedTuple):
     color: Floats
 
 
+def no_lights() -> Lights:
+    """Return no lights at all."""
+    none = np.zeros(0)
+    return Lights(none, none, none, none, none, None, None, None, none, np.zeros((0, 3)))
+
+
 @device
 def light_count(lights: Lights) -> int:
     """Return how many points there are."""

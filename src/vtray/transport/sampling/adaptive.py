@@ -31,7 +31,6 @@ from vtray.geometry.packets.packet import (
     AIM_LENGTH,
     ALL_IN_FRONT,
     BEND,
-    HIDABLE,
     IN_FRONT,
     LENGTH,
     MIXED,
@@ -46,6 +45,7 @@ from vtray.geometry.packets.packet import (
     SETTLED,
     SOURCE,
     STRETCH,
+    THICKEST,
     TOUCHED,
     TOWARDS,
     UNEVEN,
@@ -97,7 +97,7 @@ def find_patches(packet: Packet, hits: int, footprint: Footprint | None, thickes
         packet[PATCH + hit] = ROUGHLY * width
         packet[STRETCH + hit] = 1.0 / cosine
         packet[REACH + hit] = ROUGHLY * width / cosine
-        packet[HIDABLE + hit] = 1.0 if packet[REACH + hit] <= thickest else 0.0
+        packet[THICKEST + hit] = thickest if packet[REACH + hit] <= thickest else 0.0
         packet[UNEVEN + hit] = 1.0 if is_bent | is_slanted else 0.0
         numbers[OWNER + hit] = numbers[PRIMITIVE + numbers[SOURCE + hit]]
 
