@@ -72,7 +72,8 @@ def draw(size, count=60_000):
     scene.add_spheres(positions, radius=0.5, color=age, cmap="magma", clim=(-0.45, 1.05))
     scene.camera = vt.Camera.fit(scene, direction=(1, 2, -0.6), up=(0, 0, 1), size=size)
     scene.lights = vt.lights.rembrandt(scene, ratio=2.5)
-    return vt.render(scene, samples=16, exposure=1.4, background="#0d0b10")
+    scene.add_ambient(0.6)
+    return vt.render(scene, samples=9, exposure=0.9, background="#0d0b10")
 
 
 if __name__ == "__main__":

@@ -27,9 +27,7 @@ def draw(size, side=30, layers=9):
         projection="orthographic",
         size=size,
     )
-    scene.lights = vt.lights.cloudy(scene, 0.4)
-    scene.lights += gallery.lamp((5 * side, -4 * side, 5 * side), 0.4 * side, intensity=0.6)
-    scene.lights += gallery.lamp((-3 * side, -6 * side, 2 * side), 0.4 * side, intensity=0.4)
+    scene.lights = vt.lights.studio(scene)
     return vt.render(scene, samples=16, background="white")
 
 

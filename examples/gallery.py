@@ -1,4 +1,4 @@
-"""What the scripts of the gallery share: soft light, and their command line.
+"""The command line that the scripts of the gallery share.
 
     python examples/packing.py [OUTPUT] [--small]
 
@@ -7,14 +7,9 @@ picture of few spheres, to try things out.
 """
 
 import argparse
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Protocol
-
-import numpy as np
-from numpy.typing import NDArray
-
-import vtray as vt
 
 IMAGES = Path(__file__).resolve().parents[1] / "docs" / "images" / "gallery"
 SMALLER = 8
@@ -26,25 +21,6 @@ class Picture(Protocol):
 
     def save(self, path: Path, /) -> None:
         """Write the picture to a file."""
-
-
-def even_directions(count: int) -> NDArray[np.float64]:
-    """Return unit vectors that are spread evenly over all directions, (count, 3)."""
-    k = np.arange(count)
-    height = 1 - (2 * k + 1) / count
-    turn = k * np.pi * (3 - np.sqrt(5))
-    ring = np.sqrt(1 - height**2)
-    return np.stack([ring * np.cos(turn), ring * np.sin(turn), height], axis=1)
-
-
-def lamp(
-    center: Sequence[float], radius: float, intensity: float, count: int = 24
-) -> list[vt.Light]:
-    """Return a round lamp, many lights inside of a sphere: its shadows have soft edges."""
-    # The cube root fills the sphere evenly.
-    depth = (((np.arange(count) + 0.5) * 0.618034) % 1) ** (1 / 3)
-    places = np.asarray(center) + radius * depth[:, None] * even_directions(count)
-    return [vt.Light(place, intensity / count) for place in places]
 
 
 def run(

@@ -43,10 +43,10 @@ def draw(size):
         turn = (19 * t + 2 * np.pi * string / 3)[:, None]
         curve = trefoil(t) + 1.16 * RADIUS * (np.cos(turn) * out + np.sin(turn) * aside)
         scene.add_spheres(string_of_pearls(curve, 2 * RADIUS), RADIUS, color=color)
-    scene.add_plane((0, 0, -1.5), normal=(0, 0, 1), color="#cfd8d6")
+    scene.add_plane((0, 0, -1.5), normal=(0, 0, 1), color="#e6ecea")
     scene.camera = vt.Camera.fit(scene, direction=(-0.4, 2, -2.2), fov_degrees=30, size=size)
-    scene.lights = vt.lights.cloudy(scene, 0.5)
-    scene.lights += gallery.lamp((-7, -3, 9), 1.2, intensity=0.9)
+    scene.add_sphere_light((-5, -4, 9), 2.5, intensity=0.7)
+    scene.add_ambient(0.6)
     return vt.render(scene, samples=16)
 
 

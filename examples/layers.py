@@ -22,8 +22,9 @@ def sunflower(count):
     scene = vt.Scene()
     scene.add_spheres(positions, radius=2.1 / np.sqrt(count), color=k, cmap="YlOrRd_r")
     scene.add_plane((0, 0, 0), normal=(0, 0, 1), color="#b9c4b0")
-    scene.add_light((-4, -2, 5), intensity=0.8)
-    scene.add_light((2, -5, 4), intensity=0.4)
+    scene.add_sphere_light((-4, -2, 5), 1, intensity=0.8)
+    scene.add_sphere_light((2, -5, 4), 1, intensity=0.3)
+    scene.add_ambient(0.3)
     return scene
 
 
@@ -51,10 +52,10 @@ def draw(size, count=600):
         scene, direction=(0.3, 1, -0.9), fov_degrees=25, size=(width, height)
     )
     image = vt.render(scene, samples=16, keep_lights=True)
-    night = image.relight([0.1, 1.0])
+    night = image.relight([0.1, 1.0, 0.1])
     panels = [[image.pixels, depth_picture(image)], [id_picture(image, count), night.pixels]]
     return Image.fromarray(np.vstack([np.hstack(row) for row in panels]))
 
 
 if __name__ == "__main__":
-    gallery.run(draw, "layers.png", size=(760, 570), small={"count": 60})
+    gallery.run(draw, "layers.png", size=(680, 510), small={"count": 60})

@@ -31,10 +31,8 @@ def draw(size, count=2_050_000):
     scene.add_spheres(positions, radius=0.5, color=positions[:, 2], cmap="viridis")
     scene.add_plane((0, 0, -width / 2 - 0.5), normal=(0, 0, 1), color="#f4f1ea")
     scene.camera = vt.Camera.fit(scene, direction=(-3, 4, -2.4), size=size)
-    scene.lights = vt.lights.cloudy(scene, 0.5, count=32)
-    scene.lights += gallery.lamp(
-        (1.7 * width, -1.4 * width, 2.3 * width), 0.15 * width, 0.7, count=8
-    )
+    scene.add_sphere_light((1.7 * width, -1.4 * width, 2.3 * width), 0.4 * width, intensity=0.6)
+    scene.add_ambient(0.6)
     return vt.render(scene, samples=9)
 
 

@@ -56,14 +56,14 @@ def draw(size):
     # A window in the wall: the rim of an ellipse, in degrees from where the viewer is.
     angle = np.degrees(np.arctan2(z, -y)) - 32
     tube = tube[(x / 27) ** 2 + (angle / 78) ** 2 > 1]
-    scene.add_spheres(tube, ATOM, color="#8d99a6")
-    scene.add_plane((0, 0, -9.5), normal=(0, 0, 1), color="#a9bcc9")
+    scene.add_spheres(tube, ATOM, color="#9aa6b2")
+    scene.add_plane((0, 0, -9.5), normal=(0, 0, 1), color="#d3e0e8")
     scene.camera = vt.Camera.look_at(
         eye=(-30, -84, 46), target=(-1, 0, -1), up=(0, 0, 1), fov_degrees=20, size=size
     )
-    scene.lights = vt.lights.cloudy(scene, 0.5)
-    scene.lights += gallery.lamp((-70, -60, 110), 8, intensity=0.6)
-    scene.lights += gallery.lamp((30, -110, 40), 8, intensity=0.6, count=12)
+    scene.add_ambient(0.5)
+    scene.add_sphere_light((-70, -60, 110), 20, intensity=0.5)
+    scene.add_sphere_light((-20, -95, 40), 12, intensity=0.5)
     return vt.render(scene, samples=16)
 
 

@@ -10,7 +10,7 @@ away from the viewer. So a floor has a larger y than what stands on it.
 import argparse
 import json
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -18,9 +18,24 @@ from typing import Any
 from PIL import Image as PillowImage
 
 import vtray
-from vtray import Camera, Color, Direction, Light, Plane, Scene, Sphere, Vector
+from vtray import (
+    Ambient,
+    Camera,
+    Color,
+    Direction,
+    Light,
+    Plane,
+    RectangleLight,
+    RenderSettings,
+    Scene,
+    Sphere,
+    SphereLight,
+    Vector,
+)
 
 Triple = tuple[float, float, float]
+AnyLight = Light | SphereLight | RectangleLight | Ambient
+Object = Sphere | Plane
 
 SCENES = Path(__file__).resolve().parent
 IMAGES = SCENES.parent / "docs" / "images"
@@ -52,28 +67,14 @@ def light(place: Triple, intensity: float) -> Light:
     return Light(Vector(*place), intensity)
 
 
-def lamp(center: Triple, radius: float, count: int, intensity: float) -> list[Light]:
-    """Return a round lamp: many weak lights spread evenly inside a sphere.
-
-    A point light throws hard shadows; many of them side by side throw soft ones.
-    """
-    x, y, z = center
-    lights = []
-    for index, (dx, dy, dz) in enumerate(sphere_points(count)):
-        # The cube root fills the sphere evenly, not only its skin.
-        depth = radius * ((index + 0.5) * GOLDEN_ANGLE % 1) ** (1 / 3)
-        place = (x + depth * dx, y + depth * dy, z + depth * dz)
-        lights.append(light(place, intensity / count))
-    return lights
+def lamp(center: Triple, radius: float, intensity: float) -> SphereLight:
+    """Return a shining ball, whose shadows are soft."""
+    return SphereLight(Vector(*center), radius, intensity)
 
 
-def sphere_points(count: int) -> Iterator[Triple]:
-    """Spread points evenly over the unit sphere, on a spiral from pole to pole."""
-    for index in range(count):
-        height = 1 - (2 * index + 1) / count
-        ring = math.sqrt(1 - height * height)
-        angle = index * GOLDEN_ANGLE
-        yield ring * math.cos(angle), height, ring * math.sin(angle)
+def lit(view: Camera, lights: list[AnyLight], objects: list[Object]) -> Scene:
+    """Return a scene whose pictures have smooth edges."""
+    return Scene(view, lights, objects, RenderSettings(samples=9))
 
 
 def blend(colors: Sequence[Triple], place: float) -> Triple:
@@ -103,25 +104,26 @@ def first() -> Scene:
 
 
 def room() -> Scene:
-    """Four balls in a room: soft shadows from a square lamp, and two round ones that fill them."""
+    """Four balls in a room: a shining panel in its ceiling, and light from its open front."""
     # The image plane is the open front of the room; the fourth wall would be behind it.
     walls = [
-        wall((0, 1.52, 0), UP, (250, 240, 225)),
-        wall((0, -1.52, 0), DOWN, (250, 245, 235)),
-        wall((0, 0, 4.2), TOWARDS_VIEWER, (212, 208, 200)),
-        wall((-2.02, 0, 0), (1, 0, 0), (250, 105, 80)),
-        wall((2.02, 0, 0), (-1, 0, 0), (60, 185, 190)),
+        wall((0, 1.52, 0), UP, (205, 193, 178)),
+        wall((0, -1.52, 0), DOWN, (185, 180, 172)),
+        wall((0, 0, 4.23), TOWARDS_VIEWER, (235, 230, 220)),
+        wall((-2.02, 0, 0), (1, 0, 0), (250, 100, 75)),
+        wall((2.02, 0, 0), (-1, 0, 0), (55, 185, 195)),
     ]
     balls = [
-        ball((-0.85, 0.72, 2.9), 0.8, (255, 250, 240)),
-        ball((0.85, 0.97, 2.3), 0.55, (255, 200, 60)),
-        ball((-0.3, 1.17, 1.5), 0.35, (85, 140, 255)),
-        ball((1.25, 1.27, 1.3), 0.25, (255, 120, 150)),
+        ball((-0.85, 0.72, 2.9), 0.8, (205, 202, 195)),
+        ball((0.85, 0.97, 2.3), 0.55, (195, 150, 45)),
+        ball((-0.3, 1.17, 1.5), 0.35, (70, 115, 205)),
+        ball((1.25, 1.27, 1.3), 0.25, (210, 95, 120)),
     ]
-    steps = [(2 * step - 7) / 7 for step in range(8)]
-    square = [light((0.7 * x, -1.05, 1.7 + 0.7 * z), 0.85 / 64) for x in steps for z in steps]
-    fill = lamp((-0.8, -0.2, -5), 1.2, 48, 0.45) + lamp((0.5, 0.7, -2), 0.7, 48, 0.35)
-    return Scene(camera((0, 0, 0), (0, 0, 1), 4.2, 4), square + fill, [*walls, *balls])
+    panel = RectangleLight(
+        Vector(0, -1.41, 2.2), (Vector(1.4, 0, 0), Vector(0, 0, 1.4)), 1, visible=True
+    )
+    lights = [panel, lamp((-0.8, -0.2, -6), 2.5, 0.5), Ambient(0.35, distance=0.8)]
+    return lit(camera((0, 0, 0), (0, 0, 1), 4.2, 4), lights, [*walls, *balls])
 
 
 # Element, then the place in ångströms; 3D conformer of PubChem, compound 2519.
@@ -152,8 +154,8 @@ def molecule() -> Scene:
         radius, color = ELEMENTS[element]
         atoms.append(ball(turn_molecule(*map(float, place)), radius, color))
     backdrop = [wall((0, 0, 20), TOWARDS_VIEWER, (205, 220, 235))]
-    lights = lamp((-12, -14, -14), 2.5, 40, 1) + lamp((0, -0.3, -28), 1, 24, 0.6)
-    return Scene(camera((0.15, -0.35, -6), (0, 0, 1), 22, 10), lights, [*backdrop, *atoms])
+    lights = [lamp((-12, -14, -14), 5, 0.7), Ambient(0.6)]
+    return lit(camera((0.15, -0.35, -6), (0, 0, 1), 22, 10), lights, [*backdrop, *atoms])
 
 
 def turn_molecule(x: float, y: float, z: float) -> Triple:
@@ -178,8 +180,8 @@ def spiral() -> Scene:
         center = (distance * math.cos(angle), -radius - height, distance * math.sin(angle))
         balls.append(ball(center, radius, blend(petals, distance / size)))
     floor = wall((0, 0, 0), UP, (70, 85, 130))
-    lights = lamp((-5, -10, 0), 1.2, 40, 1) + lamp((4, -8, -9), 1, 24, 0.7)
-    return Scene(camera((0, -3.4, -2.6), (0, 1, 0.75), 10, 6.1), lights, [floor, *balls])
+    lights = [lamp((-5, -9, -7), 2.5, 0.7), Ambient(0.6)]
+    return lit(camera((0, -3.4, -2.6), (0, 1, 0.75), 10, 6.1), lights, [floor, *balls])
 
 
 class Jar:
@@ -247,8 +249,8 @@ def packing() -> Scene:
         height, x, z = jar.drop(x, z, radius)
         balls.append(ball((x, -height, z), radius, blend(layers, height / 3.8)))
     table = wall((0, 0, 0), UP, (240, 235, 225))
-    lights = lamp((-6, -14, -7), 1.2, 48, 1) + lamp((3, -10, -12), 1.2, 32, 0.7)
-    return Scene(camera((0, -3.9, -4.4), (0, 0.48, 1), 9, 4.5), lights, [table, *balls])
+    lights = [lamp((-7, -11, -9), 2.5, 0.7), Ambient(0.6)]
+    return lit(camera((0, -3.9, -4.4), (0, 0.48, 1), 9, 4.5), lights, [table, *balls])
 
 
 def inside() -> Scene:
@@ -266,10 +268,9 @@ def inside() -> Scene:
     objects: list[Sphere | Plane] = [wall((0, 0, 2.6), TOWARDS_VIEWER, (75, 85, 115))]
     for (x, y, z), outer, inner in shells:
         objects += [ball((x, y, z), 1, outer), ball((x, y + 0.2, z + 0.55), 0.35, inner)]
-    lights = lamp((-5, -6, -11), 1, 48, 1) + lamp((0, 0, -12), 0.5, 16, 0.4)
-    return Scene(
-        camera((0, 0, 0), (0, 0, 1), 12, 6.4), [*lights, light((-1.7, 0.7, 0.4), 0.35)], objects
-    )
+    own = lamp((-1.7, 0.7, 0.4), 0.12, 0.35)
+    lights = [lamp((-5, -6, -11), 1.5, 0.75), lamp((1, 0, -12), 3, 0.3), Ambient(0.4), own]
+    return lit(camera((0, 0, 0), (0, 0, 1), 12, 6.4), lights, objects)
 
 
 MAKERS: list[Callable[[], Scene]] = [first, room, molecule, spiral, packing, inside]
@@ -284,8 +285,11 @@ def to_text(scene: Scene) -> str:
     view = ",\n".join(
         f"    {json.dumps(key)}: {json.dumps(data['camera'][key])}" for key in data["camera"]
     )
-    lists = (f'  "{key}": [\n{one_per_line(data[key])}\n  ]' for key in ("lights", "objects"))
-    return ",\n".join([f'{{\n  "camera": {{\n{view}\n  }}', *lists]) + "\n}\n"
+    parts = [f'  "camera": {{\n{view}\n  }}']
+    parts += [f'  "{key}": [\n{one_per_line(data[key])}\n  ]' for key in ("lights", "objects")]
+    if "render" in data:
+        parts.append(f'  "render": {json.dumps(data["render"])}')
+    return "{\n" + ",\n".join(parts) + "\n}\n"
 
 
 def one_per_line(items: list[Any]) -> str:

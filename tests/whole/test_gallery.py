@@ -17,7 +17,7 @@ EXAMPLES = ROOT / "examples"
 IMAGES = ROOT / "docs" / "images" / "gallery"
 HELPERS = ("gallery", "make_gallery")
 SCRIPTS = sorted(path for path in EXAMPLES.glob("*.py") if path.stem not in HELPERS)
-CHEAP = ("dislocation", "knot", "layers", "reference_scenes")
+CHEAP = ("dislocation", "layers", "reference_scenes")
 MOST_BYTES = 300_000
 
 
