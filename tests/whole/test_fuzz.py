@@ -20,7 +20,7 @@ ATTEMPTS = {
     "pictures": 60,
     "kernels": 60,
     "faults": 6,
-    "truth": 50,
+    "truth": 24,
 }
 
 

@@ -47,7 +47,7 @@ MANY = -2
 SLIGHT = 1e-7
 """More than the error of a sine that is worked out from a cosine near 1."""
 
-PATIENCE = 64
+PATIENCE = 32
 """After so many leaves of a hierarchy, it counts as `MANY`: what boxes of directions hold beside a
 wide cone may be most of a scene."""
 
