@@ -180,6 +180,7 @@ def _push_near(
 ) -> int:
     """Push the children of a node that some of its rays may meet; return the stack's new height."""
     top, balls = base, stack.balls
+    nearest = np.float32(np.inf)
     seen = balls_seen(bvh, node * SIDES, view, balls)
     while seen != 0:
         k = lowest_bit(seen)
@@ -187,8 +188,15 @@ def _push_near(
         way = balls[k], balls[WIDTH + k], balls[2 * WIDTH + k]
         near = rays & rays_along(bundle.fan, bundle.rays, way, balls[3 * WIDTH + k])
         if near != NONE:
-            stack.node[top] = bvh.child[node * WIDTH + k]
-            stack.rays[top] = near
+            child = bvh.child[node * WIDTH + k]
+            away = way[0] * way[0] + way[1] * way[1] + way[2] * way[2]
+            # The nearest is visited first: what it stops need not look at the others.
+            if away < nearest or top == base:
+                stack.node[top], stack.rays[top] = child, near
+                nearest = away
+            else:
+                stack.node[top], stack.rays[top] = stack.node[top - 1], stack.rays[top - 1]
+                stack.node[top - 1], stack.rays[top - 1] = child, near
             top += 1
     return top
 
