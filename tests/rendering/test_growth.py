@@ -250,11 +250,20 @@ def test_interrupt_shows_what_there_is(seconds: float) -> None:
     world, before = heavy(), threading.active_count()
     vtray.render(world, size=(8, 6), on_update=lambda _: None)  # kernels are there then
     parts: list[vtray.Image] = []
-    timer = threading.Timer(2.0, os.kill, [os.getpid(), signal.SIGINT])
-    timer.start()
+    begin = time.perf_counter()
+
+    def interrupt_soon(step: str, done: int, _total: int) -> None:
+        if step == "trace" and done > 40 and time.perf_counter() - begin > 1:
+            os.kill(os.getpid(), signal.SIGINT)
+
     with pytest.raises(KeyboardInterrupt):
-        vtray.render(world, threads=2, on_update=parts.append, update_seconds=seconds)
-    timer.join()
+        vtray.render(
+            world,
+            threads=2,
+            progress=interrupt_soon,
+            on_update=parts.append,
+            update_seconds=seconds,
+        )
     time.sleep(0.05)
     assert threading.active_count() == before
     assert len(parts) == 1 or seconds < 1

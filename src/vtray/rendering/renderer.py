@@ -57,10 +57,10 @@ def render(
     samples: int | None = None,
     filter: str | None = None,  # noqa: A002 - as in the scene file
     seed: int | None = None,
-    tolerance: float | None = None,
     size: tuple[int, int] | None = None,
     exposure: Literal["max"] | float | None = None,
     background: Any = None,  # noqa: ANN401
+    tolerance: float | None = None,
     denoise: bool | None = None,
     lock: HasWhite | None = None,
     keep_lights: bool = False,
@@ -92,11 +92,6 @@ def render(
         ``"mitchell"`` or ``"blackman-harris"``, the default.
     seed
         Chooses among equally good places of the samples.
-    tolerance
-        How noisy soft light may be: the standard error of a pixel, 1 for white; 0.008 by default,
-        two steps of 255. From each point that is seen, rays are cast to each lamp with a size until
-        what they tell is estimated to be as exact as that. With `keep_lights`, that does not look
-        at light: each of n soft lights counts as if it gave one n-th of white.
     size
         Width and height of the picture in pixels, of the same view, instead of the camera's.
     exposure
@@ -106,6 +101,11 @@ def render(
     background
         What is seen where nothing is: ``"black"``, the default, ``"transparent"``, ``"sky"`` for
         the skies among the lights, or a colour in any of the ways of `vtray.colors.to_rgb`.
+    tolerance
+        How noisy soft light may be: the standard error of a pixel, 1 for white; 0.008 by default,
+        two steps of 255. From each point that is seen, rays are cast to each lamp with a size until
+        what they tell is estimated to be as exact as that. With `keep_lights`, that does not look
+        at light: each of n soft lights counts as if it gave one n-th of white.
     denoise
         Whether the grain of soft light is taken out by Open Image Denoise, once all is traced. The
         picture is then no longer the same on every machine; `Image.raw` is.
