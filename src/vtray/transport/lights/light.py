@@ -38,7 +38,7 @@ class Lights(NamedTuple):
         The lights that are no points; None where there are none, so that no code is compiled for
         them.
     visible
-        Those that the camera sees; None where there are none, so that no code is compiled for them.
+        Those that the camera sees; None where `SoftLights.skies` is, or there are no soft lights.
     intensity
         The intensities of all components, (components,).
     color
