@@ -9,6 +9,7 @@ import msgspec
 from measures.from_arrays import ArraysRow
 from measures.own_scenes import ByThreads
 from measures.rendering import Row
+from measures.soft_light import SoftLight
 from timing.jobs import Timing
 
 
@@ -36,6 +37,8 @@ class Results:
         For numbers of spheres in the cube, the times of all renderers with one thread.
     samples
         For numbers of samples and of threads, vtray's times for this cube.
+    soft_light
+        Whether soft light is right, and what it costs; None if that was not measured.
     arrays
         As `cube`, from arrays in memory to a PNG.
     bonds
@@ -53,6 +56,7 @@ class Results:
     cube_threads: dict[int, Timing] = field(default_factory=dict)
     scaling: dict[int, list[Row]] = field(default_factory=dict)
     samples: dict[str, Timing] = field(default_factory=dict)
+    soft_light: SoftLight | None = None
     arrays: dict[str, list[ArraysRow]] = field(default_factory=dict)
     bonds: dict[str, ByThreads] = field(default_factory=dict)
     copies: dict[str, ByThreads] = field(default_factory=dict)

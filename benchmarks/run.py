@@ -22,6 +22,7 @@ from measures.copies import time_copies
 from measures.from_arrays import time_arrays
 from measures.machine import cores, machine
 from measures.rendering import THREADS, time_cube, time_scene, time_threads
+from measures.soft_light import FULL, QUICK, measure_soft_light
 from peers.programs import CUBE_PEERS
 from report.pages import full_report, readme_table, replace_between_markers
 from report.plot import draw_scaling
@@ -36,14 +37,17 @@ RESULTS = HERE / "results.json"
 PLOT = ROOT / "docs" / "images" / "scaling.png"
 WRITTEN = {ROOT / "docs" / "benchmarks.md": full_report, ROOT / "README.md": readme_table}
 """The pages with tables, and what writes them."""
-PARTS = ("startup", *SCENES, "threads", "cube", "samples", "bonds", "copies", "arrays", "scaling")
+PARTS = (
+    *("startup", *SCENES, "threads", "cube", "samples"),
+    *("soft-light", "bonds", "copies", "arrays", "scaling"),
+)
 REPEATS, QUICK_REPEATS = 5, 2
 QUICK_SIDE = 256
 CUBE, QUICK_CUBE = 1_000_000, 10_000
 ATOMS, QUICK_ATOMS = 100_000, 1_000
 COPIED, QUICK_COPIED = 100_000, 1_000
 COUNTS, QUICK_COUNTS = (10_000, 100_000, 1_000_000, 10_000_000), (1_000, 10_000)
-SCALING_REPEATS = 3
+SCALING_REPEATS = SOFT_REPEATS = 3
 
 
 def main() -> None:
@@ -106,6 +110,11 @@ def measure(folder: Path, parts: list[str], *, quick: bool) -> Results:
         _say("samples")
         scene = write_cube(spheres, folder, side)
         results.samples = time_samples(scene, THREADS, repeats)
+    if "soft-light" in parts:
+        _say("soft light")
+        times = min(repeats, SOFT_REPEATS)
+        sizes = QUICK if quick else FULL
+        results.soft_light = measure_soft_light(sizes, THREADS, folder, times)
     _measure_own_scenes(results, folder, parts, quick=quick)
     if "arrays" in parts:
         title = f"{spheres:,} spheres in a cube, 1 light, {side} x {side}"

@@ -16,6 +16,7 @@ from report.cube_tables import (
 )
 from report.own_scenes_tables import BONDS_NOTE, COPIES_NOTE, own_scenes_table
 from report.samples_tables import samples_table
+from report.soft_light_tables import soft_light_parts
 from report.tables import ratio, table
 from results import Results
 from scenes.few_objects import SCENES
@@ -43,19 +44,28 @@ def full_report(results: Results) -> str:
     parts += _threads(results)
     if results.cube:
         parts += ["## A cube of many spheres", cube_table(results.cube), _cube_conditions()]
-    if results.samples:
-        rows = samples_table(results.samples, THREADS)
-        parts += ["## Antialiasing", "The cube, with vtray.", rows, samples_tables.NOTE]
-    if results.bonds:
-        parts += ["## Bonds", own_scenes_table(results.bonds), BONDS_NOTE]
-    if results.copies:
-        parts += ["## Copies", own_scenes_table(results.copies), COPIES_NOTE]
+    parts += _own_scenes(results)
     if results.arrays:
         parts += ["## From arrays to a PNG", arrays_table(results.arrays), arrays_tables.NOTE]
     if results.scaling:
         parts += ["## More and more spheres", _SCALING_NOTE, growth_table(results.scaling)]
         parts += [_PROGRAMS_NOTE, programs_table(results.scaling)]
     return "\n\n".join(parts)
+
+
+def _own_scenes(results: Results) -> list[str]:
+    """Write what samples, soft light, bonds and copies cost."""
+    parts = []
+    if results.samples:
+        rows = samples_table(results.samples, THREADS)
+        parts += ["## Antialiasing", "The cube, with vtray.", rows, samples_tables.NOTE]
+    if results.soft_light:
+        parts += ["## Soft light", *soft_light_parts(results.soft_light)]
+    if results.bonds:
+        parts += ["## Bonds", own_scenes_table(results.bonds), BONDS_NOTE]
+    if results.copies:
+        parts += ["## Copies", own_scenes_table(results.copies), COPIES_NOTE]
+    return parts
 
 
 def _threads(results: Results) -> list[str]:

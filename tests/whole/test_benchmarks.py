@@ -347,6 +347,7 @@ def test_results_are_read_as_they_were_kept(tmp_path: Path) -> None:
     found = cube_results()
     found.arrays = {"many": [arrays.ArraysRow("vtray", 1, *[spread] * 3, memory=9e7, note="")]}
     found.copies = {"spheres": {1: timing(0.5, 0.25), 2: timing(0.3, 0.1)}}
+    found.soft_light = soft_light()
     kept.save_results(found, tmp_path / "results.json")
     again = kept.load_results(tmp_path / "results.json")
     assert report.full_report(again) == report.full_report(found)
@@ -589,6 +590,111 @@ def test_ball_and_stick_model_is_what_it_is_said_to_be(tmp_path: Path) -> None:
     assert both.objects[: len(alone.objects)] == alone.objects
     assert (both.camera, both.lights) == (alone.camera, alone.lights)
     assert len(both.objects[-1]) == 2000  # type: ignore[arg-type]
+
+
+def soft_light() -> Any:
+    """Return made-up results for soft light."""
+    soft, spread = module("measures.soft_light"), module("timing.jobs").Spread
+    rows = [
+        soft.SkyRow("vtray", "tolerance 0.03", 0.0123, {1: spread((0.4,)), 2: spread((0.2,))}),
+        soft.SkyRow("Mitsuba", "16 samples", float("nan"), {}),
+    ]
+    studio = {"a molecule": soft.StudioRow(spread((1.5,)), 25_000_000, 0.625)}
+    lamps = {"moon": soft.Difference(-0.0002, 0.0001, 0.003, 0.0005), "sun": None}
+    return soft.SoftLight(lamps, {"a cube": rows}, studio)
+
+
+def test_report_has_soft_light() -> None:
+    found = results()
+    found.soft_light = soft_light()
+    report = module("report.pages").full_report(found)
+    for row in (
+        "| moon | -0.0200 | -2.0 | 0.30 | 0.05% |",
+        "| sun | Mitsuba is not installed | - | - | - |",
+        "| scene | program | with | error, % of white | tracing, 1 thread | tracing, 2 threads |",
+        "| a cube | vtray | tolerance 0.03 | 1.23 | 0.400 | 0.200 |",
+        "| a cube | Mitsuba | 16 samples | not installed | - | - |",
+        "| a molecule | 1.50 | 25.0 | 0.62 |",
+    ):
+        assert row in report
+
+
+def test_difference_is_told_from_noise() -> None:
+    generator = np.random.default_rng(1)
+    ours, theirs = (0.5 + 0.02 * generator.normal(size=(n, 8, 8, 3)) for n in (64, 128))
+    measure = module("measures.soft_light")
+    found = measure.difference(ours, theirs)
+    assert abs(found.mean) < 4 * found.mean_error
+    assert found.mean_error == pytest.approx(0.02 * (1 / 64 + 1 / 128) ** 0.5 / 192**0.5, rel=0.3)
+    assert found.pixel_error == pytest.approx(0.02 * (1 / 64 + 1 / 128) ** 0.5, rel=0.05)
+    assert found.far <= 1 / 64
+    theirs[:, 3, :4, 1] += 0.05
+    found = measure.difference(ours, theirs)
+    assert found.far == 4 / 64
+    assert found.mean == pytest.approx(-0.05 * 4 / 192, abs=4 * found.mean_error)
+
+
+def test_lamps_are_given_to_mitsuba_with_the_rays_of_the_picture(tmp_path: Path) -> None:
+    made, soft_scene = module("scenes.lamps"), module("peers.mitsuba.soft_scene")
+    name, lamp = next(iter(made.lamps().items()))
+    scene = made.lamp_scene(lamp.light)
+    scene.camera = scene.camera.resized((16, 12))
+    soft_scene.write_scene(made.for_mitsuba(scene, lamp), tmp_path / "lamp.npz")
+    found = soft_scene.read_scene(tmp_path / "lamp.npz")
+    assert json.loads(found.lamp) == lamp.plugin, name
+    assert (found.floor, found.reflectance, found.emitter_samples) == (0.0, 0.8, 1)
+    # Nearest of what the rays meet.
+    starts = found.starts[:, :, None]
+    arms = found.spheres[:, :3] - starts
+    along = arms @ found.way
+    inside = found.spheres[:, 3] ** 2 - (arms**2).sum(axis=-1) + along**2
+    entered = np.where(inside > 0, along - np.sqrt(np.maximum(inside, 0)), np.inf)
+    floor = (found.floor - found.starts[..., 1]) / found.way[1]
+    nearest = np.minimum(entered.min(axis=-1), floor)
+    scene.lights = [vtray.Ambient()]
+    depth = vtray.render(scene, tolerance=1.0).depth
+    moved = depth - nearest
+    np.testing.assert_allclose(moved, moved[0, 0], rtol=1e-9)
+    assert (entered.min(axis=-1) < floor).mean() > 0.2
+
+
+def test_pictures_of_skies_are_written_with_rows_between() -> None:
+    made = module("scenes.lamps")
+    lamp = made.lamps()["picture of a sky with a sun"]
+    pixels = lamp.light.image.pixels
+    np.testing.assert_array_equal(lamp.sky[1::2], pixels)
+    np.testing.assert_array_equal(lamp.sky[2:-1:2], (pixels[1:] + pixels[:-1]) / 2)
+    np.testing.assert_array_equal(lamp.sky[[0, -1]], pixels[[0, -1]])
+
+
+def test_clouds_are_what_they_are_said_to_be() -> None:
+    clouds = module("scenes.clouds")
+    for kind in clouds.CLOUDS:
+        (one, radius), (two, _) = (clouds.CLOUDS[kind](1000) for _ in range(2))
+        np.testing.assert_array_equal(one, two)
+        assert (one.shape, radius.shape) == ((1000, 3), (1000,))
+        assert len(clouds.make_scene(kind, 20, SMALL).lights) == 5
+
+
+@compiled_only
+def test_soft_light_is_measured_without_mitsuba(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    measure = module("measures.soft_light")
+    monkeypatch.setattr(measure, "is_installed", lambda _: False)
+    sizes = measure.Sizes(2, 4, (FEW,), SMALL, 1, (FEW,), SMALL)
+    found = measure.measure_soft_light(sizes, (1, 2), tmp_path, 1)
+    assert set(found.lamps.values()) == {None}
+    (rows,) = found.sky.values()
+    ours = [row for row in rows if row.program == "vtray"]
+    errors = [row.error for row in ours]
+    assert errors == sorted(errors, reverse=True)
+    assert 0 < errors[-1] < 0.008
+    assert all(0 < row.tracing[n].median < 60 for row in ours for n in (1, 2))
+    assert all(np.isnan(row.error) and not row.tracing for row in rows if row not in ours)
+    for row in found.studio.values():
+        assert 0 < row.error < 2
+        assert row.rays > SMALL**2
 
 
 def test_report_has_the_times_from_arrays() -> None:
