@@ -17,6 +17,7 @@ from strategies import may_be_dark, scenes
 from test_documents import ROOT, blocks
 
 import vtray
+from conftest import compiled_only
 from vtray.commands.explain import explain_pixel
 from vtray.figures.ray_tree import RayTree, ShadowFan
 
@@ -125,6 +126,7 @@ def test_random_scenes_agree_with_the_picture_and_the_oracle(
             assert (ray.blocker is not None) == blocked
 
 
+@compiled_only
 @pytest.mark.parametrize("block", blocks("output").items(), ids=["first"])
 def test_text_is_that_of_the_command(block: tuple[str, str]) -> None:
     command, text = block
