@@ -206,7 +206,7 @@ def _end_of_hiding(view: LampView) -> float:
     Twice the radius: what is slanted to the rays begins before they are as wide.
     """
     room = 2.0 * view.thickest - view.reach
-    if room <= 0.0 or view.thickest == 0.0:
+    if room <= 0.0:
         return 0.0
     growth = view.radius - view.reach
     return view.length if growth <= room else view.length * room / growth

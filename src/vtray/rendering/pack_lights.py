@@ -150,7 +150,7 @@ def _is_rare(light: AnyLight) -> bool:
 
 def _pack_visible(lights: Sequence[AnyLight], soft: SoftLights) -> VisibleLamps | None:
     """Return the lamps among the soft lights that the camera sees; None where nothing is rare."""
-    if not any(map(_is_rare, lights)):
+    if soft.rectangles is None:
         return None
     seen = np.array(
         [k for k, light in enumerate(lights) if isinstance(light, Lamp) and light.visible], np.int64
@@ -159,8 +159,7 @@ def _pack_visible(lights: Sequence[AnyLight], soft: SoftLights) -> VisibleLamps 
     for row, k in zip(data, seen, strict=True):
         row[:3] = soft.x[k], soft.y[k], soft.z[k]
         row[3] = soft.size[k]
-        if soft.rectangles is not None:
-            row[4:] = soft.rectangles.data[RECTANGLE_SIZE * k : RECTANGLE_SIZE * (k + 1)]
+        row[4:] = soft.rectangles.data[RECTANGLE_SIZE * k : RECTANGLE_SIZE * (k + 1)]
     return VisibleLamps(soft.row[seen], data.reshape(-1), soft.error_scale[seen])
 
 
