@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from vtray.base.pool import run_tasks
 from vtray.base.tiles import Tile, split_into_tiles
 from vtray.rendering.engines.engine import Plan, trace
+from vtray.rendering.passes import SURFACES
 from vtray.scene.settings import RenderSettings
 from vtray.transport.camera_rays import CameraFrame
 from vtray.transport.film import Film
@@ -25,9 +26,6 @@ Floats = NDArray[np.float64]
 
 GRID = 4
 """Rays across and down a pixel that has samples."""
-
-WANTED = ("distance", "normal", "primitive", "half")
-"""What is traced: as for depth, normals and ids, so that the kernel is the same."""
 
 
 class Guides(NamedTuple):
@@ -63,7 +61,7 @@ def find_guides(scene: SceneArrays, settings: RenderSettings, threads: int) -> G
     camera = scene.camera
     side, weights = _filter(settings)
     fine = without_light(scene._replace(camera=_finer(camera, side)))
-    plan = Plan(middle_rays(), WANTED)
+    plan = Plan(middle_rays(), SURFACES)
     before = len(weights) // 2
     found = np.empty((camera.height, camera.width, 7))
 

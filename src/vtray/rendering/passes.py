@@ -28,6 +28,9 @@ from vtray.transport.sampling.pixel_samples import (
 )
 from vtray.transport.scene_arrays import SceneArrays
 
+SURFACES = ("distance", "normal", "primitive", "half")
+"""What is recorded of the surfaces that middle rays hit."""
+
 SAMPLES = ("linear", "error", "coverage", "mixed")
 """What is wanted of one with samples."""
 
@@ -96,7 +99,7 @@ class Tracer:
 
     def surfaces(self) -> Film:
         """Return distance, normal, primitive and half of the middle rays."""
-        wanted = new_film(*self._size, "distance", "normal", "primitive", "half")
+        wanted = new_film(*self._size, *SURFACES)
         return self._trace(middle_rays(), wanted).film
 
     def light(self, settings: RenderSettings, white: float | None, *, keep: bool = False) -> Traced:
