@@ -1,0 +1,1 @@
+"""Particles: what simulations and instruments give, and how it becomes objects of a scene."""

@@ -1,0 +1,180 @@
+"""Particles with what is known of each: what readers return, and what `add_particles` takes."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+from vtray.base.errors import SceneError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64] | NDArray[np.float32]
+    Integers = NDArray[np.int64]
+else:
+    Floats = Integers = Any
+
+POSITION = ("x", "y", "z")
+"""What the columns of the positions are called; no other column may have these names."""
+
+
+@dataclass(frozen=True, eq=False)
+class Particles:
+    """Particles of one frame: atoms, colloids, stars, points of a scan.
+
+    Arrays may be anything that NumPy makes an array of; they are shared where they are of a dtype
+    named below, and never written to.
+
+    Attributes
+    ----------
+    positions : array (n, 3)
+        Places, finite, in the unit of length of the data; float64 or float32 as given, all else
+        becomes float64.
+    columns : mapping of str to array (n,) or (n, k)
+        What is known of each particle, by name. Some names have a meaning where they are there:
+        ``element`` (symbols, such as "Fe"), ``radius`` (in the unit of the positions), ``type`` (a
+        number or a name), ``color`` (n, 3), and ``velocity``, ``force`` or other vectors (n, 3).
+    bonds : array (m, 2) or None
+        Which particles are bound, as indices; None where that is not known.
+    cell : array (3, 3) or None
+        The cell's three edges from `origin`, in rows; None if there is no cell.
+    origin : array (3,)
+        The cell's corner; 0 by default.
+    periodic : tuple of bool
+        For each edge, whether the cell repeats along it; by default, wherever there is a cell.
+    frame : int
+        Which frame of its file this is, from 0.
+    time : float or None
+        When that was, in the unit of time of the data; None if that is not known.
+    source : Path or None
+        The file that it was read from.
+
+    Raises
+    ------
+    SceneError
+        An array has the wrong shape, or holds a wrong number. The message names the place.
+
+    Examples
+    --------
+    >>> water = Particles([(0, 0, 0), (0.76, 0.59, 0), (-0.76, 0.59, 0)], {"element": list("OHH")})
+    >>> len(water), list(water.columns)
+    (3, ['element'])
+    """
+
+    positions: Floats
+    columns: "Mapping[str, NDArray[Any]]" = field(default_factory=dict)
+    bonds: Integers | None = None
+    cell: "NDArray[np.float64] | None" = None
+    origin: "NDArray[np.float64]" = (0.0, 0.0, 0.0)  # type: ignore[assignment]
+    periodic: tuple[bool, bool, bool] | None = None
+    frame: int = 0
+    time: float | None = None
+    source: "Path | None" = None
+
+    def __post_init__(self) -> None:
+        """Check and convert the arrays."""
+        import numpy as np
+
+        positions = np.asarray(self.positions)
+        if positions.dtype not in (np.float32, np.float64):
+            positions = _array(positions, "positions", np.float64)
+        if positions.ndim != 2 or positions.shape[1] != 3:
+            raise SceneError(f"Particles.positions: must have shape (n, 3), got {positions.shape}")
+        _check_finite(positions, "positions")
+        columns = {str(name): np.asarray(values) for name, values in self.columns.items()}
+        for name, values in columns.items():
+            _check_column(name, values, len(positions))
+        bonds = self.bonds
+        if bonds is not None:
+            bonds = _array(bonds, "bonds", np.int64).reshape(-1, 2)
+            _check_bonds(bonds, len(positions))
+        cell, periodic = self.cell, self.periodic
+        if cell is not None:
+            cell = _array(cell, "cell", np.float64)
+            if cell.shape != (3, 3):
+                raise SceneError(f"Particles.cell: must have shape (3, 3), got {cell.shape}")
+            _check_finite(cell, "cell")
+        if periodic is None:
+            periodic = (cell is not None,) * 3
+        found: dict[str, object] = {
+            "positions": positions,
+            "columns": MappingProxyType(columns),
+            "bonds": bonds,
+            "cell": cell,
+            "origin": _array(self.origin, "origin", np.float64).reshape(3),
+            "periodic": tuple(map(bool, periodic)),
+        }
+        for name, value in found.items():
+            object.__setattr__(self, name, value)
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    def __getitem__(self, name: str) -> "NDArray[Any]":
+        """Return a column, or one of x, y and z.
+
+        Raises
+        ------
+        SceneError
+            There is none of this name.
+        """
+        if name in self.columns:
+            return self.columns[name]
+        if name in POSITION:
+            column: NDArray[Any] = self.positions[:, POSITION.index(name)]
+            return column
+        known = ", ".join([*POSITION, *self.columns])
+        raise SceneError(f"no column {name!r}; there are {known}")
+
+    def __repr__(self) -> str:
+        parts = [f"{len(self)} particles", *self.columns]
+        parts += [f"{len(self.bonds)} bonds"] if self.bonds is not None else []
+        parts += ["cell"] if self.cell is not None else []
+        return f"Particles({', '.join(parts)})"
+
+
+def _array(values: object, name: str, dtype: Any) -> "NDArray[Any]":  # noqa: ANN401
+    """Return numbers as an array of a dtype."""
+    import numpy as np
+
+    try:
+        return np.asarray(values, dtype)
+    except (TypeError, ValueError) as error:
+        raise SceneError(f"Particles.{name}: must be numbers: {error}") from error
+
+
+def _check_finite(array: "NDArray[Any]", name: str) -> None:
+    """Raise SceneError if a number is not finite."""
+    import numpy as np
+
+    wrong = np.argwhere(~np.isfinite(array))
+    if len(wrong):
+        place = ", ".join(map(str, wrong[0]))
+        value = float(array[tuple(wrong[0])])
+        raise SceneError(f"Particles.{name}[{place}]: must be finite, got {value}")
+
+
+def _check_column(name: str, values: "NDArray[Any]", count: int) -> None:
+    """Raise SceneError if a column does not have one row for each particle."""
+    if name in POSITION:
+        raise SceneError(f"Particles.columns[{name!r}]: x, y and z are those of the positions")
+    if values.ndim not in (1, 2) or len(values) != count:
+        raise SceneError(
+            f"Particles.columns[{name!r}]: must have one row for each of {count} positions, "
+            f"got shape {values.shape}"
+        )
+
+
+def _check_bonds(bonds: Integers, count: int) -> None:
+    """Raise SceneError if a bond is not one of two particles."""
+    wrong = ((bonds < 0) | (bonds >= count)).nonzero()[0]
+    if len(wrong):
+        first = int(wrong[0])
+        raise SceneError(
+            f"Particles.bonds[{first}]: must be indices from 0 to {count - 1}, "
+            f"got {bonds[first].tolist()}"
+        )
