@@ -70,7 +70,7 @@ class Sizes(NamedTuple):
     cloud_side: int
 
 
-FULL = Sizes(8, 64, (100_000, 1_000_000), 256, 4, (1_000, 10_000, 100_000), clouds.SIDE)
+FULL = Sizes(8, 64, (100_000, 1_000_000), 512, 4, (1_000, 10_000, 100_000), clouds.SIDE)
 QUICK = Sizes(2, 16, (10_000,), 128, 1, (1_000,), 256)
 
 

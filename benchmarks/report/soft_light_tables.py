@@ -12,7 +12,7 @@ integrator `direct`, both along the same rays, one through the middle of each pi
 of pictures with other random numbers, and standard errors come from how much these differ. Far off
 are pixels by more than {FAR_ERRORS:g} of their own standard errors. White is what squarely faces
 one light of strength 1. Under a sky of one colour vtray casts no more rays from where the first 64
-all arrive, which makes what is nearly open brighter by less than 0.004."""
+all arrive, which makes what is nearly open brighter by less than 0.006."""
 
 SKY_NOTE = f"""\
 The cube of spheres over a floor, white, under a sky of one colour, in parallel rays. For the
