@@ -46,6 +46,8 @@ def _light(random: Random, scene: Scene) -> Scene:
     place, radius = _place(random, scene, size)
     if power and random.random() < 0.3:
         power = {"radiance": power["intensity"]}
+    if random.random() < 0.3:
+        power["visible"] = True
     if kind == "rectangle":
         one, other = _edges(random, size)
         return {"type": "rectangle", "location": _xyz(place), "edges": [one, other], **power}
@@ -72,12 +74,15 @@ def _place(random: Random, scene: Scene, size: float) -> tuple[np.ndarray, float
 
 
 def _edges(random: Random, size: float) -> tuple[Scene, Scene]:
-    """Return edges of a rectangle of any size, not so slender that the oracle sees no width."""
+    """Return edges of a rectangle, not so slender that the oracle sees no width.
+
+    Nor is it so large that all of it is at the horizon, where rounding moves its rays.
+    """
     one = _way(random)
     other = np.cross(one, _way(random))
     if not other.any():
         other = np.cross(one, np.roll(one, 1))
-    length = max(size * random.choice(SIZES[2:]), 1e-300)
+    length = max(size * random.choice(SIZES[2:-2]), 1e-300)
     return _xyz(length * one), _xyz(length * random.choice([1.0, 0.3, 0.01]) * other)
 
 
