@@ -34,7 +34,8 @@ class InnerText(Text):  # type: ignore[misc, unused-ignore]
         """Draw it, moved into the axes where it would stick out."""
         x, y = self.get_position()
         axes: Any = self.axes
-        box, area = self.get_window_extent(renderer), axes.bbox
+        halo = HALO_WIDTH * float(self.get_fontsize()) * axes.figure.dpi / INCH
+        box, area = self.get_window_extent(renderer), axes.bbox.padded(-halo)
         shift = [
             max(low - start, 0.0) + min(high - end, 0.0)
             for start, end, low, high in zip(box.min, box.max, area.min, area.max, strict=True)
