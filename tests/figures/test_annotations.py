@@ -15,7 +15,7 @@ from vtray.figures.painted.round_marks import round_marks
 from vtray.figures.point_labels import shown_labels
 from vtray.figures.projection import project
 from vtray.figures.sheet import FigureError
-from vtray.figures.triad import ARM, SHAFT, arrow, extent, name_places, triad
+from vtray.figures.triad import ARM, DOT, arrow, extent, name_places, triad
 
 Array = np.ndarray
 
@@ -137,7 +137,8 @@ def test_arrows_end_where_their_axes_do() -> None:
         shaft, head = arrow(arm)
         np.testing.assert_allclose(head[1], [ARM * arm.across, ARM * arm.down])
         np.testing.assert_allclose((shaft[0] + shaft[3]) / 2, 0.0, atol=1e-12)
-        np.testing.assert_allclose((shaft[1] + shaft[2]) / 2, (head[0] + head[2]) / 2)
+        within = (shaft[1] + shaft[2]) / 2 - (head[0] + head[2]) / 2
+        np.testing.assert_allclose(3 * within, head[1] - (head[0] + head[2]) / 2)
     low, high = extent(arms, [0.5] * 3, 0.7)
     for arm, place in zip(arms, name_places(arms), strict=True):
         half = np.array([0.25, 0.35])
@@ -151,7 +152,7 @@ def test_arrow_at_the_viewer_is_a_dot_with_its_name_beside() -> None:
     arms = triad(above, axes=True)
     (dot,) = arrow(arms[-1])
     assert arms[-1].name == "z"
-    assert np.abs(dot).max() == SHAFT
+    assert np.abs(dot).max() == DOT
     x, y = name_places(arms)[-1]
     assert x < 0 < y, "lower left, as x points right and y up"
 

@@ -101,7 +101,7 @@ def test_labels_are_at_their_points_and_within_the_picture(
 def test_triad_stands_in_the_corner() -> None:
     made = figure({"axes": {"x": (1, 0, 0), "y": (0, 1, 0)}, "colorbar": False})
     area = made.axes[0].get_window_extent()
-    assert len(made.axes[0].findobj(Polygon)) == 4
+    assert len(made.axes[0].findobj(Polygon)) == 8, "shafts and heads, with halos"
     boxes = [text(made, name).get_window_extent() for name in "xy"]
     for box in boxes:
         assert area.x0 < box.x0 < box.x1 < area.x0 + 0.4 * area.width

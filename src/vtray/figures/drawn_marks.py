@@ -75,11 +75,12 @@ def draw_triad(ax: Axes, pixels: Pixels, arms: list[Arm]) -> list[Artist]:
     axes: Any = ax.transAxes
     corner = ScaledTranslation(0.0, 0.0, axes)
     place = Affine2D().scale(em, -em).translate(*origin).scale(1 / INCH) + inches + corner
-    halo = [withStroke(linewidth=HALO_WIDTH * em, foreground=_floats(ink.halo), alpha=HALO)]
+    halo, shapes = _floats(ink.halo), [(part, arm.color) for arm in arms for part in arrow(arm)]
     drawn = [
-        Polygon(part, fc=_floats(arm.color), ec="none", transform=place, path_effects=halo)
-        for arm in arms
-        for part in arrow(arm)
+        Polygon(part, fc=halo, ec=halo, lw=HALO_WIDTH * em, transform=place) for part, _ in shapes
+    ]
+    drawn += [
+        Polygon(part, fc=_floats(color), ec="none", transform=place) for part, color in shapes
     ]
     names = [
         _text(arm.name, middle, place, ink, Text)

@@ -92,6 +92,14 @@ ARM = 2.6
 HEAD, WIDE, SHAFT = 0.7, 0.52, 0.15
 """Of an arrow: the length and width of its head, and the width of its shaft."""
 
+DOT = 0.2
+"""The radius of an arrow that points at the viewer, or away."""
+
+OCTAGON = (
+    *((-1.0, 0.0), (-0.7, -0.7), (0.0, -1.0), (0.7, -0.7)),
+    *((1.0, 0.0), (0.7, 0.7), (0.0, 1.0), (-0.7, 0.7)),
+)
+
 BESIDE = 0.62
 """From the tip of an arrow to the middle of its name."""
 
@@ -101,14 +109,15 @@ def arrow(arm: Arm) -> list[Floats]:
     shown = hypotenuse(arm.across, arm.down)
     length = ARM * shown
     if length < SHAFT:  # it points at the viewer, or away
-        return [SHAFT * np.array([(-1.0, 0.0), (0.0, -1.0), (1.0, 0.0), (0.0, 1.0)])]
+        return [DOT * np.array(OCTAGON)]
     along = np.array([arm.across, arm.down]) / shown
     side = np.array([-along[1], along[0]])
-    neck = length - min(HEAD, 0.75 * length)
-    shaft = [-SHAFT / 2 * side, along * neck - SHAFT / 2 * side]
-    shaft += [along * neck + SHAFT / 2 * side, SHAFT / 2 * side]
-    head = [along * neck - WIDE / 2 * side, along * length, along * neck + WIDE / 2 * side]
-    return [np.array(shaft), np.array(head)]
+    head = min(HEAD, 0.75 * length)
+    neck, half = along * (length - head), side * max(WIDE * head / HEAD, 2 * SHAFT) / 2
+    # The shaft goes on within the head, so that no seam is seen between them.
+    end, thin = neck + along * head / 3, side * SHAFT / 2
+    shaft = [-thin, end - thin, end + thin, thin]
+    return [np.array(shaft), np.array([neck - half, along * length, neck + half])]
 
 
 def name_places(arms: list[Arm]) -> list[tuple[float, float]]:

@@ -1,5 +1,6 @@
 """The triad, painted: arrows from one place, with letters at their tips."""
 
+import itertools
 import math
 
 import numpy as np
@@ -33,10 +34,12 @@ class PaintedTriad:
         """Paint it where its rectangle begins."""
         ink = canvas.ink(left, top, self.width, self.height)
         start, em = self.origin + np.array([left, top]), self.letters.size
-        for arm in self.arms:
-            parts = [start + em * part for part in arrow(arm)]
-            wider = [polygon(part, canvas.halo) for part in parts]
-            canvas.shapes([polygon(part) for part in parts], wider, arm.color, ink)
+        arrows = [[start + em * part for part in arrow(arm)] for arm in self.arms]
+        for part in itertools.chain(*arrows):
+            canvas.blend(polygon(part, canvas.halo), ink.halo)
+        for arm, parts in zip(self.arms, arrows, strict=True):
+            for part in parts:
+                canvas.blend(polygon(part), arm.color)
         for arm, place in zip(self.arms, name_places(self.arms), strict=True):
             middle = start + em * np.array(place)
             begin = round(float(middle[0]) - self.letters.width(arm.name) / 2)
