@@ -10,7 +10,7 @@ from vtray.figures.painted.words import Words
 from vtray.figures.sheet import FigureError, check_number
 from vtray.figures.subject import Pixels, Subject
 
-SHARE = 0.032
+SHARE = 0.035
 """The size of letters in parts of the picture's shorter side."""
 
 LEGIBLE = 11
