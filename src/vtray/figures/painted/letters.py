@@ -1,6 +1,6 @@
 """Letters of a size, without Matplotlib: DejaVu Sans, which is Matplotlib's usual font too.
 
-Pillow's own font has no more than ASCII: neither Å nor µ. So some 600 characters of DejaVu Sans
+Pillow's own font has no more than ASCII: neither Å nor µ. So some 450 characters of DejaVu Sans
 come with vtray, of Latin and Greek, with what stands in formulas and units (see `RANGES`).
 """
 
