@@ -228,6 +228,14 @@ def test_no_room_and_no_letters(
     assert "\n" not in str(error.value)
 
 
+def test_ends_of_lines_are_kept_or_become_spaces() -> None:
+    image = plain(300, 300)
+    one = annotated_pixels(image, Annotations(**(ALL | {"colorbar": "a b", "time": "1 s"})))
+    two = annotated_pixels(image, Annotations(**(ALL | {"colorbar": "a\nb", "time": "1\ns"})))
+    assert (one == two).all()
+    assert changed(image, title="A\nB", labels={"C\nD": (0, 0, 0)}).any()
+
+
 def test_long_titles_are_broken_beside_the_legend() -> None:
     image = plain(300, 200)
     words = "A title of many words that is far longer than this picture is wide"

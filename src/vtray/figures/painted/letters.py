@@ -54,15 +54,22 @@ RANGES = (
 """The characters that there are: the first and the last of each range."""
 
 
-def check_letters(text: str, place: str) -> str:
+def check_letters(text: str, place: str, *, lines: bool = False) -> str:
     """Return a text as it is written.
+
+    Parameters
+    ----------
+    text, place
+        The text, and what it is called in messages.
+    lines
+        Whether ends of lines are kept; they become spaces otherwise.
 
     Raises
     ------
     FigureError
         There is no letter for one of its characters.
     """
-    text = unicodedata.normalize("NFC", text)
+    text = unicodedata.normalize("NFC", text if lines else text.replace("\n", " "))
     for character in text.replace("\n", ""):
         if not any(first <= ord(character) <= last for first, last in RANGES):
             message = (

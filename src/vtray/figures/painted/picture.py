@@ -61,13 +61,16 @@ def _checked(marks: Marks) -> Marks:
     """Return marks whose texts can all be written."""
     bar = marks.scale_bar
     return marks._replace(
-        title=check_letters(marks.title, "title"),
+        title=check_letters(marks.title, "title", lines=True),
         caption=check_letters(marks.caption, "time"),
         legend=[entry._replace(name=check_letters(entry.name, "legend")) for entry in marks.legend],
         bar_labels=[check_letters(label, "colorbar") for label in marks.bar_labels],
         scale_bar=bar and bar.written(lambda text: check_letters(text, "scalebar")),
         triad=[arm._replace(name=check_letters(arm.name, "axes")) for arm in marks.triad],
-        labels=[label._replace(text=check_letters(label.text, "labels")) for label in marks.labels],
+        labels=[
+            label._replace(text=check_letters(label.text, "labels", lines=True))
+            for label in marks.labels
+        ],
     )
 
 

@@ -22,7 +22,7 @@ class PaintedScaleBar:
         em = letters.size
         self.length = max(1, round(bar.pixels))
         self.thick, self.rise = max(2, round(0.14 * em)), max(6, 2 * round(0.3 * em))
-        self.words = Words(bar.text.split("\n"), letters, "center")
+        self.words = Words([bar.text], letters, "center")
         self.note = Words([bar.note] if bar.note else [], small, "center")
         self.gap = round(0.35 * em)
         self.width = max(self.length, self.words.width, self.note.width)
