@@ -150,7 +150,7 @@ INEXACT = set(
 )
 INTEGERS = set(
     """
-    geometry/bvh/build geometry/bvh/join rendering/acceleration rendering/hierarchy
+    figures/ink geometry/bvh/build geometry/bvh/join rendering/acceleration rendering/hierarchy
     rendering/numbering scene/fingerprint
     """.split()  # noqa: SIM905
 )

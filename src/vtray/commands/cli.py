@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from vtray.base.errors import printable
 from vtray.base.memory import BYTES_PER_PIXEL_AND_MORE, check_memory, check_memory_of_start
 from vtray.base.signals import LastStep
+from vtray.commands.annotation_options import annotations_of
 from vtray.commands.command import SUCCESS, print_note, print_result, run_command
 from vtray.commands.growing import Growing, check_preview, check_preview_of
 from vtray.commands.options import parse, settings_of
@@ -55,7 +56,11 @@ def _run(options: argparse.Namespace) -> int:
 
         print_result(explain_pixel(scene, image, *options.pixel))
     else:
-        image.save(options.output, bits=options.bits, aov=options.aov or ())
+        annotations = annotations_of(options)
+        if annotations:
+            image.annotated(**annotations).save(options.output)
+        else:
+            image.save(options.output, bits=options.bits, aov=options.aov or ())
         growing.finish(image)
     clock.lap("write")
     if options.stats:
@@ -87,6 +92,7 @@ def _check_output(options: argparse.Namespace) -> None:
 
     scene, output = options.scene, options.output
     check_format(output, options.bits, options.aov or (), options.background)
+    annotations_of(options)
     check_writable(output)
     remedy = "choose another name for the image"
     check_spares(output, [scene], "is the scene file itself", remedy)

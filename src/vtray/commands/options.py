@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from vtray.commands.annotation_options import add_annotations, with_values
 from vtray.commands.command import Parser
 from vtray.commands.setting_options import add_settings, wrong
 from vtray.image.aovs import AOVS
@@ -51,9 +52,12 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("-V", "--version", action="version", version=f"vtray {__version__}")
     _add_settings(parser)
     _add_output(parser)
+    add_annotations(parser)
     _add_growing(parser)
     _add_reports(parser)
-    options = parser.parse_intermixed_args(arguments)  # SCENE and OUTPUT may stand apart
+    options = parser.parse_intermixed_args(
+        with_values(arguments)
+    )  # SCENE and OUTPUT may stand apart
     if options.output is None and options.pixel is None:
         parser.error("OUTPUT is missing")
     if options.pixel is not None and (options.preview is not None or options.keep_partial):

@@ -1,23 +1,13 @@
-"""A picture as a figure to publish: with colour bars and a scale bar, not a pixel of it changed."""
+"""A picture as a figure to publish: with what belongs around it, not a pixel of it resampled."""
 
 import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from vtray.base.extras import need
-from vtray.figures.color_bar import bar_labels, color_scales
+from vtray.figures.annotations import Annotations, find_marks
 from vtray.figures.lettering import write
 from vtray.figures.panel import LEAST_SHARE, Panel, Rooms
-from vtray.figures.scale_bar import (
-    ScaleBar,
-    depth_along_view,
-    is_orthographic,
-    length_text,
-    pixel_width,
-    round_length,
-)
 from vtray.figures.sheet import (
     INCH,
     LEAST_DPI,
@@ -29,56 +19,50 @@ from vtray.figures.sheet import (
     usual_dpi,
 )
 from vtray.figures.subject import Pixels, Subject
-from vtray.scene.scene import Plane
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from numpy.typing import ArrayLike
 
-BAR_SHARE = 0.25
-"""The share of the picture's width that a scale bar takes at most."""
-
-FONT_SIZES = ("font.size", "axes.titlesize", "axes.labelsize", "xtick.labelsize", "ytick.labelsize")
+FONT_SIZES = (
+    "font.size",
+    "axes.titlesize",
+    "axes.labelsize",
+    "legend.fontsize",
+    "xtick.labelsize",
+    "ytick.labelsize",
+)
 """Matplotlib's settings for the sizes of all text in a figure."""
 
 
 def make_figure(
     image: Subject,
+    wanted: Annotations,
     *,
-    colorbar: bool | str | Sequence[str],
-    scalebar: object,
-    title: object,
     flat: bool,
     width: float | None,
     dpi: float | None,
     fontsize: float | None,
-    at: "ArrayLike | None",
     ax: "Axes | None",
 ) -> "Figure":
     """Return an image as a figure; see `vtray.Image.figure`."""
     matplotlib = need("matplotlib", "figure", "Image.figure")
-    if not isinstance(title, (str, type(None))):
-        message = f"title: expected a text or None, got {title!r}"
-        raise FigureError(message)
     width = None if width is None else check_number("width", width)
     dpi = None if dpi is None else check_dpi(dpi)
     sizes = (
         {} if fontsize is None else dict.fromkeys(FONT_SIZES, check_number("fontsize", fontsize))
     )
-    scales = color_scales(image.scene.objects) if colorbar else []
-    labels = bar_labels(colorbar, len(scales))
-    bar = _scale_bar(image, scalebar, at)
+    marks = find_marks(image, wanted)
     if ax is not None:
         _check_axes(ax, width, dpi)
     pixels = image.flat() if flat else image.pixels
     with matplotlib.rc_context(sizes):
         if ax is not None:
-            Panel(ax, pixels, scales, labels, bar, title or "", flat=flat).settle()
+            Panel(ax, pixels, marks, flat=flat).settle()
             return ax.figure.figure
         sheet = Sheet.of(600, 400, LEAST_DPI)
         axes = sheet.axes(0, 0, 1, 1)
-        panel = Panel(axes, pixels, scales, labels, bar, title or "", flat=flat)
+        panel = Panel(axes, pixels, marks, flat=flat)
     if width is None:
         _lay_out(sheet, panel, dpi)
     else:
@@ -197,76 +181,3 @@ def compare_figure(
         name.set_position(sheet.place(pad + k * step, bottom + height + between))
     below.set_position(sheet.place(pad, bottom - between))
     return figure
-
-
-def _scale_bar(image: Subject, scalebar: object, at: "ArrayLike | None") -> ScaleBar | None:
-    """Return the scale bar of an image, None if it should have none."""
-    if not isinstance(scalebar, (bool, str)):
-        message = f'scalebar: expected True, False or a unit such as "nm", got {scalebar!r}'
-        raise FigureError(message)
-    depth = _depth_of(image, at)
-    if scalebar is False:
-        return None
-    camera = image.scene.camera
-    pattern = _pattern(image, scalebar)
-    if depth is None and (not is_orthographic(camera) or "{distance}" in pattern):
-        depth = _median_depth(image)
-        if depth is None:
-            return None
-    unit = pixel_width(camera, depth or 0.0)
-    length = round_length(BAR_SHARE * camera.size[0] * unit)
-    text = pattern.replace("{length}", length_text(length))
-    if depth is not None:
-        text = text.replace("{distance}", f"{depth:.4g}")
-    return ScaleBar(length, length / unit, text)
-
-
-def _pattern(image: Subject, scalebar: bool | str) -> str:
-    """Return what is written beside a scale bar, with the names of numbers in braces."""
-    if isinstance(scalebar, str) and "{length}" in scalebar:
-        return scalebar
-    pattern = "{length}" if scalebar is True else f"{{length}} {scalebar}"
-    camera = image.scene.camera
-    if not is_orthographic(camera):  # right at one distance only
-        pattern = r"${\approx}$ " + pattern
-    if camera.resolution[0] != camera.resolution[1]:
-        pattern += " (horizontally)"
-    return pattern
-
-
-def _median_depth(image: Subject) -> float | None:
-    """Return the median distance of what is seen, along the view; None if nothing is.
-
-    Planes, which have no end, only count where there is nothing else.
-    """
-    places = image.ids[..., 0]
-    planes = [k for k, item in enumerate(image.scene.objects) if isinstance(item, Plane)]
-    seen = (places >= 0) & ~np.isin(places, planes)
-    if not seen.any():
-        seen = places >= 0
-    if not seen.any():
-        return None
-    return float(np.median(depth_along_view(image.scene.camera, image.depth)[seen]))
-
-
-def _depth_of(image: Subject, at: "ArrayLike | None") -> float | None:
-    """Return how far from the eye along z' a point lies."""
-    if at is None:
-        return None
-    camera = image.scene.camera
-    try:
-        point = np.asarray(at, np.float64)
-    except (TypeError, ValueError):
-        point = np.zeros(0)
-    if point.shape != (3,) or not np.isfinite(point).all():
-        message = f"at: expected a point of three finite numbers, or None, got {at!r}"
-        raise FigureError(message)
-    normal = np.array([camera.normal.x, camera.normal.y, camera.normal.z])
-    normal /= np.abs(normal).max()
-    normal /= np.linalg.norm(normal)
-    center = np.array([camera.center.x, camera.center.y, camera.center.z])
-    depth = float((point - center) @ normal) + camera.focus
-    if not depth > 0:
-        message = f"at: expected a point in front of the eye, got {at!r}"
-        raise FigureError(message)
-    return depth

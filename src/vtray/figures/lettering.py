@@ -44,7 +44,7 @@ def write(
             text.set_text(line)
             return _length(text, renderer)
 
-        lines = (part for line in words.split("\n") for part in _lines(line, length, room))
+        lines = (part for line in words.split("\n") for part in broken(line, length, room))
         words = "\n".join(lines)
     text.set_text(words)
     longest = _length(text, renderer)
@@ -58,8 +58,8 @@ def _length(text: "Text", renderer: "RendererBase | None") -> float:
     return float(box.height if text.get_rotation() == 90 else box.width)
 
 
-def _lines(line: str, length: Callable[[str], float], room: float) -> Iterator[str]:
-    """Break a line."""
+def broken(line: str, length: Callable[[str], float], room: float) -> Iterator[str]:
+    """Break a line, at spaces if that does, so that `length` of no part is above `room`."""
     if length(line) <= room:
         yield line
         return

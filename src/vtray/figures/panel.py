@@ -1,11 +1,11 @@
-"""A picture on axes, with what belongs to it: colour bars, a title, a scale bar."""
+"""A picture on axes, with what belongs to it: a title, colour bars, a legend, a scale bar."""
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from numpy.typing import NDArray
 
+from vtray.figures.annotations import Marks
 from vtray.figures.color_bar import ColorBar
 from vtray.figures.lettering import write
 from vtray.figures.scale_bar import ScaleBar
@@ -27,6 +27,9 @@ TITLE_SHARE = 0.4
 LEAST_SIZE = 3.0
 """The least size of a title, in points."""
 
+ABOUT = r"${\approx}$ "
+"""What stands before a length that is right at one distance only."""
+
 
 class Rooms(NamedTuple):
     """How much room there must be around a picture, in points.
@@ -46,7 +49,7 @@ class Rooms(NamedTuple):
 
 
 class Panel:
-    """A picture on axes, with colour bars on its right, a title above and a scale bar below.
+    """A picture on axes: colour bars and a legend on its right, a title above, a scale bar below.
 
     All sizes but that of the picture follow from the font. As the locator of axes, which Matplotlib
     calls whenever it draws them, it keeps all of it within the place that the axes had.
@@ -57,12 +60,8 @@ class Panel:
         The axes of the picture; those of the bars are added to their figure.
     pixels
         The picture, uint8, (height, width, 3 or 4).
-    scales, labels
-        The colour scale and the label of each colour bar.
-    bar
-        The scale bar, or None.
-    title
-        What is written above, "" for nothing.
+    marks
+        What belongs to it; labels and the triad are drawn onto it.
     flat
         Whether the colour bars show each colour from shadow to light.
     """
@@ -71,18 +70,18 @@ class Panel:
         self,
         ax: "Axes",
         pixels: NDArray[Any],
-        scales: Sequence[Any],
-        labels: Sequence[str],
-        bar: ScaleBar | None,
-        title: str,
+        marks: Marks,
         *,
         flat: bool,
     ) -> None:
         from matplotlib import rcParams
 
+        from vtray.figures.drawn_legend import DrawnLegend
+        from vtray.figures.drawn_marks import draw_labels, draw_triad
         from vtray.figures.shown_picture import ShownPicture
 
-        self.ax, self.bar, self.words = ax, bar, title
+        self.ax, self.bar = ax, marks.scale_bar
+        self.words = "\n".join(text for text in (marks.title, marks.caption) if text)
         self.rows, self.columns = pixels.shape[:2]
         self.em = float(rcParams["font.size"])
         self.fitted: tuple[object, tuple[float, Rooms]] = (None, (0.0, Rooms((), 0.0, 0.0, 0.0)))
@@ -93,10 +92,10 @@ class Panel:
         self.shown = ShownPicture.on(ax, pixels)
         self.parts: list[Any] = [self.shown]
         self.bars: list[ColorBar] = []
-        if scales:
+        if marks.scales:
             figure = ax.figure
             current = figure.gca()
-            for scale, label in zip(scales, labels, strict=True):
+            for scale, label in zip(marks.scales, marks.bar_labels, strict=True):
                 axes = figure.add_axes((0.9, 0.1, 0.05, 0.8))
                 self.bars.append(ColorBar.draw(axes, scale, label, flat=flat))
             figure.sca(current)
@@ -104,12 +103,18 @@ class Panel:
         self.gap = 1.4 * self.em
         self.thick = max([1.2 * self.em, *(bar.least_width() for bar in self.bars)])
         self.title: Any = None
-        if title:
-            self.title = ax.set_title(title, loc="left", y=1.0, pad=0.35 * self.em, va="bottom")
+        if self.words:
+            self.title = ax.set_title(
+                self.words, loc="left", y=1.0, pad=0.35 * self.em, va="bottom"
+            )
             self.title_size = float(self.title.get_fontsize())
         self.note: Any = None
-        if bar is not None:
-            self._draw_scale_bar(bar)
+        if self.bar is not None:
+            self._draw_scale_bar(self.bar)
+        self.legend = DrawnLegend(ax, marks.legend, flat=flat) if marks.legend else None
+        self.parts += draw_labels(ax, pixels, marks.labels)
+        if marks.triad:
+            self.parts += draw_triad(ax, pixels, marks.triad)
 
     def _draw_scale_bar(self, bar: ScaleBar) -> None:
         """Draw a scale bar below the picture, where it hides nothing."""
@@ -150,6 +155,8 @@ class Panel:
         for part in self.parts:
             if part.figure is not None:  # else the axes were cleared
                 part.remove()
+        if self.legend is not None:
+            self.legend.remove()
         if self.title is not None:
             self.title.set_text("")
         self.ax.set_axes_locator(self.outer)
@@ -175,17 +182,23 @@ class Panel:
         ax, point = self.ax, self._point
         beside = tuple(self._up(bar.beside(height, renderer)) for bar in self.bars)
         right = sum(self.gap + self.thick + text for text in beside)
+        high = 0.0
+        if self.legend is not None:
+            wide, high = self.legend.fit(max(height, self.em), renderer)
+            self.legend.move(right + self.gap)
+            right += self.gap + self._up(wide)
         over = max((bar.overhang(height, renderer) for bar in self.bars), default=0.0)
         above = over
         if self.words:
             room = width if over else width + right  # not above labels that stick out
             above = max(over, self._write_title(room, most_above, renderer))
         marks = max((bar.below(renderer) for bar in self.bars), default=0.0)
-        below = max(marks, over)
+        below = max(marks, over, high - height)
         if self.bar is not None:
             room = width + (0.0 if marks else right)
             room -= self.bar.pixels * width / self.columns + 0.6 * self.em
-            write(self.note, self.bar.text, self.note_size, max(room, self.em) * point, renderer)
+            text = ABOUT * bool(self.bar.note) + self.bar.text
+            write(self.note, text, self.note_size, max(room, self.em) * point, renderer)
             bottom = self.note.get_window_extent(renderer).y0
             below = max(below, (ax.bbox.y0 - bottom) / point)
         return Rooms(beside, right, self._up(below), self._up(above))

@@ -1,15 +1,26 @@
 """Scale bars: lengths that read well, and how long they are in a picture."""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from decimal import Decimal
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.scene.scene import Camera
+from vtray.figures.projection import project
+from vtray.figures.sheet import FigureError
+from vtray.figures.subject import Subject
+from vtray.scene.scene import Camera, Plane
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 Floats = NDArray[np.float64]
+
+SHARE = 0.25
+"""The share of the picture's width that a scale bar takes at most."""
 
 
 @dataclass(frozen=True)
@@ -24,11 +35,81 @@ class ScaleBar:
         In pixels of the picture.
     text
         What is written beside it.
+    note
+        If it is right at one distance only, and the text does not say so, what says at which; ""
+        otherwise.
     """
 
     length: float
     pixels: float
     text: str
+    note: str = ""
+
+    def written(self, write: Callable[[str], str]) -> Self:
+        """Return it with what a function makes of its texts."""
+        return replace(self, text=write(self.text), note=write(self.note))
+
+
+def scale_bar(image: Subject, scalebar: object, at: "ArrayLike | None") -> ScaleBar | None:
+    """Return the scale bar of an image, None if it should have none; see `vtray.Image.figure`."""
+    if not isinstance(scalebar, (bool, str)):
+        message = f'scalebar: expected True, False or a unit such as "nm", got {scalebar!r}'
+        raise FigureError(message)
+    depth = _depth_of(image, at)
+    if scalebar is False:
+        return None
+    camera = image.scene.camera
+    own = isinstance(scalebar, str) and "{length}" in scalebar
+    unit = "" if own or scalebar is True else f" {scalebar}"
+    pattern = str(scalebar) if own else f"{{length}}{unit}"
+    if not own and camera.resolution[0] != camera.resolution[1]:
+        pattern += " (horizontally)"
+    everywhere = is_orthographic(camera)
+    if depth is None and (not everywhere or "{distance}" in pattern):
+        depth = _median_depth(image)
+        if depth is None:
+            return None
+    pixel = pixel_width(camera, depth or 0.0)
+    length = round_length(SHARE * camera.size[0] * pixel)
+    text, note = pattern.replace("{length}", length_text(length)), ""
+    if depth is not None:
+        text = text.replace("{distance}", f"{depth:.4g}")
+        if not (own or everywhere):
+            note = f"at a distance of {length_text(float(f'{depth:.3g}'))}{unit}"
+    return ScaleBar(length, length / pixel, text, note)
+
+
+def _median_depth(image: Subject) -> float | None:
+    """Return the median distance of what is seen, along the view; None if nothing is.
+
+    Planes, which have no end, only count where there is nothing else.
+    """
+    places = image.ids[..., 0]
+    planes = [k for k, item in enumerate(image.scene.objects) if isinstance(item, Plane)]
+    seen = (places >= 0) & ~np.isin(places, planes)
+    if not seen.any():
+        seen = places >= 0
+    if not seen.any():
+        return None
+    return float(np.median(depth_along_view(image.scene.camera, image.depth)[seen]))
+
+
+def _depth_of(image: Subject, at: "ArrayLike | None") -> float | None:
+    """Return how far from the eye along z' a point lies."""
+    if at is None:
+        return None
+    try:
+        point = np.asarray(at, np.float64)
+    except (TypeError, ValueError):
+        point = np.zeros(0)
+    if point.shape != (3,) or not np.isfinite(point).all():
+        message = f"at: expected a point of three finite numbers, or None, got {at!r}"
+        raise FigureError(message)
+    depth = float(project(image.scene.camera, point[None]).depth[0])
+    if not depth > 0:
+        message = f"at: expected a point in front of the eye, got {at!r}"
+        raise FigureError(message)
+    return depth
 
 
 def round_length(limit: float) -> float:

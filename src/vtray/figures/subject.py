@@ -52,6 +52,10 @@ class Subject(HasPixels, Protocol):
         """Places in the scene and in the object's arrays, -1 where nothing is, (h, w, 2)."""
 
     @property
+    def copies(self) -> NDArray[np.int32]:
+        """Which copy is seen, -1 where nothing is that is one, (height, width)."""
+
+    @property
     def halves(self) -> NDArray[np.int8]:
         """Which half of a cylinder is seen, 1 for that at its end, else 0, (height, width)."""
 

@@ -3,7 +3,7 @@
 Each of that stands in a module of its own, which knows no more of a picture than it uses.
 """
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
 
+    from vtray.figures.legend import LegendGiven
+    from vtray.figures.point_labels import LabelsGiven
+    from vtray.image.annotated import AnnotatedPicture
     from vtray.scene.colors.color_scale import ColorMap
     from vtray.scene.colors.names import AnyColor
 
@@ -200,12 +203,103 @@ class Image(Rendered):
 
         return flat_pixels(self)
 
+    def annotated(
+        self,
+        *,
+        title: str | None = None,
+        time: str | float | None = None,
+        frame: int | None = None,
+        legend: "LegendGiven | None" = None,
+        colorbar: bool | str | Sequence[str] = False,
+        scalebar: bool | str = False,
+        axes: "bool | Mapping[str, ArrayLike]" = False,
+        labels: "LabelsGiven" = (),
+        hide_labels: bool = False,
+        at: "ArrayLike | None" = None,
+        fontsize: float | None = None,
+    ) -> "AnnotatedPicture":
+        """Return the picture with annotations painted onto it, without Matplotlib.
+
+        It is as large as the picture, and what no annotation covers is as it was. Letters are dark
+        where the picture is light, light where it is dark, and have a halo where it is both. They
+        are DejaVu Sans, of Latin and Greek.
+
+        Parameters
+        ----------
+        title
+            What to write at the top left; too long lines are broken.
+        time, frame
+            Which frame of a simulation it is, to write below that: a number, or a text such as
+            ``"12.5 ps"``, which becomes ``t = 12.5 ps``; and an integer.
+        legend
+            Names and colours to show at the top right as small balls: ``{"O": "red",
+            "H": "white"}`` or pairs of these.
+        colorbar
+            Whether to show a colour bar on the right for each colour scale of the objects; a text
+            to write above it, such as ``"energy (eV)"``; or a list of texts if there are more.
+        scalebar
+            Whether to show a scale bar at the bottom right, in scene units; or the name of the
+            unit, such as ``"nm"``. In perspective, at which distance from the eye it is right is
+            written below it (see `at`). A text with ``{length}`` in it replaces all that, as for
+            `figure`.
+        axes
+            Whether to show the axes of the world at the bottom left as the camera sees them in the
+            middle of the picture: x red, y green, z blue. Or up to three directions in world space
+            by their names, such as ``{"a": (1, 0, 0)}``.
+        labels
+            Texts and points in world space to write them at: pairs such as ``("O", (0, 0, 1))``, or
+            points by their texts. They stay within the picture; those of points outside of it are
+            left out.
+        hide_labels
+            Whether to leave out labels of points that are behind something. The sphere or cylinder
+            in which a point lies does not hide it.
+        at
+            For perspective, a point in world space at whose distance the scale bar is right; None
+            for the median of the spheres and cylinders that are seen (without any: of the planes).
+        fontsize
+            The size of letters in pixels. None for one that suits the size of the picture, and is
+            smaller where there would be no room.
+
+        Returns
+        -------
+        AnnotatedPicture
+            It has ``pixels`` and a method ``save``, and shows itself in notebooks.
+
+        Raises
+        ------
+        FigureError
+            An argument is not right, or there is no room.
+        """
+        from vtray.figures.annotations import Annotations
+        from vtray.figures.painted.picture import annotated_pixels
+        from vtray.image.annotated import AnnotatedPicture
+
+        wanted = Annotations(
+            title=title,
+            time=time,
+            frame=frame,
+            legend=legend,
+            colorbar=colorbar,
+            scalebar=scalebar,
+            axes=axes,
+            labels=labels,
+            hide_labels=hide_labels,
+            at=at,
+        )
+        return AnnotatedPicture(annotated_pixels(self, wanted, fontsize), self)
+
     def figure(
         self,
         *,
         colorbar: bool | str | Sequence[str] = True,
         scalebar: bool | str = True,
         title: str | None = None,
+        time: str | float | None = None,
+        frame: int | None = None,
+        legend: "LegendGiven | None" = None,
+        axes: "bool | Mapping[str, ArrayLike]" = False,
+        labels: "LabelsGiven" = (),
+        hide_labels: bool = False,
         flat: bool = False,
         width: float | None = None,
         dpi: float | None = None,
@@ -215,9 +309,9 @@ class Image(Rendered):
     ) -> "Figure":
         """Return the picture as a Matplotlib figure: with colour bars, a scale bar and a title.
 
-        Nothing is drawn over the picture. Unless both `width` and `dpi` are given, or `ax`, it is
-        shown as it is: one pixel of the figure for each of its own (small pictures: a square of
-        pixels for each). The figure is none of pyplot's: save it by
+        Nothing but `axes` and `labels` is drawn over the picture. Unless both `width` and `dpi` are
+        given, or `ax`, it is shown as it is: one pixel of the figure for each of its own (small
+        pictures: a square of pixels for each). The figure is none of pyplot's: save it by
         ``figure.savefig("figure.png")``. Needs Matplotlib: ``pip install matplotlib``.
 
         Fonts, their sizes and the width of lines are those of Matplotlib's ``rcParams``. Text that
@@ -236,6 +330,22 @@ class Image(Rendered):
             the camera's view: ``"{length} nm at a distance of {distance} nm"``.
         title
             What to write above the picture.
+        time, frame
+            Which frame of a simulation it is, to write above the picture: a number, or a text such
+            as ``"12.5 ps"``, which becomes ``t = 12.5 ps``; and an integer.
+        legend
+            Names and colours to show as small balls: ``{"O": "red", "H": "white"}`` or pairs of
+            these.
+        axes
+            Whether to show the axes of the world in the lower left corner as the camera sees them
+            in the middle of the picture: x red, y green, z blue. Or up to three directions in world
+            space by their names, such as ``{"a": (1, 0, 0)}``.
+        labels
+            Texts and points in world space to write them at: pairs such as
+            ``("O", (0, 0, 1))``, or points by their texts.
+        hide_labels
+            Whether to leave out labels of points that are behind something. The sphere or cylinder
+            in which a point lies does not hide it.
         flat
             Whether to show `flat`, from which values can be read off. Its colour bars show each
             colour from shadow to full light.
@@ -273,17 +383,19 @@ class Image(Rendered):
         pixels are mixed (Matplotlib's interpolation "antialiased"). Files such as PDF hold the
         pixels of the picture as they are.
         """
+        from vtray.figures.annotations import Annotations
         from vtray.figures.figure import make_figure
 
-        return make_figure(
-            self,
+        wanted = Annotations(
+            title=title,
+            time=time,
+            frame=frame,
+            legend=legend,
             colorbar=colorbar,
             scalebar=scalebar,
-            title=title,
-            flat=flat,
-            width=width,
-            dpi=dpi,
-            fontsize=fontsize,
+            axes=axes,
+            labels=labels,
+            hide_labels=hide_labels,
             at=at,
-            ax=ax,
         )
+        return make_figure(self, wanted, flat=flat, width=width, dpi=dpi, fontsize=fontsize, ax=ax)

@@ -13,6 +13,9 @@ from vtray.image.formats.picture import How, Picture
 
 Pixels = NDArray[np.uint8]
 
+USUAL = How()
+"""Pixels of 8 bits that no render has made."""
+
 
 def write_picture(picture: Picture, path: Path, how: How) -> None:
     """Write a picture in the format that the file's ending names.
@@ -29,9 +32,9 @@ def write_picture(picture: Picture, path: Path, how: How) -> None:
         raise OutputError(needs_package(path, error.name or "more")) from error
 
 
-def write_image(pixels: Pixels, path: Path) -> None:
-    """Write pixels, (height, width, 3), that no render has made, in a format for pixels alone."""
-    write_picture(_Plain(pixels), path, How())
+def write_image(pixels: Pixels, path: Path, how: How = USUAL) -> None:
+    """Write pixels, (height, width, 3 or 4), in a format for pixels alone."""
+    write_picture(_Plain(pixels), path, how)
 
 
 class _Plain:

@@ -1,0 +1,92 @@
+"""What a picture may carry: what is asked for, and what of it there is."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from vtray.figures.caption import frame_caption
+from vtray.figures.color_bar import bar_labels, color_scales
+from vtray.figures.legend import Entry, legend_entries
+from vtray.figures.point_labels import Label, shown_labels
+from vtray.figures.scale_bar import ScaleBar, scale_bar
+from vtray.figures.sheet import FigureError
+from vtray.figures.subject import Subject
+from vtray.figures.triad import Arm, triad
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import ArrayLike
+
+    from vtray.figures.legend import LegendGiven
+    from vtray.figures.point_labels import LabelsGiven
+
+
+@dataclass(frozen=True, kw_only=True)
+class Annotations:
+    """What is asked for; `vtray.Image.annotated` says what each may be."""
+
+    title: str | None = None
+    time: str | float | None = None
+    frame: int | None = None
+    legend: "LegendGiven | None" = None
+    colorbar: bool | str | Sequence[str] = False
+    scalebar: bool | str = False
+    axes: "bool | Mapping[str, ArrayLike]" = False
+    labels: "LabelsGiven" = ()
+    hide_labels: bool = False
+    at: "ArrayLike | None" = None
+
+
+class Marks(NamedTuple):
+    """What there is of that, checked.
+
+    Attributes
+    ----------
+    title, caption
+        What stands above the picture, "" for nothing: its name, and which frame it shows.
+    legend
+        The lines of the legend.
+    scales, bar_labels
+        The colour scales that are shown, and what stands beside each.
+    scale_bar
+        The scale bar, None for none.
+    triad
+        The axes, those that point away first.
+    labels
+        The labels, those of far points first.
+    """
+
+    title: str
+    caption: str
+    legend: list[Entry]
+    scales: list[Any]
+    bar_labels: list[str]
+    scale_bar: ScaleBar | None
+    triad: list[Arm]
+    labels: list[Label]
+
+
+def find_marks(image: Subject, wanted: Annotations) -> Marks:
+    """Return what a picture shall carry.
+
+    Raises
+    ------
+    FigureError
+        Something that is asked for is not right.
+    """
+    title: object = wanted.title
+    if not isinstance(title, (str, type(None))):
+        message = f"title: expected a text or None, got {title!r}"
+        raise FigureError(message)
+    scales = color_scales(image.scene.objects) if wanted.colorbar else []
+    return Marks(
+        title or "",
+        frame_caption(wanted.time, wanted.frame),
+        [] if wanted.legend is None else legend_entries(wanted.legend),
+        scales,
+        bar_labels(wanted.colorbar, len(scales)),
+        scale_bar(image, wanted.scalebar, wanted.at),
+        triad(image.scene.camera, wanted.axes),
+        shown_labels(image, wanted.labels, hide=wanted.hide_labels),
+    )

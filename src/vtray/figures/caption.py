@@ -1,0 +1,38 @@
+"""Captions of frames: which one of a simulation a picture shows."""
+
+import math
+
+import numpy as np
+
+from vtray.figures.sheet import FigureError
+
+
+def frame_caption(time: str | float | None, frame: int | None) -> str:
+    """Return what says which frame a picture shows, "" for nothing.
+
+    Parameters
+    ----------
+    time
+        When it is: a number, or a text with a unit such as ``"12.5 ps"``.
+    frame
+        Its number.
+
+    Raises
+    ------
+    FigureError
+        An argument is neither.
+    """
+    parts = []
+    if time is not None:
+        number = isinstance(time, (int, float, np.number)) and not isinstance(time, bool)
+        text = f"{time:g}" if number and math.isfinite(float(time)) else time
+        if not isinstance(text, str) or not text.strip():
+            message = f'time: expected a number or a text such as "12.5 ps", got {time!r}'
+            raise FigureError(message)
+        parts.append(f"t = {text}")
+    if frame is not None:
+        if not isinstance(frame, (int, np.integer)) or isinstance(frame, bool):
+            message = f"frame: expected an integer or None, got {frame!r}"
+            raise FigureError(message)
+        parts.append(f"frame {frame}")
+    return ", ".join(parts)

@@ -1,0 +1,101 @@
+"""A picture with annotations painted onto it."""
+
+from collections.abc import Iterator
+
+from vtray.figures.annotations import Annotations, Marks, find_marks
+from vtray.figures.painted.canvas import Canvas
+from vtray.figures.painted.layout import Placed, arranged
+from vtray.figures.painted.letters import check_letters, letters
+from vtray.figures.painted.words import Words
+from vtray.figures.sheet import FigureError, check_number
+from vtray.figures.subject import Pixels, Subject
+
+SHARE = 0.035
+"""The size of letters in parts of the picture's shorter side."""
+
+LEGIBLE = 11
+"""The size that they have at least where there is room, in pixels."""
+
+LEAST = 7
+"""The least size with which all is still written, in pixels."""
+
+
+def annotated_pixels(image: Subject, wanted: Annotations, fontsize: float | None = None) -> Pixels:
+    """Return a picture with annotations painted onto it.
+
+    Parameters
+    ----------
+    image
+        The picture, which stays as it is.
+    wanted
+        What to paint.
+    fontsize
+        The size of letters in pixels; None for one that suits the picture, and is smaller where
+        there would be no room.
+
+    Returns
+    -------
+    array
+        Of the shape of the picture's pixels; what no mark covers is as it was.
+
+    Raises
+    ------
+    FigureError
+        Something that is asked for is not right, or there is no room for it.
+    """
+    marks = _checked(find_marks(image, wanted))
+    pixels = image.pixels
+    height, width = pixels.shape[:2]
+    for em in _sizes(fontsize, width, height):
+        placed = arranged(marks, em, width, height)
+        if placed is not None:
+            return _painted(pixels, marks, placed, em)
+    remedy = "render it larger, or ask for less"
+    if fontsize is not None:
+        remedy += ", or give a smaller fontsize"
+    message = f"annotations: there is no room in a picture of {width} x {height} pixels; {remedy}"
+    raise FigureError(message)
+
+
+def _checked(marks: Marks) -> Marks:
+    """Return marks whose texts can all be written."""
+    bar = marks.scale_bar
+    return marks._replace(
+        title=check_letters(marks.title, "title", lines=True),
+        caption=check_letters(marks.caption, "time"),
+        legend=[entry._replace(name=check_letters(entry.name, "legend")) for entry in marks.legend],
+        bar_labels=[check_letters(label, "colorbar") for label in marks.bar_labels],
+        scale_bar=bar and bar.written(lambda text: check_letters(text, "scalebar")),
+        triad=[arm._replace(name=check_letters(arm.name, "axes")) for arm in marks.triad],
+        labels=[
+            label._replace(text=check_letters(label.text, "labels", lines=True))
+            for label in marks.labels
+        ],
+    )
+
+
+def _sizes(fontsize: float | None, width: int, height: int) -> Iterator[int]:
+    """Give the sizes of letters to try, in pixels."""
+    if fontsize is not None:
+        yield max(1, round(check_number("fontsize", fontsize)))
+        return
+    em = max(LEGIBLE, round(SHARE * min(width, height)))
+    while em >= LEAST:
+        yield em
+        em = min(em - 1, round(0.92 * em))
+
+
+def _painted(pixels: Pixels, marks: Marks, placed: list[Placed], em: int) -> Pixels:
+    """Return pixels with labels painted on them, and then all else."""
+    canvas = Canvas(pixels, em)
+    for label in marks.labels:
+        words = Words(label.text.split("\n"), letters(em), "center")
+        # Around its point, but within the picture.
+        left = round(label.column + 0.5 - words.width / 2)
+        top = round(label.row + 0.5 - words.middle)
+        left = max(1, min(left, canvas.width - words.width - 1))
+        top = max(1, min(top, canvas.height - words.height - 1))
+        words.paint(canvas, left, top)
+    for block, left, top in placed:
+        block.paint(canvas, left, top)
+    return canvas.pixels

@@ -1,0 +1,65 @@
+"""What the command paints onto pictures."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from examples import one_sphere
+from PIL import Image as PillowImage
+
+import vtray
+from vtray.commands import cli
+from vtray.commands.annotation_options import with_values
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    """Return a scene file of 96 x 72 pixels, seen in perspective."""
+    document = one_sphere()
+    document["camera"].update(size=[96, 72], resolution=[0.05, 0.05])
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps(document))
+    return path
+
+
+def test_command_paints_what_annotated_does(scene: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    output = scene.with_name("a.png")
+    assert cli.run([str(scene), "--scale-bar=nm", "--title", "A", str(output)]) == 0
+    assert capfd.readouterr() == ("", "")
+    image = vtray.render(vtray.load(scene))
+    with PillowImage.open(output) as read:
+        expected = image.annotated(scalebar="nm", title="A").pixels
+        np.testing.assert_array_equal(np.asarray(read), expected)
+    assert vtray.read_provenance(output).scene == image.scene_hash
+
+
+def test_value_of_a_bar_stands_after_an_equals_sign() -> None:
+    assert with_values(["--scale-bar", "a.json", "--color-bar=x", "--", "--scale-bar"]) == [
+        "--scale-bar=",
+        "a.json",
+        "--color-bar=x",
+        "--",
+        "--scale-bar",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["a.npz", "--axes"], "a.npz: this format is not for pixels alone; .png, "),
+        (["a.png", "--bits", "16", "--axes"], "a.png: annotations: expected 8 bits with them, got"),
+        (["a.png", "--color-bar=E"], "colorbar: expected True or False, as no object has a cmap"),
+        (["a.png", "--title", "A" * 40, "--size", "12x9"], "annotations: there is no room in a"),
+    ],
+)
+def test_errors_are_one_line(
+    scene: Path, arguments: list[str], message: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    output = scene.with_name(arguments[0])
+    assert cli.run([str(scene), str(output), *arguments[1:]]) == 1
+    out, err = capfd.readouterr()
+    assert out == ""
+    assert err.count("\n") == 1
+    assert message in err
+    assert not output.exists()
