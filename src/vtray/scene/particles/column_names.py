@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     Array = NDArray[Any]
 
 _CALLED = {
-    "position": ("pos", "positions", "coordinates", "xyz"),
+    "position": ("pos", "positions", "coordinates", "xyz", "center", "centers"),
     "element": ("elements", "species", "symbol", "symbols"),
     "type": ("types", "particle_type", "atom_types"),
     "name": ("names",),

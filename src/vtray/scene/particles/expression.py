@@ -7,6 +7,7 @@ steps below is an error, and no text is ever run as Python.
 import ast
 import math
 import operator
+import re
 from collections.abc import Callable, Mapping
 from functools import reduce
 from typing import TYPE_CHECKING, Any, Protocol
@@ -95,7 +96,7 @@ def mask(particles: Table, expression: str) -> "Mask":
     """
     import numpy as np
 
-    text = expression.strip()
+    text = re.sub(r"\s", " ", expression).strip()
     if len(text) > _LONGEST:
         raise SceneError(f"select: longer than {_LONGEST} characters: {short(text)!r}")
     try:
@@ -324,10 +325,8 @@ class _Steps:
 
     def _wrong(self, node: ast.expr, problem: str) -> SceneError:
         # The parser counts bytes.
-        line = self._text.splitlines()[node.lineno - 1]
-        before = sum(map(len, self._text.splitlines(keepends=True)[: node.lineno - 1]))
-        place = before + len(line.encode()[: node.col_offset].decode())
-        return _problem(self._text, place + 1, problem)
+        before = self._text.encode()[: node.col_offset].decode()
+        return _problem(self._text, len(before) + 1, problem)
 
 
 def _is_truth(found: Any) -> bool:  # noqa: ANN401

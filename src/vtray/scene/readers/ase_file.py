@@ -5,6 +5,8 @@ References
 https://wiki.fysik.dtu.dk/ase/ase/io/io.html
 """
 
+from collections import deque
+from dataclasses import replace
 from typing import Any
 
 from vtray.base.errors import SceneError
@@ -15,17 +17,16 @@ from vtray.scene.readers.frames import frame_number
 from vtray.scene.readers.libraries import check_room, told
 from vtray.scene.readers.reader_table import READERS, Given
 
-_TIMES = 25
-"""Bytes of memory for a byte of a file, as measured with CIF."""
+_TIMES = 4
+"""Bytes of memory for a byte of a file, as measured with POSCAR: 3."""
 
 _NAMES = {
-    "pdb": "proteindatabank",
     "poscar": "vasp",
     "xdatcar": "vasp-xdatcar",
     "outcar": "vasp-out",
     "vasprun": "vasp-xml",
     "cell": "castep-cell",
-    "aims": "aims",
+    "castep": "castep-castep",
 }
 """What ASE calls files, where the table of readers calls them otherwise."""
 
@@ -44,9 +45,16 @@ def read(given: Given) -> Particles:
     io: Any = need("ase.io", "atoms", f"reading {what}")
     check_room(given.path, _TIMES)
     name = _NAMES.get(given.format, given.format)
+    # Of the frames that were met, only those that may be asked for are kept.
+    met: deque[Any] = deque(maxlen=max(-given.frame, 1))
+    count = 0
     with told("ASE", what):
-        frames = io.read(given.path, index=":", format=name, do_not_split_by_at_sign=True)
-    if not frames:
+        for atoms in io.iread(given.path, ":", name, do_not_split_by_at_sign=True):
+            met.append(atoms)
+            count += 1
+            if count == given.frame + 1:
+                break
+    if not count:
         raise SceneError(f"holds no frame; expected {what}")
-    number = frame_number(given.frame, len(frames))
-    return from_ase(frames[number])
+    number = frame_number(given.frame, count)
+    return replace(from_ase(met[0 if given.frame < 0 else -1]), frame=number)

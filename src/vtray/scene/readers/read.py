@@ -10,11 +10,15 @@ from typing import TYPE_CHECKING
 from vtray.base.errors import SceneError, why_unreadable
 from vtray.base.input_file import open_input
 from vtray.scene.checks.unknown_names import explain_unknown
-from vtray.scene.particles.particles import Particles
+from vtray.scene.particles.from_columns import renamed
+from vtray.scene.particles.particles import POSITION, Particles
 from vtray.scene.readers.reader_table import Given, reader_of
 
 if TYPE_CHECKING:
     AnyPath = str | os.PathLike[str]
+
+_BY_NAME = ("table_file", "ply_file")
+"""The readers that find the places by the names of their columns."""
 
 
 @explain_unknown
@@ -69,8 +73,20 @@ def read(
         second = None if trajectory is None else os.fsdecode(trajectory)
         with open_input(path) as file:
             found: Particles = module.read(Given(file, name, kind, frame, columns or {}, second))
+        if columns and reader.module not in _BY_NAME:
+            found = _with_names(found, columns)
     except SceneError as error:
         raise SceneError(f"{name}: {error}") from None
     except (OSError, ValueError, MemoryError) as error:  # a path with a null byte is a ValueError
         raise SceneError(f"{name}: {why_unreadable(error, 'file of data')}") from None
     return replace(found, source=Path(name))
+
+
+def _with_names(found: Particles, called: Mapping[str, str]) -> Particles:
+    """Give columns the names that were asked for, those of the places too."""
+    columns = renamed(found.columns, called)
+    positions = found.positions.copy()
+    for index, name in enumerate(POSITION):
+        if name in columns:
+            positions[:, index] = columns.pop(name)
+    return replace(found, positions=positions, columns=columns)

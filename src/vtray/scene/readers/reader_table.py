@@ -63,7 +63,40 @@ class Reader(NamedTuple):
 
 READERS: dict[str, Reader] = {
     "xyz": Reader("an XYZ file", "xyz_file", (".xyz", ".extxyz", ".exyz")),
+    "pdb": Reader("a PDB file", "pdb_file", (".pdb", ".ent")),
     "lammps-dump": Reader("a LAMMPS dump", "lammps_dump_file", (".dump", ".lammpstrj")),
+    "lammps-data": Reader(
+        "a LAMMPS data file", "lammps_data_file", (".data", ".lmp", ".lammps-data")
+    ),
+    "gsd": Reader("a GSD file", "gsd_file", (".gsd",)),
+    "csv": Reader("a CSV table", "table_file", (".csv", ".tsv")),
+    "npz": Reader("a file of arrays", "table_file", (".npz", ".npy")),
+    "parquet": Reader("a Parquet file", "table_file", (".parquet", ".pq")),
+    "las": Reader("a LAS file", "las_file", (".las", ".laz")),
+    "ply": Reader("a PLY file", "ply_file", (".ply",)),
+    "cif": Reader("a CIF file", "ase_file", (".cif",)),
+    "poscar": Reader("a POSCAR file", "ase_file", (".poscar", ".vasp", "POSCAR*", "CONTCAR*")),
+    "xdatcar": Reader("an XDATCAR file", "ase_file", ("XDATCAR*",)),
+    "outcar": Reader("an OUTCAR file", "ase_file", ("OUTCAR*",)),
+    "vasprun": Reader("a file of VASP in XML", "ase_file", ("vasprun*.xml",)),
+    "traj": Reader("a trajectory of ASE", "ase_file", (".traj",)),
+    "xsf": Reader("an XSF file", "ase_file", (".xsf", ".axsf")),
+    "cube": Reader("a cube file", "ase_file", (".cube", ".cub")),
+    "gen": Reader("a GEN file", "ase_file", (".gen",)),
+    "cfg": Reader("a CFG file", "ase_file", (".cfg",)),
+    "mol": Reader("a MOL file", "ase_file", (".mol",)),
+    "sdf": Reader("an SDF file", "ase_file", (".sdf",)),
+    "res": Reader("a SHELX file", "ase_file", (".res",)),
+    "cell": Reader("a CELL file of CASTEP", "ase_file", (".cell",)),
+    "castep": Reader("an output of CASTEP", "ase_file", (".castep",)),
+    "espresso-in": Reader("an input of Quantum ESPRESSO", "ase_file", (".pwi",)),
+    "espresso-out": Reader("an output of Quantum ESPRESSO", "ase_file", (".pwo",)),
+    "aims": Reader("a geometry of FHI-aims", "ase_file", ("geometry*.in",)),
+    "mdanalysis": Reader(
+        "a topology",
+        "mdanalysis_file",
+        (".gro", ".psf", ".tpr", ".prmtop", ".parm7", ".top", ".mol2", ".pqr", ".pdbqt"),
+    ),
 }
 """All kinds of files, by the names that ``format=`` takes."""
 
