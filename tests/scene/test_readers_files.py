@@ -45,6 +45,39 @@ def test_files_of_ase(name: str, tmp_path: Path) -> None:
     assert np.abs(found.cell - crystal.cell).max() < 1e-5
 
 
+CIF = """\
+data_salt
+_cell_length_a 5.64
+_cell_length_b 5.64
+_cell_length_c 5.64
+_cell_angle_alpha 90
+_cell_angle_beta 90
+_cell_angle_gamma 90
+{symmetry}
+loop_
+_atom_site_label
+_atom_site_type_symbol
+_atom_site_fract_x
+_atom_site_fract_y
+_atom_site_fract_z
+Na1 Na 0 0 0
+Cl1 Cl 0.5 0.5 0.5
+"""
+
+
+@pytest.mark.parametrize(
+    ("symmetry", "count"),
+    [
+        ("_symmetry_Int_Tables_number 225\n_symmetry_space_group_name_H-M 'F m -3 m'", 8),
+        ("_symmetry_equiv_pos_as_xyz 'x, y, z'", 2),
+    ],
+)
+def test_symmetry_of_crystals(symmetry: str, count: int, tmp_path: Path) -> None:
+    path = tmp_path / "salt.cif"
+    path.write_text(CIF.format(symmetry=symmetry))
+    assert len(vtray.read(path)) == count
+
+
 def test_frames_of_ase(tmp_path: Path) -> None:
     path = tmp_path / "run.traj"
     quiet_write(path, [Atoms("He", [(i, 0, 0)]) for i in range(4)])
