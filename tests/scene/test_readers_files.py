@@ -328,6 +328,17 @@ def test_las(ending: str, tmp_path: Path) -> None:
     assert found["classification"].tolist() == [2, 6]
 
 
+def test_las_that_claims_more_than_it_has(tmp_path: Path) -> None:
+    path = tmp_path / "a.las"
+    cloud = laspy.LasData(laspy.LasHeader(point_format=3, version="1.2"))
+    cloud.write(path)
+    content = bytearray(path.read_bytes())
+    content[100:104] = b"\xff" * 4
+    path.write_bytes(content)
+    with pytest.raises(SceneError, match="claims 4294967295 records and 0 chunks, "):
+        vtray.read(path)
+
+
 @pytest.mark.parametrize("text", [True, False])
 def test_ply(text: bool, tmp_path: Path) -> None:
     kinds = [(name, "f4") for name in "xyz"] + [(name, "u1") for name in ("red", "green", "blue")]
@@ -346,8 +357,8 @@ BROKEN = {
     "a.gsd": "expected a GSD file, which gsd cannot read (",
     "a.gro": "expected a topology, which MDAnalysis cannot read (",
     "a.parquet": "expected a Parquet file, which pyarrow cannot read (",
-    "a.las": "expected a LAS file, which laspy cannot read (",
-    "a.laz": "expected a LAS file, which laspy cannot read (",
+    "a.las": "expected a LAS file, which begins with LASF",
+    "a.laz": "expected a LAS file, which begins with LASF",
     "a.ply": "expected a PLY file, which plyfile cannot read (",
     "a.npz": "expected a .npz file (File is not a zip file)",
     "a.npy": "",
