@@ -280,6 +280,50 @@ def test_topology_and_trajectory(tmp_path: Path) -> None:
         vtray.read(top, 3, trajectory=run)
 
 
+PSF = """\
+PSF
+
+       1 !NTITLE
+ REMARKS water
+
+       2 !NATOM
+       1 W    1    SOL  OW   O     -0.800000       15.9990           0
+       2 W    1    SOL  HW1  H      0.400000        1.0080           0
+
+       1 !NBOND: bonds
+       1       2
+"""
+
+
+def test_topology_without_places(tmp_path: Path) -> None:
+    path = tmp_path / "top.psf"
+    path.write_text(PSF)
+    with pytest.raises(SceneError, match="has no places; name the file that has some, as in traj"):
+        vtray.read(path)
+    (tmp_path / "run.xyz").write_text("2\n\nO 0 0 0\nH 1 0 0\n2\n\nO 5 0 0\nH 6 0 0\n")
+    found = vtray.read(path, -1, trajectory=tmp_path / "run.xyz")
+    assert found.positions.tolist() == [[5, 0, 0], [6, 0, 0]]
+    assert (found.bonds.tolist(), found["mass"].tolist()) == ([[0, 1]], [15.999, 1.008])
+    with pytest.raises(SceneError, match="top.psf: trajectory: .*gone.xtc: no such file; expected"):
+        vtray.read(path, trajectory=tmp_path / "gone.xtc")
+    (tmp_path / "bad.xtc").write_bytes(b"1 2 3")
+    with pytest.raises(SceneError, match="a topology and its trajectory .*bad.xtc, which MDAnalys"):
+        vtray.read(path, trajectory=tmp_path / "bad.xtc")
+
+
+def test_too_large_for_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    words = "9 GB of memory, 1 GB is available"
+    monkeypatch.setattr("vtray.scene.readers.rows.lack_of_memory", lambda _: words)
+    monkeypatch.setattr("vtray.scene.readers.libraries.lack_of_memory", lambda _: words)
+    monkeypatch.setattr("vtray.scene.readers.lines.STEP", 20)
+    (tmp_path / "a.xyz").write_text("9\n\n" + "O 0 0 0\n" * 9)
+    (tmp_path / "a.cif").write_text(CIF)
+    with pytest.raises(SceneError, match=f"a.xyz: line [0-9]+: 9 rows need {words}$"):
+        vtray.read(tmp_path / "a.xyz")
+    with pytest.raises(SceneError, match=f"a.cif: reading it needs about {words}$"):
+        vtray.read(tmp_path / "a.cif")
+
+
 TABLE = "X;y; z;vx;vy;vz;kind;size\n1;2;3;0;0;1;a;0.5\n4;5;6;0;1;0;b;\n"
 
 

@@ -67,9 +67,10 @@ def read_rows(lines: Lines, count: int, kinds: str, more: bool = False) -> "list
 
     parts: list[list[Array]] = []
     read = 0
+    room = sum(_BYTES[kind] for kind in kinds)
     for block, size in lines.blocks(count):
-        if parts and lack_of_memory(count * sum(map(_BYTES.get, kinds))):  # type: ignore[arg-type]
-            lack = lack_of_memory(count * sum(_BYTES[kind] for kind in kinds))
+        lack = lack_of_memory(count * room) if parts else None
+        if lack:
             raise SceneError(f"line {lines.number}: {count} rows need {lack}")
         parts.append(_columns(block, size, kinds, more, lines.number - size + 1))
         read += size
