@@ -119,6 +119,8 @@ def test_pdb(tmp_path: Path) -> None:
     assert np.abs(found.cell - theirs.cell).max() < 1e-12
     last = vtray.read(path, -1)
     assert (len(last), last.frame, last.positions[0, 0]) == (1, 1, 7)
+    path.write_text(PDB.replace("          CA\n", "          QQ\n"))
+    assert vtray.read(path)["element"].tolist() == ["C", "H", "X"]
     # Without the columns of elements, the place of the name tells calcium from alpha carbon.
     path.write_text("".join(f"{line[:76]}\n" for line in PDB.splitlines()))
     assert vtray.read(path)["element"].tolist() == ["C", "H", "Ca"]
@@ -256,6 +258,8 @@ def test_from_mdanalysis() -> None:
     )
     assert found.bonds.tolist() == [[0, 1], [0, 2]]
     assert np.abs(found.cell - 10 * np.eye(3)).max() < 1e-5
+    made.atoms[2].element = ""
+    assert vtray.from_mdanalysis(made)["element"].tolist() == ["O", "H", "X"]
     part = vtray.from_mdanalysis(made.atoms[[2, 0]])
     assert part["name"].tolist() == ["HW2", "OW"]
     assert part.bonds.tolist() == [[1, 0]]

@@ -182,10 +182,12 @@ def _whole(texts: "Array") -> "Array":
 
 
 def _elements_of(columns: "Array", names: "Array") -> "Array | None":
-    """Return the elements of atoms; None if one is not known."""
+    """Return the elements of atoms, X where one is not known; None if none is."""
     pairs = [one + other for one, other in zip(columns.tolist(), names.tolist(), strict=True)]
-    known = {pair: _element_of(pair[:2], pair[2:]) or "" for pair in set(pairs)}
-    return texts_of(pairs, known.__getitem__) if all(known.values()) else None
+    known = {pair: _element_of(pair[:2], pair[2:]) for pair in set(pairs)}
+    if not any(known.values()):
+        return None
+    return texts_of(pairs, lambda pair: known[pair] or "X")
 
 
 def _element_of(column: str, name: str) -> str | None:
