@@ -22,6 +22,9 @@ if TYPE_CHECKING:
     from vtray.scene.cylinders import Cylinders
     from vtray.scene.files.scene_dict import load_dict
     from vtray.scene.files.scene_file import load, loads
+    from vtray.scene.particles.from_objects import from_ase, from_mdanalysis
+    from vtray.scene.particles.particles import Particles
+    from vtray.scene.readers.read import read
     from vtray.scene.scene import (
         Ambient,
         Camera,
@@ -55,6 +58,7 @@ __all__ = [
     "Image",
     "Light",
     "OutputError",
+    "Particles",
     "Plane",
     "Provenance",
     "ProvenanceError",
@@ -73,10 +77,13 @@ __all__ = [
     "__version__",
     "colors",
     "compare",
+    "from_ase",
+    "from_mdanalysis",
     "lights",
     "load",
     "load_dict",
     "loads",
+    "read",
     "read_provenance",
     "render",
     "trace_pixel",
@@ -97,6 +104,7 @@ _MODULES = {
     "Image": "image.image",
     "Light": "scene.light_types",
     "OutputError": "base.errors",
+    "Particles": "scene.particles.particles",
     "Plane": "scene.objects",
     "Provenance": "image.provenance",
     "ProvenanceError": "base.errors",
@@ -115,10 +123,13 @@ _MODULES = {
     "__version__": "base.version",
     "colors": "colors",
     "compare": "figures.comparison",
+    "from_ase": "scene.particles.from_objects",
+    "from_mdanalysis": "scene.particles.from_objects",
     "lights": "lights",
     "load": "scene.files.scene_file",
     "load_dict": "scene.files.scene_dict",
     "loads": "scene.files.scene_file",
+    "read": "scene.readers.read",
     "read_provenance": "image.provenance",
     "render": "rendering.renderer",
     "trace_pixel": "rendering.pixel_rays",

@@ -7,11 +7,14 @@ from types import ModuleType
 from vtray.base.errors import VtrayError
 
 PACKAGES = {
+    "atoms": ("ase", "gsd", "MDAnalysis"),
     "denoise": ("pyoidn",),
     "diff": ("flip-evaluator",),
     "figure": ("matplotlib",),
     "formats": ("OpenEXR", "tifffile"),
+    "points": ("laspy", "lazrs", "plyfile"),
     "sky": ("OpenImageIO",),
+    "tables": ("pyarrow",),
 }
 """What the extras install."""
 

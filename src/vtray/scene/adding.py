@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from vtray.scene.checks.argument import argument
+from vtray.scene.checks.given_array import positions_in
 from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.colors.names import to_rgb
 from vtray.scene.copies import Copies
@@ -81,7 +82,8 @@ class Adding:
         Parameters
         ----------
         positions
-            Centres in world space, (n, 3).
+            Centres in world space, (n, 3); or what has them: `Particles`, atoms of ASE or
+            MDAnalysis, a table with the columns x, y and z among others.
         radius
             Radii in scene units, (n,), or one for all, ≥ 0.
         color
@@ -111,7 +113,7 @@ class Adding:
             ``add_spheres: radius[17]``.
         """
         spheres = Spheres.colored(
-            {"center": positions, "radius": radius, "lambert": lambert},
+            {"center": positions_in(positions), "radius": radius, "lambert": lambert},
             {"color": color},
             "add_spheres: ",
             {"center": "positions"},

@@ -64,6 +64,22 @@ def remedy_for(given: Any, columns: tuple[str, ...]) -> str:  # noqa: ANN401
     return ""
 
 
+def positions_in(given: Any) -> Any:  # noqa: ANN401
+    """Return the places of what has some, or what was given itself.
+
+    Atoms of ASE and MDAnalysis have them as ``positions`` or by ``get_positions()``, tables in the
+    columns x, y and z, among others.
+    """
+    if hasattr(given, "positions"):
+        return given.positions
+    if hasattr(given, "get_positions"):
+        return given.get_positions()
+    names = _columns(given)
+    if len(names) > len(COORDINATES) and all(name in names for name in COORDINATES):
+        return given[list(COORDINATES)]
+    return given
+
+
 def _columns(given: Any) -> list[str]:  # noqa: ANN401
     """Return the names of the columns of a data frame; none for what is no such."""
     columns = getattr(given, "columns", None)

@@ -72,7 +72,20 @@ def load(path: str | os.PathLike[str], *, warn: Warn | None = None) -> Scene:
     except (OSError, ValueError, MemoryError) as error:
         raise SceneError(f"{name}: {why_unreadable(error, 'scene file')}") from None
     folder = "" if is_given(path) else os.path.dirname(name)
-    return _loads(raw, name, folder, warn or _warn)
+    try:
+        return _loads(raw, name, folder, warn or _warn)
+    except SceneError:
+        if not raw.lstrip().startswith((b"{", _BYTE_ORDER_MARK)) and _is_data(name):
+            problem = "is data by its name, which vtray.read reads; expected a scene file"
+            raise SceneError(f"{name}: {problem}") from None
+        raise
+
+
+def _is_data(name: str) -> bool:
+    """Tell whether a file is one of particles by its name."""
+    from vtray.scene.readers.reader_table import is_data
+
+    return is_data(name)
 
 
 def loads(text: str | bytes, name: str = "<string>", *, warn: Warn | None = None) -> Scene:

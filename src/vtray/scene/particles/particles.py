@@ -1,17 +1,19 @@
 """Particles with what is known of each: what readers return, and what `add_particles` takes."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
+from vtray.scene.checks.given_array import show_array
+from vtray.scene.particles.expression import mask
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     import numpy as np
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     Floats = NDArray[np.float64] | NDArray[np.float32]
     Integers = NDArray[np.int64]
@@ -129,6 +131,87 @@ class Particles:
             return column
         known = ", ".join([*POSITION, *self.columns])
         raise SceneError(f"no column {name!r}; there are {known}")
+
+    def select(self, which: "str | ArrayLike") -> "Particles":
+        """Return some of the particles.
+
+        Parameters
+        ----------
+        which
+            An expression that says which, such as ``"element == 'O' and z > 3"``; or an array of
+            bool with one entry for each, or of indices, each at most once.
+
+        Returns
+        -------
+        Particles
+            With their columns, the bonds among them, and the cell.
+
+        Raises
+        ------
+        SceneError
+            The expression is not understood, or the array is not right.
+
+        Examples
+        --------
+        >>> water = Particles([(0, 0, 0), (0.76, 0.59, 0), (-0.76, 0.59, 0)], {"element": [*"OHH"]})
+        >>> water.select("element == 'H' and x > 0").positions.tolist()
+        [[0.76, 0.59, 0.0]]
+        """
+        import numpy as np
+
+        chosen = self._chosen(which)
+        bonds = self.bonds
+        if bonds is not None:
+            places = np.full(len(self), -1)
+            places[chosen] = np.arange(len(chosen))
+            bonds = places[bonds]
+            bonds = bonds[(bonds >= 0).all(axis=1)]
+        columns = {name: values[chosen] for name, values in self.columns.items()}
+        return replace(self, positions=self.positions[chosen], columns=columns, bonds=bonds)
+
+    def _chosen(self, which: "str | ArrayLike") -> Integers:
+        """Return the indices of some of the particles."""
+        import numpy as np
+
+        if isinstance(which, str):
+            return np.flatnonzero(mask(self, which))
+        given, count = np.asarray(which), len(self)
+        if given.dtype == np.bool_ and given.shape == (count,):
+            return np.flatnonzero(given)
+        if given.ndim != 1 or (given.size and given.dtype.kind not in "iu"):
+            expected = f"an expression, {count} of bool, or indices"
+            raise SceneError(f"select: expected {expected}, got {show_array(which)}")
+        chosen = given.astype(np.int64)
+        wrong = ((chosen < -count) | (chosen >= count)).nonzero()[0]
+        if len(wrong):
+            first = int(wrong[0])
+            expected = f"an index from 0 to {count - 1}"
+            raise SceneError(f"select[{first}]: expected {expected}, got {given[first]}")
+        chosen %= max(count, 1)
+        if len(np.unique(chosen)) < len(chosen):
+            raise SceneError("select: expected each index at most once")
+        return chosen
+
+    def with_columns(self, **columns: "ArrayLike") -> "Particles":
+        """Return the particles with further columns, or with others in their place.
+
+        Raises
+        ------
+        SceneError
+            A column does not have one row for each particle.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> particles = Particles(np.zeros((3, 3)), {"type": np.array([1, 2, 2])})
+        >>> silica = particles.with_columns(element=np.array(["", "Si", "O"])[particles["type"]])
+        >>> silica["element"].tolist()
+        ['Si', 'O', 'O']
+        """
+        import numpy as np
+
+        more = {name: np.asarray(values) for name, values in columns.items()}
+        return replace(self, columns={**self.columns, **more})
 
     def __repr__(self) -> str:
         parts = [f"{len(self)} particles", *self.columns]

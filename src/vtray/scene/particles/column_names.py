@@ -1,0 +1,93 @@
+"""What columns are called: the same thing has the same name, whatever a file calls it."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+
+_CALLED = {
+    "position": ("pos", "positions", "coordinates", "xyz", "center", "centers"),
+    "element": ("elements", "species", "symbol", "symbols"),
+    "type": ("types", "particle_type", "atom_types"),
+    "name": ("names",),
+    "radius": ("radii",),
+    "color": ("colors", "colour", "colours", "rgb"),
+    "velocity": ("velocities", "velo", "vel"),
+    "force": ("forces", "frc"),
+    "charge": ("charges", "q", "initial_charges", "mmcharges"),
+    "mass": ("masses",),
+    "magmom": ("magmoms", "initial_magmoms"),
+    "id": ("identifier", "particle_identifier", "atom_id"),
+}
+"""What each is called by files and libraries, beside its own name, in any case."""
+
+_CANONICAL = {other: name for name, others in _CALLED.items() for other in (name, *others)}
+
+_NUMBERS = ("z", "numbers", "atomic_numbers", "atomic_number", "atomic_num")
+"""What columns of atomic numbers are called."""
+
+VECTORS = {
+    "velocity": ("vx", "vy", "vz"),
+    "force": ("fx", "fy", "fz"),
+    "normal": ("nx", "ny", "nz"),
+    "color": ("red", "green", "blue"),
+}
+"""Columns that are one vector where all three are there."""
+
+
+def canonical(name: str) -> str:
+    """Return what a column is called here; its own name if that is not known."""
+    return _CANONICAL.get(name.strip().lower().replace(" ", "_"), name)
+
+
+def name_columns(columns: "Mapping[str, Array]") -> "dict[str, Array]":
+    """Give columns their names.
+
+    Three that are one vector are joined, and atomic numbers become elements. Names that are no
+    symbols of elements are a ``type``. Where two columns would have one name, the second keeps
+    its own.
+    """
+    import numpy as np
+
+    from vtray.scene.particles.elements import symbols_of, symbols_or_none
+
+    named: dict[str, Array] = {}
+    for name, values in join_vectors(columns).items():
+        new, found = canonical(name), values
+        if name.lower() in _NUMBERS and values.dtype.kind in "iu" and values.ndim == 1:
+            new, found = "element", symbols_of(values)
+        elif new == "element":
+            known = symbols_or_none(values)
+            new, found = ("type", values) if known is None else ("element", known)
+            if known is not None and not np.array_equal(known, values):
+                named.setdefault("name", values)
+        if new in named:
+            new = name if name not in named else f"{name}2"
+        named[new] = found
+    return named
+
+
+def join_vectors(columns: "Mapping[str, Array]") -> "dict[str, Array]":
+    """Join columns that are one vector, at the place of the first."""
+    import numpy as np
+
+    lower = {name.lower(): name for name in columns}
+    joined = dict(columns)
+    for name, parts in VECTORS.items():
+        if name in lower or not all(part in lower for part in parts):
+            continue
+        theirs = [lower[part] for part in parts]
+        if any(
+            columns[part].ndim != 1 or columns[part].dtype.kind not in "biuf" for part in theirs
+        ):
+            continue
+        vector = np.stack([columns[part] for part in theirs], axis=1)
+        joined = {
+            (name if key == theirs[0] else key): (vector if key == theirs[0] else values)
+            for key, values in joined.items()
+            if key not in theirs[1:]
+        }
+    return joined

@@ -1,0 +1,250 @@
+"""Particles of objects that other libraries make.
+
+None of the libraries is imported: what an object is, is told by its attributes.
+"""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from vtray.base.errors import SceneError
+from vtray.scene.checks.given_array import positions_in, show_array
+from vtray.scene.particles.column_names import name_columns
+from vtray.scene.particles.elements import symbols_of
+from vtray.scene.particles.from_columns import from_columns
+from vtray.scene.particles.particles import Particles
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+
+_RESULTS = ("forces", "charges", "magmoms", "energies")
+"""What calculators of ASE find for each atom."""
+
+_ATTRIBUTES = {
+    "elements": "element",
+    "names": "name",
+    "types": "type",
+    "resnames": "resname",
+    "resids": "resid",
+    "segids": "segid",
+    "chainIDs": "chain",
+    "charges": "charge",
+    "masses": "mass",
+    "radii": "radius",
+    "tempfactors": "tempfactor",
+    "occupancies": "occupancy",
+}
+"""What MDAnalysis may know of each atom, and what the column is called."""
+
+
+def from_ase(atoms: Any) -> Particles:  # noqa: ANN401
+    """Return the particles of an object of ASE.
+
+    Parameters
+    ----------
+    atoms : ase.Atoms
+        In ASE's units: Å, eV and what follows from them.
+
+    Returns
+    -------
+    Particles
+        With the columns ``element`` (or ``type`` where all are unknown), ``velocity`` where there
+        are momenta, what a calculator has found (``force``, ``charge``, ``magmom``), and all other
+        arrays by their names; and with the cell.
+
+    Raises
+    ------
+    SceneError
+        It is no such object.
+
+    Examples
+    --------
+    >>> from ase.build import molecule
+    >>> import vtray
+    >>> vtray.from_ase(molecule("H2O"))
+    Particles(3 particles, element)
+    """
+    import numpy as np
+
+    if not _is_ase(atoms):
+        raise SceneError(f"from_ase: expected ase.Atoms, got {show_array(atoms)}")
+    count = len(atoms)
+    numbers = np.asarray(atoms.get_atomic_numbers())
+    columns: dict[str, Any] = {"element": symbols_of(numbers)} if numbers.any() else {}
+    if "momenta" in atoms.arrays:
+        columns["velocity"] = atoms.get_velocities()
+    others = {**atoms.arrays, **_results(atoms)}
+    for name, values in others.items():
+        if name not in ("numbers", "positions", "momenta"):
+            columns[name] = np.asarray(values).reshape(count, -1) if values.ndim > 2 else values
+    cell = np.array(atoms.cell)
+    has_cell = bool(cell.any())
+    return Particles(
+        np.array(atoms.positions, np.float64),
+        name_columns(columns),
+        cell=cell if has_cell else None,
+        origin=np.array(atoms.get_celldisp(), np.float64).reshape(3),
+        periodic=tuple(map(bool, atoms.pbc)) if has_cell else None,  # type: ignore[arg-type]
+        time=_time(atoms.info.get("time", atoms.info.get("Time"))),
+    )
+
+
+def from_mdanalysis(group: Any) -> Particles:  # noqa: ANN401
+    """Return the particles of a universe, or of a group of its atoms, at its current frame.
+
+    Parameters
+    ----------
+    group : MDAnalysis.Universe or AtomGroup
+        In MDAnalysis' units: Å, ps, u and e.
+
+    Returns
+    -------
+    Particles
+        With the columns that its topology knows: ``element``, ``name``, ``type``, ``resname``,
+        ``resid``, ``segid``, ``chain``, ``charge``, ``mass``, ``radius``; with ``velocity`` and
+        ``force`` where the frame has them; with the bonds of the topology, and the cell.
+
+    Raises
+    ------
+    SceneError
+        It is no such object.
+    """
+    import numpy as np
+
+    if not _is_mdanalysis(group):
+        problem = "expected a Universe or an AtomGroup of MDAnalysis"
+        raise SceneError(f"from_mdanalysis: {problem}, got {show_array(group)}")
+    universe, atoms = group.universe, group.atoms
+    now = universe.trajectory.ts
+    columns: dict[str, Array] = {}
+    for attribute, name in _ATTRIBUTES.items():
+        if hasattr(atoms, attribute):
+            values = np.asarray(getattr(atoms, attribute))
+            columns[name] = values.astype(np.str_) if values.dtype == object else values
+    if "element" in columns:  # those of sites without mass, for instance, are left blank
+        columns["element"] = np.where(columns["element"] == "", "X", columns["element"])
+    if now.has_velocities:
+        columns["velocity"] = np.array(atoms.velocities)
+    if now.has_forces:
+        columns["force"] = np.array(atoms.forces)
+    cell = now.triclinic_dimensions
+    return Particles(
+        np.array(atoms.positions),
+        name_columns(columns),
+        bonds=_bonds_within(universe, np.asarray(atoms.indices)),
+        cell=None if cell is None else np.array(cell, np.float64),
+        frame=int(now.frame),
+        time=_time(now.time),
+    )
+
+
+def as_particles(given: Any) -> Particles:  # noqa: ANN401
+    """Return the particles of whatever has places.
+
+    Parameters
+    ----------
+    given
+        `Particles`; objects of ASE, MDAnalysis or OVITO; what has ``positions`` or
+        ``get_positions()``; tables and mappings with the columns x, y and z; or an array (n, 3).
+
+    Raises
+    ------
+    SceneError
+        It is none of these.
+    """
+    import numpy as np
+
+    if isinstance(given, Particles):
+        return given
+    if _is_ase(given):
+        return from_ase(given)
+    if _is_mdanalysis(given):
+        return from_mdanalysis(given)
+    inner = getattr(given, "particles", None)
+    if inner is not None and hasattr(inner, "positions"):
+        return _from_ovito(given)
+    if isinstance(given, Mapping):
+        return from_columns({str(name): np.asarray(given[name]) for name in given})
+    if hasattr(given, "columns") and hasattr(given, "shape"):
+        return from_columns({str(name): _column(given[name]) for name in given.columns})
+    places = positions_in(given)
+    try:
+        positions = np.asarray(places)
+    except ValueError:
+        positions = np.empty(0)
+    if positions.ndim == 2 and positions.shape[1] == 3 and positions.dtype.kind in "biuf":
+        return Particles(positions)
+    problem = "expected vtray.Particles, an object of ASE, MDAnalysis or OVITO, a table with the"
+    raise SceneError(f"{problem} columns x, y and z, or an array (n, 3), got {show_array(given)}")
+
+
+def _from_ovito(data: Any) -> Particles:  # noqa: ANN401
+    """Return the particles of a data collection of OVITO."""
+    import numpy as np
+
+    inner = data.particles
+    columns: dict[str, Array] = {}
+    for name in inner.keys():  # noqa: SIM118  it is no dictionary
+        if name != "Position":
+            columns[str(name)] = np.array(inner[name])
+    types = getattr(inner, "particle_types", None)
+    if types is not None:
+        names = {kind.id: kind.name or str(kind.id) for kind in types.types}
+        called = [names.get(int(kind), str(kind)) for kind in np.asarray(types)]
+        columns.pop("Particle Type", None)
+        columns["element"] = np.array(called, np.str_)
+    bonds = getattr(inner, "bonds", None)
+    cell = getattr(data, "cell", None)
+    edges = None if cell is None else np.array(cell[...], np.float64)
+    return Particles(
+        np.array(inner.positions),
+        name_columns(columns),
+        bonds=None if bonds is None else np.array(bonds["Topology"]),
+        cell=None if edges is None else edges[:, :3].T,
+        origin=(0.0, 0.0, 0.0) if edges is None else edges[:, 3],  # type: ignore[arg-type]
+        periodic=None if cell is None else tuple(map(bool, cell.pbc)),  # type: ignore[arg-type]
+    )
+
+
+def _is_ase(given: Any) -> bool:  # noqa: ANN401
+    return hasattr(given, "get_atomic_numbers") and hasattr(given, "get_celldisp")
+
+
+def _is_mdanalysis(given: Any) -> bool:  # noqa: ANN401
+    return hasattr(given, "universe") and hasattr(given, "atoms")
+
+
+def _results(atoms: Any) -> "dict[str, Array]":  # noqa: ANN401
+    """Return what a calculator has found for each atom, and nothing that it would have to find."""
+    import numpy as np
+
+    found = getattr(atoms.calc, "results", None) or {}
+    arrays = {name: np.asarray(found[name]) for name in _RESULTS if found.get(name) is not None}
+    return {name: values for name, values in arrays.items() if len(values) == len(atoms)}
+
+
+def _bonds_within(universe: Any, chosen: "Array") -> "Array | None":  # noqa: ANN401
+    """Return the bonds between chosen atoms, by their places among these."""
+    import numpy as np
+
+    if not hasattr(universe, "bonds"):
+        return None
+    places = np.full(len(universe.atoms), -1)
+    places[chosen] = np.arange(len(chosen))
+    bonds: Array = places[np.asarray(universe.bonds.indices, np.int64).reshape(-1, 2)]
+    within: Array = bonds[(bonds >= 0).all(axis=1)]
+    return within
+
+
+def _column(values: Any) -> "Array":  # noqa: ANN401
+    """Return a column of a data frame, names as text."""
+    import numpy as np
+
+    found = np.asarray(values)
+    return found.astype(np.str_) if found.dtype == object else found
+
+
+def _time(value: object) -> float | None:
+    """Return a time, if it is a number."""
+    return float(value) if isinstance(value, (int, float)) else None

@@ -1,0 +1,87 @@
+"""Files of atoms that ASE reads.
+
+References
+----------
+https://wiki.fysik.dtu.dk/ase/ase/io/io.html
+"""
+
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+from vtray.base.errors import SceneError
+from vtray.base.extras import need
+from vtray.scene.particles.from_objects import from_ase
+from vtray.scene.particles.particles import Particles
+from vtray.scene.readers.frames import frame_number
+from vtray.scene.readers.libraries import check_room, told
+from vtray.scene.readers.reader_table import READERS, Given
+
+_TIMES = 4
+"""Bytes of memory for a byte of a file, as measured with POSCAR: 3."""
+
+_NAMES = {
+    "poscar": "vasp",
+    "xdatcar": "vasp-xdatcar",
+    "outcar": "vasp-out",
+    "vasprun": "vasp-xml",
+    "cell": "castep-cell",
+    "castep": "castep-castep",
+}
+"""What ASE calls files, where the table of readers calls them otherwise."""
+
+_WHOLE = {"do_not_split_by_at_sign": True}
+"""A name is that of a file, @ in it or not."""
+
+_OPERATIONS = (
+    "_space_group_symop_operation_xyz",
+    "_space_group_symop.operation_xyz",
+    "_symmetry_equiv_pos_as_xyz",
+)
+"""Where a CIF file may list its symmetry operations."""
+
+
+def read(given: Given) -> Particles:
+    """Read a frame of a file that ASE reads.
+
+    Raises
+    ------
+    SceneError
+        ASE cannot read it, or it has no such frame.
+    ExtraError
+        ASE is not installed.
+    """
+    what = READERS[given.format].what
+    io: Any = need("ase.io", "atoms", f"reading {what}")
+    check_room(given.path, _TIMES)
+    name = _NAMES.get(given.format, given.format)
+    # Of the frames that were met, only those that may be asked for are kept.
+    met: deque[Any] = deque(maxlen=max(-given.frame, 1))
+    count = 0
+    with told("ASE", what):
+        for atoms in (
+            _crystals(given) if name == "cif" else io.iread(given.path, ":", name, **_WHOLE)
+        ):
+            met.append(atoms)
+            count += 1
+            if count == given.frame + 1:
+                break
+    if not count:
+        raise SceneError(f"holds no frame; expected {what}")
+    number = frame_number(given.frame, count)
+    return replace(from_ase(met[0 if given.frame < 0 else -1]), frame=number)
+
+
+def _crystals(given: Given) -> Iterator[Any]:
+    """Give the structures of a CIF file.
+
+    ASE compares all sites with each other, 9 s for 1,728, which can be left out without symmetry.
+    """
+    cif: Any = need("ase.io.cif", "atoms", "reading a CIF file")
+    for block in cif.parse_cif(given.path):
+        if block.has_structure():
+            listed = next((block[key] for key in _OPERATIONS if key in block), None)
+            operations = [listed] if isinstance(listed, str) else listed or ()
+            is_alone = [text.replace(" ", "").lower() for text in operations] == ["x,y,z"]
+            yield block.get_unsymmetrized_structure() if is_alone else block.get_atoms()

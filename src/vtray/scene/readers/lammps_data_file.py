@@ -1,0 +1,193 @@
+"""Data files of LAMMPS, with NumPy alone.
+
+References
+----------
+https://docs.lammps.org/read_data.html
+"""
+
+import re
+from typing import TYPE_CHECKING, Any
+
+from vtray.base.errors import SceneError
+from vtray.scene.checks.json_tree import short
+from vtray.scene.particles.column_names import name_columns
+from vtray.scene.particles.particles import Particles
+from vtray.scene.readers.frames import frame_number
+from vtray.scene.readers.lines import Lines
+from vtray.scene.readers.reader_table import Given
+from vtray.scene.readers.rows import read_rows
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+    Cell = NDArray[np.float64]
+
+_STYLES = {
+    "atomic": "id type x y z",
+    "charge": "id type q x y z",
+    "bond": "id mol type x y z",
+    "angle": "id mol type x y z",
+    "molecular": "id mol type x y z",
+    "full": "id mol type q x y z",
+    "dipole": "id type q x y z mux muy muz",
+    "sphere": "id type diameter density x y z",
+    "ellipsoid": "id type ellipsoid density x y z",
+}
+"""The columns of the section Atoms, by its style; three integers, the images, may follow."""
+
+_BY_WIDTH = {5: "atomic", 8: "atomic", 7: "full", 10: "full"}
+"""The style where none is named, by the number of columns."""
+
+_INTEGERS = ("id", "mol", "type", "ellipsoid")
+
+_COUNT = re.compile(r"\s*([0-9]{1,18})\s+([a-z ]+?)\s*")
+
+_BOUNDS = re.compile(r"\s*(\S+)\s+(\S+)\s+([xyz])lo\s+[xyz]hi\s*")
+
+_TILTS = re.compile(r"\s*(\S+)\s+(\S+)\s+(\S+)\s+xy\s+xz\s+yz\s*")
+
+_OTHER = re.compile(r"[A-Z]|[-+0-9.]")
+"""What titles of other sections, and their rows, begin with."""
+
+_SECTIONS = {"Velocities": "atoms", "Bonds": "bonds", "Masses": "atom types"}
+"""What is read beside the atoms, and what counts its rows."""
+
+
+class _Box:
+    """What the head of a file says of the box.
+
+    Attributes
+    ----------
+    bounds
+        Least and greatest x, y and z.
+    tilts
+        By how much edges lean: xy, xz, yz.
+    """
+
+    def __init__(self) -> None:
+        self.bounds: dict[str, tuple[float, float]] = {}
+        self.tilts = [0.0, 0.0, 0.0]
+
+    def take(self, line: str, number: int) -> bool:
+        """Take a line of the head if it is one of the box, and tell whether it was."""
+        if bound := _BOUNDS.fullmatch(line):
+            low, high = _numbers(bound.group(1, 2), number)
+            self.bounds[bound[3]] = (low, high)
+        elif tilt := _TILTS.fullmatch(line):
+            self.tilts = _numbers(tilt.group(1, 2, 3), number)
+        return bool(bound or _TILTS.fullmatch(line))
+
+    def edges(self) -> "tuple[Cell | None, Cell]":
+        """Return the edges of the box, if there is one, and its corner."""
+        import numpy as np
+
+        if len(self.bounds) < 3:
+            return None, np.zeros(3)
+        x, y, z = (high - low for low, high in (self.bounds[name] for name in "xyz"))
+        xy, xz, yz = self.tilts
+        corner = np.array([self.bounds[name][0] for name in "xyz"])
+        return np.array([(x, 0.0, 0.0), (xy, y, 0.0), (xz, yz, z)]), corner
+
+
+def read(given: Given) -> Particles:
+    """Read a data file.
+
+    Columns are those of its style, with ``type``, ``charge`` (its q), ``radius`` (half its
+    diameter), ``mass`` (of its types) and ``velocity``. Elements are not read, as LAMMPS has none.
+
+    Raises
+    ------
+    SceneError
+        The file is not right, or another frame than its only one is asked for. The message names
+        the line.
+    """
+    import numpy as np
+
+    frame_number(given.frame, 1)
+    box = _Box()
+    atoms, sections = _sections_of(Lines(given.file), box)
+    rows = {number: row for row, number in enumerate(atoms["id"].tolist())}
+    positions = np.stack([atoms.pop(name) for name in "xyz"], axis=1)
+    if "diameter" in atoms:
+        atoms["radius"] = atoms.pop("diameter") / 2
+    if "Masses" in sections:
+        masses = dict(sections["Masses"].tolist())
+        atoms["mass"] = np.array([masses.get(kind, np.nan) for kind in atoms["type"].tolist()])
+    if "Velocities" in sections:
+        ids, values = sections["Velocities"][:, 0], sections["Velocities"][:, 1:]
+        atoms["velocity"] = np.zeros((len(rows), 3))
+        atoms["velocity"][_places(ids, rows, "Velocities")] = values
+    bonds = None
+    if "Bonds" in sections:
+        bonds = _places(sections["Bonds"][:, 2:].ravel(), rows, "Bonds").reshape(-1, 2)
+    cell, origin = box.edges()
+    return Particles(positions, name_columns(atoms), bonds=bonds, cell=cell, origin=origin)
+
+
+def _sections_of(lines: Lines, box: _Box) -> "tuple[dict[str, Array], dict[str, Array]]":
+    """Read the whole file: return the columns of the atoms, and other sections of numbers."""
+    counts: dict[str, int] = {}
+    atoms: dict[str, Array] = {}
+    found: dict[str, Array] = {}
+    lines.next()  # the first line is a title
+    while (text := lines.next()) is not None:
+        title, _, note = (part.strip() for part in text.partition("#"))
+        count = _COUNT.fullmatch(title)
+        if count:
+            counts[count[2]] = int(count[1])
+        elif title == "Atoms":
+            atoms = _atoms_of(lines, counts.get("atoms", 0), note)
+        elif title in _SECTIONS:
+            found[title] = _section(lines, counts.get(_SECTIONS[title], 0), title)
+        elif title and not box.take(title, lines.number) and not _OTHER.match(title):
+            raise SceneError(f"line {lines.number}: expected a section, got {short(title)!r}")
+    if not atoms:
+        raise SceneError("expected the number of atoms, and a section Atoms; there is none")
+    return atoms, found
+
+
+def _atoms_of(lines: Lines, count: int, style: str) -> "dict[str, Array]":
+    """Read the section Atoms."""
+    lines.next()
+    place = lines.place()
+    first = (lines.next() or "").partition("#")[0].split()
+    lines.go(place)
+    name = style or _BY_WIDTH.get(len(first), "")
+    if name not in _STYLES:
+        problem = f"the style {short(style)!r} is not known" if style else "the style is not said"
+        known = ", ".join(_STYLES)
+        remedy = f"expected, as in 'Atoms # full', one of {known}"
+        raise SceneError(f"line {lines.number - 1}: {problem}; {remedy}")
+    names = _STYLES[name].split()
+    kinds = "".join("I" if each in _INTEGERS else "R" for each in names)
+    return dict(zip(names, read_rows(lines, count, kinds, more=True), strict=True))
+
+
+def _section(lines: Lines, count: int, title: str) -> "Array":
+    """Read a section of numbers."""
+    import numpy as np
+
+    lines.next()
+    kinds = {"Velocities": "IRRR", "Bonds": "IIII", "Masses": "IR"}[title]
+    return np.stack(read_rows(lines, count, kinds, more=True), axis=1)
+
+
+def _places(ids: "Array", rows: dict[int, int], title: str) -> "Array":
+    """Return which atoms have some ids."""
+    import numpy as np
+
+    try:
+        return np.array([rows[int(number)] for number in ids.tolist()], np.int64)
+    except KeyError as error:
+        raise SceneError(f"section {title}: no atom has the id {error}") from None
+
+
+def _numbers(texts: tuple[str, ...], line: int) -> list[float]:
+    """Return texts as numbers."""
+    try:
+        return [float(text) for text in texts]
+    except ValueError:
+        shown = short(" ".join(texts))
+        raise SceneError(f"line {line}: expected numbers, got {shown!r}") from None

@@ -1,0 +1,204 @@
+"""PDB files, with NumPy alone.
+
+References
+----------
+https://www.wwpdb.org/documentation/file-format-content/format33/sect9.html
+"""
+
+import math
+import re
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from vtray.base.errors import SceneError
+from vtray.base.exact_math import cosine, sine
+from vtray.scene.checks.json_tree import short
+from vtray.scene.particles.elements import symbol_of
+from vtray.scene.particles.few_names import texts_of
+from vtray.scene.particles.particles import Particles
+from vtray.scene.readers.frames import frame_number
+from vtray.scene.readers.libraries import check_room
+from vtray.scene.readers.reader_table import Given
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+    Cell = NDArray[np.float64]
+
+_ATOM = (b"ATOM", b"HETATM")
+
+_WIDTH = 80
+"""Characters of a line that are looked at."""
+
+_TIMES = 8
+"""Bytes of memory for a byte of a file."""
+
+
+class _Model(NamedTuple):
+    """The lines of a frame.
+
+    Attributes
+    ----------
+    atoms
+        Those of atoms.
+    numbers
+        Where each stands in the file, from 1.
+    """
+
+    atoms: list[bytes]
+    numbers: list[int]
+
+
+def read(given: Given) -> Particles:
+    """Read a model of a PDB file.
+
+    Columns are ``element``, ``name``, ``resname``, ``resid``, ``chain``, ``occupancy`` and
+    ``tempfactor``, and ``altloc`` where it is used. Elements are those of columns 77 and 78; where
+    these are blank, of the first two characters of the name, in which a symbol stands to the right.
+    Bonds are not read, as most files name but a few of them.
+
+    Raises
+    ------
+    SceneError
+        The file has no such model, or it is not right. The message names the line.
+    """
+    import numpy as np
+
+    if given.path:
+        check_room(given.path, _TIMES)
+    models, cell = _models_of(given.file.read())
+    if not models:
+        raise SceneError("expected lines that begin with ATOM or HETATM; there are none")
+    number = frame_number(given.frame, len(models))
+    atoms, numbers = models[number]
+    lines = np.array([line[:_WIDTH].ljust(_WIDTH) for line in atoms], f"S{_WIDTH}")
+    table = lines.view("S1").reshape(len(atoms), _WIDTH)
+    places = [_numbers(table, start, start + 8, numbers, "xyz"[i]) for i, start in _PLACES]
+    columns: dict[str, Array] = {}
+    elements = _elements_of(_text(table, 76, 78, strip=False), _text(table, 12, 16, strip=False))
+    if elements is not None:
+        columns["element"] = elements
+    columns["name"] = _text(table, 12, 16)
+    columns["resname"] = _text(table, 17, 21)
+    columns["chain"] = _text(table, 21, 22)
+    columns["resid"] = _whole(_text(table, 22, 26))
+    altloc = _text(table, 16, 17)
+    if (altloc != "").any():
+        columns["altloc"] = altloc
+    for name, start in (("occupancy", 54), ("tempfactor", 60)):
+        if (_text(table, start, start + 6) != "").all():
+            columns[name] = _numbers(table, start, start + 6, numbers, name)
+    return Particles(np.stack(places, axis=1), columns, cell=cell, frame=number)
+
+
+_PLACES = ((0, 30), (1, 38), (2, 46))
+"""Where x, y and z begin in a line."""
+
+
+def _models_of(content: bytes) -> "tuple[list[_Model], Cell | None]":
+    """Return the models of a file, and its cell."""
+    models: list[_Model] = []
+    cell = None
+    now = _Model([], [])
+    for number, line in enumerate(content.splitlines(), 1):
+        if line.startswith(_ATOM):
+            now.atoms.append(line)
+            now.numbers.append(number)
+        elif line.startswith((b"END", b"MODEL")):
+            if now.atoms:
+                models.append(now)
+            now = _Model([], [])
+        elif line.startswith(b"CRYST1"):
+            cell = _cell_of(line.decode("latin-1"), number)
+    return [*models, now] if now.atoms else models, cell
+
+
+def _cell_of(line: str, number: int) -> "Cell | None":
+    """Return the edges of a cell by their lengths and angles, a along x and b in the plane x y."""
+    import numpy as np
+
+    starts = (6, 15, 24, 33, 40, 47, 54)
+    try:
+        found = [float(line[i:j]) for i, j in pairwise(starts)]
+    except ValueError:
+        found = [0.0]
+    if len(found) == 6 and found[:3] == [1, 1, 1]:  # what files without a crystal have
+        return None
+    a, b, c, alpha, beta, gamma = found if len(found) == 6 else [0.0] * 6
+    if not (min(a, b, c) > 0 and all(0 < angle < 180 for angle in (alpha, beta, gamma))):
+        raise SceneError(f"line {number}: expected three lengths and three angles of a cell")
+    x = cosine(beta)
+    y = (cosine(alpha) - x * cosine(gamma)) / sine(gamma)
+    z = 1 - x * x - y * y
+    if z <= 0:
+        raise SceneError(f"line {number}: no cell has the angles {alpha}, {beta} and {gamma}")
+    return np.array(
+        [
+            (a, 0.0, 0.0),
+            (b * cosine(gamma), b * sine(gamma), 0.0),
+            (c * x, c * y, c * math.sqrt(z)),
+        ]
+    )
+
+
+def _text(table: "Array", start: int, end: int, strip: bool = True) -> "Array":
+    """Return some characters of all lines as text."""
+    import numpy as np
+
+    found: Array = np.ascontiguousarray(table[:, start:end]).view(f"S{end - start}").ravel()
+    listed = found.tolist()
+    if strip:
+        return texts_of(listed, lambda entry: entry.decode("latin-1").strip())
+    return texts_of(listed, lambda entry: entry.decode("latin-1"))
+
+
+def _numbers(table: "Array", start: int, end: int, lines: list[int], name: str) -> "Array":
+    """Return some characters of all lines as numbers."""
+    import numpy as np
+
+    found = np.ascontiguousarray(table[:, start:end]).view(f"S{end - start}").ravel()
+    listed = found.tolist()
+    try:
+        return np.fromiter(map(float, listed), np.float64, len(listed))
+    except ValueError:
+        for line, entry in zip(lines, listed, strict=True):
+            if not re.fullmatch(rb"\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*", entry):
+                shown = short(entry.decode("latin-1"))
+                place = f"line {line}: columns {start + 1} to {end}"
+                raise SceneError(f"{place}: {name} must be a number, got {shown!r}") from None
+        raise
+
+
+def _whole(texts: "Array") -> "Array":
+    """Return texts as integers, or as they are if one is none."""
+    import numpy as np
+
+    try:
+        return np.fromiter(map(int, texts.tolist()), np.int64, len(texts))
+    except ValueError:
+        return texts
+
+
+def _elements_of(columns: "Array", names: "Array") -> "Array | None":
+    """Return the elements of atoms, X where one is not known; None if none is."""
+    pairs = [one + other for one, other in zip(columns.tolist(), names.tolist(), strict=True)]
+    known = {pair: _element_of(pair[:2], pair[2:]) for pair in set(pairs)}
+    if not any(known.values()):
+        return None
+    return texts_of(pairs, lambda pair: known[pair] or "X")
+
+
+def _element_of(column: str, name: str) -> str | None:
+    """Return the element of an atom, by the columns of the element and of the name."""
+    if column.strip():
+        return symbol_of(re.sub(r"[0-9+-]", "", column))
+    name = name.ljust(4)
+    two = name[:2]
+    # Names of hydrogen that have four characters begin one column before.
+    if two[0].isalpha() and not (two[0] == "H" and name[3] != " "):
+        found = symbol_of(two) if two[1].isalpha() else symbol_of(two[0])
+        if found is not None:
+            return found
+    return symbol_of(next((letter for letter in name if letter.isalpha()), ""))

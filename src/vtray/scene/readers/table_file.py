@@ -1,0 +1,142 @@
+"""Tables: .csv by Python alone, .npz by NumPy, .parquet by pyarrow."""
+
+import csv
+import io
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from vtray.base.errors import SceneError
+from vtray.base.extras import need
+from vtray.base.input_file import read_stream
+from vtray.base.memory import lack_of_memory
+from vtray.scene.checks.json_tree import short
+from vtray.scene.particles.from_columns import from_columns
+from vtray.scene.particles.particles import Particles
+from vtray.scene.readers.frames import frame_number
+from vtray.scene.readers.libraries import check_room, told
+from vtray.scene.readers.reader_table import Given
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+
+_SEPARATORS = ",;\t"
+
+_BYTES = 160
+"""Of memory for an entry of a .csv file while it is read."""
+
+
+def read(given: Given) -> Particles:
+    """Read a table with the columns x, y and z, or an array `position` of shape (n, 3).
+
+    Raises
+    ------
+    SceneError
+        The file is not right, or does not have these columns. The message names the line.
+    ExtraError
+        pyarrow, for .parquet, is not installed.
+    """
+    frame_number(given.frame, 1)
+    columns = {"csv": _read_csv, "npz": _read_npz, "parquet": _read_parquet}[given.format](given)
+    return from_columns(columns, given.columns)
+
+
+def _read_csv(given: Given) -> "dict[str, Array]":
+    """Read columns between commas, semicolons or tabs, named in the first line."""
+    try:
+        text = read_stream(given.file).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise SceneError(f"byte {error.start}: not UTF-8; expected text") from None
+    head = text.partition("\n")[0]
+    separator = max(_SEPARATORS, key=head.count)
+    entries = head.count(separator) + 1
+    lack = lack_of_memory(_BYTES * entries * text.count("\n"))
+    if lack:
+        raise SceneError(f"reading it needs about {lack}")
+    lines = csv.reader(io.StringIO(text, newline=""), delimiter=separator, skipinitialspace=True)
+    try:
+        names = [name.strip() for name in next(lines, [])]
+        _check_names(names)
+        rows = []
+        for row in lines:
+            if len(row) != len(names) and row:
+                words = f"expected {len(names)} entries, got {len(row)}"
+                raise SceneError(f"line {lines.line_num}: {words}")
+            if row:
+                rows.append(row)
+    except csv.Error as error:
+        raise SceneError(f"line {lines.line_num}: {error}") from None
+    parts = zip(*rows, strict=True) if rows else ([] for _ in names)
+    return {name: _column(list(part)) for name, part in zip(names, parts, strict=True)}
+
+
+def _check_names(names: list[str]) -> None:
+    """Raise SceneError if the first line does not name the columns."""
+    are_numbers = bool(names) and all(_column([name]).dtype.kind in "if" for name in names)
+    if not any(names) or are_numbers:
+        shown = short(",".join(names)) or "nothing"
+        raise SceneError(f"line 1: expected the names of the columns, got {shown}")
+    twice = next((name for i, name in enumerate(names) if name in names[:i]), None)
+    if twice is not None:
+        raise SceneError(f"line 1: expected each column once, got {short(twice)!r} twice")
+
+
+def _column(entries: list[str]) -> "Array":
+    """Return entries as integers, as numbers (where one is left out, NaN), or as text."""
+    import numpy as np
+
+    for kind, parse in ((np.int64, int), (np.float64, float)):
+        try:
+            return np.fromiter(map(parse, entries), kind, len(entries))
+        except (ValueError, OverflowError):
+            continue
+    try:
+        numbers = (float(entry) if entry.strip() else np.nan for entry in entries)
+        return np.fromiter(numbers, np.float64, len(entries))
+    except ValueError:
+        return np.array([entry.strip() for entry in entries], np.str_)
+
+
+def _read_npz(given: Given) -> "dict[str, Array]":
+    """Read the arrays of a .npz file."""
+    from vtray.scene.files.array_file import read_arrays
+
+    def check(arrays: "dict[str, Array]", _: list[str]) -> None:
+        needed = sum(array.size * array.dtype.itemsize for array in arrays.values())
+        lack = lack_of_memory(needed)
+        if lack:
+            raise SceneError(f"its arrays need {lack}")
+
+    names = ["position"] if given.path.lower().endswith(".npy") else _names_of(given)
+    arrays, _ = read_arrays(Path(given.path), names, alone="position", check=check)
+    return arrays
+
+
+def _names_of(given: Given) -> list[str]:
+    """Return the names of the arrays of a .npz file."""
+    import zipfile
+
+    try:
+        with zipfile.ZipFile(given.file) as whole:
+            return [name.removesuffix(".npy") for name in whole.namelist()]
+    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError) as error:
+        raise SceneError(f"expected a .npz file ({short(str(error), 100)})") from None
+
+
+def _read_parquet(given: Given) -> "dict[str, Array]":
+    """Read the columns of a Parquet file."""
+    import numpy as np
+
+    parquet: Any = need("pyarrow.parquet", "tables", "reading Parquet files")
+    check_room(given.path, 3)
+    with told("pyarrow", "a Parquet file"):
+        table = parquet.read_table(given.file)
+        columns = {}
+        for name in table.column_names:
+            found = table[name].to_numpy()
+            is_list = found.dtype == object and len(found) and isinstance(found[0], np.ndarray)
+            columns[name] = np.stack(found) if is_list else found
+            if columns[name].dtype == object:
+                columns[name] = columns[name].astype(np.str_)
+        return columns

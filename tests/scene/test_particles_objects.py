@@ -1,0 +1,157 @@
+"""Particles of objects that other libraries make, and of files that are no data."""
+
+import subprocess
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import polars as pl
+import pytest
+from ase.build import molecule
+
+import vtray
+from vtray.base.errors import SceneError
+from vtray.base.extras import ExtraError
+from vtray.scene.particles.from_objects import as_particles
+
+POINTS = [(0.0, 1.0, 2.0), (3.0, 4.0, 5.0)]
+COLUMNS = dict(zip("xyz", np.array(POINTS).T.tolist(), strict=True))
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        POINTS,
+        np.array(POINTS, np.float32),
+        vtray.Particles(POINTS),
+        COLUMNS,
+        {"positions": POINTS, "mass": [1, 2]},
+        pd.DataFrame({**COLUMNS, "name": ["a", "b"]}),
+        pl.DataFrame({**COLUMNS, "name": ["a", "b"]}),
+        SimpleNamespace(positions=POINTS),
+        SimpleNamespace(get_positions=lambda: POINTS),
+    ],
+    ids=lambda given: type(given).__name__,
+)
+def test_whatever_has_places(given: object) -> None:
+    found = as_particles(given)
+    assert found.positions.tolist() == [list(point) for point in POINTS]
+    if not isinstance(given, dict):
+        scene = vtray.Scene()
+        assert scene.add_spheres(given, 1).center.tolist() == found.positions.tolist()
+
+
+def test_atoms_are_spheres() -> None:
+    water = molecule("H2O")
+    assert vtray.Scene().add_spheres(water, 1).center.tolist() == water.positions.tolist()
+    assert as_particles(water)["element"].tolist() == ["O", "H", "H"]
+
+
+@pytest.mark.parametrize("given", [None, 7, "a.xyz", [1, 2, 3], [(1, 2)], pd.DataFrame({"a": [1]})])
+def test_what_has_no_places(given: object) -> None:
+    with pytest.raises(SceneError, match="^expected "):
+        as_particles(given)
+
+
+def test_wrong_objects() -> None:
+    with pytest.raises(SceneError, match=r"^from_ase: expected ase.Atoms, got 7$"):
+        vtray.from_ase(7)
+    with pytest.raises(SceneError, match=r"^from_mdanalysis: expected a Universe or an AtomGroup "):
+        vtray.from_mdanalysis(molecule("H2O"))
+
+
+def ovito() -> SimpleNamespace:
+    """Return what OVITO's collections of data look like."""
+
+    class Properties(dict):
+        positions = np.array(POINTS)
+        particle_types = type("Types", (), {})()
+
+    class Cell:
+        pbc = (True, True, False)
+
+        def __getitem__(self, key: object) -> np.ndarray:
+            return np.array([(4, 1, 0, -1), (0, 5, 0, -2), (0, 0, 6, -3)])
+
+    kinds = np.array([2, 1]).view(type("Kinds", (np.ndarray,), {}))
+    kinds.types = [SimpleNamespace(id=1, name="Si"), SimpleNamespace(id=2, name="O")]
+    Properties.particle_types = kinds
+    inner = Properties(Position=POINTS, Velocity=np.ones((2, 3)))
+    inner.bonds = {"Topology": np.array([(0, 1)])}
+    inner["Particle Type"] = np.array([2, 1])
+    return SimpleNamespace(particles=inner, cell=Cell())
+
+
+def test_ovito() -> None:
+    found = as_particles(ovito())
+    assert {name: values.tolist() for name, values in found.columns.items()} == {
+        "velocity": [[1, 1, 1]] * 2,
+        "element": ["O", "Si"],
+    }
+    assert (found.bonds.tolist(), found.periodic) == ([[0, 1]], (True, True, False))
+    assert found.cell.tolist() == [[4, 0, 0], [1, 5, 0], [0, 0, 6]]
+    assert found.origin.tolist() == [-1, -2, -3]
+
+
+def test_each_file_has_its_call(tmp_path: Path) -> None:
+    data, scene = tmp_path / "a.xyz", tmp_path / "a.json"
+    data.write_text("1\n\nO 0 0 0\n")
+    scene.write_text("{}")
+    with pytest.raises(SceneError, match="a.xyz: is data by its name, which vtray.read reads; exp"):
+        vtray.load(data)
+    with pytest.raises(SceneError, match="a.json: is a scene file by its name, which vtray.load r"):
+        vtray.read(scene)
+
+
+@pytest.mark.parametrize(
+    ("name", "more", "message"),
+    [
+        ("a.foo", {}, "the ending '.foo' is not known; expected one of .xyz, .extxyz, "),
+        ("a", {}, "the name has no ending; expected one of .xyz, .extxyz, "),
+        ("a.foo", {"format": "bar"}, "format: expected one of xyz, pdb, lammps-dump, "),
+        ("gone.xyz", {}, "no such file; expected a file of data"),
+        (".", {"format": "xyz"}, "is a directory; expected a file of data"),
+        (
+            "a.foo",
+            {"format": "xyz", "columns": {"radius": "r"}},
+            "columns['radius']: no column 'r'",
+        ),
+    ],
+)
+def test_wrong_names(name: str, more: dict[str, object], message: str, tmp_path: Path) -> None:
+    (tmp_path / "a.foo").write_text("1\n\nO 0 0 0\n")
+    (tmp_path / "a").write_text("1\n\nO 0 0 0\n")
+    with pytest.raises(SceneError) as caught:
+        vtray.read(tmp_path / name, **more)
+    assert str(caught.value).startswith(f"{tmp_path / name}: {message}")
+
+
+def test_names_of_columns_and_formats(tmp_path: Path) -> None:
+    path = tmp_path / "a.foo"
+    path.write_text("1\n\nO 1 2 3 0.5\n")
+    found = vtray.read(path, format="xyz", columns={"radius": "column5"})
+    assert found["radius"].tolist() == [0.5]
+    assert vtray.read(path, format=".XYZ", columns={"x": "column5"}).positions.tolist() == [
+        [0.5, 2, 3]
+    ]
+
+
+def test_missing_package_names_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "gsd.hoomd", None)
+    (tmp_path / "a.gsd").write_bytes(b"x")
+    with pytest.raises(ExtraError, match="^reading GSD files needs gsd, which is not installed: "):
+        vtray.read(tmp_path / "a.gsd")
+
+
+def test_reading_text_imports_nothing_slow(tmp_path: Path) -> None:
+    (tmp_path / "a.xyz").write_text("1\n\nO 0 0 0\n")
+    code = (
+        "import sys, vtray; vtray.read('a.xyz').select('z == 0');"
+        "print([name for name in ('ase', 'MDAnalysis', 'pandas', 'numba') if name in sys.modules])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert (done.stdout, done.stderr) == ("[]\n", "")

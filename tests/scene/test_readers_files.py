@@ -1,0 +1,478 @@
+"""Files of data but XYZ: beside what the libraries themselves read."""
+
+import warnings
+from pathlib import Path
+
+import ase.io
+import laspy
+import numpy as np
+import plyfile
+import pyarrow as pa
+import pyarrow.parquet
+import pytest
+from ase import Atoms
+from ase.build import bulk, molecule
+
+import vtray
+from vtray.base.errors import SceneError
+
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore")
+    import gsd.hoomd
+    import MDAnalysis
+
+WATER = Atoms("OH2", [(0, 0, 0), (0.76, 0.59, 0), (-0.76, 0.59, 0)], cell=[4, 5, 6], pbc=True)
+
+
+def quiet_write(path: Path, atoms: object, **more: object) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        ase.io.write(path, atoms, **more)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["POSCAR", "CONTCAR_end", "a.vasp", "a.cif", "a.traj", "a.xsf", "a.gen", "a.cfg", "a.res"],
+)
+def test_files_of_ase(name: str, tmp_path: Path) -> None:
+    path = tmp_path / name
+    crystal = bulk("NaCl", "rocksalt", 5.64, cubic=True)
+    form = {"POSCAR": "vasp", "CONTCAR_end": "vasp"}.get(name)
+    quiet_write(path, crystal, format=form)
+    found = vtray.read(path)
+    assert found["element"].tolist() == crystal.get_chemical_symbols()
+    assert np.abs(found.positions - crystal.positions).max() < 1e-5
+    assert np.abs(found.cell - crystal.cell).max() < 1e-5
+
+
+CIF = """\
+data_salt
+_cell_length_a 5.64
+_cell_length_b 5.64
+_cell_length_c 5.64
+_cell_angle_alpha 90
+_cell_angle_beta 90
+_cell_angle_gamma 90
+{symmetry}
+loop_
+_atom_site_label
+_atom_site_type_symbol
+_atom_site_fract_x
+_atom_site_fract_y
+_atom_site_fract_z
+Na1 Na 0 0 0
+Cl1 Cl 0.5 0.5 0.5
+"""
+
+
+@pytest.mark.parametrize(
+    ("symmetry", "count"),
+    [
+        ("_symmetry_Int_Tables_number 225\n_symmetry_space_group_name_H-M 'F m -3 m'", 8),
+        ("_symmetry_equiv_pos_as_xyz 'x, y, z'", 2),
+    ],
+)
+def test_symmetry_of_crystals(symmetry: str, count: int, tmp_path: Path) -> None:
+    path = tmp_path / "salt.cif"
+    path.write_text(CIF.format(symmetry=symmetry))
+    assert len(vtray.read(path)) == count
+
+
+def test_frames_of_ase(tmp_path: Path) -> None:
+    path = tmp_path / "run.traj"
+    quiet_write(path, [Atoms("He", [(i, 0, 0)]) for i in range(4)])
+    found = [vtray.read(path, frame) for frame in (0, 2, -1)]
+    assert [(each.frame, each.positions[0, 0]) for each in found] == [(0, 0), (2, 2), (3, 3)]
+    with pytest.raises(SceneError, match="frame 4: there are 4 frames; expected -4 to 3$"):
+        vtray.read(path, 4)
+
+
+PDB = """\
+CRYST1   10.000   12.000   14.000  80.00  90.00 110.00 P 1
+MODEL     1
+ATOM      1  CA  GLY A   1       1.000   2.000   3.000  1.00 10.00           C
+ATOM      2 HG11 VAL A   2      -1.500   2.000   3.000  0.50 20.00           H
+HETATM    3 CA    CA B   3       0.000   0.000   9.125  1.00 30.00          CA
+ENDMDL
+MODEL     2
+ATOM      1  CA  GLY A   1       7.000   2.000   3.000  1.00 10.00           C
+ENDMDL
+END
+"""
+
+
+def test_pdb(tmp_path: Path) -> None:
+    path = tmp_path / "a.pdb"
+    path.write_text(PDB)
+    found = vtray.read(path)
+    assert {name: values.tolist() for name, values in found.columns.items()} == {
+        "element": ["C", "H", "Ca"],
+        "name": ["CA", "HG11", "CA"],
+        "resname": ["GLY", "VAL", "CA"],
+        "chain": ["A", "A", "B"],
+        "resid": [1, 2, 3],
+        "occupancy": [1, 0.5, 1],
+        "tempfactor": [10, 20, 30],
+    }
+    theirs = ase.io.read(path, 0)
+    assert found.positions.tolist() == theirs.positions.tolist()
+    assert np.abs(found.cell - theirs.cell).max() < 1e-12
+    last = vtray.read(path, -1)
+    assert (len(last), last.frame, last.positions[0, 0]) == (1, 1, 7)
+    path.write_text(PDB.replace("          CA\n", "          QQ\n"))
+    assert vtray.read(path)["element"].tolist() == ["C", "H", "X"]
+    # Without the columns of elements, the place of the name tells calcium from alpha carbon.
+    path.write_text("".join(f"{line[:76]}\n" for line in PDB.splitlines()))
+    assert vtray.read(path)["element"].tolist() == ["C", "H", "Ca"]
+
+
+DUMP = """\
+ITEM: TIMESTEP
+{step}
+ITEM: NUMBER OF ATOMS
+2
+ITEM: BOX BOUNDS {marks}
+{box}
+ITEM: ATOMS id type {places} vx vy vz c_pe[1]
+2 1 {one} 1 2 3 0.5
+1 2 {two} 4 5 6 0.25
+"""
+
+
+def dump(step: int = 0, **more: str) -> str:
+    words = {
+        "marks": "pp ff pp",
+        "box": "-1 3\n0 5\n0 6",
+        "places": "x y z",
+        "one": "0 1 2",
+        "two": "1 1 1",
+    }
+    return DUMP.format(step=step, **{**words, **more})
+
+
+def test_dump(tmp_path: Path) -> None:
+    path = tmp_path / "run.dump"
+    path.write_text(dump() + dump(500, one="9 1 2"))
+    found = vtray.read(path, -1)
+    assert {name: values.tolist() for name, values in found.columns.items()} == {
+        "id": [2, 1],
+        "type": [1, 2],
+        "velocity": [[1, 2, 3], [4, 5, 6]],
+        "c_pe[1]": [0.5, 0.25],
+    }
+    assert found.positions.tolist() == [[9, 1, 2], [1, 1, 1]]
+    assert (found.frame, found.periodic) == (1, (True, False, True))
+    assert found.cell.tolist() == [[4, 0, 0], [0, 5, 0], [0, 0, 6]]
+    assert found.origin.tolist() == [-1, 0, 0]
+    assert len(found.select("c_pe[1] > 0.3")) == 1
+
+
+def test_dump_of_a_tilted_box_beside_ase(tmp_path: Path) -> None:
+    path = tmp_path / "run.lammpstrj"
+    box = {"marks": "xy xz yz pp pp pp", "box": "-2 5 1\n0 6 -1\n0 6 0.5"}
+    path.write_text(dump(places="xs ys zs", one="0.5 0.25 0.125", two="0 0 0", **box))
+    found = vtray.read(path)
+    theirs = ase.io.read(path, format="lammps-dump-text", order=False)
+    assert np.abs(found.cell - theirs.cell).max() < 1e-12
+    assert np.abs(found.origin - theirs.get_celldisp().ravel()).max() < 1e-12
+    expected = np.array([(0.5, 0.25, 0.125), (0, 0, 0)]) @ found.cell + found.origin
+    assert np.abs(found.positions - expected).max() < 1e-12
+
+
+def test_data_of_lammps_beside_ase(tmp_path: Path) -> None:
+    path = tmp_path / "a.data"
+    quiet_write(path, WATER, format="lammps-data", masses=True, velocities=True)
+    found = vtray.read(path)
+    theirs = ase.io.read(path, format="lammps-data", atom_style="atomic")
+    assert np.abs(found.positions - theirs.positions).max() < 1e-9
+    assert np.abs(found.cell - theirs.cell).max() < 1e-9
+    assert found["type"].tolist() == theirs.arrays["type"].tolist()
+    assert np.abs(found["mass"] - theirs.get_masses()).max() < 1e-7
+    assert "element" not in found.columns
+
+
+def test_bonds_of_lammps(tmp_path: Path) -> None:
+    path = tmp_path / "a.data"
+    path.write_text(
+        "water\n\n3 atoms\n2 bonds\n2 atom types\n1 bond types\n"
+        "0 4 xlo xhi\n0 5 ylo yhi\n-1 6 zlo zhi\n1 0 0.5 xy xz yz\n\n"
+        "Masses\n\n1 16 # O\n2 1\n\nAtoms # full\n\n"
+        "30 1 1 -0.8 0 0 0 0 0 0 # the oxygen\n10 1 2 0.4 1 0 0\n20 1 2 0.4 -1 0 0\n\n"
+        "Velocities\n\n20 1 2 3\n10 0 0 0\n30 4 5 6\n\n"
+        "Bonds\n\n1 1 30 10\n2 1 20 30\n\nPair Coeffs\n\n1 0.1 3\n2 0 0\n"
+    )
+    found = vtray.read(path)
+    assert found.bonds.tolist() == [[0, 1], [2, 0]]
+    assert found["velocity"].tolist() == [[4, 5, 6], [0, 0, 0], [1, 2, 3]]
+    assert (found["charge"].tolist(), found["mass"].tolist()) == ([-0.8, 0.4, 0.4], [16, 1, 1])
+    assert found.cell.tolist() == [[4, 0, 0], [1, 5, 0], [0, 0.5, 7]]
+    assert found.origin.tolist() == [0, 0, -1]
+
+
+def test_gsd(tmp_path: Path) -> None:
+    path = tmp_path / "run.gsd"
+    with gsd.hoomd.open(path, "w") as file:
+        for step in range(3):
+            frame = gsd.hoomd.Frame()
+            frame.configuration.step = step
+            frame.configuration.box = [4, 5, 6, 0.5, 0.25, 0.125]
+            frame.particles.N = 2
+            frame.particles.position = [(0, 0, step), (1, 1, 1)]
+            frame.particles.types = ["A", "B"]
+            frame.particles.typeid = [1, 0]
+            frame.particles.diameter = [2, 3]
+            frame.bonds.N = 1
+            frame.bonds.group = [(0, 1)]
+            file.append(frame)
+    found = vtray.read(path, -1)
+    assert (found.frame, found.positions[0].tolist()) == (2, [0, 0, 2])
+    assert list(found.columns) == ["type", "radius"]
+    assert (found["type"].tolist(), found["radius"].tolist()) == (["B", "A"], [1, 1.5])
+    assert found.cell.tolist() == [[4, 0, 0], [2.5, 5, 0], [1.5, 0.75, 6]]
+    assert found.origin.tolist() == [-4, -2.875, -3]
+    assert found.bonds.tolist() == [[0, 1]]
+    with pytest.raises(SceneError, match="frame 3: there are 3 frames; expected -3 to 2$"):
+        vtray.read(path, 3)
+
+
+def universe() -> "MDAnalysis.Universe":
+    made = MDAnalysis.Universe.empty(
+        3, n_residues=1, atom_resindex=[0, 0, 0], trajectory=True, velocities=True
+    )
+    made.add_TopologyAttr("elements", ["O", "H", "H"])
+    made.add_TopologyAttr("names", ["OW", "HW1", "HW2"])
+    made.add_TopologyAttr("resnames", ["SOL"])
+    made.add_TopologyAttr("bonds", [(0, 1), (0, 2)])
+    made.atoms.positions = WATER.positions
+    made.dimensions = [10, 10, 10, 90, 90, 90]
+    return made
+
+
+def test_from_mdanalysis() -> None:
+    made = universe()
+    found = vtray.from_mdanalysis(made)
+    assert found["element"].tolist() == ["O", "H", "H"]
+    assert (found["name"].tolist(), found["resname"].tolist()) == (
+        ["OW", "HW1", "HW2"],
+        ["SOL"] * 3,
+    )
+    assert found.bonds.tolist() == [[0, 1], [0, 2]]
+    assert np.abs(found.cell - 10 * np.eye(3)).max() < 1e-5
+    made.atoms[2].element = ""
+    assert vtray.from_mdanalysis(made)["element"].tolist() == ["O", "H", "X"]
+    part = vtray.from_mdanalysis(made.atoms[[2, 0]])
+    assert part["name"].tolist() == ["HW2", "OW"]
+    assert part.bonds.tolist() == [[1, 0]]
+
+
+def test_topology_and_trajectory(tmp_path: Path) -> None:
+    made = universe()
+    top, run = tmp_path / "top.gro", tmp_path / "run.xtc"
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        made.atoms.write(top)
+        with MDAnalysis.Writer(str(run), 3) as writer:
+            for i in range(3):
+                made.atoms.positions = WATER.positions + i
+                made.trajectory.ts.time = 2.0 * i
+                writer.write(made.atoms)
+    found = vtray.read(top, -1, trajectory=run)
+    assert (found.frame, found.time) == (2, 4)
+    assert np.abs(found.positions - WATER.positions - 2).max() < 0.02
+    assert vtray.read(top)["element"].tolist() == ["O", "H", "H"]
+    with pytest.raises(SceneError, match="frame 3: there are 3 frames; expected -3 to 2$"):
+        vtray.read(top, 3, trajectory=run)
+
+
+PSF = """\
+PSF
+
+       1 !NTITLE
+ REMARKS water
+
+       2 !NATOM
+       1 W    1    SOL  OW   O     -0.800000       15.9990           0
+       2 W    1    SOL  HW1  H      0.400000        1.0080           0
+
+       1 !NBOND: bonds
+       1       2
+"""
+
+
+def test_topology_without_places(tmp_path: Path) -> None:
+    path = tmp_path / "top.psf"
+    path.write_text(PSF)
+    with pytest.raises(SceneError, match="has no places; name the file that has some, as in traj"):
+        vtray.read(path)
+    (tmp_path / "run.xyz").write_text("2\n\nO 0 0 0\nH 1 0 0\n2\n\nO 5 0 0\nH 6 0 0\n")
+    found = vtray.read(path, -1, trajectory=tmp_path / "run.xyz")
+    assert found.positions.tolist() == [[5, 0, 0], [6, 0, 0]]
+    assert (found.bonds.tolist(), found["mass"].tolist()) == ([[0, 1]], [15.999, 1.008])
+    with pytest.raises(SceneError, match="top.psf: trajectory: .*gone.xtc: no such file; expected"):
+        vtray.read(path, trajectory=tmp_path / "gone.xtc")
+    (tmp_path / "bad.xtc").write_bytes(b"1 2 3")
+    with pytest.raises(SceneError, match="a topology and its trajectory .*bad.xtc, which MDAnalys"):
+        vtray.read(path, trajectory=tmp_path / "bad.xtc")
+
+
+def test_too_large_for_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    words = "9 GB of memory, 1 GB is available"
+    monkeypatch.setattr("vtray.scene.readers.rows.lack_of_memory", lambda _: words)
+    monkeypatch.setattr("vtray.scene.readers.libraries.lack_of_memory", lambda _: words)
+    monkeypatch.setattr("vtray.scene.readers.lines.STEP", 20)
+    (tmp_path / "a.xyz").write_text("9\n\n" + "O 0 0 0\n" * 9)
+    (tmp_path / "a.cif").write_text(CIF)
+    with pytest.raises(SceneError, match=f"a.xyz: line [0-9]+: 9 rows need {words}$"):
+        vtray.read(tmp_path / "a.xyz")
+    with pytest.raises(SceneError, match=f"a.cif: reading it needs about {words}$"):
+        vtray.read(tmp_path / "a.cif")
+
+
+TABLE = "X;y; z;vx;vy;vz;kind;size\n1;2;3;0;0;1;a;0.5\n4;5;6;0;1;0;b;\n"
+
+
+def test_csv(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text(TABLE)
+    found = vtray.read(path, columns={"radius": "size"})
+    assert found.positions.tolist() == [[1, 2, 3], [4, 5, 6]]
+    assert list(found.columns) == ["radius", "velocity", "kind"]
+    assert found["velocity"].tolist() == [[0, 0, 1], [0, 1, 0]]
+    assert np.array_equal(found["radius"], [0.5, np.nan], equal_nan=True)
+    swapped = vtray.read(path, columns={"x": "y", "y": "X"})
+    assert swapped.positions.tolist() == [[2, 1, 3], [5, 4, 6]]
+
+
+def test_npz_and_parquet(tmp_path: Path) -> None:
+    x, y, z = np.arange(6.0).reshape(3, 2)
+    table = {"x": x, "y": y, "z": z, "radii": np.array([1, 2]), "kind": np.array(["a", "b"])}
+    np.savez(tmp_path / "a.npz", **table)
+    pa.parquet.write_table(pa.table(table), tmp_path / "a.parquet")
+    for name in ("a.npz", "a.parquet"):
+        found = vtray.read(tmp_path / name)
+        assert found.positions.tolist() == np.stack([x, y, z], 1).tolist()
+        assert (found["radius"].tolist(), found["kind"].tolist()) == ([1, 2], ["a", "b"])
+    np.savez(tmp_path / "b.npz", positions=np.ones((2, 3), np.float32), mass=[1, 2])
+    found = vtray.read(tmp_path / "b.npz")
+    assert (found.positions.dtype, list(found.columns)) == (np.float32, ["mass"])
+    np.save(tmp_path / "c.npy", np.ones((2, 3)))
+    assert len(vtray.read(tmp_path / "c.npy")) == 2
+
+
+@pytest.mark.parametrize("ending", [".las", ".laz"])
+def test_las(ending: str, tmp_path: Path) -> None:
+    header = laspy.LasHeader(point_format=3, version="1.2")
+    header.scales, header.offsets = [0.01] * 3, [100, 200, 300]
+    cloud = laspy.LasData(header)
+    cloud.x, cloud.y, cloud.z = np.array([[100, 101.5], [200, 201], [300, 300]])
+    cloud.intensity = np.array([7, 9], np.uint16)
+    cloud.classification = np.array([2, 6], np.uint8)
+    cloud.red, cloud.green, cloud.blue = np.array([[65535, 0], [256, 255], [0, 65280]], np.uint16)
+    cloud.write(tmp_path / f"a{ending}")
+    found = vtray.read(tmp_path / f"a{ending}")
+    assert found.positions.tolist() == [[100, 200, 300], [101.5, 201, 300]]
+    assert found["color"].tolist() == [[255, 1, 0], [0, 0, 255]]
+    assert found["intensity"].tolist() == [7, 9]
+    assert found["classification"].tolist() == [2, 6]
+
+
+def test_las_that_claims_more_than_it_has(tmp_path: Path) -> None:
+    path = tmp_path / "a.las"
+    cloud = laspy.LasData(laspy.LasHeader(point_format=3, version="1.2"))
+    cloud.write(path)
+    content = bytearray(path.read_bytes())
+    content[100:104] = b"\xff" * 4
+    path.write_bytes(content)
+    with pytest.raises(SceneError, match="claims 4294967295 records and 0 chunks, "):
+        vtray.read(path)
+
+
+@pytest.mark.parametrize("text", [True, False])
+def test_ply(text: bool, tmp_path: Path) -> None:
+    kinds = [(name, "f4") for name in "xyz"] + [(name, "u1") for name in ("red", "green", "blue")]
+    points = np.array([(0, 1, 2, 255, 0, 0), (3, 4, 5, 0, 255, 0)], kinds)
+    file = plyfile.PlyData([plyfile.PlyElement.describe(points, "vertex")], text=text)
+    file.write(tmp_path / "a.ply")
+    found = vtray.read(tmp_path / "a.ply")
+    assert found.positions.tolist() == [[0, 1, 2], [3, 4, 5]]
+    assert found.positions.dtype == np.float32
+    assert found["color"].tolist() == [[255, 0, 0], [0, 255, 0]]
+
+
+BROKEN = {
+    "a.cif": "holds no frame; expected a CIF file",
+    "a.vasp": "expected a POSCAR file, which ASE cannot read (",
+    "a.gsd": "expected a GSD file, which gsd cannot read (",
+    "a.gro": "expected a topology, which MDAnalysis cannot read (",
+    "a.parquet": "expected a Parquet file, which pyarrow cannot read (",
+    "a.las": "expected a LAS file, which begins with LASF",
+    "a.laz": "expected a LAS file, which begins with LASF",
+    "a.ply": "expected a PLY file, which plyfile cannot read (",
+    "a.npz": "expected a .npz file (File is not a zip file)",
+    "a.npy": "",
+    "a.csv": "line 1: expected the names of the columns, got ",
+    "a.pdb": "expected lines that begin with ATOM or HETATM; there are none",
+    "a.dump": "is empty; expected ITEM: TIMESTEP in the first line",
+    "a.data": "expected the number of atoms, and a section Atoms; there is none",
+    "a.traj": "expected a trajectory of ASE, which ASE cannot read (",
+}
+
+
+@pytest.mark.parametrize("name", BROKEN)
+@pytest.mark.parametrize("content", [b"", b"\x00\xff\x80 1 2\n" * 40, b"1 2 3\n4 5\n"])
+def test_broken(name: str, content: bytes, tmp_path: Path) -> None:
+    path = tmp_path / name
+    path.write_bytes(content)
+    with pytest.raises(SceneError) as caught:
+        vtray.read(path)
+    message = str(caught.value)
+    assert message.startswith(f"{path}: ")
+    assert "\n" not in message
+    assert len(message) < len(str(path)) + 250
+    if not content:
+        assert message.startswith(f"{path}: {BROKEN[name]}"), message
+
+
+WRONG = [
+    ("a.csv", "px,py\n1,2\n", "expected the columns x, y and z, got px, py; name them, as in col"),
+    ("a.csv", "x,y,z\n1,2\n", "line 2: expected 3 entries, got 2"),
+    ("a.csv", "x,y,z\n1,2,a\n", "column 'z': expected numbers, got such as 'a'"),
+    ("a.csv", "x,x\n1,2\n", "line 1: expected each column once, got 'x' twice"),
+    ("a.csv", "x,y,z\n1,2,\n", "Particles.positions[0, 2]: must be finite, got nan"),
+    ("a.pdb", PDB.replace("  -1.500", "  -1.5x0"), "line 4: columns 31 to 38: x must be a number"),
+    ("a.pdb", PDB.replace("110.00", "190.00"), "line 1: expected three lengths and three angles"),
+    ("a.pdb", PDB.replace("80.00  90.00 110.00", "10.00  90.00 170.00"), "line 1: no cell has"),
+    ("a.dump", dump(box="1 2\n3 x\n5 6"), "line 9: expected the bounds of the box, got '1 2 / 3 x"),
+    ("a.dump", dump(places="a b c"), "line 9: expected the columns x y z, got 'id type a b c vx"),
+    ("a.dump", dump(one="0 1"), "line 10: expected 9 entries, got 8"),
+    ("a.dump", dump().replace("\n2\n", "\n3\n"), "line 11: the file ends after 2 of 3 rows"),
+    ("a.dump", "ITEM: TIMESTEP\n0\n", "line 2: the file ends; expected ITEM: ATOMS"),
+    ("a.data", "\n\n1 atoms\n\nAtoms # foo\n\n1 1 0 0 0\n", "line 5: the style 'foo' is not known"),
+    ("a.data", "\n\n1 atoms\n\nAtoms\n\n1 1 1 0 0 0\n", "line 5: the style is not said; expected"),
+    ("a.data", "\n\n2 atoms\n\nAtoms\n\n1 1 0 0 0\n", "line 7: the file ends after 1 of 2 rows"),
+    (
+        "a.data",
+        "\n\n1 atoms\n1 bonds\n\nAtoms\n\n1 1 0 0 0\n\nBonds\n\n1 1 1 9\n",
+        "section Bonds: no atom has the id 9",
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "text", "message"), WRONG)
+def test_wrong(name: str, text: str, message: str, tmp_path: Path) -> None:
+    path = tmp_path / name
+    path.write_text(text)
+    with pytest.raises(SceneError) as caught:
+        vtray.read(path)
+    assert str(caught.value).startswith(f"{path}: {message}")
+
+
+def test_molecule_of_ase() -> None:
+    ethanol = molecule("CH3CH2OH")
+    ethanol.set_momenta(np.ones((9, 3)))
+    ethanol.set_initial_charges(np.arange(9))
+    found = vtray.from_ase(ethanol)
+    assert found["element"].tolist() == ethanol.get_chemical_symbols()
+    assert found["velocity"].tolist() == ethanol.get_velocities().tolist()
+    assert found["charge"].tolist() == list(range(9))
+    assert found.cell is None
