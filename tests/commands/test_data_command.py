@@ -50,7 +50,7 @@ def test_data_becomes_a_scene(water: Path) -> None:
     assert (last.objects[0].color_scale.low, last.objects[0].color_scale.high) == (-1, 1)
     assert last.camera.size == (1024, 1024)
     bound = scene_of(water, "--cutoff", "1.2", "--wrap", "--replicate", "2x1x1", "--no-cell")
-    assert [len(part) for part in bound.objects[0].objects] == [3, 3]
+    assert [len(item) for item in bound.objects] == [6, 6]
     points = scene_of(water, "--style", "points", "--no-cell", "--size", "80x60")
     assert points.camera.size == (80, 60)
 

@@ -7,6 +7,7 @@ import pytest
 
 import vtray
 from vtray.base.errors import SceneError
+from vtray.scene.particles import drawing
 from vtray.scene.particles.bonds import Bonds, find_bonds
 from vtray.scene.particles.cell import cell_edges, molecules, translations, unwrapped, wrapped
 from vtray.scene.particles.particles import Particles
@@ -73,7 +74,9 @@ def test_places_of_copies() -> None:
     assert np.allclose(places, expected)
 
 
-def test_bonds_across_the_border_are_halves_that_meet_in_copies() -> None:
+def test_bonds_across_the_border_are_halves_that_meet_in_copies(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     particles = Particles([(0.5, 2, 2), (3.5, 2, 2)], cell=np.eye(3) * 4)
     scene = vtray.Scene()
     drawn = scene.add_particles(
@@ -84,7 +87,14 @@ def test_bonds_across_the_border_are_halves_that_meet_in_copies() -> None:
     assert drawn.bonds.end.tolist() == [[0, 2, 2], [4, 2, 2]]
     assert drawn.bonds.color.tolist() == [[255, 0, 0], [0, 0, 255]]
     assert len(scene.objects) == 4  # balls, bonds, edges and corners
-    drawn = scene.add_particles(particles, bonds=1.5, radii=0.3, replicate=(2, 1, 1), cell=False)
+    options: dict[str, Any] = {"bonds": 1.5, "radii": 0.3, "replicate": (2, 1, 1), "cell": False}
+    drawn = scene.add_particles(particles, **options)
+    assert drawn.copies is None
+    assert drawn.spheres.center[:, 0].tolist() == [0.5, 3.5, 4.5, 7.5]
+    assert drawn.bonds.end[:, 0].tolist() == [0, 4, 4, 8]
+    del scene.objects[4:]
+    monkeypatch.setattr(drawing, "WRITTEN_OUT", 7)
+    drawn = scene.add_particles(particles, **options)
     assert drawn.copies is not None
     assert drawn.copies.at.tolist() == [[0, 0, 0], [4, 0, 0]]
     assert scene.objects[4:] == [drawn.copies]

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 SIZE = (1024, 1024)
 """Width and height of a picture of data, unless they are given."""
 
-SAMPLES = 9
+SAMPLES = 4
 """Rays for each pixel that needs them: pictures of data are figures, whose edges are smooth."""
 
 USUAL = (-65.0, 20.0)

@@ -12,6 +12,9 @@ from vtray.scene.particles.made_of import made_of
 if TYPE_CHECKING:
     from vtray.image.rendered import Rendered
 
+NONE = -1
+"""In place of a copy: there is none."""
+
 
 @dataclass(frozen=True)
 class Pick:
@@ -24,7 +27,8 @@ class Pick:
     index : int
         The place in the arrays of that object, 0 if it has none, as `Image.ids` counts.
     copy : int or None
-        Which copy of what stands at many places; None where there is none.
+        Which copy of what stands at many places, such as a cell that is shown several times; None
+        of what is neither copied nor made of particles.
     distance : float
         Distance along the ray, in scene units.
     particle : int or None
@@ -62,5 +66,6 @@ def pick(image: "Rendered", x: int, y: int) -> Pick | None:
     if source is not None:
         particle = source.particle(within, int(image.halves[row, column]))
         values = source.values(particle)
+        copy = source.image(within) if copy == NONE else copy
     distance = float(image.depth[row, column])
-    return Pick(place, index, None if copy < 0 else copy, distance, particle, values)
+    return Pick(place, index, None if copy == NONE else copy, distance, particle, values)

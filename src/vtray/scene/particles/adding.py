@@ -106,7 +106,9 @@ class AddingParticles:
         cell
             Whether the edges of the cell are drawn; by default, if there is one.
         replicate
-            How many times the cell is shown along each of its edges. The copies take no memory.
+            How many times the cell is shown along each of its edges. Where all
+            cells together have more than half a million objects, they are `Copies`, which take no
+            memory.
         wrap
             Whether particles outside the cell are brought into it.
         unwrap

@@ -24,7 +24,7 @@ from vtray.scene.particles.coloring import Coloring, color_particles, faded
 from vtray.scene.particles.expression import mask
 from vtray.scene.particles.from_objects import as_particles
 from vtray.scene.particles.lattice import columns_of, lattice_of
-from vtray.scene.particles.made_of import MadeOf, remember
+from vtray.scene.particles.made_of import MadeOf, remember, written_out
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.styles import (
     COVERED,
@@ -48,6 +48,10 @@ Integers = NDArray[np.int64]
 Bytes = NDArray[np.uint8]
 
 CELL_COLOR = (70, 70, 70)
+
+WRITTEN_OUT = 500_000
+"""Spheres and cylinders up to which all cells are written out, about 50 MB: copies of small cells,
+whose boxes overlap, are traced ten times as slowly."""
 
 
 class HasObjects(Protocol):
@@ -73,7 +77,8 @@ class Drawn:
         The cell's edges, and its corners.
     copies : Copies or None
         What stands at all places of a cell that is shown several times, with `spheres` and `bonds`,
-        which are then not among the objects of the scene themselves.
+        which are then not among the objects of the scene themselves. None where these are so few
+        that they hold all cells, one after the other.
     color_scale : ColorScale or None
         How values became colours, if they did.
     legend : list
@@ -154,8 +159,14 @@ def draw(
         if bond_radius is not None:
             thick = _positive(bond_radius, "bond_radius")
         sticks = _cylinders(particles, placed, thick, found)
+    copies, images = None, len(placed.places)
+    if 1 < images <= WRITTEN_OUT // max(len(spheres) + len(sticks or ()), 1):
+        spheres = written_out(spheres, placed.places)
+        sticks = None if sticks is None else written_out(sticks, placed.places)
+        images = 1
     parts: list[Spheres | Cylinders] = [spheres] if sticks is None else [spheres, sticks]
-    copies = Copies(parts, placed.places) if len(placed.places) > 1 else None
+    if images > 1:
+        copies = Copies(parts, placed.places)
     scene.objects.extend(parts if copies is None else [copies])
     edges = None
     if cell if cell is not None else particles.cell is not None:
