@@ -139,7 +139,7 @@ def test_cell_is_drawn_where_there_is_one() -> None:
     boxed = Particles([(1, 1, 1)], cell=np.eye(3) * 4)
     edges, corners = drawn(boxed).cell
     assert (len(edges), len(corners)) == (12, 8)
-    assert edges.radius == corners.radius == 0.01
+    assert edges.radius == corners.radius == pytest.approx(0.014)
     assert drawn(boxed, cell=False).cell is None
 
 

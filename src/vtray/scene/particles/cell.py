@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-THIN = 0.0025
+THIN = 0.0035
 """Radius of a cell's edges, in parts of the longest one that is drawn."""
 
 IMAGES = (("ix", "iy", "iz"),)

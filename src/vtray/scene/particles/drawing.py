@@ -51,7 +51,7 @@ CELL_COLOR = (70, 70, 70)
 
 WRITTEN_OUT = 500_000
 """Spheres and cylinders up to which all cells are written out, about 50 MB: copies of small cells,
-whose boxes overlap, are traced ten times as slowly."""
+whose boxes overlap, are traced seven times as slowly."""
 
 
 class HasObjects(Protocol):
