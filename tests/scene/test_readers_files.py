@@ -45,6 +45,39 @@ def test_files_of_ase(name: str, tmp_path: Path) -> None:
     assert np.abs(found.cell - crystal.cell).max() < 1e-5
 
 
+CIF = """\
+data_salt
+_cell_length_a 5.64
+_cell_length_b 5.64
+_cell_length_c 5.64
+_cell_angle_alpha 90
+_cell_angle_beta 90
+_cell_angle_gamma 90
+{symmetry}
+loop_
+_atom_site_label
+_atom_site_type_symbol
+_atom_site_fract_x
+_atom_site_fract_y
+_atom_site_fract_z
+Na1 Na 0 0 0
+Cl1 Cl 0.5 0.5 0.5
+"""
+
+
+@pytest.mark.parametrize(
+    ("symmetry", "count"),
+    [
+        ("_symmetry_Int_Tables_number 225\n_symmetry_space_group_name_H-M 'F m -3 m'", 8),
+        ("_symmetry_equiv_pos_as_xyz 'x, y, z'", 2),
+    ],
+)
+def test_symmetry_of_crystals(symmetry: str, count: int, tmp_path: Path) -> None:
+    path = tmp_path / "salt.cif"
+    path.write_text(CIF.format(symmetry=symmetry))
+    assert len(vtray.read(path)) == count
+
+
 def test_frames_of_ase(tmp_path: Path) -> None:
     path = tmp_path / "run.traj"
     quiet_write(path, [Atoms("He", [(i, 0, 0)]) for i in range(4)])
@@ -86,6 +119,8 @@ def test_pdb(tmp_path: Path) -> None:
     assert np.abs(found.cell - theirs.cell).max() < 1e-12
     last = vtray.read(path, -1)
     assert (len(last), last.frame, last.positions[0, 0]) == (1, 1, 7)
+    path.write_text(PDB.replace("          CA\n", "          QQ\n"))
+    assert vtray.read(path)["element"].tolist() == ["C", "H", "X"]
     # Without the columns of elements, the place of the name tells calcium from alpha carbon.
     path.write_text("".join(f"{line[:76]}\n" for line in PDB.splitlines()))
     assert vtray.read(path)["element"].tolist() == ["C", "H", "Ca"]
@@ -223,6 +258,8 @@ def test_from_mdanalysis() -> None:
     )
     assert found.bonds.tolist() == [[0, 1], [0, 2]]
     assert np.abs(found.cell - 10 * np.eye(3)).max() < 1e-5
+    made.atoms[2].element = ""
+    assert vtray.from_mdanalysis(made)["element"].tolist() == ["O", "H", "X"]
     part = vtray.from_mdanalysis(made.atoms[[2, 0]])
     assert part["name"].tolist() == ["HW2", "OW"]
     assert part.bonds.tolist() == [[1, 0]]
@@ -245,6 +282,50 @@ def test_topology_and_trajectory(tmp_path: Path) -> None:
     assert vtray.read(top)["element"].tolist() == ["O", "H", "H"]
     with pytest.raises(SceneError, match="frame 3: there are 3 frames; expected -3 to 2$"):
         vtray.read(top, 3, trajectory=run)
+
+
+PSF = """\
+PSF
+
+       1 !NTITLE
+ REMARKS water
+
+       2 !NATOM
+       1 W    1    SOL  OW   O     -0.800000       15.9990           0
+       2 W    1    SOL  HW1  H      0.400000        1.0080           0
+
+       1 !NBOND: bonds
+       1       2
+"""
+
+
+def test_topology_without_places(tmp_path: Path) -> None:
+    path = tmp_path / "top.psf"
+    path.write_text(PSF)
+    with pytest.raises(SceneError, match="has no places; name the file that has some, as in traj"):
+        vtray.read(path)
+    (tmp_path / "run.xyz").write_text("2\n\nO 0 0 0\nH 1 0 0\n2\n\nO 5 0 0\nH 6 0 0\n")
+    found = vtray.read(path, -1, trajectory=tmp_path / "run.xyz")
+    assert found.positions.tolist() == [[5, 0, 0], [6, 0, 0]]
+    assert (found.bonds.tolist(), found["mass"].tolist()) == ([[0, 1]], [15.999, 1.008])
+    with pytest.raises(SceneError, match="top.psf: trajectory: .*gone.xtc: no such file; expected"):
+        vtray.read(path, trajectory=tmp_path / "gone.xtc")
+    (tmp_path / "bad.xtc").write_bytes(b"1 2 3")
+    with pytest.raises(SceneError, match="a topology and its trajectory .*bad.xtc, which MDAnalys"):
+        vtray.read(path, trajectory=tmp_path / "bad.xtc")
+
+
+def test_too_large_for_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    words = "9 GB of memory, 1 GB is available"
+    monkeypatch.setattr("vtray.scene.readers.rows.lack_of_memory", lambda _: words)
+    monkeypatch.setattr("vtray.scene.readers.libraries.lack_of_memory", lambda _: words)
+    monkeypatch.setattr("vtray.scene.readers.lines.STEP", 20)
+    (tmp_path / "a.xyz").write_text("9\n\n" + "O 0 0 0\n" * 9)
+    (tmp_path / "a.cif").write_text(CIF)
+    with pytest.raises(SceneError, match=f"a.xyz: line [0-9]+: 9 rows need {words}$"):
+        vtray.read(tmp_path / "a.xyz")
+    with pytest.raises(SceneError, match=f"a.cif: reading it needs about {words}$"):
+        vtray.read(tmp_path / "a.cif")
 
 
 TABLE = "X;y; z;vx;vy;vz;kind;size\n1;2;3;0;0;1;a;0.5\n4;5;6;0;1;0;b;\n"
@@ -295,6 +376,17 @@ def test_las(ending: str, tmp_path: Path) -> None:
     assert found["classification"].tolist() == [2, 6]
 
 
+def test_las_that_claims_more_than_it_has(tmp_path: Path) -> None:
+    path = tmp_path / "a.las"
+    cloud = laspy.LasData(laspy.LasHeader(point_format=3, version="1.2"))
+    cloud.write(path)
+    content = bytearray(path.read_bytes())
+    content[100:104] = b"\xff" * 4
+    path.write_bytes(content)
+    with pytest.raises(SceneError, match="claims 4294967295 records and 0 chunks, "):
+        vtray.read(path)
+
+
 @pytest.mark.parametrize("text", [True, False])
 def test_ply(text: bool, tmp_path: Path) -> None:
     kinds = [(name, "f4") for name in "xyz"] + [(name, "u1") for name in ("red", "green", "blue")]
@@ -313,8 +405,8 @@ BROKEN = {
     "a.gsd": "expected a GSD file, which gsd cannot read (",
     "a.gro": "expected a topology, which MDAnalysis cannot read (",
     "a.parquet": "expected a Parquet file, which pyarrow cannot read (",
-    "a.las": "expected a LAS file, which laspy cannot read (",
-    "a.laz": "expected a LAS file, which laspy cannot read (",
+    "a.las": "expected a LAS file, which begins with LASF",
+    "a.laz": "expected a LAS file, which begins with LASF",
     "a.ply": "expected a PLY file, which plyfile cannot read (",
     "a.npz": "expected a .npz file (File is not a zip file)",
     "a.npy": "",

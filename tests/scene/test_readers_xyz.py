@@ -179,3 +179,9 @@ def test_frames_that_there_are_not(frame: int, tmp_path: Path) -> None:
         read(WATER * 2, tmp_path, frame)
     with pytest.raises(SceneError, match=f"frame {frame}: there is one frame; expected 0 or -1$"):
         read(WATER, tmp_path, frame)
+
+
+def test_frames_are_whole_numbers(tmp_path: Path) -> None:
+    assert len(read(WATER, tmp_path, np.int64(-1))) == 3
+    with pytest.raises(SceneError, match="frame: expected an integer, got 'last'$"):
+        read(WATER, tmp_path, "last")

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
+from vtray.scene.particles.few_names import texts_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -143,10 +144,8 @@ def symbols_or_none(names: "ArrayLike") -> "NDArray[np.str_] | None":
     if given.dtype.kind not in "US" or given.ndim != 1:
         return None
     listed = given.astype(np.str_).tolist()
-    known = {name: symbol_of(name) for name in set(listed)}
-    if None in known.values():
-        return None
-    return np.array([known[name] for name in listed], np.str_)
+    known = {name: symbol_of(name) or "" for name in set(listed)}
+    return texts_of(listed, known.__getitem__) if all(known.values()) else None
 
 
 def atomic_numbers(symbols: "ArrayLike") -> "NDArray[np.int64]":

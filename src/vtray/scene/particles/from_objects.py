@@ -122,6 +122,8 @@ def from_mdanalysis(group: Any) -> Particles:  # noqa: ANN401
         if hasattr(atoms, attribute):
             values = np.asarray(getattr(atoms, attribute))
             columns[name] = values.astype(np.str_) if values.dtype == object else values
+    if "element" in columns:  # those of sites without mass, for instance, are left blank
+        columns["element"] = np.where(columns["element"] == "", "X", columns["element"])
     if now.has_velocities:
         columns["velocity"] = np.array(atoms.velocities)
     if now.has_forces:

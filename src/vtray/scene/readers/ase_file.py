@@ -6,6 +6,7 @@ https://wiki.fysik.dtu.dk/ase/ase/io/io.html
 """
 
 from collections import deque
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -30,6 +31,16 @@ _NAMES = {
 }
 """What ASE calls files, where the table of readers calls them otherwise."""
 
+_WHOLE = {"do_not_split_by_at_sign": True}
+"""A name is that of a file, @ in it or not."""
+
+_OPERATIONS = (
+    "_space_group_symop_operation_xyz",
+    "_space_group_symop.operation_xyz",
+    "_symmetry_equiv_pos_as_xyz",
+)
+"""Where a CIF file may list its symmetry operations."""
+
 
 def read(given: Given) -> Particles:
     """Read a frame of a file that ASE reads.
@@ -49,7 +60,9 @@ def read(given: Given) -> Particles:
     met: deque[Any] = deque(maxlen=max(-given.frame, 1))
     count = 0
     with told("ASE", what):
-        for atoms in io.iread(given.path, ":", name, do_not_split_by_at_sign=True):
+        for atoms in (
+            _crystals(given) if name == "cif" else io.iread(given.path, ":", name, **_WHOLE)
+        ):
             met.append(atoms)
             count += 1
             if count == given.frame + 1:
@@ -58,3 +71,17 @@ def read(given: Given) -> Particles:
         raise SceneError(f"holds no frame; expected {what}")
     number = frame_number(given.frame, count)
     return replace(from_ase(met[0 if given.frame < 0 else -1]), frame=number)
+
+
+def _crystals(given: Given) -> Iterator[Any]:
+    """Give the structures of a CIF file.
+
+    ASE compares all sites with each other, 9 s for 1,728, which can be left out without symmetry.
+    """
+    cif: Any = need("ase.io.cif", "atoms", "reading a CIF file")
+    for block in cif.parse_cif(given.path):
+        if block.has_structure():
+            listed = next((block[key] for key in _OPERATIONS if key in block), None)
+            operations = [listed] if isinstance(listed, str) else listed or ()
+            is_alone = [text.replace(" ", "").lower() for text in operations] == ["x,y,z"]
+            yield block.get_unsymmetrized_structure() if is_alone else block.get_atoms()

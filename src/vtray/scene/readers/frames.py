@@ -1,6 +1,69 @@
 """Frames of a file: those that there are."""
 
+from collections import deque
+from collections.abc import Callable
+from typing import Protocol, TypeVar
+
 from vtray.base.errors import SceneError
+from vtray.scene.readers.lines import Lines
+
+
+class Head(Protocol):
+    """What stands before the rows of a frame in a text."""
+
+    @property
+    def size(self) -> int:
+        """How many rows follow."""
+
+
+AnyHead = TypeVar("AnyHead", bound=Head)
+
+
+def find_frame(
+    lines: Lines, frame: int, read_head: Callable[[Lines], AnyHead | None], first: str
+) -> tuple[int, AnyHead]:
+    """Go to the rows of a frame.
+
+    Parameters
+    ----------
+    lines
+        The file, at its beginning.
+    frame
+        From 0; or from -1, the last, backwards.
+    read_head
+        Reads what stands before the rows; None at the end of the file.
+    first
+        What is expected in the first line.
+
+    Returns
+    -------
+    number : int
+        That of the frame, from 0.
+    head : AnyHead
+        What stands before its rows.
+
+    Raises
+    ------
+    SceneError
+        There is no such frame.
+    """
+    # Of the frames that were met, only those that may be asked for are kept.
+    met: deque[tuple[tuple[int, int], AnyHead]] = deque(maxlen=max(-frame, 1))
+    count = 0
+    while (head := read_head(lines)) is not None:
+        if count == frame:
+            return frame, head
+        met.append((lines.place(), head))
+        count += 1
+        if lines.skip(head.size) < head.size:
+            break
+    if count == 0:
+        raise SceneError(f"is empty; expected {first} in the first line")
+    if frame >= 0 or -frame > count:
+        raise no_such_frame(frame, count)
+    place, found = met[0]
+    lines.go(place)
+    return count + frame, found
 
 
 def frame_number(frame: int, count: int) -> int:

@@ -13,7 +13,7 @@ from vtray.base.extras import need
 from vtray.scene.particles.column_names import name_columns
 from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.frames import frame_number
-from vtray.scene.readers.libraries import check_room, told
+from vtray.scene.readers.libraries import told
 from vtray.scene.readers.reader_table import Given
 
 if TYPE_CHECKING:
@@ -47,7 +47,6 @@ def read(given: Given) -> Particles:
     import numpy as np
 
     hoomd: Any = need("gsd.hoomd", "atoms", "reading GSD files")
-    check_room(given.path, 0)
     with told("gsd", "a GSD file"), hoomd.open(given.path, "r") as trajectory:
         if not len(trajectory):
             raise SceneError("holds no frame; expected at least one")

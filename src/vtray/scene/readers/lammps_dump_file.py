@@ -6,14 +6,13 @@ https://docs.lammps.org/dump.html, https://docs.lammps.org/Howto_triclinic.html
 """
 
 import re
-from collections import deque
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.column_names import name_columns
 from vtray.scene.particles.particles import Particles
-from vtray.scene.readers.frames import no_such_frame
+from vtray.scene.readers.frames import find_frame
 from vtray.scene.readers.lines import Lines
 from vtray.scene.readers.reader_table import Given
 from vtray.scene.readers.rows import kind_of, read_rows
@@ -67,7 +66,7 @@ def read(given: Given) -> Particles:
         The file has no such frame, or it is not right. The message names the line.
     """
     lines = Lines(given.file)
-    number, head = _find(lines, given.frame)
+    number, head = find_frame(lines, given.frame, _read_head, "ITEM: TIMESTEP")
     place = lines.place()
     first = (lines.next() or "").split() if head.size else []
     lines.go(place)
@@ -87,31 +86,6 @@ def read(given: Given) -> Particles:
         frame=number,
         time=head.time,
     )
-
-
-def _find(lines: Lines, frame: int) -> tuple[int, _Head]:
-    """Go to the rows of a frame; return its number from 0, and its head."""
-    places: deque[tuple[int, int]] = deque(maxlen=max(-frame, 1))
-    count = 0
-    while True:
-        place = lines.place()
-        head = _read_head(lines)
-        if head is None:
-            break
-        if count == frame:
-            return frame, head
-        places.append(place)
-        count += 1
-        if lines.skip(head.size) < head.size:
-            break
-    if count == 0:
-        raise SceneError("is empty; expected ITEM: TIMESTEP in the first line")
-    if frame >= 0 or -frame > count:
-        raise no_such_frame(frame, count)
-    lines.go(places[0])
-    head = _read_head(lines)
-    assert head is not None  # noqa: S101  it was read before
-    return count + frame, head
 
 
 def _read_head(lines: Lines) -> _Head | None:

@@ -5,7 +5,9 @@ References
 https://laspy.readthedocs.io, https://www.asprs.org/divisions-committees/lidar-division
 """
 
-from typing import TYPE_CHECKING, Any
+import io
+import struct
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from vtray.base.errors import SceneError
 from vtray.base.extras import need
@@ -22,6 +24,12 @@ if TYPE_CHECKING:
 
 _BYTES = 200
 """Of memory for a point."""
+
+_HEAD = 247
+"""Bytes of the longest head that is looked at."""
+
+_COMPRESSED = 0x80
+"""Of the kind of the points: whether they are compressed."""
 
 _LEFT_OUT = {"X", "Y", "Z", "red", "green", "blue"}
 
@@ -46,6 +54,7 @@ def read(given: Given) -> Particles:
     if given.path.lower().endswith(".laz") or given.format == "laz":
         need("lazrs", "points", "reading .laz files")
     frame_number(given.frame, 1)
+    _check_head(given.file)
     with told("laspy", "a LAS file"), laspy.open(given.file, closefd=False) as reader:
         count = reader.header.point_count
         lack = lack_of_memory(count * _BYTES)
@@ -65,3 +74,36 @@ def read(given: Given) -> Particles:
                 columns[name] = np.array(points[name])
         positions = np.array(points.xyz)
     return Particles(positions, columns)
+
+
+def _check_head(file: BinaryIO) -> None:
+    """Raise SceneError if a file is no LAS file, or claims more than it has bytes for.
+
+    laspy would make an empty record for each that there is not, and lazrs would end the process
+    where it gets no memory.
+    """
+    head = file.read(_HEAD).ljust(_HEAD, b"\0")
+    size = file.seek(0, io.SEEK_END)
+    if not head.startswith(b"LASF"):
+        raise SceneError("expected a LAS file, which begins with LASF")
+    start, records, kind = struct.unpack_from("<IIB", head, 96)
+    (further,) = struct.unpack_from("<I", head, 243) if head[25] >= 4 else (0,)
+    chunks = _chunks(file, start, size) if kind & _COMPRESSED else 0
+    if records * 54 + further * 60 + chunks > size:
+        parts = f"{records + further} records and {chunks} chunks"
+        raise SceneError(f"claims {parts}, which do not fit into its {size} bytes; write it again")
+    file.seek(0)
+
+
+def _chunks(file: BinaryIO, start: int, size: int) -> int:
+    """Return how many chunks of compressed points a file claims to have."""
+    file.seek(start)
+    (table,) = struct.unpack("<q", file.read(8).ljust(8, b"\0"))
+    if table == -1:  # was not known when the file was begun, and stands at its end
+        file.seek(max(size - 8, 0))
+        (table,) = struct.unpack("<q", file.read(8).ljust(8, b"\0"))
+    if not 0 <= table <= size:
+        return size + 1
+    file.seek(table)
+    _, chunks = struct.unpack("<II", file.read(8).ljust(8, b"\0"))
+    return int(chunks)

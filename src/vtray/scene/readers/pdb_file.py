@@ -14,6 +14,7 @@ from vtray.base.errors import SceneError
 from vtray.base.exact_math import cosine, sine
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.elements import symbol_of
+from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.frames import frame_number
 from vtray.scene.readers.libraries import check_room
@@ -147,12 +148,10 @@ def _text(table: "Array", start: int, end: int, strip: bool = True) -> "Array":
     import numpy as np
 
     found: Array = np.ascontiguousarray(table[:, start:end]).view(f"S{end - start}").ravel()
-    names = np.array([entry.decode("latin-1") for entry in set(found.tolist())])
-    if len(names) < len(found) // 8:  # few names, which are turned into text once
-        texts = {name.encode("latin-1"): name.strip() if strip else name for name in names.tolist()}
-        return np.array([texts[entry] for entry in found.tolist()], np.str_)
-    listed = [entry.decode("latin-1") for entry in found.tolist()]
-    return np.array([entry.strip() if strip else entry for entry in listed], np.str_)
+    listed = found.tolist()
+    if strip:
+        return texts_of(listed, lambda entry: entry.decode("latin-1").strip())
+    return texts_of(listed, lambda entry: entry.decode("latin-1"))
 
 
 def _numbers(table: "Array", start: int, end: int, lines: list[int], name: str) -> "Array":
@@ -183,14 +182,12 @@ def _whole(texts: "Array") -> "Array":
 
 
 def _elements_of(columns: "Array", names: "Array") -> "Array | None":
-    """Return the elements of atoms; None if one is not known."""
-    import numpy as np
-
-    pairs = list(zip(columns.tolist(), names.tolist(), strict=True))
-    known = {pair: _element_of(*pair) for pair in set(pairs)}
-    if None in known.values():
+    """Return the elements of atoms, X where one is not known; None if none is."""
+    pairs = [one + other for one, other in zip(columns.tolist(), names.tolist(), strict=True)]
+    known = {pair: _element_of(pair[:2], pair[2:]) for pair in set(pairs)}
+    if not any(known.values()):
         return None
-    return np.array([known[pair] for pair in pairs], np.str_)
+    return texts_of(pairs, lambda pair: known[pair] or "X")
 
 
 def _element_of(column: str, name: str) -> str | None:

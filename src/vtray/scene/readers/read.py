@@ -1,14 +1,16 @@
 """Reads files of data: `vtray.read`."""
 
+import operator
 import os
 from collections.abc import Mapping
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, SupportsIndex
 
 from vtray.base.errors import SceneError, why_unreadable
 from vtray.base.input_file import open_input
+from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.particles.from_columns import renamed
 from vtray.scene.particles.particles import POSITION, Particles
@@ -72,7 +74,8 @@ def read(
         module = import_module(f"vtray.scene.readers.{reader.module}")
         second = None if trajectory is None else os.fsdecode(trajectory)
         with open_input(path) as file:
-            found: Particles = module.read(Given(file, name, kind, frame, columns or {}, second))
+            given = Given(file, name, kind, _whole(frame), columns or {}, second)
+            found: Particles = module.read(given)
         if columns and reader.module not in _BY_NAME:
             found = _with_names(found, columns)
     except SceneError as error:
@@ -80,6 +83,14 @@ def read(
     except (OSError, ValueError, MemoryError) as error:  # a path with a null byte is a ValueError
         raise SceneError(f"{name}: {why_unreadable(error, 'file of data')}") from None
     return replace(found, source=Path(name))
+
+
+def _whole(frame: SupportsIndex) -> int:
+    """Return a number of a frame as an integer."""
+    try:
+        return operator.index(frame)
+    except TypeError:
+        raise SceneError(f"frame: expected an integer, got {short(repr(frame))}") from None
 
 
 def _with_names(found: Particles, called: Mapping[str, str]) -> Particles:

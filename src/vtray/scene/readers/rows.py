@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from vtray.base.errors import SceneError
 from vtray.base.memory import lack_of_memory
 from vtray.scene.checks.json_tree import short
+from vtray.scene.particles.few_names import texts_of
 from vtray.scene.readers.lines import Lines, text_of
 
 if TYPE_CHECKING:
@@ -66,9 +67,10 @@ def read_rows(lines: Lines, count: int, kinds: str, more: bool = False) -> "list
 
     parts: list[list[Array]] = []
     read = 0
+    room = sum(_BYTES[kind] for kind in kinds)
     for block, size in lines.blocks(count):
-        if parts and lack_of_memory(count * sum(map(_BYTES.get, kinds))):  # type: ignore[arg-type]
-            lack = lack_of_memory(count * sum(_BYTES[kind] for kind in kinds))
+        lack = lack_of_memory(count * room) if parts else None
+        if lack:
             raise SceneError(f"line {lines.number}: {count} rows need {lack}")
         parts.append(_columns(block, size, kinds, more, lines.number - size + 1))
         read += size
@@ -123,10 +125,7 @@ def _convert(entries: list[bytes], kind: str) -> "Array":
         return np.fromiter(map(int, entries), np.int64, count)
     if kind == "L":
         return np.fromiter((_TRUTH[entry.upper()] for entry in entries), np.bool_, count)
-    try:
-        return np.array(entries, np.bytes_).astype(np.str_)
-    except UnicodeDecodeError:
-        return np.array([entry.decode() for entry in entries], np.str_)
+    return texts_of(entries, bytes.decode)
 
 
 def _wrong_entry(found: list[list[bytes]], kinds: str, first: int) -> SceneError:
