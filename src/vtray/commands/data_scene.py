@@ -17,6 +17,9 @@ SIZE = (1024, 1024)
 SAMPLES = 4
 """Rays for each pixel that needs them: pictures of data are figures, whose edges are smooth."""
 
+TOLERANCE = 0.02
+"""How noisy soft light may be: twice to five times fewer rays than scenes have among many atoms."""
+
 USUAL = (-65.0, 20.0)
 """Azimuth and elevation of the view of a cell: three faces are seen, that in front most."""
 
@@ -38,7 +41,7 @@ def load_data(options: argparse.Namespace) -> "Scene":
     drawing = {name: value for name, value in given.items() if name not in ("frame", "columns")}
     if "cutoff" in drawing:
         drawing["bonds"] = drawing.pop("cutoff")
-    scene = Scene(render=RenderSettings(samples=SAMPLES))
+    scene = Scene(render=RenderSettings(samples=SAMPLES, tolerance=TOLERANCE))
     size = options.size or SIZE
     try:
         if drawing.get("style") == "points":
