@@ -144,7 +144,7 @@ INEXACT = set(
     arcsin arccos arctan arctan2 arcsinh arccosh arctanh power float_power logaddexp logaddexp2 sinc
     deg2rad rad2deg i0
 
-    dot vdot vecdot inner matmul matvec vecmat einsum tensordot linalg norm fft convolve correlate
+    dot vdot vecdot inner matmul matvec vecmat einsum tensordot linalg fft convolve correlate
     interp mean average std var median quantile percentile nansum nanmean trapezoid polyval polyfit
     """.split()  # noqa: SIM905
 )

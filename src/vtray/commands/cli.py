@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from vtray.base.errors import printable
 from vtray.base.memory import BYTES_PER_PIXEL_AND_MORE, check_memory, check_memory_of_start
 from vtray.base.signals import LastStep
+from vtray.commands import data_options
 from vtray.commands.annotation_options import annotations_of
 from vtray.commands.command import SUCCESS, print_note, print_result, run_command
 from vtray.commands.growing import Growing, check_preview, check_preview_of
@@ -37,12 +38,18 @@ def _run(options: argparse.Namespace) -> int:
     """Read the scene, render it, and write the image or explain the pixel."""
     from vtray.base.stopwatch import Stopwatch
 
+    is_data = _is_data(options)
+    if options.columns:
+        from vtray.commands.data_scene import describe
+
+        print_result(describe(options))
+        return SUCCESS
     told = _take_over(options)
     if options.pixel is None:
         _check_output(options)
     check_memory_of_start()
     clock = Stopwatch()
-    scene = _load(options)
+    scene = _load_data(options) if is_data else _load(options)
     if options.pixel is None:
         _check_picture(scene, options)
     if told is not None:
@@ -131,6 +138,28 @@ def _warn(message: str, options: argparse.Namespace) -> None:
     """Print a warning on stderr."""
     if not options.quiet:
         print_note(f"Warning: {printable(message)}")
+
+
+def _is_data(options: argparse.Namespace) -> bool:
+    """Tell whether there is a file of data in place of a scene; see that the options are for it."""
+    given = data_options.given(options)
+    is_data = False
+    if options.scene.suffix != ".json":
+        from vtray.scene.readers.reader_table import is_data as is_called_data
+
+        is_data = is_called_data(str(options.scene))
+    if is_data or given:
+        data_options.check_kind(options, is_data=is_data)
+    if options.threads is None and not is_data:
+        options.threads = 1
+    return is_data
+
+
+def _load_data(options: argparse.Namespace) -> "Scene":
+    """Read a file of data, and make a scene of it."""
+    from vtray.commands.data_scene import load_data
+
+    return load_data(options)
 
 
 def _load(options: argparse.Namespace) -> "Scene":

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from vtray.commands import data_options
 from vtray.commands.annotation_options import add_annotations, with_values
 from vtray.commands.command import Parser
 from vtray.commands.setting_options import add_settings, wrong
@@ -26,14 +27,16 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         hint=HINT,
         prog="vtray",
         usage="vtray [OPTION ...] SCENE OUTPUT",
-        description="Render a scene of spheres, cylinders and planes to an image.",
-        epilog="example: vtray -t 4 --samples 16 scene.json picture.png",
+        description="Render a scene of spheres, cylinders and planes, or data of particles, to an "
+        "image.",
+        epilog="examples: vtray -t 4 --samples 16 scene.json picture.png; "
+        "vtray --bonds --view front run.extxyz last.png",
     )
     parser.add_argument(
         "scene",
         metavar="SCENE",
         type=_or_stream("/dev/stdin"),
-        help="the scene, a JSON file; - for standard input",
+        help="the scene, a JSON file, or - for standard input; or a file of data: .xyz, .pdb, ...",
     )
     parser.add_argument(
         "output",
@@ -44,21 +47,26 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         "output",
     )
     parser.add_argument(
-        "-t", "--threads", type=_thread_count, default=1, help="threads that render (default: 1)"
+        "-t",
+        "--threads",
+        type=_thread_count,
+        help="threads that render (1 unless given; for data, as many as there are cores)",
     )
     parser.add_argument(
         "-q", "--quiet", action="store_true", help="no warnings, no progress, only errors"
     )
     parser.add_argument("-V", "--version", action="version", version=f"vtray {__version__}")
+    if data_options.are_used(arguments):
+        data_options.add_data_options(parser)
     _add_settings(parser)
     _add_output(parser)
     add_annotations(parser)
     _add_growing(parser)
     _add_reports(parser)
-    options = parser.parse_intermixed_args(
-        with_values(arguments)
-    )  # SCENE and OUTPUT may stand apart
-    if options.output is None and options.pixel is None:
+    # SCENE and OUTPUT may stand apart.
+    options = parser.parse_intermixed_args(data_options.joined(with_values(arguments)))
+    options.columns = getattr(options, "columns", None)
+    if options.output is None and options.pixel is None and not options.columns:
         parser.error("OUTPUT is missing")
     if options.pixel is not None and (options.preview is not None or options.keep_partial):
         parser.error("--preview and --keep-partial are of no use with --pixel")

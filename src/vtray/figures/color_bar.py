@@ -1,5 +1,6 @@
 """Colour bars: what values the colours of a figure stand for."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -58,11 +59,17 @@ def bar_labels(colorbar: bool | str | Sequence[str], count: int) -> list[str]:
 
 def _ticks(scale: Any, most: int) -> tuple[list[float], list[str]]:  # noqa: ANN401
     """Return where a colour bar has marks, and what is written there."""
-    from matplotlib.ticker import MaxNLocator, ScalarFormatter
+    from matplotlib.ticker import LogLocator, MaxNLocator, ScalarFormatter
 
     low, high = scale.low, scale.high
     if low == high:
         return [low], [f"{low:g}"]
+    if scale.norm == "log":
+        marks = LogLocator(numticks=most).tick_values(low, high)
+        inside = [float(value) for value in marks if low <= value <= high]
+        if len(inside) < 2:
+            inside = [low, high]
+        return [math.log10(value) for value in inside], [f"{value:g}" for value in inside]
     slack = 1e-9 * (high - low)
     values = [
         float(value)
@@ -110,6 +117,8 @@ class ColorBar:
 
         table: Pixels = scale.table
         low, high = (0.0, 1.0) if scale.low == scale.high else (scale.low, scale.high)
+        if scale.norm == "log" and scale.low < scale.high:
+            low, high = math.log10(low), math.log10(high)
         if scale.low == scale.high:
             table = table[:1]
         shades = SHADES if flat else 1

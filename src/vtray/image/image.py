@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from vtray.figures.legend import LegendGiven
     from vtray.figures.point_labels import LabelsGiven
     from vtray.image.annotated import AnnotatedPicture
+    from vtray.image.picking import Pick
     from vtray.scene.colors.color_scale import ColorMap
     from vtray.scene.colors.names import AnyColor
 
@@ -147,6 +148,29 @@ class Image(Rendered):
             nan_color=nan_color,
         )
         return self._relit(scene, lock)
+
+    def pick(self, x: int, y: int) -> "Pick | None":
+        """Return what is seen in the middle of a pixel.
+
+        Parameters
+        ----------
+        x, y
+            Column and row of the pixel, from 0 at the top left; negative ones count from the end.
+
+        Returns
+        -------
+        Pick or None
+            The object, and the particle that it was made of by `Scene.add_particles` with what its
+            columns say; None where nothing is.
+
+        Raises
+        ------
+        RenderError
+            The picture has no such pixel.
+        """
+        from vtray.image.picking import pick
+
+        return pick(self, x, y)
 
     def save(
         self, path: str | PathLike[str], *, bits: int | None = None, aov: Collection[str] = ()

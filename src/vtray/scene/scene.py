@@ -30,6 +30,7 @@ from vtray.scene.light_types import (
     Sun,
 )
 from vtray.scene.objects import Cylinder, Object, Plane, Sphere
+from vtray.scene.particles.adding import AddingParticles
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient
 from vtray.scene.spheres import Spheres
@@ -59,7 +60,7 @@ __all__ = [
 ]
 
 
-class Scene(msgspec.Struct, Adding, AddingLights, metaclass=Checked, dict=True):
+class Scene(msgspec.Struct, Adding, AddingLights, AddingParticles, metaclass=Checked, dict=True):
     """All that a picture is made from.
 
     Its attributes may be replaced, its lists changed, and so may arrays that `Spheres`,

@@ -20,7 +20,7 @@ from vtray.scene.colors.names import ALPHA, WORDS, Rgb, ambiguous, to_rgb
 from vtray.scene.vectors import Color
 
 if TYPE_CHECKING:
-    from vtray.scene.colors.color_scale import ColorMap
+    from vtray.scene.colors.color_scale import ColorMap, Norm
     from vtray.scene.colors.names import AnyColor
 
 Bytes = NDArray[np.uint8]
@@ -37,6 +37,7 @@ def color_arrays(
     cmap: "ColorMap | None",
     clim: object,
     nan_color: "AnyColor",
+    norm: "Norm | None" = None,
 ) -> tuple[dict[str, Bytes], ColorScale | None]:
     """Return the colours of `count` objects.
 
@@ -53,6 +54,8 @@ def color_arrays(
         What one object is called in messages.
     cmap, clim, nan_color
         As for `Scene.add_spheres`; all arguments share the limits of the map.
+    norm
+        "linear", "log" or "centered", as for `scale_of`.
 
     Returns
     -------
@@ -71,7 +74,7 @@ def color_arrays(
             name: _values(item, count, f"{place}{name}", each) for name, item in given.items()
         }
         together = np.concatenate(list(values.values()))
-        scale = scale_of(together, cmap, clim, nan_color, place)
+        scale = scale_of(together, cmap, clim, nan_color, place, norm)
         return {name: scale.colors(numbers) for name, numbers in values.items()}, scale
     if clim is not None:
         hint = 'give a colour map too, for instance cmap="viridis"'

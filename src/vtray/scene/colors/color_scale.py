@@ -3,14 +3,15 @@
 import functools
 import logging
 import math
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vtray.base.errors import SceneError
+from vtray.base.exact_math import logarithm
 from vtray.base.extras import pip_install
-from vtray.scene.checks.scene_words import nearest, show
+from vtray.scene.checks.scene_words import either, nearest, quoted, show
 from vtray.scene.colors.names import Rgb, to_rgb
 
 if TYPE_CHECKING:
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from vtray.scene.colors.names import AnyColor
 
 Bytes = NDArray[np.uint8]
+Norm = Literal["linear", "log", "centered"]
+"""How values are spread over a map: "centered" is linear, with 0 in the middle."""
 
 
 class ColorScale:
@@ -35,6 +38,9 @@ class ColorScale:
         The name of a map of Matplotlib, or a map of Matplotlib or of the package ``cmap``.
     low, high : float
         The values of the first and the last colour, low ≤ high.
+    norm : str
+        "linear"; or "log" for places between them by logarithms: what is not above 0 then counts as
+        NaN.
     nan_color : tuple of int
         Red, green and blue for NaN, from 0 to 255.
 
@@ -45,11 +51,12 @@ class ColorScale:
         argument is not right.
     """
 
-    __slots__ = ("_table", "cmap", "high", "low", "nan_color")
+    __slots__ = ("_table", "cmap", "high", "low", "nan_color", "norm")
 
     cmap: "ColorMap"
     low: float
     high: float
+    norm: Literal["linear", "log"]
     nan_color: Rgb
 
     def __init__(
@@ -59,13 +66,15 @@ class ColorScale:
         high: float,
         nan_color: "AnyColor" = "gray",
         *,
+        norm: Literal["linear", "log"] = "linear",
         place: str = "ColorScale: ",
     ) -> None:
-        _check_limits((low, high), f"{place}clim")
+        _check_limits((low, high), f"{place}clim", norm)
         values = {
             "cmap": cmap,
             "low": float(low),
             "high": float(high),
+            "norm": norm,
             "nan_color": to_rgb(nan_color, f"{place}nan_color"),
             "_table": color_table(cmap, f"{place}cmap"),
         }
@@ -81,7 +90,7 @@ class ColorScale:
         if not isinstance(other, ColorScale):
             return NotImplemented
         mine, its = (
-            (scale.low, scale.high, scale.nan_color, scale.table.tobytes())
+            (scale.low, scale.high, scale.norm, scale.nan_color, scale.table.tobytes())
             for scale in (self, other)
         )
         return mine == its
@@ -91,10 +100,13 @@ class ColorScale:
 
     def __repr__(self) -> str:
         name = getattr(self.cmap, "name", self.cmap)
-        return f"ColorScale({name!r}, {self.low!r}, {self.high!r}, nan_color={self.nan_color})"
+        norm = "" if self.norm == "linear" else f", norm={self.norm!r}"
+        values = f"{name!r}, {self.low!r}, {self.high!r}, nan_color={self.nan_color}"
+        return f"ColorScale({values}{norm})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return ColorScale, (self.cmap, self.low, self.high, self.nan_color)
+        make = functools.partial(ColorScale, norm=self.norm)
+        return make, (self.cmap, self.low, self.high, self.nan_color)
 
     @property
     def table(self) -> Bytes:
@@ -114,12 +126,15 @@ class ColorScale:
         array
             uint8, of the shape of `values` with 3 appended.
         """
-        given = np.asarray(values, np.float64)
+        given, low, high = np.asarray(values, np.float64), self.low, self.high
+        if self.norm == "log":
+            given, ends = logarithm(given), logarithm(np.array([low, high]))
+            low, high = float(ends[0]), float(ends[1])
         # Halves, as the difference of the limits may be more than a double can be.
         half = given * 0.5
-        half -= self.low * 0.5
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            half /= self.high * 0.5 - self.low * 0.5
+            half -= low * 0.5
+            half /= high * 0.5 - low * 0.5
             half *= len(self.table)
             missing = np.isnan(given)
             # What is not above 0, NaN too, gets the first colour.
@@ -136,18 +151,31 @@ def scale_of(
     clim: object,
     nan_color: "AnyColor",
     place: str,
+    norm: Norm | None = None,
 ) -> ColorScale:
-    """Return the scale for values; its limits are the finite range unless they are given."""
+    """Return the scale for values; its limits are the finite range unless they are given.
+
+    With the norm "log", that of what is above 0; with "centered", 0 is in the middle.
+    """
+    if norm is not None and norm not in get_args(Norm):
+        words = either(map(quoted, get_args(Norm)))
+        raise SceneError(f"{place}norm: expected {words}, got {show(norm)}")
+    spread: Literal["linear", "log"] = "log" if norm == "log" else "linear"
     if clim is None:
         finite = values[np.isfinite(values)]
-        low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+        finite = finite[finite > 0.0] if norm == "log" else finite
+        usual = (1.0, 10.0) if norm == "log" else (0.0, 1.0)
+        low, high = (float(finite.min()), float(finite.max())) if finite.size else usual
     else:
-        low, high = _check_limits(clim, f"{place}clim")
-    return ColorScale(cmap, low, high, nan_color, place=place)
+        low, high = _check_limits(clim, f"{place}clim", spread)
+    if norm == "centered":
+        high = max(abs(low), abs(high))
+        low = -high
+    return ColorScale(cmap, low, high, nan_color, norm=spread, place=place)
 
 
-def _check_limits(clim: Any, place: str) -> tuple[float, float]:  # noqa: ANN401
-    """Return limits that are two finite numbers, the lower first."""
+def _check_limits(clim: Any, place: str, norm: str) -> tuple[float, float]:  # noqa: ANN401
+    """Return limits that are two finite numbers, the lower first, above 0 for logarithms."""
     try:
         low, high = (float(limit) for limit in clim)
         right = not isinstance(clim, str) and math.isfinite(low) and math.isfinite(high)
@@ -158,6 +186,8 @@ def _check_limits(clim: Any, place: str) -> tuple[float, float]:  # noqa: ANN401
     if low > high:
         hint = 'for the colours in reverse, add "_r" to the name of the colour map'
         raise SceneError(f"{place}: expected the lower number first, got {show(clim)}; {hint}")
+    if norm == "log" and low <= 0.0:
+        raise SceneError(f"{place}: for logarithms, expected numbers above 0, got {show(clim)}")
     return low, high
 
 

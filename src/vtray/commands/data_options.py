@@ -1,0 +1,171 @@
+"""The options of data: how particles of a file become a picture.
+
+They are only made where one of them is used, or help is asked for: a scene file need not wait.
+"""
+
+import argparse
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from vtray.base.errors import UsageError
+from vtray.commands.command import Parser
+from vtray.commands.setting_options import wrong
+
+STYLES = ("spacefill", "ball-and-stick", "licorice", "points")
+VIEWS = ("x", "-x", "y", "-y", "z", "-z", "top", "bottom", "front", "back", "left", "right", "iso")
+
+_NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+
+
+def _integer(text: str) -> int:
+    if not re.fullmatch(r"[-+]?[0-9]{1,18}", text):
+        raise wrong("an integer such as 0, or -1 for the last", text)
+    return int(text)
+
+
+def _positive(text: str) -> float:
+    if not re.fullmatch(_NUMBER, text) or not 0.0 < float(text) < float("inf"):
+        raise wrong("a number > 0", text)
+    return float(text)
+
+
+def _limits(text: str) -> tuple[float, float]:
+    parts = text.split(",")
+    if len(parts) != 2 or not all(re.fullmatch(_NUMBER, part) for part in parts):
+        raise wrong("two numbers such as -1,1", text)
+    return float(parts[0]), float(parts[1])
+
+
+def _times(text: str) -> tuple[int, ...]:
+    if not re.fullmatch(r"[0-9]{1,6}(x[0-9]{1,6}){2}", text):
+        raise wrong("three integers such as 3x3x1", text)
+    return tuple(map(int, text.split("x")))
+
+
+def _radii(text: str) -> str | float:
+    return float(text) if re.fullmatch(_NUMBER, text) else text
+
+
+def _view(text: str) -> str | tuple[float, float]:
+    if text in VIEWS:
+        return text
+    parts = text.split(",")
+    if len(parts) != 2 or not all(re.fullmatch(_NUMBER, part) for part in parts):
+        raise wrong(f"{', '.join(VIEWS)}, or degrees such as 30,20", text)
+    return float(parts[0]), float(parts[1])
+
+
+YES_OR_NO: dict[str, Any] = {"action": argparse.BooleanOptionalAction, "default": None}
+FLAG: dict[str, Any] = {"action": "store_true", "default": None}
+
+WHAT: dict[str, dict[str, Any]] = {
+    "frame": {"metavar": "N", "type": _integer, "help": "which frame, from 0; -1 is the last"},
+    "columns": {**FLAG, "help": "write no image, print what is known of the particles"},
+    "select": {"metavar": "EXPR", "help": "draw those alone, such as \"element == 'O' and z > 3\""},
+    "replicate": {"metavar": "AxBxC", "type": _times, "help": "show the cell so many times"},
+    "wrap": {**FLAG, "help": "bring particles into the cell"},
+    "unwrap": {**FLAG, "help": "make molecules whole that the cell's border cuts"},
+}
+"""Which particles are drawn, and where."""
+
+HOW: dict[str, dict[str, Any]] = {
+    "style": {"metavar": "NAME", "choices": STYLES, "help": ", ".join(STYLES)},
+    "radii": {
+        "metavar": "NAME",
+        "type": _radii,
+        "help": "covalent, vdw, a number, or the name of a column",
+    },
+    "scale": {"metavar": "NUMBER", "type": _positive, "help": "multiply all radii by it"},
+    "bonds": {**YES_OR_NO, "help": "bonds by covalent radii, or none"},
+    "cutoff": {"metavar": "LENGTH", "type": _positive, "help": "bonds of that length or shorter"},
+    "cell": {**YES_OR_NO, "help": "the edges of the cell, or not"},
+    "color": {"metavar": "COLUMN", "help": "colours by a column, or one colour for all"},
+    "colors": {"metavar": "jmol|cpk", "choices": ("jmol", "cpk"), "help": "those of elements"},
+    "cmap": {"metavar": "NAME", "help": "the colour map of values: viridis, coolwarm, ..."},
+    "clim": {
+        "metavar": "LOW,HIGH",
+        "type": _limits,
+        "help": "the values of its first and last colour",
+    },
+    "norm": {
+        "metavar": "log|centered",
+        "choices": ("linear", "log", "centered"),
+        "help": "how values are spread over it",
+    },
+    "highlight": {"metavar": "EXPR", "help": "let the colours of all others fade"},
+}
+"""What they look like."""
+
+VIEW: dict[str, dict[str, Any]] = {
+    "view": {
+        "metavar": "VIEW",
+        "type": _view,
+        "help": "from where: x, -x, ..., top, front, right, ..., iso, or AZIMUTH,ELEVATION",
+    },
+    "zoom": {"metavar": "NUMBER", "type": _positive, "help": "show everything larger by that"},
+    "orthographic": {**FLAG, "help": "without perspective"},
+}
+"""From where they are seen."""
+
+GROUPS = {
+    "data: which particles": WHAT,
+    "data: what they look like": HOW,
+    "data: from where they are seen": VIEW,
+}
+NAMES = tuple(name for group in GROUPS.values() for name in group)
+
+_FLAGS = {f"--{name}" for name in NAMES} | {"--no-bonds", "--no-cell"}
+_MAY_BE_NEGATIVE = ("--view", "--clim")
+
+
+def are_used(arguments: Sequence[str]) -> bool:
+    """Tell whether an argument is one of the options, or asks for help."""
+    words = {argument.partition("=")[0] for argument in arguments}
+    return not words.isdisjoint(_FLAGS | {"-h", "--help"})
+
+
+def joined(arguments: Sequence[str]) -> list[str]:
+    """Return the arguments with values such as -x, which look like options, after a ``=``."""
+    found: list[str] = []
+    for argument in arguments:
+        last = found[-1] if found else ""
+        if last in _MAY_BE_NEGATIVE and argument.startswith("-") and argument[1:2] != "-":
+            found[-1] = f"{last}={argument}"
+        else:
+            found.append(argument)
+    return found
+
+
+def add_data_options(parser: Parser) -> None:
+    """Add the options to a parser."""
+    for title, options in GROUPS.items():
+        group = parser.add_argument_group(title)
+        for name, known in options.items():
+            group.add_argument(f"--{name}", **known)
+
+
+def given(options: argparse.Namespace) -> dict[str, Any]:
+    """Return the options that were given, by their names."""
+    found = {name: getattr(options, name, None) for name in NAMES}
+    return {name: value for name, value in found.items() if value is not None}
+
+
+def check_kind(options: argparse.Namespace, *, is_data: bool) -> None:
+    """Raise UsageError if an option is for data and there is a scene file, or the other way round.
+
+    Parameters
+    ----------
+    options
+        The options.
+    is_data
+        Whether the file is one of data.
+    """
+    used = given(options)
+    if not is_data and used:
+        raise UsageError(
+            f"--{next(iter(used))} is for files of data, and {options.scene} is a scene"
+        )
+    if is_data and options.replay is not None:
+        words = "a picture does not tell how it was made of data"
+        raise UsageError(f"--replay is for scene files, and {options.scene} is none; {words}")

@@ -1,0 +1,100 @@
+"""A file of data as a scene: what the options of data say."""
+
+import argparse
+from typing import TYPE_CHECKING, Any
+
+from vtray.base.errors import SceneError
+from vtray.commands import data_options
+from vtray.commands.data_options import VIEW
+
+if TYPE_CHECKING:
+    from vtray.scene.particles.particles import Particles
+    from vtray.scene.scene import Camera, Scene
+
+SIZE = (1024, 1024)
+"""Width and height of a picture of data, unless they are given."""
+
+SAMPLES = 4
+"""Rays for each pixel that needs them: pictures of data are figures, whose edges are smooth."""
+
+TOLERANCE = 0.02
+"""How noisy soft light may be: twice to five times fewer rays than scenes have among many atoms."""
+
+USUAL = (-65.0, 20.0)
+"""Azimuth and elevation of the view of a cell: three faces are seen, that in front most."""
+
+
+def load_data(options: argparse.Namespace) -> "Scene":
+    """Read a file of data, and return a scene of its particles as the options say.
+
+    Raises
+    ------
+    SceneError
+        The file cannot be read, or what is asked for is not in it.
+    """
+    from vtray.scene.scene import Scene
+    from vtray.scene.settings import RenderSettings
+
+    given = data_options.given(options)
+    particles = read_particles(options)
+    view = {name: given.pop(name) for name in VIEW if name in given}
+    drawing = {name: value for name, value in given.items() if name not in ("frame", "columns")}
+    if "cutoff" in drawing:
+        drawing["bonds"] = drawing.pop("cutoff")
+    scene = Scene(render=RenderSettings(samples=SAMPLES, tolerance=TOLERANCE))
+    size = options.size or SIZE
+    try:
+        if drawing.get("style") == "points":
+            scene.camera = _camera(particles.positions, particles, size, dict(view))
+        if options.background is not None and not isinstance(options.background, str):
+            drawing["background"] = options.background
+        scene.add_particles(particles, **drawing)
+        scene.camera = _camera(scene, particles, size, dict(view))
+    except SceneError as error:
+        raise SceneError(f"{options.scene}: {error}") from None
+    return scene
+
+
+def read_particles(options: argparse.Namespace) -> "Particles":
+    """Read the frame that is asked for."""
+    from vtray.scene.readers.read import read
+
+    return read(options.scene, frame=data_options.given(options).get("frame", 0))
+
+
+def describe(options: argparse.Namespace) -> str:
+    """Return what is known of the particles, a line for each column."""
+    import numpy as np
+
+    particles = read_particles(options)
+    lines = [f"{len(particles)} particles, frame {particles.frame}"]
+    for name in ("x", "y", "z", *particles.columns):
+        values = particles[name]
+        kind = "" if values.ndim == 1 else f" of {values.shape[1]}"
+        if values.dtype.kind in "biuf" and values.size:
+            range_ = f"{values.dtype.name}{kind}, from {values.min():g} to {values.max():g}"
+        else:
+            words = [str(word) for word in np.unique(values)[:9].tolist()]
+            range_ = f"names{kind}: {', '.join(words[:8])}{', ...' if len(words) > 8 else ''}"
+        lines.append(f"{name:12}{range_}")
+    if particles.bonds is not None:
+        lines.append(f"{'bonds':12}{len(particles.bonds)}")
+    if particles.cell is not None:
+        for name, edge in zip("abc", particles.cell.tolist(), strict=True):
+            lines.append(f"{'cell ' + name:12}{', '.join(f'{part:g}' for part in edge)}")
+    return "\n".join(lines) + "\n"
+
+
+def _camera(
+    subject: Any,  # noqa: ANN401
+    particles: "Particles",
+    size: tuple[int, int],
+    view: dict[str, Any],
+) -> "Camera":
+    """Return the camera that shows everything."""
+    from vtray.scene.scene import Camera
+
+    # A box is known by its faces, and what has none by its shape.
+    view.setdefault("view", "auto" if particles.cell is None else USUAL)
+    projection: Any = "orthographic" if view.pop("orthographic", False) else "perspective"
+    return Camera.fit(subject, projection=projection, size=size, **view)

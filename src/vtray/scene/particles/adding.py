@@ -1,0 +1,165 @@
+"""Adds particles to a scene: the one function that the command and Python share."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Literal
+
+from vtray.scene.checks.unknown_names import explain_unknown
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    from vtray.scene.camera import Camera
+    from vtray.scene.colors.color_scale import ColorMap, Norm
+    from vtray.scene.colors.names import AnyColor
+    from vtray.scene.objects import Object
+    from vtray.scene.particles.drawing import Drawn
+    from vtray.scene.particles.particles import Particles
+    from vtray.scene.particles.radii import Radii
+
+StyleName = Literal["spacefill", "ball-and-stick", "licorice", "points"]
+
+
+class AddingParticles:
+    """What makes objects of particles."""
+
+    __slots__ = ()
+
+    if TYPE_CHECKING:
+        objects: list[Object]
+        camera: Camera
+
+    @explain_unknown
+    def add_particles(
+        self,
+        particles: "Particles | ArrayLike | Any",  # noqa: ANN401
+        style: StyleName | None = None,
+        *,
+        radii: "Radii | None" = None,
+        scale: float = 1.0,
+        color: "AnyColor | ArrayLike | None" = None,
+        colors: Literal["jmol", "cpk"] = "jmol",
+        cmap: "ColorMap | None" = None,
+        clim: tuple[float, float] | None = None,
+        norm: "Norm | None" = None,
+        nan_color: "AnyColor" = "gray",
+        select: "str | NDArray[np.bool_] | None" = None,
+        highlight: "str | NDArray[np.bool_] | None" = None,
+        background: "AnyColor" = "white",
+        bonds: "bool | float | ArrayLike | None" = None,
+        bond_radius: float | None = None,
+        cell: bool | None = None,
+        replicate: Sequence[int] = (1, 1, 1),
+        wrap: bool = False,
+        unwrap: bool = False,
+        camera: "Camera | None" = None,
+    ) -> "Drawn":
+        """Add particles to the objects: balls, bonds between them, and the edges of their cell.
+
+        Parameters
+        ----------
+        particles
+            What `vtray.read` returns; atoms of ASE; or positions of shape (n, 3).
+        style
+            ``"spacefill"``: balls of van der Waals radii. ``"ball-and-stick"``: half of covalent
+            radii, and thin bonds. ``"licorice"``: bonds, and balls as thick as these. ``"points"``:
+            balls of one size in the picture, 1.5 pixels wide, so that none falls between pixels.
+            By default ball-and-stick where bonds are asked for, or known between at most 5000
+            atoms, and else spacefill.
+        radii
+            ``"covalent"`` or ``"vdw"`` for those of the elements in ångström, of which styles take
+            a share; or as they are, in the unit of the positions, a number, an array (n,), or the
+            name of a column. By default the column ``radius``, the elements, or half the mean
+            distance: that is the side of the cube that each particle has in the box around all.
+        scale
+            What all radii are multiplied by, those of bonds too, > 0.
+        color
+            A colour, in any of the ways of `vtray.colors.to_rgb`; the name of a column, or x, y or
+            z; or one colour or one number for each particle. Names and at most eight different
+            integers get a colour each, which people with any colour vision can tell apart; numbers
+            those of `cmap`, and vectors those of their lengths. By default the columns ``color``,
+            ``element`` or ``type``, whichever is there first.
+        colors
+            Whose colours elements have.
+        cmap
+            Turns values into colours, as for `add_spheres`; viridis by default.
+        clim
+            The values of its first and last colour; by default the range of those that are drawn.
+        norm
+            ``"log"``: places between the limits are those of logarithms. ``"centered"``: 0 is in
+            the middle, and the limit that is farther from it counts for both sides.
+        nan_color
+            The colour of values that are NaN.
+        select
+            What is drawn: an expression such as ``"element == 'O' and z > 3"``, or an array (n,) of
+            bool.
+        highlight
+            What keeps its colour, in the same ways; all others come near `background`.
+        background
+            The colour that they come near.
+        bonds
+            True for pairs nearer than 1.2 times the sum of their covalent radii, by
+            `find_bonds`; a number for pairs nearer than that; pairs of indices, (m, 2); False for
+            none. By default those that are known, or True, in styles that show bonds.
+        bond_radius
+            In the unit of the positions; by default as the style says.
+        cell
+            Whether the edges of the cell are drawn; by default, if there is one.
+        replicate
+            How many times the cell is shown along each of its edges. Where all
+            cells together have more than half a million objects, they are `Copies`, which take no
+            memory.
+        wrap
+            Whether particles outside the cell are brought into it.
+        unwrap
+            Whether molecules that the border cuts are made whole, by their bonds, or by the columns
+            ix, iy and iz where they are there.
+        camera
+            The camera of the picture, for points alone; by default that of the scene.
+
+        Returns
+        -------
+        Drawn
+            What was added, and what the colours mean.
+
+        Raises
+        ------
+        SceneError
+            An argument is not right, or something that it needs is not known of the particles.
+
+        Examples
+        --------
+        >>> import vtray
+        >>> water = vtray.Particles([(0, 0, 0), (0.76, 0.59, 0), (-0.76, 0.59, 0)],
+        ...                         {"element": ["O", "H", "H"]})
+        >>> drawn = vtray.Scene().add_particles(water, bonds=True)
+        >>> len(drawn.spheres), len(drawn.bonds), drawn.legend
+        (3, 2, [('H', (228, 228, 228)), ('O', (255, 13, 13))])
+        """
+        from vtray.scene.particles.drawing import draw
+
+        return draw(
+            self,
+            particles,
+            style=style,
+            radii=radii,
+            scale=scale,
+            coloring={
+                "color": color,
+                "colors": colors,
+                "cmap": cmap,
+                "clim": clim,
+                "norm": norm,
+                "nan_color": nan_color,
+            },
+            select=select,
+            highlight=highlight,
+            background=background,
+            bonds=bonds,
+            bond_radius=bond_radius,
+            cell=cell,
+            replicate=replicate,
+            wrap=wrap,
+            unwrap=unwrap,
+            camera=camera,
+        )

@@ -1,0 +1,211 @@
+"""The colours of particles: of their elements, of a column, of categories."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.errors import SceneError
+from vtray.scene.checks.scene_words import either, nearest, quoted, show
+from vtray.scene.colors.color_arrays import color_arrays
+from vtray.scene.colors.color_scale import ColorScale
+from vtray.scene.colors.names import Rgb, to_rgb
+from vtray.scene.particles.elements import SCHEMES, SYMBOLS, atomic_numbers, colors_of
+from vtray.scene.particles.particles import POSITION
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from vtray.scene.colors.color_scale import ColorMap, Norm
+    from vtray.scene.colors.names import AnyColor
+    from vtray.scene.particles.particles import Particles
+
+Bytes = NDArray[np.uint8]
+Integers = NDArray[np.int64]
+
+CMAP = "viridis"
+"""The colour map of values, where none is named."""
+
+PALETTE = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442", "#999999")
+"""Colours of categories that people with any colour vision can tell apart.
+
+References
+----------
+M. Okabe and K. Ito, "Color Universal Design", 2008; black, which shows no shape, is left out, and
+grey is added.
+"""
+
+PLAIN = "#7aa6c2"
+"""The colour of particles of which nothing is known."""
+
+LIGHTEST = 228
+"""The grey of elements that are white, or nearly: they would be lost on white paper."""
+
+FADED = 5
+"""What is not highlighted keeps one part in so many of its colour; the rest is the background."""
+
+
+class Coloring(NamedTuple):
+    """Colours of particles, and what they mean.
+
+    Attributes
+    ----------
+    colors
+        uint8, (n, 3), or (3,) for one colour.
+    scale
+        How values became colours, if they did.
+    legend
+        What colours stand for, if they are of elements or categories: names and colours.
+    """
+
+    colors: Bytes
+    scale: ColorScale | None = None
+    legend: Sequence[tuple[str, Rgb]] = ()
+
+
+def color_particles(
+    particles: "Particles",
+    rows: Integers,
+    color: "str | AnyColor | ArrayLike | None" = None,
+    *,
+    colors: str = "jmol",
+    cmap: "ColorMap | None" = None,
+    clim: object = None,
+    norm: "Norm | None" = None,
+    nan_color: "AnyColor" = "gray",
+) -> Coloring:
+    """Return the colours of some particles.
+
+    Parameters
+    ----------
+    particles
+        All particles.
+    rows
+        Which of them are drawn, (n,).
+    color, colors, cmap, clim, norm, nan_color
+        As for `Scene.add_particles`.
+
+    Raises
+    ------
+    SceneError
+        An argument is not right.
+    """
+    if colors not in SCHEMES:
+        raise SceneError(f"colors: expected {either(map(quoted, SCHEMES))}, got {show(colors)}")
+    scaled = {"cmap": cmap, "clim": clim, "norm": norm, "nan_color": nan_color}
+    if color is None:
+        color = next(
+            (name for name in ("color", "element", "type") if name in particles.columns), PLAIN
+        )
+    if isinstance(color, str):
+        if color == "element" and color in particles.columns and cmap is None:
+            return _of_elements(particles["element"][rows], colors)
+        if color in particles.columns or color in POSITION:
+            return _of_column(color, particles[color], rows, scaled)
+        return Coloring(np.array(_one(color, particles), np.uint8))
+    return _of_values(color, len(particles), rows, scaled)
+
+
+def faded(colors: Bytes, kept: NDArray[np.bool_], background: "AnyColor") -> Bytes:
+    """Return colours of which only some are kept, and the others are near the background.
+
+    Parameters
+    ----------
+    colors
+        uint8, (n, 3) or (3,).
+    kept
+        Which ones are kept, (n,).
+    background
+        The colour that the others come near.
+    """
+    each = np.broadcast_to(colors, (len(kept), 3)).astype(np.int64)
+    behind = np.array(to_rgb(background, "background"), np.int64)
+    pale = (each + (FADED - 1) * behind) // FADED
+    return np.where(kept[:, None], each, pale).astype(np.uint8)
+
+
+def _of_elements(symbols: NDArray[Any], colors: str) -> Coloring:
+    """Return the colours of elements."""
+    numbers = atomic_numbers(symbols)
+    table = colors_of(SYMBOLS, colors)
+    table[np.flatnonzero(table.min(axis=1) > LIGHTEST)] = LIGHTEST
+    legend = [(SYMBOLS[k], _rgb(table[k])) for k in np.unique(numbers).tolist()]
+    return Coloring(table[numbers], None, legend)
+
+
+def _of_column(name: str, values: NDArray[Any], rows: Integers, scaled: dict[str, Any]) -> Coloring:
+    """Return the colours of what a column holds."""
+    if name == "color" and values.ndim == 2:
+        return _of_values(values, len(values), rows, scaled)
+    if values.ndim == 2:
+        values = _lengths(values, name)
+    is_text = values.dtype.kind in "OUST"
+    few = values.dtype.kind in "iub" and len(np.unique(values)) <= len(PALETTE)
+    if scaled["cmap"] is None and scaled["clim"] is None and (is_text or few):
+        return _of_categories(values, rows)
+    if is_text:
+        words = f"column {show(name)} holds names, which no colour map is for"
+        raise SceneError(f"color: {words}; leave cmap and clim out")
+    return _of_values(values, len(values), rows, scaled)
+
+
+def _of_categories(values: NDArray[Any], rows: Integers) -> Coloring:
+    """Return colours of which each stands for one value; with many values, they come again."""
+    kinds, which = np.unique(
+        values.astype(str) if values.dtype.kind == "O" else values, return_inverse=True
+    )
+    palette = np.array([to_rgb(color, "") for color in PALETTE], np.uint8)
+    table = palette[np.arange(len(kinds)) % len(palette)]
+    drawn = which[rows]
+    legend = [(str(kinds[k]), _rgb(table[k])) for k in np.unique(drawn)]
+    return Coloring(table[drawn], None, legend)
+
+
+def _of_values(given: Any, count: int, rows: Integers, scaled: dict[str, Any]) -> Coloring:  # noqa: ANN401
+    """Return the colours of values, or colours that are given as such."""
+    try:
+        array = np.asarray(given)
+        is_each = array.ndim >= 1 and len(array) == count and array.dtype.kind != "O"
+        is_value = array.ndim == 1 and array.dtype.kind in "biuf" and is_each
+    except ValueError:
+        is_each = is_value = False
+    if is_value and scaled["cmap"] is None and not (count in (3, 4) and isinstance(given, tuple)):
+        scaled = {**scaled, "cmap": CMAP}
+    found, scale = color_arrays(
+        {"color": array[rows] if is_each else given},
+        len(rows) if is_each else count,
+        "add_particles: ",
+        each="particle",
+        **scaled,
+    )
+    colors = found["color"]
+    return Coloring(colors if is_each or colors.ndim == 1 else colors[rows], scale)
+
+
+def _lengths(vectors: NDArray[Any], name: str) -> NDArray[np.float64]:
+    """Return the lengths of vectors, (n, k)."""
+    if vectors.dtype.kind not in "biuf":
+        raise SceneError(f"color: column {show(name)} holds no numbers")
+    squares = np.zeros(len(vectors))
+    for column in vectors.T:
+        part = column.astype(np.float64)
+        squares += part * part
+    return np.sqrt(squares)
+
+
+def _one(color: str, particles: "Particles") -> Rgb:
+    """Return one colour, or explain what is neither a colour nor a column."""
+    try:
+        return to_rgb(color, "color")
+    except SceneError:
+        known = [*POSITION, *particles.columns]
+        close = nearest(color, known, cutoff=0.6)
+        hint = f"; did you mean {close}?" if close else f"; the columns are {', '.join(known)}"
+        words = f"expected a colour or the name of a column, got {show(color)}"
+        raise SceneError(f"color: {words}{hint}") from None
+
+
+def _rgb(row: Bytes) -> Rgb:
+    red, green, blue = (int(part) for part in row)
+    return red, green, blue

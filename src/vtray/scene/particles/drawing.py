@@ -1,0 +1,313 @@
+"""From particles to objects of a scene, step by step."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.errors import SceneError
+from vtray.scene.checks.scene_words import show
+from vtray.scene.copies import Copies
+from vtray.scene.cylinders import Cylinders
+from vtray.scene.particles.bonds import Bonds, bonds_between, find_bonds
+from vtray.scene.particles.cell import (
+    THIN,
+    cell_edges,
+    times_of,
+    translations,
+    unwrapped,
+    wrapped,
+)
+from vtray.scene.particles.coloring import Coloring, color_particles, faded
+from vtray.scene.particles.expression import mask
+from vtray.scene.particles.from_objects import as_particles
+from vtray.scene.particles.lattice import columns_of, lattice_of
+from vtray.scene.particles.made_of import MadeOf, remember, written_out
+from vtray.scene.particles.particles import Particles
+from vtray.scene.particles.styles import (
+    COVERED,
+    STYLES,
+    ball_radii,
+    screen_radii,
+    stick_radius,
+    style_of,
+)
+from vtray.scene.spheres import Spheres
+
+if TYPE_CHECKING:
+    from vtray.scene.camera import Camera
+    from vtray.scene.colors.color_scale import ColorScale
+    from vtray.scene.colors.names import AnyColor, Rgb
+    from vtray.scene.objects import Object
+    from vtray.scene.particles.radii import Radii
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+Bytes = NDArray[np.uint8]
+
+CELL_COLOR = (70, 70, 70)
+
+WRITTEN_OUT = 500_000
+"""Spheres and cylinders up to which all cells are written out, about 50 MB: copies of small cells,
+whose boxes overlap, are traced seven times as slowly."""
+
+
+class HasObjects(Protocol):
+    """A scene, as far as particles are added to it."""
+
+    objects: "list[Object]"
+
+    @property
+    def camera(self) -> "Camera | None": ...  # noqa: D102
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """What `Scene.add_particles` has added.
+
+    Attributes
+    ----------
+    spheres : Spheres
+        The particles.
+    bonds : Cylinders or None
+        The bonds: first those that are whole, then the halves of those that cross the border.
+    cell : tuple of Cylinders and Spheres, or None
+        The cell's edges, and its corners.
+    copies : Copies or None
+        What stands at all places of a cell that is shown several times, with `spheres` and `bonds`,
+        which are then not among the objects of the scene themselves. None where these are so few
+        that they hold all cells, one after the other.
+    color_scale : ColorScale or None
+        How values became colours, if they did.
+    legend : list
+        What colours stand for, as names and colours, where they are those of elements or
+        categories.
+    indices : array (n,)
+        Which of the particles were drawn.
+    style : str
+        The style.
+    """
+
+    spheres: Spheres
+    bonds: Cylinders | None
+    cell: tuple[Cylinders, Spheres] | None
+    copies: Copies | None
+    color_scale: "ColorScale | None"
+    legend: "list[tuple[str, Rgb]]"
+    indices: Integers
+    style: str
+
+
+class _Placed(NamedTuple):
+    """Particles where they are drawn.
+
+    Attributes
+    ----------
+    positions
+        Of all of them, (n, 3).
+    bonds
+        Those to draw, between any of them.
+    rows
+        Which are drawn, (k,).
+    places
+        Translations of the copies of all, (m, 3).
+    """
+
+    positions: NDArray[Any]
+    bonds: Bonds | None
+    rows: Integers
+    places: Floats
+
+
+def draw(
+    scene: HasObjects,
+    given: Any,  # noqa: ANN401
+    *,
+    style: str | None,
+    radii: "Radii | None",
+    scale: float,
+    coloring: Mapping[str, Any],
+    select: Any,  # noqa: ANN401
+    highlight: Any,  # noqa: ANN401
+    background: "AnyColor",
+    bonds: Any,  # noqa: ANN401
+    bond_radius: float | None,
+    cell: bool | None,
+    replicate: Sequence[int],
+    wrap: bool,
+    unwrap: bool,
+    camera: "Camera | None",
+) -> Drawn:
+    """Add particles to a scene, as `Scene.add_particles` says, whose parameters these are."""
+    particles = as_particles(given)
+    size = _positive(scale, "scale")
+    name = style_of(style, particles, bonds)
+    times = times_of(replicate)
+    rows = np.flatnonzero(chosen(particles, select, "select"))
+    placed = _place(particles, name, rows, bonds, times, wrap=wrap, unwrap=unwrap)
+    found = color_particles(particles, rows, **coloring)
+    if highlight is not None:
+        kept = chosen(particles, highlight, "highlight")[rows]
+        found = found._replace(colors=faded(found.colors, kept, background))
+    radius = _radii(particles, name, radii, size, placed, camera or scene.camera)
+    spheres = _spheres(particles, placed, radius, found)
+    sticks = None
+    if placed.bonds is not None:
+        thick = stick_radius(particles, name, radii, size)
+        if bond_radius is not None:
+            thick = _positive(bond_radius, "bond_radius")
+        sticks = _cylinders(particles, placed, thick, found)
+    copies, images = None, len(placed.places)
+    if 1 < images <= WRITTEN_OUT // max(len(spheres) + len(sticks or ()), 1):
+        spheres = written_out(spheres, placed.places)
+        sticks = None if sticks is None else written_out(sticks, placed.places)
+        images = 1
+    parts: list[Spheres | Cylinders] = [spheres] if sticks is None else [spheres, sticks]
+    if images > 1:
+        copies = Copies(parts, placed.places)
+    scene.objects.extend(parts if copies is None else [copies])
+    edges = None
+    if cell if cell is not None else particles.cell is not None:
+        edges = _edges(particles, times)
+        scene.objects.extend(edges)
+    return Drawn(spheres, sticks, edges, copies, found.scale, list(found.legend), rows, name)
+
+
+def chosen(particles: Particles, given: Any, name: str) -> NDArray[np.bool_]:  # noqa: ANN401
+    """Return which particles an expression or an array chooses, (n,).
+
+    Raises
+    ------
+    SceneError
+        It is neither.
+    """
+    if given is None:
+        return np.ones(len(particles), np.bool_)
+    if isinstance(given, str):
+        return mask(particles, given)
+    found = np.asarray(given)
+    if found.dtype != np.bool_ or found.shape != (len(particles),):
+        words = f"expected an expression, or an array of {len(particles)} bool"
+        raise SceneError(f"{name}: {words}, got {show(given)}")
+    return found
+
+
+def _place(
+    particles: Particles,
+    style: str,
+    rows: Integers,
+    bonds: Any,  # noqa: ANN401
+    times: tuple[int, int, int],
+    *,
+    wrap: bool,
+    unwrap: bool,
+) -> _Placed:
+    """Return where particles are drawn, and the bonds between those that are."""
+    if wrap and unwrap:
+        raise SceneError("unwrap: expected False with wrap=True, as it undoes that")
+    if bonds is None and STYLES[style].stick is not None:
+        bonds = True if particles.bonds is None else particles.bonds
+    found = None
+    if bonds is not None and bonds is not False:
+        found = _bonds_of(particles, bonds)
+    positions: NDArray[Any] = particles.positions
+    if wrap or unwrap:
+        known = found
+        if unwrap and known is None and particles.bonds is not None:
+            known = bonds_between(particles, particles.bonds)
+        positions, moves = unwrapped(particles, known) if unwrap else wrapped(particles)
+        found = None if found is None else found.after(moves)
+    if found is not None and len(rows) < len(particles):
+        drawn = np.zeros(len(particles), np.bool_)
+        drawn[rows] = True
+        found = found.some(drawn[found.pairs[:, 0]] & drawn[found.pairs[:, 1]])
+    return _Placed(positions, found, rows, translations(particles, times))
+
+
+def _bonds_of(particles: Particles, bonds: Any) -> Bonds:  # noqa: ANN401
+    """Return the bonds that are asked for."""
+    if bonds is True:
+        return find_bonds(particles)
+    if isinstance(bonds, (int, float, np.number)):
+        return find_bonds(particles, cutoff=float(bonds))
+    return bonds_between(particles, bonds)
+
+
+def _radii(
+    particles: Particles,
+    style: str,
+    radii: "Radii | None",
+    scale: float,
+    placed: _Placed,
+    camera: "Camera | None",
+) -> Floats | float:
+    """Return the radii of all particles that are drawn, or one for all."""
+    if style == "points":
+        if camera is None:
+            remedy = "set scene.camera first, for instance to vtray.Camera.fit(particles.positions)"
+            raise SceneError(
+                f'style: "points" are as large as pixels, which needs a camera; {remedy}'
+            )
+        positions = placed.positions[placed.rows]
+        return screen_radii(positions, camera, COVERED * scale, placed.places)
+    found = ball_radii(particles, style, radii, scale)
+    return found if isinstance(found, float) else found[placed.rows]
+
+
+def _spheres(
+    particles: Particles, placed: _Placed, radius: Floats | float, found: Coloring
+) -> Spheres:
+    """Return the particles as spheres."""
+    whole = len(placed.rows) == len(particles)
+    positions = placed.positions if whole else placed.positions[placed.rows]
+    spheres = Spheres(positions, radius, found.colors).with_scale(found.scale)
+    return remember(spheres, MadeOf(particles, placed.rows))
+
+
+def _cylinders(particles: Particles, placed: _Placed, radius: float, found: Coloring) -> Cylinders:
+    """Return bonds as cylinders, those that cross the border as halves at both of its sides."""
+    bonds = placed.bonds
+    assert bonds is not None  # noqa: S101
+    crosses = (bonds.shifts != 0).any(axis=1)
+    one, two = bonds.pairs[~crosses].T
+    begin, end = bonds.pairs[crosses].T
+    near, far = placed.positions[begin], placed.positions[end]
+    across, back = far, near
+    lattice = lattice_of(particles)
+    if lattice is not None and len(begin):
+        steps = bonds.shifts[crosses].T
+        across = np.stack(lattice.moved(columns_of(far), steps), axis=1)
+        back = np.stack(lattice.moved(columns_of(near), [-step for step in steps]), axis=1)
+    starts = np.concatenate([placed.positions[one], near, far])
+    ends = np.concatenate([placed.positions[two], (near + across) / 2, (far + back) / 2])
+    indices = np.concatenate(
+        [
+            np.stack([one, two], axis=1),
+            np.stack([begin, begin], axis=1),
+            np.stack([end, end], axis=1),
+        ]
+    )
+    colors: dict[str, Bytes] = {"color": found.colors}
+    if found.colors.ndim == 2:
+        place = np.zeros(len(particles), np.int64)
+        place[placed.rows] = np.arange(len(placed.rows))
+        each = place[indices]
+        colors = {"color": found.colors[each[:, 0]], "color_end": found.colors[each[:, 1]]}
+    return remember(Cylinders(starts, ends, radius, **colors), MadeOf(particles, indices))
+
+
+def _edges(particles: Particles, times: tuple[int, int, int]) -> tuple[Cylinders, Spheres]:
+    """Return the edges of the cell, or of the block of cells, with round corners."""
+    corners, starts, ends, longest = cell_edges(particles, times)
+    radius = THIN * longest
+    return Cylinders(starts, ends, radius, CELL_COLOR), Spheres(corners, radius, CELL_COLOR)
+
+
+def _positive(value: Any, name: str) -> float:  # noqa: ANN401
+    """Return a number > 0."""
+    is_number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
+    if not is_number or not 0.0 < float(value) < np.inf:
+        raise SceneError(f"{name}: expected a number > 0, got {show(value)}")
+    return float(value)

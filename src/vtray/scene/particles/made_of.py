@@ -1,0 +1,83 @@
+"""Which particles objects were made of: remembered by the objects, and told of a pixel."""
+
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+
+from vtray.scene.arrays import Arrays
+from vtray.scene.checks.columns import POINT
+from vtray.scene.checks.limits import Byte
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from vtray.scene.particles.particles import Particles
+
+    Integers = NDArray[np.int64]
+else:
+    Integers = Any
+
+Kind = TypeVar("Kind", bound=Arrays)
+
+
+class MadeOf(NamedTuple):
+    """What objects were made of.
+
+    Attributes
+    ----------
+    particles
+        The particles.
+    indices
+        Which of them, (n,) for spheres, (n, 2) for the two ends of cylinders. Objects that stand
+        at several places come n at a time.
+    """
+
+    particles: "Particles"
+    indices: Integers
+
+    def particle(self, index: int, half: int) -> int:
+        """Return the particle of an object; of a cylinder, that at its start or, 1, its end."""
+        row = self.indices[index % len(self.indices)]
+        return int(row if self.indices.ndim == 1 else row[half])
+
+    def image(self, index: int) -> int:
+        """Return at which of several places an object stands."""
+        return index // len(self.indices)
+
+    def values(self, particle: int) -> dict[str, Any]:
+        """Return what is known of a particle, by name: its place, and its columns."""
+        x, y, z = (float(part) for part in self.particles.positions[particle])
+        columns = self.particles.columns
+        return {"x": x, "y": y, "z": z} | {
+            name: value.tolist() if hasattr(value := values[particle], "tolist") else value
+            for name, values in columns.items()
+        }
+
+
+def written_out(item: Kind, places: "NDArray[np.float64]") -> Kind:
+    """Return objects at several places, one after the other, each moved by a row of (m, 3)."""
+    import msgspec
+    import numpy as np
+
+    count, changed = len(places), {}
+    for name, value in msgspec.structs.asdict(item).items():
+        is_point = item.COLUMNS[name] is POINT
+        rank = 2 if is_point or item.COLUMNS[name].kind is Byte else 1
+        if is_point:
+            changed[name] = (places[:, None] + value).reshape(-1, 3)
+        elif getattr(value, "ndim", 0) == rank:
+            changed[name] = np.tile(value, (count, 1) if rank == 2 else count)
+    made: Kind = item.replace(**changed).with_scale(item.color_scale)
+    source = made_of(item)
+    return made if source is None else remember(made, source)
+
+
+def remember(item: Kind, source: MadeOf) -> Kind:
+    """Let objects remember what they were made of, which is no part of what makes them equal."""
+    item.__dict__["made_of_"] = source
+    return item
+
+
+def made_of(item: object) -> MadeOf | None:
+    """Return what objects were made of; None where that is not known."""
+    found: MadeOf | None = getattr(item, "__dict__", {}).get("made_of_")
+    return found

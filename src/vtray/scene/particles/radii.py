@@ -1,0 +1,103 @@
+"""How large particles are: by element, by a column, or by how far they are apart."""
+
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.errors import SceneError
+from vtray.scene.checks.scene_words import nearest, show
+from vtray.scene.particles import elements
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from vtray.scene.particles.particles import Particles
+
+Floats = NDArray[np.float64]
+Radii: TypeAlias = "str | float | ArrayLike"
+
+FILLED = 0.5
+"""Radius of particles whose size is not known, in mean distances: as near balls touch."""
+
+
+def radii_of(particles: "Particles", radii: Radii, place: str) -> Floats | float:
+    """Return radii in the unit of the positions, (n,), or one for all.
+
+    Parameters
+    ----------
+    particles
+        The particles.
+    radii
+        "covalent" or "vdw" for those of the elements, in ångström; a number, an array (n,), or the
+        name of a column.
+    place
+        What messages begin with.
+
+    Raises
+    ------
+    SceneError
+        They are not known, or no numbers ≥ 0.
+    """
+    if isinstance(radii, str) and radii in elements.RADII:
+        if "element" not in particles.columns:
+            remedy = "there is no column element; give a number, an array, or the name of a column"
+            raise SceneError(f"{place}: {radii} radii are those of elements, and {remedy}")
+        return elements.radii_of(particles["element"], radii)
+    if isinstance(radii, str) and radii not in particles.columns:
+        known = [*elements.RADII, *particles.columns]
+        close = nearest(radii, known, cutoff=0.6)
+        hint = f"; did you mean {close}?" if close else ""
+        words = f"expected {', '.join(elements.RADII)}, a number, or a column, got {show(radii)}"
+        raise SceneError(f"{place}: {words}{hint}")
+    given = particles[radii] if isinstance(radii, str) else radii
+    try:
+        found = np.asarray(given, np.float64)
+    except (TypeError, ValueError):
+        raise SceneError(f"{place}: expected numbers, got {show(given)}") from None
+    if found.shape not in ((), (len(particles),)):
+        words = f"expected one number, or {len(particles)}, one for each particle"
+        raise SceneError(f"{place}: {words}, got shape {found.shape}")
+    right = np.isfinite(found) & (found >= 0)
+    if not right.all():
+        first = int(np.flatnonzero(~right.ravel())[0])
+        where = f"{place}[{first}]" if found.ndim else place
+        raise SceneError(f"{where}: expected a number ≥ 0, got {float(found.ravel()[first])}")
+    return found if found.ndim else float(found)
+
+
+def mean_spacing(particles: "Particles") -> float:
+    """Return how far particles are apart on average, in the unit of the positions.
+
+    That is the side of the cube that one of them has in the box around all. Where they lie in a
+    plane, or on a line, within that distance, it is the side of a square, or a length, instead.
+    """
+    positions = particles.positions
+    if len(positions) == 0:
+        return 1.0
+    sides = sorted(
+        (float(column.max()) - float(column.min()) for column in positions.T), reverse=True
+    )
+    count = float(len(positions))
+    for power in (3, 2, 1):
+        # Each side counts with half a particle more at both of its ends.
+        volume = 1.0
+        for side in sides[:power]:
+            volume *= side
+        spacing = _root(volume / count, power)
+        if spacing > 0.0 and sides[power - 1] >= spacing:
+            return spacing
+    return 1.0
+
+
+def _root(value: float, power: int) -> float:
+    """Return a root of a number ≥ 0 by Newton's rule, the same on every machine."""
+    if value == 0.0 or power == 1:
+        return value
+    guess = max(value, 1.0)
+    while True:
+        below = guess * guess if power == 3 else guess
+        better = ((power - 1) * guess + value / below) / power
+        if not better < guess:
+            return guess
+        guess = better

@@ -1,0 +1,128 @@
+"""The command with files of data in place of scenes."""
+
+from collections.abc import Callable
+from pathlib import Path
+from subprocess import CompletedProcess
+
+import pytest
+from PIL import Image
+
+from conftest import compiled_only
+from vtray.commands import cli
+from vtray.commands.data_options import joined
+from vtray.commands.data_scene import load_data
+from vtray.commands.options import parse
+from vtray.scene.scene import Scene
+
+WATER = """3
+Lattice="6 0 0 0 6 0 0 0 6" Properties=species:S:1:pos:R:3:charge:R:1
+O 0 0 0 -0.8
+H 0.76 0.59 0 0.4
+H -0.76 0.59 0 0.4
+3
+Lattice="6 0 0 0 6 0 0 0 6" Properties=species:S:1:pos:R:3:charge:R:1
+O 1 0 0 -0.8
+H 1.76 0.59 0 0.4
+H 0.24 0.59 0 0.5
+"""
+
+
+@pytest.fixture
+def water(tmp_path: Path) -> Path:
+    """Return a file of two frames of a molecule in a cell."""
+    path = tmp_path / "water.xyz"
+    path.write_text(WATER)
+    return path
+
+
+def scene_of(*arguments: object) -> Scene:
+    """Return the scene that the command makes of data."""
+    return load_data(parse([*map(str, arguments), "picture.png"]))
+
+
+def test_data_becomes_a_scene(water: Path) -> None:
+    spheres, edges, corners = scene_of(water).objects
+    assert spheres.color[0].tolist() == [255, 13, 13]
+    assert (len(edges), len(corners)) == (12, 8)
+    last = scene_of(water, "--frame", "-1", "--no-cell", "--color", "charge", "--clim", "-1,1")
+    assert [len(item) for item in last.objects] == [3]
+    assert last.objects[0].center[0].tolist() == [1, 0, 0]
+    assert (last.objects[0].color_scale.low, last.objects[0].color_scale.high) == (-1, 1)
+    assert last.camera.size == (1024, 1024)
+    bound = scene_of(water, "--cutoff", "1.2", "--wrap", "--replicate", "2x1x1", "--no-cell")
+    assert [len(item) for item in bound.objects] == [6, 6]
+    points = scene_of(water, "--style", "points", "--no-cell", "--size", "80x60")
+    assert points.camera.size == (80, 60)
+
+
+def test_views(water: Path) -> None:
+    def looks(*view: str) -> tuple[float, ...]:
+        normal = scene_of(water, "--no-cell", *view).camera.normal
+        return normal.x, normal.y, normal.z
+
+    assert looks("--view", "-x") == (1, 0, 0)
+    assert looks("--view=top") == (0, 0, -1)
+    assert looks("--view", "-90,0") == (0, 1, 0)
+    near, far = (scene_of(water, *zoom).camera for zoom in (["--zoom", "2"], []))
+    assert near.resolution[0] * 2 == far.resolution[0]
+    assert scene_of(water, "--orthographic").camera.projection == "orthographic"
+
+
+def test_values_that_look_like_options() -> None:
+    given = ["--view", "-x", "--clim", "-1,1", "-t", "2", "--view", "--zoom", "2"]
+    assert joined(given) == ["--view=-x", "--clim=-1,1", "-t", "2", "--view", "--zoom", "2"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--frame", "2"], "DATA: frame 2: there are 2 frames; expected -2 to 1"),
+        (["--color", "chrage"], "DATA: color: expected a colour or the name of a column, got "),
+        (["--style", "ball"], "argument --style: invalid choice: 'ball' (choose from "),
+        (
+            ["--replicate", "2"],
+            "argument --replicate: expected three integers such as 3x3x1, got 2",
+        ),
+        (["--view", "up"], "argument --view: expected x, -x, y, -y, z, -z, top, bottom, "),
+        (["--clim", "1"], "argument --clim: expected two numbers such as -1,1, got 1"),
+        (["--zoom", "0"], "argument --zoom: expected a number > 0, got 0"),
+        (["--frame", "1.5"], "argument --frame: expected an integer such as 0, or -1 for the last"),
+        (["--replay", "a.png"], "--replay is for scene files, and DATA is none; "),
+    ],
+)
+def test_errors(
+    arguments: list[str], message: str, water: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.run([str(water), str(water.with_name("out.png")), *arguments]) == 1
+    out, error = capfd.readouterr()
+    assert out == ""
+    assert error.startswith("Error: " + message.replace("DATA", str(water)))
+    assert error.count("\n") == 1
+
+
+def test_options_of_data_are_not_for_scenes(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    scene = tmp_path / "scene.json"
+    assert cli.run([str(scene), "out.png", "--bonds"]) == 1
+    words = f"--bonds is for files of data, and {scene} is a scene"
+    assert capfd.readouterr().err == f"Error: {words}\n"
+
+
+def test_columns_are_listed(water: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert cli.run([str(water), "--columns", "--frame", "1"]) == 0
+    lines = capfd.readouterr().out.splitlines()
+    assert lines[0] == "3 particles, frame 1"
+    assert "element     names: H, O" in lines
+    assert "charge      float64, from -0.8 to 0.5" in lines
+    assert lines[-1] == "cell c      0, 0, 6"
+
+
+@compiled_only
+def test_picture_of_data(water: Path, vtray_command: Callable[..., CompletedProcess[str]]) -> None:
+    picture = water.with_name("water.png")
+    done = vtray_command("--bonds", "--size", "40x30", "--samples", 1, water, picture)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    with Image.open(picture) as made:
+        assert made.size == (40, 30)
+        assert made.getpixel((0, 0)) == (255, 255, 255)

@@ -1,0 +1,190 @@
+"""Particles as objects of a scene: styles, sizes, colours, and what they are made of."""
+
+import copy
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+
+import vtray
+from vtray.base.errors import SceneError
+from vtray.base.exact_math import logarithm
+from vtray.scene.particles.coloring import PALETTE
+from vtray.scene.particles.particles import Particles
+from vtray.scene.particles.radii import mean_spacing
+from vtray.scene.placing.directions import unit
+
+WATER = Particles(
+    [(0, 0, 0), (0.76, 0.59, 0), (-0.76, 0.59, 0)],
+    {
+        "element": np.array(["O", "H", "H"]),
+        "charge": np.array([-0.8, 0.4, 0.4]),
+        "residue": np.array([7, 7, 9]),
+        "name": np.array(["O", "H1", "H2"]),
+        "force": np.array([[0, 3, 4], [0, 0, 1], [1, 0, 0.0]]),
+    },
+)
+
+
+def drawn(particles: Any = WATER, **options: Any) -> Any:
+    return vtray.Scene().add_particles(particles, **options)
+
+
+@pytest.mark.parametrize(
+    ("options", "style", "radius", "stick"),
+    [
+        ({}, "spacefill", [1.5, 1.2, 1.2], None),
+        ({"scale": 0.5}, "spacefill", [0.75, 0.6, 0.6], None),
+        ({"radii": "covalent"}, "spacefill", [0.66, 0.31, 0.31], None),
+        ({"bonds": True}, "ball-and-stick", [0.396, 0.186, 0.186], 0.1),
+        ({"style": "ball-and-stick", "scale": 2}, "ball-and-stick", [0.792, 0.372, 0.372], 0.2),
+        ({"bonds": [(0, 1)], "radii": 0.5}, "ball-and-stick", 0.5, 0.15),
+        ({"style": "licorice"}, "licorice", 0.2, 0.2),
+        ({"bonds": 1.0, "bond_radius": 0.3, "radii": "vdw"}, "ball-and-stick", None, 0.3),
+        ({"radii": [1, 2, 3]}, "spacefill", [1, 2, 3], None),
+    ],
+)
+def test_styles(options: dict[str, Any], style: str, radius: Any, stick: float | None) -> None:
+    found = drawn(**options)
+    assert found.style == style
+    if radius is not None:
+        assert np.allclose(found.spheres.radius, radius)
+    assert (found.bonds is None) == (stick is None)
+    assert stick is None or found.bonds.radius == pytest.approx(stick)
+
+
+def test_known_bonds_of_few_atoms_are_drawn() -> None:
+    known = Particles(WATER.positions, {"element": WATER["element"]}, bonds=[(0, 1)])
+    assert drawn(known).style == "ball-and-stick"
+    assert len(drawn(known).bonds) == 1
+    assert drawn(known, bonds=False).style == "spacefill"
+    assert drawn(known, style="licorice", bonds=False).bonds is None
+
+
+def test_size_is_that_of_a_column_or_of_the_mean_distance() -> None:
+    lattice = np.stack(np.meshgrid(*[np.arange(5.0)] * 3), axis=-1).reshape(-1, 3)
+    assert mean_spacing(Particles(lattice)) == pytest.approx(4 / 5)
+    assert mean_spacing(Particles(lattice * [1, 1, 0])) == pytest.approx(np.sqrt(16 / 125))
+    assert mean_spacing(Particles(lattice * [0, 1, 0])) == pytest.approx(4 / 125)
+    assert mean_spacing(Particles(np.zeros((3, 3)))) == 1.0
+    assert drawn(lattice).spheres.radius == pytest.approx(0.4)
+    sized = Particles(lattice, {"radius": np.full(125, 0.3), "size": np.full(125, 0.1)})
+    assert drawn(sized).spheres.radius[7] == 0.3
+    assert drawn(sized, radii="size", scale=2).spheres.radius[7] == 0.2
+
+
+@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
+def test_points_are_as_large_as_pixels(projection: Any) -> None:
+    scene = vtray.Scene()
+    points = np.random.default_rng(2).normal(size=(50, 3)) * 30
+    with pytest.raises(SceneError, match="which needs a camera; set scene.camera first"):
+        scene.add_particles(points, "points")
+    camera = vtray.Camera.fit(points, projection=projection, size=(40, 30))
+    radius = np.broadcast_to(
+        scene.add_particles(points, "points", camera=camera).spheres.radius, 50
+    )
+    center = np.array([camera.center.x, camera.center.y, camera.center.z])
+    far = (points - center) @ unit(camera.normal) / camera.focus + 1
+    pixels = radius / camera.resolution[0] / (far if projection == "perspective" else 1)
+    assert np.allclose(pixels, 0.75)
+
+
+def test_colors_of_elements() -> None:
+    found = drawn()
+    assert found.spheres.color.tolist() == [[255, 13, 13], [228] * 3, [228] * 3]
+    assert found.legend == [("H", (228, 228, 228)), ("O", (255, 13, 13))]
+    assert drawn(colors="cpk").spheres.color[0].tolist() == [240, 0, 0]
+
+
+def test_colors_by_columns() -> None:
+    charge = drawn(color="charge", norm="centered", cmap="coolwarm")
+    assert (charge.color_scale.low, charge.color_scale.high) == (-0.8, 0.8)
+    assert charge.spheres.color.tolist() == charge.color_scale.colors([-0.8, 0.4, 0.4]).tolist()
+    force = drawn(color="force")
+    assert (force.color_scale.low, force.color_scale.high) == (1, 5)
+    residue = drawn(color="residue")
+    assert [label for label, _ in residue.legend] == ["7", "9"]
+    first, second = (list(vtray.colors.to_rgb(color)) for color in PALETTE[:2])
+    assert residue.spheres.color.tolist() == [first, first, second]
+    assert drawn(color="residue", cmap="viridis").color_scale.high == 9
+    assert len(drawn(color="name").legend) == 3
+    assert drawn(color=[1.0, 2.0, 3.0]).color_scale.high == 3
+    assert drawn(color="z", clim=(0, 1)).color_scale.low == 0
+    assert drawn(color="tomato").spheres.color.tolist() == [255, 99, 71]
+    assert drawn(np.zeros((2, 3)), color=[(1.0, 0, 0), (0, 0, 1.0)]).spheres.color[1, 2] == 255
+
+
+def test_some_are_drawn_and_some_highlighted() -> None:
+    found = drawn(select="element == 'H'", color="residue", bonds=True)
+    assert found.indices.tolist() == [1, 2]
+    assert len(found.spheres) == 2
+    assert len(found.bonds) == 0
+    # A category keeps its colour, whatever is drawn.
+    assert drawn(select=[False, False, True], color="residue").legend[0][1] == (230, 159, 0)
+    pale = drawn(highlight="x > 0", color="black", background=(100, 100, 100))
+    assert pale.spheres.color.tolist() == [[80] * 3, [0] * 3, [80] * 3]
+
+
+def test_objects_remember_particles_until_they_are_saved() -> None:
+    scene = vtray.Scene()
+    found = scene.add_particles(WATER, bonds=True, select="x >= 0")
+    assert found.spheres.__dict__["made_of_"].indices.tolist() == [0, 1]
+    assert found.spheres == vtray.Spheres(
+        found.spheres.center, found.spheres.radius, found.spheres.color
+    )
+
+
+def test_cell_is_drawn_where_there_is_one() -> None:
+    boxed = Particles([(1, 1, 1)], cell=np.eye(3) * 4)
+    edges, corners = drawn(boxed).cell
+    assert (len(edges), len(corners)) == (12, 8)
+    assert edges.radius == corners.radius == pytest.approx(0.014)
+    assert drawn(boxed, cell=False).cell is None
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (
+            {"style": "ball"},
+            'style: expected "spacefill", "ball-and-stick", "licorice" or "points"',
+        ),
+        ({"scale": 0}, "scale: expected a number > 0, got 0"),
+        ({"color": "chrage"}, "expected a colour or the name of a column, got 'chrage'; did you"),
+        ({"color": "name", "cmap": "viridis"}, "holds names, which no colour map is for"),
+        ({"colors": "rasmol"}, 'colors: expected "jmol" or "cpk"'),
+        ({"color": "charge", "norm": "sqrt"}, 'norm: expected "linear", "log" or "centered"'),
+        ({"color": "charge", "norm": "log", "clim": (0, 1)}, "expected numbers above 0"),
+        ({"color": [1.0, 2.0]}, "add_particles: color"),
+        ({"select": [True]}, "select: expected an expression, or an array of 3 bool"),
+        ({"select": "x >"}, "select"),
+        ({"bonds": [(0, 3)]}, r"bonds[0]: expected indices from 0 to 2, got [0, 3]"),
+        ({"bonds": "yes"}, "bonds: expected indices of shape (m, 2), got 'yes'"),
+        ({"radii": "size"}, "radii: expected covalent, vdw, a number, or a column"),
+        ({"radii": [1, -2, 1]}, "radii[1]: expected a number ≥ 0, got -2.0"),
+    ],
+)
+def test_wrong_arguments(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=re.escape(message)):
+        drawn(**options)
+
+
+def test_logarithms_are_exact_enough() -> None:
+    values = np.concatenate([np.geomspace(1e-300, 1e300, 999), [1.0, 0.5, 2.0, np.nextafter(1, 2)]])
+    found = logarithm(values)
+    assert np.allclose(found, np.log(values), rtol=2**-50, atol=0)
+    special = logarithm(np.array([0.0, -1.0, np.nan, np.inf]))
+    assert np.isnan(special[:3]).all()
+    assert special[3] == np.inf
+
+
+def test_color_scale_by_logarithms() -> None:
+    scale = drawn(np.zeros((4, 3)), color=[0.0, 1.0, 10.0, 100.0], norm="log").color_scale
+    assert (scale.low, scale.high, scale.norm) == (1.0, 100.0, "log")
+    colors = scale.colors([1.0, 10.0, 100.0, 0.0])
+    table = scale.table[[0, 128, 255]].tolist()
+    assert colors.tolist() == [*table, list(scale.nan_color)]
+    assert repr(scale).endswith(", norm='log')")
+    assert copy.deepcopy(scale) == scale
+    assert scale != vtray.ColorScale("viridis", 1.0, 100.0)

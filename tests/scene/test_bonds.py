@@ -1,0 +1,116 @@
+"""Bonds by distance, beside the neighbour list of ASE."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from ase import Atoms
+from ase.neighborlist import neighbor_list
+
+from vtray.base.errors import SceneError
+from vtray.scene.particles import bonds as module
+from vtray.scene.particles.bonds import bonds_between, find_bonds
+from vtray.scene.particles.particles import Particles
+
+CUBE = np.eye(3) * 8.0
+SKEW = [[8.0, 0, 0], [5.5, 7, 0], [-4, 5, 6]]
+LEANING = [[10.0, 0, 0], [70, 9, 0], [-5, 60, 8]]
+THIN = [[1.0, 0.3, 0], [0.2, 1.1, 0], [0.5, 0.3, 0.8]]
+ALL, NONE = (True, True, True), (False, False, False)
+
+
+def both_ways(pairs: Any, shifts: Any) -> set[tuple[int, ...]]:
+    """Return bonds as they are seen from both of their ends."""
+    one = {(a, b, *s) for (a, b), s in zip(pairs.tolist(), shifts.tolist(), strict=True)}
+    assert len(one) == len(pairs)
+    both = one | {(b, a, *(-k for k in s)) for a, b, *s in one}
+    assert len(both) == 2 * len(one)
+    return both
+
+
+@pytest.mark.parametrize(
+    ("cell", "periodic", "count", "cutoff", "spread"),
+    [
+        (CUBE, ALL, 100, 2.0, 1.0),
+        (CUBE, ALL, 100, 2.0, 3.0),  # far outside of the cell
+        (CUBE, (False, True, False), 60, 2.0, 1.0),
+        (SKEW, ALL, 120, 2.0, 1.0),
+        (SKEW, (True, False, True), 120, 2.0, 1.0),
+        (LEANING, ALL, 60, 2.0, 1.0),
+        (THIN, ALL, 3, 2.5, 1.0),  # thinner than a bond
+        (THIN, NONE, 3, 2.5, 1.0),
+        ([[8, 0, 0], [0, 8, 0], [0, 0, 0]], (True, True, False), 60, 2.0, 1.0),
+    ],
+)
+def test_bonds_are_those_of_ase(
+    cell: Any, periodic: tuple[bool, bool, bool], count: int, cutoff: float, spread: float
+) -> None:
+    generator = np.random.default_rng(count)
+    whole = np.array(cell, float) + np.diag(8.0 * ~np.any(cell, axis=1))
+    positions = generator.uniform(-spread, spread, (count, 3)) @ whole
+    found = find_bonds(Particles(positions, cell=cell, periodic=periodic), cutoff=cutoff)
+    atoms = Atoms(["X"] * count, positions=positions, cell=cell, pbc=periodic)
+    one, two, shift = neighbor_list("ijS", atoms, cutoff)
+    theirs = {
+        (a, b, *s) for a, b, s in zip(one.tolist(), two.tolist(), shift.tolist(), strict=True)
+    }
+    assert both_ways(*found) == theirs
+
+
+def test_bonds_reach_as_far_as_radii_say(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "CANDIDATES", 7)  # a few at a time
+    generator = np.random.default_rng(3)
+    positions, radii = generator.uniform(0, 5, (80, 3)), generator.uniform(0.1, 0.6, 80)
+    found = find_bonds(Particles(positions), 1.5, radii)
+    apart = np.sqrt(((positions[:, None] - positions) ** 2).sum(axis=2))
+    expected = np.argwhere(np.triu(apart <= 1.5 * (radii[:, None] + radii), 1))
+    assert {*map(tuple, found.pairs.tolist())} == {*map(tuple, expected.tolist())}
+    assert not found.shifts.any()
+
+
+def test_hydrogen_is_bound_in_water_and_to_itself_alone_in_a_molecule_of_it() -> None:
+    places = [(0, 0, 0), (0.76, 0.59, 0), (-0.76, 0.59, 0), (5, 0, 0), (5.735, 0, 0)]
+    water = Particles(places, {"element": np.array(list("OHHHH"))})
+    assert sorted(find_bonds(water).pairs.tolist()) == [[0, 1], [0, 2], [3, 4]]
+
+
+def test_few_and_equal_places() -> None:
+    assert len(find_bonds(Particles(np.zeros((0, 3))), cutoff=1)) == 0
+    assert len(find_bonds(Particles(np.zeros((3, 3))), cutoff=1)) == 0
+    assert len(find_bonds(Particles([(0, 0, 0), (1e9, 0, 0), (1e9, 1, 0)]), cutoff=1)) == 1
+
+
+def test_known_bonds_go_to_the_nearest_image() -> None:
+    particles = Particles([(0.5, 4, 4), (7.5, 4, 4)], cell=CUBE)
+    found = bonds_between(particles, [(0, 1)])
+    assert found.shifts.tolist() == [[-1, 0, 0]]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({}, "find_bonds: radii: covalent radii are those of elements, and there is no column"),
+        ({"radii": "radus"}, "got \"?'?radus"),
+        ({"cutoff": 0}, "find_bonds: cutoff: expected a number > 0, got 0"),
+        ({"factor": "2", "radii": 1.0}, "find_bonds: factor: expected a number > 0, got '2'"),
+        ({"radii": [1.0]}, "expected one number, or 300, one for each particle"),
+        ({"radii": -1.0}, "find_bonds: radii: expected a number ≥ 0, got -1.0"),
+        ({"cutoff": 1e3}, "more than 64 bonds for each particle"),
+    ],
+)
+def test_wrong_arguments(options: dict[str, Any], message: str) -> None:
+    particles = Particles(np.random.default_rng(0).uniform(0, 8, (300, 3)), cell=CUBE)
+    with pytest.raises(SceneError, match=message):
+        find_bonds(particles, **options)
+
+
+@pytest.mark.parametrize(
+    ("cell", "message"),
+    [
+        ([[1, 0, 0], [0, 0, 0], [0, 0, 1]], r"Particles.cell\[1\]: must have a length"),
+        ([[1, 0, 0], [1, 1, 0], [2, 1, 0]], "its edges must not lie in one plane"),
+    ],
+)
+def test_wrong_cells(cell: Any, message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        find_bonds(Particles([(0, 0, 0)], cell=cell), cutoff=1)
