@@ -21,7 +21,12 @@ from vtray.base.compiler import canary, compiled, kernel_folder, native_call, ob
 from vtray.base.compiler.canary import Cage, Song, new_arguments, sing
 from vtray.base.compiler.compiled import Device, Kernel
 from vtray.base.compiler.native_call import Layout, NativeCall, TupleLayout, unpack
-from vtray.base.compiler.object_code import compile_object, object_file, write_object_code
+from vtray.base.compiler.object_code import (
+    compile_object,
+    object_file,
+    object_name,
+    write_object_code,
+)
 from vtray.image import exposure
 
 pytestmark = compiled_only
@@ -210,7 +215,8 @@ def test_other_machine_code_on_disk_is_noticed(
     wrong: Callable[..., object], reason: str, image: vtray.Image
 ) -> None:
     arguments = new_arguments()
-    file = object_file("vtray.base.compiler.canary.sing", "".join(unpack(arguments)[0]))
+    types = "".join(unpack(arguments)[0])
+    file = object_file(object_name("vtray.base.compiler.canary.sing", types))
     assert file is not None
     write_object_code(file, compile_object(wrong, arguments, {}))
     (message,) = expose_anew(image)

@@ -130,7 +130,7 @@ def test_code_cut_short_is_left_alone() -> None:
 
 
 def test_llvm_links_what_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(object_code, "load", lambda code, function: None)
+    monkeypatch.setattr(object_code, "load", lambda *_: None)
     kernel = Kernel(weigh)
     assert kernel(np.zeros(0)) == 0.0
     assert None not in kernel._native.values()

@@ -23,7 +23,7 @@ from vtray.base.compiler.object_code import (
     ObjectCode,
     compile_object,
     link,
-    object_file,
+    object_name,
     read_object_code,
     write_object_code,
 )
@@ -103,15 +103,15 @@ def test_other_circumstances_have_another_file(
     change: Callable[[pytest.MonkeyPatch], None], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     object_code._circumstances.cache_clear()
-    usual = object_file("total", "f8,")
-    assert usual == object_file("total", "f8,") != object_file("total", "i8,")
-    assert usual != object_file("other", "f8,")
+    usual = object_name("total", "f8,")
+    assert usual == object_name("total", "f8,") != object_name("total", "i8,")
+    assert usual != object_name("other", "f8,")
     change(monkeypatch)
     object_code._circumstances.cache_clear()
-    changed = object_file("total", "f8,")
+    changed = object_name("total", "f8,")
     monkeypatch.undo()
     object_code._circumstances.cache_clear()
-    assert changed != usual == object_file("total", "f8,")
+    assert changed != usual == object_name("total", "f8,")
 
 
 @pytest.mark.parametrize("reader", ["yaml", None])  # without it, Numba passes the file over
@@ -123,10 +123,10 @@ def test_file_of_settings_is_a_circumstance(
         object_code, "find_spec", lambda name: reader if name == "yaml" else find(name)
     )
     monkeypatch.chdir(tmp_path)
-    keys = [object_file("total", "f8,")]
+    keys = [object_name("total", "f8,")]
     for text in ("boundscheck: 1", "boundscheck: 0"):
         (tmp_path / ".numba_config.yaml").write_text(text)
-        keys.append(object_file("total", "f8,"))
+        keys.append(object_name("total", "f8,"))
     assert len(set(keys)) == (3 if reader else 1)
 
 
@@ -151,7 +151,7 @@ def test_functions_of_the_c_library_and_of_numba_are_found() -> None:
 
 
 def test_numba_helps_where_linking_fails(monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(compiled: ObjectCode) -> int:
+    def refuse(*_: object) -> int:
         raise RuntimeError
 
     monkeypatch.setattr("vtray.base.compiler.compiled._trusted", [True])

@@ -18,8 +18,9 @@ from vtray.rendering.pack import pack
 from vtray.transport.integrators import reference
 from vtray.transport.sampling.fans import fans_of_middles
 
-SIZE = (40, 30) if JIT else (12, 9)
+SIZE = (40, 30) if JIT else (8, 6)
 STEP = 5 if JIT else 2
+TOLERANCE = 0.008 if JIT else 0.05  # a few fans from each point, not all
 
 
 def spotted() -> np.ndarray:
@@ -66,7 +67,7 @@ def test_bundles_tell_what_each_ray_alone_would(kind: str) -> None:
     if kind in ("many", "bonds") and not JIT:
         pytest.skip("takes minutes without the compiler")
     scene = scene_of(kind)
-    image = render(scene, seed=5)
+    image = render(scene, seed=5, tolerance=TOLERANCE)
     arrays, fan = pack(scene, accelerate(scene)).arrays, new_fan()
     fans = fans_of_middles(image.noise)
     soft = arrays.lights.soft

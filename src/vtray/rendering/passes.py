@@ -165,14 +165,14 @@ class Tracer:
     def _middles(self, sampling: Sampling, keep: bool, *wanted: str) -> Traced:
         """Trace one ray for each pixel."""
         if self._growth is not None:
-            self._draft(self._growth, sampling, keep, *wanted)
+            self._draft(self._growth, sampling, *wanted)
         film = new_film(*self._size, *wanted)
         if not keep:
             return self._trace(sampling, film)
         kept = self._keep(np.ones(self._size[::-1], np.bool_), 1)
         return self._trace(sampling, film._replace(kept=kept))._replace(kept=(kept,))
 
-    def _draft(self, growth: Growth, sampling: Sampling, keep: bool, *wanted: str) -> None:
+    def _draft(self, growth: Growth, sampling: Sampling, *wanted: str) -> None:
         """Trace what is shown of the picture until its own pixels are there."""
         scene = self._scene._replace(camera=draft_camera(self._scene.camera))
         if sampling.footprint is not None:  # none waits for samples
@@ -180,8 +180,6 @@ class Tracer:
         width, height = scene.camera.width, scene.camera.height
         film = new_film(width, height, *wanted)
         growth.begin_draft(film, *self._size)
-        if keep:  # for the same kernel
-            film = film._replace(kept=self._keep(np.ones((height, width), np.bool_), 1))
         tell = self._progress_of(len(split_into_tiles(*self._size, self._tile)))
 
         def nothing_done(_done: int, _total: int) -> None:
@@ -250,12 +248,10 @@ def _thickest(world: World) -> float:
     return max(float(of_kind.max(initial=0.0)) for of_kind in radii) * world.scale
 
 
-def compile_kernels(scene: SceneArrays, settings: RenderSettings, *, keep: bool = False) -> None:
+def compile_kernels(scene: SceneArrays, settings: RenderSettings) -> None:
     """Compile what is needed to trace a scene, or load it from disk; see `Tracer.light`."""
     has_samples = settings.samples > 1
     soft = scene.lights.soft
     film = new_film(0, 0, *(SAMPLES if has_samples else one_ray(scene)))
-    if keep:
-        film = film._replace(kept=new_kept_light(np.zeros((0, 0), np.int64), 0, 0))
     fans = None if soft is None else fans_of_middles(Noise(math.inf, by_light=True))
     trace_to(film, scene, middle_rays(before_samples=has_samples, fans=fans), Tile(0, 0, 0, 0))

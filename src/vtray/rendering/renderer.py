@@ -173,7 +173,7 @@ def render(
     loading = loading_seconds() - loaded
     packed = pack(shown, kept)
     clock.lap("pack")
-    compile_kernels(packed.arrays, settings, keep=keep_lights)
+    compile_kernels(packed.arrays, settings)
     warm_up()
     sky = SeenSky(packed.arrays.camera, settings, threads)
     sky.warm_up(shown)

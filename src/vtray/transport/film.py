@@ -28,7 +28,7 @@ from vtray.geometry.packets.packet import (
 )
 from vtray.geometry.packets.workspace import Pixels, Sums
 from vtray.geometry.vector import Vec, add, scale
-from vtray.transport.light_buffer import KeptLight, keep_ray
+from vtray.transport.light_buffer import KeptLight, keep_ray, nothing_kept
 
 Rows = Any
 """An array, or None for what is not wanted: as an argument of its own it is known to the compiler,
@@ -60,7 +60,7 @@ class Film(NamedTuple):
     half
         1 where that is the second half of a shape that has two, else 0, (height, width).
     kept
-        What is kept of all rays to change lights and colours afterwards.
+        What is kept of all rays to change lights and colours afterwards; never None.
     """
 
     left: int
@@ -73,7 +73,7 @@ class Film(NamedTuple):
     normal: Rows
     primitive: Rows
     half: Rows
-    kept: KeptLight | None
+    kept: KeptLight
 
 
 def new_film(width: int, height: int, *wanted: str, left: int = 0, top: int = 0) -> Film:
@@ -93,7 +93,7 @@ def new_film(width: int, height: int, *wanted: str, left: int = 0, top: int = 0)
         normal=rows("normal", np.float64, 3),
         primitive=rows("primitive", np.int32),
         half=rows("half", np.int8),
-        kept=None,
+        kept=nothing_kept(),
     )
 
 
@@ -106,10 +106,10 @@ def keep_rays(
     first: int,
     last: int,
     pixels: Pixels,
-    kept: KeptLight | None,
+    kept: KeptLight,
 ) -> None:
-    """Keep what the samples from `first` to before `last` of pixels of a block's list hit."""
-    if kept is None:
+    """Keep what the samples from `first` to before `last` of listed pixels hit, if anything is."""
+    if kept.first.shape[0] == 0:
         return
     samples = last - first
     for lane in range((end - begin) * samples):

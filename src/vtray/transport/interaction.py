@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.dispatch import Shape, Verbs, with_any
 from vtray.geometry.packets.coherence import CLUSTER, cluster_hits, list_hits
 from vtray.geometry.packets.packet import (
@@ -39,8 +39,7 @@ from vtray.geometry.ray import Footprint, Ray, has_width, ray_point
 from vtray.geometry.shapes.surface import Surface, bend_at, normal_at
 from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.geometry.world import Group, World, has_trees, load_group
-from vtray.transport.materials.material import load_material
-from vtray.transport.scene_arrays import SceneArrays
+from vtray.transport.materials.material import Materials, load_material
 
 
 class Interaction(NamedTuple):
@@ -104,14 +103,16 @@ def interact(world: World, ray: Ray, distance: float, row: int, slot: int) -> In
     return Interaction(point, normal, error_scale, surface.is_second)
 
 
-@device
+@part
 def gather_interactions(
     packet: Packet,
     lanes: int,
     samples: int,
     sheaf: Sheaf,
     footprint: Footprint | None,
-    scene: SceneArrays,
+    world: World,
+    materials: Materials,
+    forward: Vec,
     work: Workspace,
 ) -> int:
     """Bring the hits of a packet together, as interactions with no light yet; return how many.
@@ -119,12 +120,12 @@ def gather_interactions(
     Where there are hierarchies, they are in clusters. Field ``SOURCE`` says where each came from.
     Field ``BEND`` is set if the footprint has a width.
     """
-    if has_trees(scene.world):
+    if has_trees(world):
         hits = cluster_hits(packet, lanes, CLUSTER * min(samples, OCTET), work)
     else:
         hits = list_hits(packet, lanes, work)
     for hit in range(hits):
-        _fetch(packet, hit, work.order[hit], sheaf, footprint, scene)
+        _fetch(packet, hit, work.order[hit], sheaf, footprint, world, materials)
     # A loop of its own, only so is it vectorised.
     for hit in range(hits):
         origin = load(packet, START, hit) if start_apart(sheaf) else sheaf.origin
@@ -136,7 +137,7 @@ def gather_interactions(
         store(packet, NORMAL, hit, normal)
         packet[ERROR_SCALE + hit] = packet[ERROR_SCALE + hit] + sheaf.error_scale + length
         store(packet, VALUE, hit, (0.0, 0.0, 0.0))
-        packet[PLANE_DEPTH + hit] = dot(point, scene.camera.forward)
+        packet[PLANE_DEPTH + hit] = dot(point, forward)
     return hits
 
 
@@ -147,10 +148,11 @@ def _fetch(
     lane: int,
     sheaf: Sheaf,
     footprint: Footprint | None,
-    scene: SceneArrays,
+    world: World,
+    materials: Materials,
 ) -> None:
     """Bring together what a hit is made of."""
-    numbers, world = packet.view(np.int64), scene.world
+    numbers = packet.view(np.int64)
     row, slot = split_met(numbers[MET + lane])
     ray, distance = load_ray(packet, sheaf, lane), packet[DISTANCE + lane]
     point, error_scale = ray_point(ray, distance), ray.error_scale + distance
@@ -165,7 +167,7 @@ def _fetch(
         store(packet, START, hit, ray.origin)
     packet[LENGTH + hit] = distance
     numbers[HALF + lane] = 1 if surface.is_second else 0
-    material = load_material(scene.materials, numbers[PRIMITIVE + lane], surface.is_second)
+    material = load_material(materials, numbers[PRIMITIVE + lane], surface.is_second)
     store(packet, COLOR, hit, material.color)
     packet[LAMBERT + hit] = material.lambert
     numbers[SOURCE + hit] = lane

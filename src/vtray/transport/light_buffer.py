@@ -29,7 +29,7 @@ from vtray.transport.scene_arrays import SceneArrays
 
 
 class KeptLight(NamedTuple):
-    """What is kept of the rays of a pass.
+    """What is kept of the rays of a pass; arrays of no length if nothing is.
 
     Attributes
     ----------
@@ -63,6 +63,11 @@ def new_kept_light(first: NDArray[np.int64], places: int, components: int) -> Ke
     )
 
 
+def nothing_kept() -> KeptLight:
+    """Return what tells kernels to keep nothing: they are the same as those that keep light."""
+    return new_kept_light(np.zeros((0, 0), np.int64), 0, 0)
+
+
 @device
 def keep_ray(packet: Packet, lane: int, place: int, kept: KeptLight) -> None:
     """Keep what a ray hits and what it counts for."""
@@ -74,12 +79,16 @@ def keep_ray(packet: Packet, lane: int, place: int, kept: KeptLight) -> None:
 
 
 @device
-def keep_cosines(packet: Packet, hits: int, target: Target, light: int, kept: KeptLight) -> None:
-    """Keep the cosine of a light at the hits that it reaches."""
+def keep_cosines(
+    packet: Packet, hits: int, target: Target, light: int, cosines: NDArray[np.float64]
+) -> None:
+    """Keep the cosine of a light at the hits that it reaches, if it is kept."""
+    if cosines.shape[0] == 0:
+        return
     numbers = packet.view(np.int64)
     for hit in range(hits):
         place = numbers[KEPT + numbers[SOURCE + hit]]
-        kept.cosines[light, place] = arriving_cosine(packet, hit, target)
+        cosines[light, place] = arriving_cosine(packet, hit, target)
 
 
 @kernel

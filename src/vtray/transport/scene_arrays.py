@@ -2,9 +2,11 @@
 
 from typing import NamedTuple
 
+from vtray.base.compiler.compiled import device
+from vtray.geometry.vector import Vec
 from vtray.geometry.world import World
 from vtray.transport.camera_rays import CameraFrame
-from vtray.transport.lights.light import Lights, no_lights
+from vtray.transport.lights.light import Lights, Powers, no_lights, powers_of
 from vtray.transport.materials.material import Materials
 
 
@@ -15,6 +17,30 @@ class SceneArrays(NamedTuple):
     world: World
     lights: Lights
     materials: Materials
+
+
+class LitWorld(NamedTuple):
+    """What lights need of a scene, whatever kinds of lights it has.
+
+    Attributes
+    ----------
+    world
+        What rays can meet.
+    forward
+        The unit direction in which the camera looks.
+    powers
+        How strong the lights are.
+    """
+
+    world: World
+    forward: Vec
+    powers: Powers
+
+
+@device
+def lit_world(scene: SceneArrays) -> LitWorld:
+    """Return what lights need of a scene."""
+    return LitWorld(scene.world, scene.camera.forward, powers_of(scene.lights))
 
 
 def without_light(scene: SceneArrays) -> SceneArrays:

@@ -18,7 +18,7 @@ import os
 import threading
 import time
 from collections.abc import Callable
-from functools import cached_property, update_wrapper
+from functools import cached_property, partial, update_wrapper
 from importlib import import_module
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar, cast
@@ -45,9 +45,11 @@ from vtray.base.compiler.object_code import (
     compile_object,
     link,
     object_file,
+    object_name,
     read_object_code,
     write_object_code,
 )
+from vtray.base.compiler.parts import full_name, load_parts, make_parts, new_name
 from vtray.base.errors import RenderError
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -85,6 +87,15 @@ def written_in_llvm(writer: str) -> Callable[[Function], Function]:
         return function if _is_off() else cast("Function", Written(function, writer))
 
     return decorate
+
+
+def part(function: Function) -> Function:
+    """Compile a function that kernels call once for hundreds of rays, apart from them.
+
+    Its machine code is kept on disk on its own, so kernels that differ in other things share it.
+    The annotation says what it returns: a number, a truth value, or nothing.
+    """
+    return function if _is_off() else cast("Function", Part(function))
 
 
 def kernel(function: Function) -> Function:
@@ -160,8 +171,17 @@ class Device:
         return compiled
 
     @cached_property
+    def _called(self) -> Callable[..., object]:
+        """The function for compiled code alone that Numba calls."""
+        return self._unwrapped()
+
+    @cached_property
+    def _called_by_kernels(self) -> Callable[..., object]:
+        """The same for machine code that is called without Numba, where parts are apart."""
+        return self._unwrapped()
+
     def _unwrapped(self) -> Callable[..., object]:
-        """The function for compiled code alone.
+        """Return the function as something that compiles it for compiled code.
 
         Without the wrappers through which Python would call it, kernels compile in half the time.
         """
@@ -180,7 +200,9 @@ class Device:
         """What Numba asks for where compiled code calls this."""
         import numba
 
-        dispatcher: Any = self._unwrapped
+        from vtray.base.compiler.numba_pipeline import is_for_kernels
+
+        dispatcher: Any = self._called_by_kernels if is_for_kernels() else self._called
         return numba.types.Dispatcher(dispatcher)
 
 
@@ -201,6 +223,24 @@ class Written:
         write = getattr(import_module(module), name)
         make: Any = make_intrinsic_template
         return numba.types.Function(make(self, write, name))
+
+
+class Part(Device):
+    """A function whose machine code is kept on disk on its own, and called by that of kernels."""
+
+    @property
+    def _numba_type_(self) -> object:
+        """What Numba asks for where compiled code calls this."""
+        from vtray.base.compiler.numba_pipeline import is_for_kernels
+
+        return self._name if is_for_kernels() else super()._numba_type_
+
+    @cached_property
+    def _name(self) -> object:
+        """What this is to the machine code of kernels."""
+        from vtray.base.compiler.numba_pipeline import type_of_calls
+
+        return type_of_calls(self._function, partial(new_name, self._function, _OPTIONS))
 
 
 class Kernel(Device):
@@ -254,13 +294,15 @@ class Kernel(Device):
         """Return what calls the machine code without Numba, from disk or newly compiled."""
         file = self._file(types)
         compiled = read_object_code(file) if file else None
-        if compiled is None:
+        parts = load_parts(compiled) if compiled else None
+        if compiled is None or parts is None:
             if _waiting:
                 _waiting.pop()(file is not None)
             compiled = _in_thread(compile_object, self._function, arguments, _OPTIONS)
+            parts = _in_thread(make_parts, compiled)
             if file:
                 write_object_code(file, compiled)
-        return caller(link(compiled), compiled.layout)
+        return caller(link(compiled, parts), compiled.layout)
 
     def _compile_for_python(self, arguments: tuple[object, ...]) -> bool:
         """Compile the function as Numba calls it; tell whether it is compiled at all."""
@@ -274,11 +316,7 @@ class Kernel(Device):
 
     def _file(self, types: Types) -> Path | None:
         """Return the file of the machine code, None if the function is none of vtray's own."""
-        module, name = self._function.__module__, self._function.__qualname__
-        # The name of the folder tells only whether vtray's own sources have changed.
-        return (
-            object_file(f"{module}.{name}", "".join(types)) if module.startswith("vtray.") else None
-        )
+        return object_file(object_name(full_name(self._function), "".join(types)))
 
 
 class _Canary(Kernel):

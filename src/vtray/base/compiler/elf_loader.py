@@ -14,7 +14,8 @@ import ctypes
 import os
 import struct
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 IS_KNOWN = sys.platform == "linux" and os.uname().machine == "x86_64" and sys.maxsize > 2**32
@@ -22,6 +23,9 @@ IS_KNOWN = sys.platform == "linux" and os.uname().machine == "x86_64" and sys.ma
 
 FUNCTIONS = ("memcpy", "memmove", "memset")
 """The functions that kernels may call: LLVM puts them in by itself, for loops over bytes."""
+
+NOTHING: Mapping[str, int] = MappingProxyType({})
+"""No addresses."""
 
 _BEGINNING = b"\x7fELF\2\1\1"  # 64 bits, little-endian, version 1
 _RELOCATABLE, _X86_64 = 1, 62
@@ -66,7 +70,7 @@ class _UnknownError(Exception):
     """Something that is not known here."""
 
 
-def load(code: bytes, function: str) -> int | None:
+def load(code: bytes, function: str, known: Mapping[str, int] = NOTHING) -> int | None:
     """Load object code into memory, for the rest of the process.
 
     Parameters
@@ -75,6 +79,8 @@ def load(code: bytes, function: str) -> int | None:
         An object file.
     function
         The name of a function in it.
+    known
+        The addresses of others that it calls, by their names, beside those of ``FUNCTIONS``.
 
     Returns
     -------
@@ -82,12 +88,12 @@ def load(code: bytes, function: str) -> int | None:
         The address of the function; None if all this is better left to LLVM.
     """
     try:
-        return _load(code, function.encode()) if IS_KNOWN else None
+        return _load(code, function.encode(), known) if IS_KNOWN else None
     except (_UnknownError, LookupError, ValueError, struct.error):
         return None
 
 
-def _load(code: bytes, function: bytes) -> int:
+def _load(code: bytes, function: bytes, known: Mapping[str, int]) -> int:
     """Load object code as `load` does."""
     sections = _sections(code)
 
@@ -118,7 +124,8 @@ def _load(code: bytes, function: bytes) -> int:
                 _check(info & 0xFFFFFFFF == _ADDRESS_64)
                 symbol = symbols[info >> 32]
                 if symbol.section == _ELSEWHERE:
-                    target = _address(system, name_of(symbol).decode())
+                    name = name_of(symbol).decode()
+                    target = known[name] if name in known else _address(system, name)
                 else:
                     target = base + places[symbol.section] + symbol.value
                 struct.pack_into("<Q", image, places[section.info] + offset, target + addend)

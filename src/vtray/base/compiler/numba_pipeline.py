@@ -6,17 +6,25 @@ functions. They are only simplified, each by itself: without that, loops are not
 
 A kernel takes its arguments as hundreds of machine words, and handing over so many takes 15
 microseconds. So machine code begins with an entry point that takes them from memory.
+
+Parts of kernels have machine code of their own. Where code calls them there is only a name, which
+the linker finds.
 """
 
 # mypy: allow-untyped-calls
 
+import inspect
+import threading
+from collections.abc import Callable
 from typing import Any
 
+import numba
 from llvmlite import binding, ir
-from numba.core import typed_passes, untyped_passes
+from numba.core import cgutils, typed_passes, untyped_passes
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 from numba.core.compiler_machinery import PassManager
+from numba.core.typing.templates import make_intrinsic_template
 
 ENTRY = "entry"
 """The name of the entry point: ``int entry(result *, exception **, const char *words)``."""
@@ -36,6 +44,27 @@ UNUSED = (
 
 WORD_BITS = 64
 """What lies in memory for each argument, which begins where its word does."""
+
+
+RETURNED: dict[object, Any] = {
+    None: numba.types.none,
+    bool: numba.types.boolean,
+    int: numba.types.int64,
+    float: numba.types.float64,
+}
+"""What parts may return, by their annotations: nobody looks into a part for that."""
+
+_mode = threading.local()
+
+
+def is_for_kernels() -> bool:
+    """Tell whether what this thread compiles now is machine code without Numba."""
+    return getattr(_mode, "is_for_kernels", False)
+
+
+def set_for_kernels(is_so: bool) -> None:
+    """Set what `is_for_kernels` returns in this thread."""
+    _mode.is_for_kernels = is_so
 
 
 class _NoEnvironments:
@@ -66,8 +95,18 @@ class DeviceLibrary(JITCodeLibrary):
 class KernelLibrary(DeviceLibrary):
     """A kernel and all that it calls, optimized."""
 
+    def part_code(self, name: str, symbol: str) -> bytes:
+        """Return an object file of this machine with a function under another name."""
+        self._ensure_finalized()
+        self._final_module.get_function(name).name = symbol
+        return self._emitted()
+
+    def called(self) -> set[str]:
+        """Return the names of what the code calls and does not hold."""
+        return {each.name for each in self._final_module.functions if each.is_declaration}
+
     def object_code(self, name: str, kind: ir.FunctionType) -> bytes:
-        """Return an object file of this machine.
+        """Return an object file of this machine that begins with an entry point.
 
         Parameters
         ----------
@@ -79,6 +118,9 @@ class KernelLibrary(DeviceLibrary):
         module = self._codegen._create_empty_module(ENTRY)  # noqa: SLF001
         _write_entry(module, ir.Function(module, kind, name))
         self._final_module.link_in(binding.parse_assembly(str(module)))
+        return self._emitted()
+
+    def _emitted(self) -> bytes:
         code: bytes = self._codegen._tm.emit_object(self._final_module)  # noqa: SLF001
         return code
 
@@ -117,6 +159,42 @@ class KernelPipeline(DevicePipeline):
     """The same for a kernel."""
 
     library = KernelLibrary
+
+
+def type_of_calls(
+    function: Callable[..., object], symbol_of: Callable[[tuple[Any, ...]], str]
+) -> Any:  # noqa: ANN401
+    """Return the type that a part is to compiled code: calls of it are calls of a name.
+
+    Parameters
+    ----------
+    function
+        The part.
+    symbol_of
+        Returns the name, given the types of the arguments.
+    """
+    returned = RETURNED[function.__annotations__["return"]]
+
+    def define(_: object, *types: Any) -> tuple[Any, Any]:  # noqa: ANN401
+        return returned(*types), _write_call
+
+    def _write_call(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:  # noqa: ANN401
+        convention, types = context.call_conv, signature.args
+        kind = convention.get_function_type(returned, types)
+        called = cgutils.get_or_insert_function(builder.module, kind, symbol_of(types))
+        # Without tables for exceptions of C++, code is loaded without LLVM.
+        called.attributes.add("nounwind")
+        status, value = convention.call_function(builder, called, returned, types, arguments)
+        with cgutils.if_unlikely(builder, status.is_error):
+            convention.return_status_propagate(builder, status)
+        return value
+
+    # Numba asks what the arguments are called.
+    parameters = inspect.signature(function).parameters.values()
+    first = inspect.Parameter("_", inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    define.__signature__ = inspect.Signature([first, *parameters])  # type: ignore[attr-defined]
+    make: Any = make_intrinsic_template
+    return numba.types.Function(make(function, define, function.__name__))
 
 
 def _write_entry(module: ir.Module, function: ir.Function) -> None:

@@ -25,7 +25,7 @@ from typing import Any
 import msgspec
 from blake3 import blake3
 
-from vtray.base.compiler.elf_loader import load
+from vtray.base.compiler.elf_loader import NOTHING, load
 from vtray.base.compiler.kernel_folder import SUFFIX, cache_folder, read_kept
 from vtray.base.compiler.native_call import Layout, TupleLayout
 from vtray.base.compiler.processor import processor
@@ -39,6 +39,9 @@ References
 ----------
 https://numba.readthedocs.io/en/stable/reference/envvars.html
 """
+
+PART_MARK = "-"
+"""What is in the name of a part, and of no function of C."""
 
 _HASH_BYTES = 32
 
@@ -62,21 +65,31 @@ class ObjectCode(msgspec.Struct, frozen=True):
         What it returns.
     code
         An object file of this machine.
+    parts
+        The names of the parts that it calls.
     """
 
     symbol: str
     layout: str | TupleLayout
     code: bytes
+    parts: tuple[str, ...] = ()
 
 
-def object_file(kernel: str, types: str) -> Path | None:
-    """Return the file for a kernel with arguments of some types, None if nothing can be kept."""
-    folder = cache_folder()
-    if folder is None:
-        return None
+def object_name(function: str, types: str) -> str:
+    """Return the name of the machine code of a function with arguments of some types."""
     circumstances = [*_circumstances(), *_numba_settings()]
-    key = blake3("\n".join([kernel, types, *circumstances]).encode()).hexdigest()
-    return folder / f"{kernel}-{key[:16]}{SUFFIX}"
+    key = blake3("\n".join([function, types, *circumstances]).encode()).hexdigest()
+    return f"{function}-{key[:16]}"
+
+
+def object_file(name: str) -> Path | None:
+    """Return the file for machine code of some name, None if nothing can be kept.
+
+    The name of its folder tells only whether vtray's own sources have changed, so nothing else is
+    kept.
+    """
+    folder = cache_folder() if name.startswith("vtray.") else None
+    return folder and folder / f"{name}{SUFFIX}"
 
 
 def read_object_code(file: Path) -> ObjectCode | None:
@@ -99,7 +112,7 @@ def write_object_code(file: Path, compiled: ObjectCode) -> None:
 def compile_object(
     function: Callable[..., object], arguments: tuple[object, ...], options: Mapping[str, Any]
 ) -> ObjectCode:
-    """Compile a function with Numba.
+    """Compile a kernel with Numba.
 
     Parameters
     ----------
@@ -113,20 +126,48 @@ def compile_object(
     check_memory_of_compiler()
     import numba
 
-    from vtray.base.compiler.numba_pipeline import ENTRY, KernelPipeline
+    from vtray.base.compiler.numba_pipeline import ENTRY
+
+    typeof: Any = numba.typeof
+    result = _compile(function, tuple(map(typeof, arguments)), options)
+    described, convention = result.fndesc, result.target_context.call_conv
+    kind = convention.get_function_type(described.restype, described.argtypes)
+    code = result.library.object_code(described.llvm_func_name, kind)
+    return ObjectCode(ENTRY, _layout(result.signature.return_type), code, _parts_in(result))
+
+
+def compile_part(
+    function: Callable[..., object], types: tuple[Any, ...], options: Mapping[str, Any], name: str
+) -> ObjectCode:
+    """Compile a part with Numba, for arguments of some of its types."""
+    result = _compile(function, types, options)
+    code = result.library.part_code(result.fndesc.llvm_func_name, name)
+    return ObjectCode(name, _layout(result.signature.return_type), code, _parts_in(result))
+
+
+def _compile(
+    function: Callable[..., object], types: tuple[Any, ...], options: Mapping[str, Any]
+) -> Any:  # noqa: ANN401
+    """Return Numba's result for a function of its own in memory."""
+    import numba
+
+    from vtray.base.compiler.numba_pipeline import KernelPipeline, set_for_kernels
 
     # The wrappers through which Python would call it need Numba in memory.
     unwrapped: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     compiler: Any = numba.njit(function, pipeline_class=KernelPipeline, **options, **unwrapped)
-    typeof: Any = numba.typeof
-    types = tuple(map(typeof, arguments))
-    with _fewer_collections():
-        compiler.compile(types)
-    result = compiler.overloads[types]
-    described, convention = result.fndesc, result.target_context.call_conv
-    kind = convention.get_function_type(described.restype, described.argtypes)
-    code = result.library.object_code(described.llvm_func_name, kind)
-    return ObjectCode(ENTRY, _layout(result.signature.return_type), code)
+    set_for_kernels(True)
+    try:
+        with _fewer_collections():
+            compiler.compile(types)
+    finally:
+        set_for_kernels(False)
+    return compiler.overloads[types]
+
+
+def _parts_in(result: Any) -> tuple[str, ...]:  # noqa: ANN401
+    """Return the names of the parts that compiled code calls."""
+    return tuple(sorted(name for name in result.library.called() if PART_MARK in name))
 
 
 @contextlib.contextmanager
@@ -140,29 +181,36 @@ def _fewer_collections() -> Iterator[None]:
         gc.set_threshold(*usual)
 
 
-def link(compiled: ObjectCode) -> int:
+def link(compiled: ObjectCode, parts: Mapping[str, int] = NOTHING) -> int:
     """Load object code into memory for the rest of the process; return its function's address.
+
+    Parameters
+    ----------
+    compiled
+        The code.
+    parts
+        The addresses of the parts that it calls.
 
     Raises
     ------
     RuntimeError
         It is not object code of this machine, or it needs something that there is not.
     """
-    entry = load(compiled.code, compiled.symbol)
+    entry = load(compiled.code, compiled.symbol, parts)
     if entry is not None:
         return entry
     try:
-        return _link(compiled, {})
+        return _link(compiled, parts)
     except RuntimeError:  # a symbol is missing
-        return _link(compiled, _helpers())
+        return _link(compiled, {**_helpers(), **parts})
 
 
-def _link(compiled: ObjectCode, helpers: Mapping[str, int]) -> int:
-    """Let LLVM load object code that may call C's library, and the helpers at some addresses."""
+def _link(compiled: ObjectCode, others: Mapping[str, int]) -> int:
+    """Let LLVM load object code that may call C's library, and others at some addresses."""
     from llvmlite.binding import JITLibraryBuilder
 
     builder = JITLibraryBuilder().add_object_img(compiled.code).add_current_process()
-    for name, address in helpers.items():
+    for name, address in others.items():
         builder.import_symbol(name, address)
     library = builder.export_symbol(compiled.symbol).link(_linker(), f"kernel{next(_number)}")
     entry: int = library[compiled.symbol]

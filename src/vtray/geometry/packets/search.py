@@ -1,6 +1,6 @@
 """What the rays of a packet meet, and what hides a light from its points, group by group."""
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.packets.nearest import clear_hits, find_starts, nearest_planes, nearest_slots
 from vtray.geometry.packets.occlusion import (
     Bounds,
@@ -19,11 +19,11 @@ from vtray.geometry.ray import Footprint
 from vtray.geometry.world import NO_TREE, PLANE, Places, World, group_count, load_group
 
 
-@device
+@part
 def find_nearest(
     packet: Packet,
     lanes: int,
-    part: int,
+    beam: int,
     sheaf: Sheaf,
     footprint: Footprint | None,
     world: World,
@@ -35,7 +35,7 @@ def find_nearest(
     ----------
     packet, lanes
         The rays of so many lanes, whole parts of a packet.
-    part
+    beam
         Lanes that go through a hierarchy as one beam.
     sheaf, footprint
         What the rays have in common.
@@ -53,8 +53,8 @@ def find_nearest(
             nearest_planes(packet, lanes, sheaf, footprint, world, group)
             continue
         find_farthest(packet, 0, lanes // OCTET, footprint, work.cones)
-        for first in range(0, lanes, part):
-            octet, count = first // OCTET, min(part, lanes - first) // OCTET
+        for first in range(0, lanes, beam):
+            octet, count = first // OCTET, min(beam, lanes - first) // OCTET
             if group.root == NO_TREE:
                 begin, end = group.begin, group.end
                 nearest_slots(
@@ -62,14 +62,14 @@ def find_nearest(
                 )
             else:
                 nearest_in_group(packet, octet, count, sheaf, footprint, world, group, work, 0)
-    _find_nearest_placed(packet, lanes, part, sheaf, footprint, world, world.places, work)
+    _find_nearest_placed(packet, lanes, beam, sheaf, footprint, world, world.places, work)
 
 
 @device
 def _find_nearest_placed(
     packet: Packet,
     lanes: int,
-    part: int,
+    beam: int,
     sheaf: Sheaf,
     footprint: Footprint | None,
     world: World,
@@ -80,8 +80,8 @@ def _find_nearest_placed(
     # An argument that is None is known to the compiler, which drops what depends on that alone.
     if places is not None:
         find_farthest(packet, 0, lanes // OCTET, footprint, work.cones)
-        for first in range(0, lanes, part):
-            octet, count = first // OCTET, min(part, lanes - first) // OCTET
+        for first in range(0, lanes, beam):
+            octet, count = first // OCTET, min(beam, lanes - first) // OCTET
             nearest_placed(packet, octet, count, sheaf, footprint, world, places, work)
 
 

@@ -5,13 +5,7 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
 from vtray.geometry.packets.nearest import find_mixed
-from vtray.geometry.packets.occlusion import (
-    Target,
-    bound_points,
-    find_close_planes,
-    find_sides,
-    own_sphere,
-)
+from vtray.geometry.packets.occlusion import find_close_planes
 from vtray.geometry.packets.packet import (
     BLOCK,
     COLUMN,
@@ -27,12 +21,10 @@ from vtray.geometry.packets.packet import (
     start_apart,
     store,
 )
-from vtray.geometry.packets.patch import judge_patches
-from vtray.geometry.packets.search import find_blocked, find_nearest
+from vtray.geometry.packets.search import find_nearest
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import has_width
 from vtray.geometry.vector import dot
-from vtray.geometry.world import has_trees
 from vtray.transport.camera_rays import CameraFrame, camera_ray, sheaf_of
 from vtray.transport.film import (
     Film,
@@ -44,19 +36,20 @@ from vtray.transport.film import (
     write_pixels,
 )
 from vtray.transport.integrators.lamps import mix_lamps, see_lamps
+from vtray.transport.integrators.points import add_points
 from vtray.transport.integrators.soft import add_soft_lights, clear_noise
 from vtray.transport.interaction import gather_interactions
-from vtray.transport.light_buffer import KeptLight, keep_cosines
-from vtray.transport.lights.light import light_target, load_power
-from vtray.transport.lights.lighting import add_light, find_facing
+from vtray.transport.light_buffer import KeptLight
+from vtray.transport.lights.light import points_of
+from vtray.transport.lights.soft_light import SoftLights
 from vtray.transport.sampling.adaptive import (
-    ask_of_light,
     find_patches,
     leave_mixed,
     mix_uneven,
 )
+from vtray.transport.sampling.fans import Fans
 from vtray.transport.sampling.pixel_samples import Sampling, list_pixels, place_samples
-from vtray.transport.scene_arrays import SceneArrays
+from vtray.transport.scene_arrays import SceneArrays, lit_world
 
 
 @kernel
@@ -137,7 +130,7 @@ def _trace_pixels(
         hits = _find_surfaces(packet, lanes, scene, sampling, film.linear, film.mixed, work)
         keep_rays(packet, block, begin, end, first, last, work.pixels, film.kept)
         if hits > 0:
-            rays += _light_hits(
+            rays += _add_points(
                 scene,
                 scene.lights.points,
                 hits,
@@ -148,9 +141,11 @@ def _trace_pixels(
                 work,
                 stop,
             )
-            rays += _light_softly(
+            rays += _add_soft_lights(
                 scene,
+                scene.lights.soft,
                 sampling,
+                sampling.fans,
                 block,
                 begin,
                 first,
@@ -221,7 +216,17 @@ def _find_surfaces(
             find_mixed(packet, lanes)
             mix_lamps(packet, lanes, sheaf, footprint, lights.visible)
             leave_mixed(packet, lanes)
-    hits = gather_interactions(packet, lanes, sampling.rays, sheaf, footprint, scene, work)
+    hits = gather_interactions(
+        packet,
+        lanes,
+        sampling.rays,
+        sheaf,
+        footprint,
+        scene.world,
+        scene.materials,
+        scene.camera.forward,
+        work,
+    )
     if mixed is not None:  # noqa: SIM102
         if has_width(footprint) and hits > 0:
             find_patches(packet, hits, footprint, sampling.thickest)
@@ -230,44 +235,32 @@ def _find_surfaces(
 
 
 @device
-def _light_hits(
+def _add_points(
     scene: SceneArrays,
     points: int | None,
     hits: int,
     linear: Rows,
     is_wide: bool | None,
-    kept: KeptLight | None,
+    kept: KeptLight,
     packet: Packet,
     work: Workspace,
     stop: NDArray[np.bool_],
 ) -> int:
     """Add all points to the hits of a packet; return how many shadow rays were cast."""
-    rays = 0
     if linear is None:
-        return rays
+        return 0
     if points is None:
-        return rays
-    bounds = bound_points(packet, hits)
-    find_sides(packet, hits, scene.world, work)
-    own = -1 if has_trees(scene.world) else own_sphere(packet, hits, scene.world)
-    for light in range(points):
-        if stop[0]:
-            break
-        target = light_target(scene.lights, light, is_wide)
-        _ask_of_light(packet, hits, target, is_wide)
-        facing = find_facing(packet, hits, bounds, target)
-        if facing > 0:
-            if find_blocked(packet, hits, bounds, own, scene.world, target, work):
-                add_light(packet, hits, target, load_power(scene.lights, light))
-            _record_light(packet, hits, target, light, is_wide, kept)
-            rays += facing
-    return rays
+        return 0
+    places, lit = points_of(scene.lights), lit_world(scene)
+    return add_points(packet, hits, places, lit, is_wide, kept.cosines, work, stop)
 
 
 @device
-def _light_softly(
+def _add_soft_lights(
     scene: SceneArrays,
+    soft: SoftLights | None,
     sampling: Sampling,
+    fans: Fans | None,
     block: Block,
     begin: int,
     first: int,
@@ -276,57 +269,33 @@ def _light_softly(
     linear: Rows,
     error: Rows,
     is_wide: bool | None,
-    kept: KeptLight | None,
+    kept: KeptLight,
     packet: Packet,
     work: Workspace,
 ) -> int:
     """Add the lights that are no points; return how many shadow rays were cast."""
     if linear is None:
         return 0
+    if soft is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if fans is not None:
+            return add_soft_lights(
+                packet,
+                hits,
+                last - first,
+                first,
+                block,
+                begin,
+                lit_world(scene),
+                soft,
+                fans,
+                sampling.seed,
+                is_wide,
+                kept.cosines,
+                work,
+            )
     if error is not None:
         clear_noise(packet, hits)
-    soft, fans, seed = scene.lights.soft, sampling.fans, sampling.seed
-    return add_soft_lights(
-        packet,
-        hits,
-        last - first,
-        first,
-        block,
-        begin,
-        scene,
-        soft,
-        fans,
-        seed,
-        error,
-        is_wide,
-        kept,
-        work,
-    )
-
-
-@device
-def _ask_of_light(packet: Packet, hits: int, target: Target, is_wide: bool | None) -> None:
-    """Begin to ask what a light does around the hits of a packet, if that is asked."""
-    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
-        if is_wide:
-            ask_of_light(packet, hits, target)
-
-
-@device
-def _record_light(
-    packet: Packet,
-    hits: int,
-    target: Target,
-    light: int,
-    is_wide: bool | None,
-    kept: KeptLight | None,
-) -> None:
-    """Record what is wanted of a light at the hits of a packet, beside what it adds."""
-    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
-        if is_wide:
-            judge_patches(packet, hits)
-    if kept is not None:
-        keep_cosines(packet, hits, target, light, kept)
+    return 0
 
 
 @device

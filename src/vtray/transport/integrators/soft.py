@@ -3,8 +3,9 @@
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.packets.cone import CLOSED, MANY, find_touching
 from vtray.geometry.packets.fan import Start, count_open
 from vtray.geometry.packets.packet import (
@@ -28,10 +29,8 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.stopped import Bundle, stop_by_all, stop_by_touching
 from vtray.geometry.vector import Vec, add
-from vtray.transport.film import Rows
 from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
-from vtray.transport.light_buffer import KeptLight
-from vtray.transport.lights.light import Lights, load_power, soft_worth
+from vtray.transport.lights.light import Powers, load_power, soft_worth
 from vtray.transport.lights.soft_light import (
     SoftLights,
     aim_at,
@@ -55,7 +54,7 @@ from vtray.transport.sampling.estimate import (
 )
 from vtray.transport.sampling.fans import Fans, fan_keys, fan_of_sample
 from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
-from vtray.transport.scene_arrays import SceneArrays
+from vtray.transport.scene_arrays import LitWorld
 
 NO_SHARES = (0.0, 0.0, 0.0)
 """Those of a light of which nothing arrives."""
@@ -88,7 +87,7 @@ def clear_noise(packet: Packet, hits: int) -> None:
         packet[NOISE + hit] = 0.0
 
 
-@device
+@part
 def add_soft_lights(
     packet: Packet,
     hits: int,
@@ -96,13 +95,12 @@ def add_soft_lights(
     first: int,
     block: Block,
     begin: int,
-    scene: SceneArrays,
-    soft: SoftLights | None,
-    fans: Fans | None,
+    lit: LitWorld,
+    soft: SoftLights,
+    fans: Fans,
     seed: int,
-    error: Rows,
     is_wide: bool | None,
-    kept: KeptLight | None,
+    cosines: NDArray[np.float64],
     work: Workspace,
 ) -> int:
     """Add all soft lights to the hits of a packet; return how many shadow rays were cast.
@@ -115,46 +113,42 @@ def add_soft_lights(
         How many samples of each pixel the packet has, and the number of the first of them.
     block, begin
         Its lanes belong to the pixels of the block's list from `begin` on, one after the other.
-    scene, soft
+    lit, soft
         The scene, and its soft lights.
     fans, seed
         Which rays are cast.
-    error
-        Not None if it is wanted how wrong the light may be.
     is_wide
         Whether it is asked if pixels look the same everywhere; None where it never is.
-    kept
-        Out: what each light adds, if that is kept.
+    cosines
+        Out: what each light adds, if that is kept, (components, places), else (0, 0).
     work
         Scratch memory.
     """
     cast = 0
-    # Arguments that are None are known to the compiler, which drops what depends on them alone.
-    if soft is not None:  # noqa: SIM102
-        if fans is not None:
-            for hit in range(hits):
-                lane = packet.view(np.int64)[SOURCE + hit]
-                pixel = work.pixels[begin + lane // samples]
-                column, row = block.left + (pixel & (BLOCK - 1)), block.top + pixel // BLOCK
-                material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
-                sample, spent = first + lane % samples, 0.0
-                for light in range(soft_count(soft)):
-                    if _is_uneven(packet, hit, scene, soft, light, is_wide, work):
-                        break
-                    keys = fan_keys(column, row, light, seed)
-                    number = fan_of_sample(fans.levels, sample, column, row, light, seed)
-                    point = number * fans.rays * fans.fans
-                    worth = soft_worth(scene.lights, soft, light, material)
-                    arriving = _arriving(
-                        packet, hit, scene, soft, light, worth, spent, fans, point, keys, work
-                    )
-                    spent += arriving.counted
-                    for component in range(component_count(soft, light)):
-                        part, share = soft.row[light] + component, arriving.shares[component]
-                        _add_share(packet, hit, scene.lights, part, share)
-                        _keep_share(packet, lane, part, share, kept)
-                    _add_noise(packet, hit, worth, arriving.variance, error)
-                    cast += arriving.cast
+    clear_noise(packet, hits)
+    for hit in range(hits):
+        lane = packet.view(np.int64)[SOURCE + hit]
+        pixel = work.pixels[begin + lane // samples]
+        column, row = block.left + (pixel & (BLOCK - 1)), block.top + pixel // BLOCK
+        material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
+        sample, spent = first + lane % samples, 0.0
+        for light in range(soft_count(soft)):
+            if _is_uneven(packet, hit, lit, soft, light, is_wide, work):
+                break
+            keys = fan_keys(column, row, light, seed)
+            number = fan_of_sample(fans.levels, sample, column, row, light, seed)
+            point = number * fans.rays * fans.fans
+            worth = soft_worth(lit.powers, soft, light, material)
+            arriving = _arriving(
+                packet, hit, lit, soft, light, worth, spent, fans, point, keys, work
+            )
+            spent += arriving.counted
+            for component in range(component_count(soft, light)):
+                power, share = soft.row[light] + component, arriving.shares[component]
+                _add_share(packet, hit, lit.powers, power, share)
+                _keep_share(packet, lane, power, share, cosines)
+            packet[NOISE + hit] += worth * worth * arriving.variance
+            cast += arriving.cast
     return cast
 
 
@@ -162,7 +156,7 @@ def add_soft_lights(
 def _arriving(
     packet: Packet,
     hit: int,
-    scene: SceneArrays,
+    lit: LitWorld,
     soft: SoftLights,
     light: int,
     worth: float,
@@ -179,12 +173,12 @@ def _arriving(
     point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
     start = Start(point, packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
     aim = aim_at(soft, light, start, normal)
-    is_narrow, forward = aim.spread < NARROW, scene.camera.forward
+    is_narrow, forward = aim.spread < NARROW, lit.forward
     touching, count = work.touching, MANY
     if is_below(aim, normal):
         return Arriving(NO_SHARES, 0.0, 0.0, 0, 0)
     if is_narrow and is_cone(aim):
-        count = find_touching(cone_of(aim, start, forward), scene.world, touching, work.stack)
+        count = find_touching(cone_of(aim, start, forward), lit.world, touching, work.stack)
         # What a cone as a whole tells is what all its rays would.
         if count == 0 and is_above(aim, normal):
             shares = middle_share(aim, normal), 0.0, 0.0
@@ -201,9 +195,9 @@ def _arriving(
             fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, place, keys
         )
         if count >= 0:
-            stop_by_touching(bundle, scene.world, touching, count)
+            stop_by_touching(bundle, lit.world, touching, count)
         else:
-            stop_by_all(bundle, scene.world, work.stack)
+            stop_by_all(bundle, lit.world, work.stack)
         shares, spread = arriving_shares(fan, fans.rays, components, aim, normal)
         estimate = with_fan(estimate, shares, spread)
         arrived += count_open(fan, fans.rays)
@@ -213,34 +207,29 @@ def _arriving(
 
 
 @device
-def _add_share(packet: Packet, hit: int, lights: Lights, row: int, share: float) -> None:
+def _add_share(packet: Packet, hit: int, powers: Powers, row: int, share: float) -> None:
     """Add what arrives of a component of a soft light to a hit."""
-    power = load_power(lights, row)
+    power = load_power(powers, row)
     material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
     added = scattered(material, share, power)
     store(packet, VALUE, hit, add(load(packet, VALUE, hit), added))
 
 
 @device
-def _add_noise(packet: Packet, hit: int, worth: float, variance: float, error: Rows) -> None:
-    """Add the variance of what a soft light adds to a hit."""
-    if error is not None:
-        packet[NOISE + hit] += worth * worth * variance
-
-
-@device
-def _keep_share(packet: Packet, lane: int, row: int, share: float, kept: KeptLight | None) -> None:
-    """Keep what arrives of a component of a soft light at the hit of a lane."""
-    if kept is not None:
+def _keep_share(
+    packet: Packet, lane: int, row: int, share: float, cosines: NDArray[np.float64]
+) -> None:
+    """Keep what arrives of a component of a soft light at the hit of a lane, if that is kept."""
+    if cosines.shape[0] > 0:
         place = packet.view(np.int64)[KEPT + lane]
-        kept.cosines[row, place] = share
+        cosines[row, place] = share
 
 
 @device
 def _is_uneven(
     packet: Packet,
     hit: int,
-    scene: SceneArrays,
+    lit: LitWorld,
     soft: SoftLights,
     light: int,
     is_wide: bool | None,
@@ -250,7 +239,7 @@ def _is_uneven(
     if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
         if is_wide:
             uneven: bool = packet[UNEVEN + hit] != 0.0
-            uneven = uneven or is_lit_unevenly(packet, hit, scene, soft, light, work)
+            uneven = uneven or is_lit_unevenly(packet, hit, lit, soft, light, work)
             packet[UNEVEN + hit] = 1.0 if uneven else 0.0
             return uneven
     return False

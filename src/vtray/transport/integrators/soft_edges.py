@@ -25,7 +25,7 @@ from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.vector import Vec, dot, scale, sub
 from vtray.transport.lights.soft_light import RECTANGLE, SUN, SoftLights, aim_at
 from vtray.transport.sampling.adaptive import LIMIT_OF_SWAY, NEARNESS
-from vtray.transport.scene_arrays import SceneArrays
+from vtray.transport.scene_arrays import LitWorld
 
 NARROW = 0.1
 """Up to this spread, which a lamp has that is seen under 50 degrees, shadows have edges."""
@@ -33,7 +33,7 @@ NARROW = 0.1
 
 @device
 def is_lit_unevenly(
-    packet: Packet, hit: int, scene: SceneArrays, soft: SoftLights, light: int, work: Workspace
+    packet: Packet, hit: int, lit: LitWorld, soft: SoftLights, light: int, work: Workspace
 ) -> bool:
     """Tell whether a soft light may do something else around a hit than there.
 
@@ -59,16 +59,16 @@ def is_lit_unevenly(
         return True
     if height < -tangent:
         return False
-    return has_edge(scene.world, _view(packet, hit, scene, axis, length, tangent), work.stack)
+    return has_edge(lit.world, _view(packet, hit, lit.forward, axis, length, tangent), work.stack)
 
 
 @device
 def _view(
-    packet: Packet, hit: int, scene: SceneArrays, axis: Vec, length: float, tangent: float
+    packet: Packet, hit: int, forward: Vec, axis: Vec, length: float, tangent: float
 ) -> LampView:
     """Return the rays between a patch and a lamp."""
     reach, radius, depth = packet[REACH + hit], tangent * length, packet[PLANE_DEPTH + hit]
-    end = depth + length * dot(axis, scene.camera.forward)
+    end = depth + length * dot(axis, forward)
     least, most = crossed_share(depth, reach, end)
     growth, point = (radius - reach) / length, load(packet, POINT, hit)
     return LampView(

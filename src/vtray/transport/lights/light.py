@@ -57,6 +57,35 @@ class Lights(NamedTuple):
     color: Floats
 
 
+class Points(NamedTuple):
+    """Where the points are; the columns are those of `Lights`."""
+
+    x: Floats
+    y: Floats
+    z: Floats
+    plane_depth: Floats
+    error_scale: Floats
+
+
+class Powers(NamedTuple):
+    """How strong all components are; the columns are those of `Lights`."""
+
+    intensity: Floats
+    color: Floats
+
+
+@device
+def points_of(lights: Lights) -> Points:
+    """Return where the points are."""
+    return Points(lights.x, lights.y, lights.z, lights.plane_depth, lights.error_scale)
+
+
+@device
+def powers_of(lights: Lights) -> Powers:
+    """Return how strong all components are."""
+    return Powers(lights.intensity, lights.color)
+
+
 def no_lights() -> Lights:
     """Return no lights at all."""
     none = np.zeros(0)
@@ -64,14 +93,14 @@ def no_lights() -> Lights:
 
 
 @device
-def light_count(lights: Lights) -> int:
+def light_count(lights: Lights | Points) -> int:
     """Return how many points there are."""
     count: int = lights.x.shape[0]
     return count
 
 
 @device
-def load_power(lights: Lights, row: int) -> Power:
+def load_power(lights: Lights | Powers, row: int) -> Power:
     """Return how strong one of all components is."""
     color = lights.color
     red, green, blue = color[row, 0], color[row, 1], color[row, 2]
@@ -79,7 +108,7 @@ def load_power(lights: Lights, row: int) -> Power:
 
 
 @device
-def soft_worth(lights: Lights, soft: SoftLights, light: int, material: Material) -> float:
+def soft_worth(lights: Lights | Powers, soft: SoftLights, light: int, material: Material) -> float:
     """Return the largest channel of what all of a soft light adds to a surface, squarely."""
     worth = 0.0
     for component in range(component_count(soft, light)):
@@ -90,7 +119,7 @@ def soft_worth(lights: Lights, soft: SoftLights, light: int, material: Material)
 
 
 @device
-def light_target(lights: Lights, light: int, is_wide: bool | None = None) -> Target:
+def light_target(lights: Lights | Points, light: int, is_wide: bool | None = None) -> Target:
     """Return where the shadow rays to a light end; `is_wide` is that of `Target`."""
     plane_depth, error_scale = lights.plane_depth[light], lights.error_scale[light]
     return Target(pick(lights, light), plane_depth, error_scale, is_wide)
