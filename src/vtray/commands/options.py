@@ -25,7 +25,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         hint=HINT,
         prog="vtray",
         usage="vtray [OPTION ...] SCENE OUTPUT",
-        description="Render a scene of spheres, cylinders and planes to an image.",
+        description="Render a scene of spheres, cylinders, cones and planes to an image.",
         epilog="example: vtray -t 4 --samples 16 scene.json picture.png",
     )
     parser.add_argument(

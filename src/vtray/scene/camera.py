@@ -160,14 +160,14 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         """Return the camera that shows all objects as large as the picture allows.
 
         In perspective, it stands as near as can be; orthographic, its pixels are as small as can
-        be. The silhouettes of all spheres and cylinders, not only their centres, are in the
+        be. The silhouettes of all spheres, cylinders and cones, not only their centres, are in the
         picture, touch the margin on two opposite sides, and are in the middle between the other
         two. Planes have no edge, and count only for `up`.
 
         Parameters
         ----------
         subject
-            A scene, `Spheres`, `Cylinders`, `Copies`, or points of shape (n, 3).
+            A scene, `Spheres`, `Cylinders`, `Cones`, `Copies`, or points of shape (n, 3).
         direction
             Where the camera looks, in world space.
         up
@@ -194,7 +194,7 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         Raises
         ------
         SceneError
-            If there is no sphere or cylinder, or an argument is not right.
+            If there is no bounded shape, or an argument is not right.
         """
         from vtray.scene.placing.camera_fit import fitting
 
