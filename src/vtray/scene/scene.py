@@ -31,6 +31,7 @@ from vtray.scene.light_types import (
     Sun,
 )
 from vtray.scene.objects import Cone, Cylinder, Object, Plane, Sphere
+from vtray.scene.particles.arrows import AddingArrows
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient
 from vtray.scene.spheres import Spheres
@@ -62,7 +63,7 @@ __all__ = [
 ]
 
 
-class Scene(msgspec.Struct, Adding, AddingLights, metaclass=Checked, dict=True):
+class Scene(msgspec.Struct, Adding, AddingLights, AddingArrows, metaclass=Checked, dict=True):
     """All that a picture is made from.
 
     Its attributes may be replaced, its lists changed, and so may arrays that `Spheres`,
