@@ -2,8 +2,9 @@
 
 Scenes made to provoke rounding are rendered with a hierarchy and without. The light must be that
 of the oracle to the last bit; and a pixel that is more than 1 off from what it is in extended
-precision must lie at an edge, as near as rounding can tell. Where there are cylinders or cones, which the
-oracle works out by other formulas, the picture must be as near to its own as rounding allows.
+precision must lie at an edge, as near as rounding can tell. Where there are cylinders or cones,
+which the oracle works out by other formulas, the picture must be as near to its own as rounding
+allows.
 """
 
 import itertools
@@ -220,7 +221,7 @@ def random_scene(random: Random) -> Scene:
 
 
 def with_cylinders(random: Random, scene: Scene) -> Scene:
-    """Return a scene with cylinders and cones: beside, in, and around what is there, and cut open."""
+    """Return a scene with cylinders and cones: beside, in, around what is there, and cut open."""
     camera = scene["camera"]
     center, size = _array(camera["center"]), WIDTH * camera["resolution"][0]
     objects = list(scene["objects"]) if random.random() < 0.4 else []

@@ -5,6 +5,7 @@ line: its least value is searched for, and where it is 0, by bisection. No equat
 solved. All is worked out in long doubles.
 """
 
+import itertools
 from typing import Any
 
 import numpy as np
@@ -49,15 +50,18 @@ class Cone(Cylinder):
         away, z = self.round_and_along(points)
         bound = self.faces(away, z, larger).max(axis=0)
         # The corners of half a section of it, as far as there is one.
-        low, high = -np.broadcast_to(larger, z.shape), self.length + np.broadcast_to(larger, z.shape)
+        low, high = (
+            -np.broadcast_to(larger, z.shape),
+            self.length + np.broadcast_to(larger, z.shape),
+        )
         radii = [
             (self.cosine * self.first + larger + self.sine * level) / self.cosine
             for level in (low, high)
         ]
         corners = [(0 * z, low), (radii[0], low), (radii[1], high), (0 * z, high)]
         lengths = []
-        for (r, h), (s, k) in zip(corners, corners[1:], strict=False):
-            r, s = np.maximum(r, 0), np.maximum(s, 0)
+        for (one, h), (other, k) in itertools.pairwise(corners):
+            r, s = np.maximum(one, 0), np.maximum(other, 0)
             length2 = (s - r) ** 2 + (k - h) ** 2
             share = ((away - r) * (s - r) + (z - h) * (k - h)) / np.where(length2 > 0, length2, 1)
             share = np.clip(share, 0, 1)
@@ -102,15 +106,19 @@ class Cone(Cylinder):
         steepness = []
         for t, face in zip(at, found, strict=True):
             away = np.hypot(x + t * u, y + t * v)
-            out = [np.where(away > 0, part / np.where(away > 0, away, 1), 0) for part in
-                   (x + t * u, y + t * v)]
+            out = [
+                np.where(away > 0, part / np.where(away > 0, away, 1), 0)
+                for part in (x + t * u, y + t * v)
+            ]
             slant = np.hypot(
                 self.cosine * u - self.sine * w * out[0], self.cosine * v - self.sine * w * out[1]
             )
             slant = np.where(away > 0, slant, length)
             steepness.append(np.where(face == 0, slant, np.abs(w)) / length)
         at = np.where(crosses & ~np.bool_(self.is_nothing), at + shift, np.nan)
-        return Crossings(at, np.array([SIDE, START_CAP, END_CAP])[np.array(found)], np.array(steepness))
+        return Crossings(
+            at, np.array([SIDE, START_CAP, END_CAP])[np.array(found)], np.array(steepness)
+        )
 
     def normal(self, points: Array, face: Array) -> Array:
         """Return the outward normals at points of some faces, (n, 3); 0 on the axis."""

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from vtray.base.errors import SceneError
 from vtray.scene.checks.checked import Frozen
 from vtray.scene.checks.limits import FieldError, Positive, PositivePair, Projection, SizePair
 from vtray.scene.checks.unknown_names import explain_unknown
@@ -12,11 +13,15 @@ from vtray.scene.placing.directions import are_parallel, unit
 from vtray.scene.vectors import Direction, Vector
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
 
     from vtray.scene.array_holder import ArrayHolder
     from vtray.scene.placing.bounds import HasObjects
     from vtray.scene.vectors import Triple
+
+AHEAD: "Triple" = (0, 0, -1)
+"""Where `Camera.fit` looks unless it is told."""
 
 
 class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
@@ -150,12 +155,15 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
     def fit(
         cls,
         subject: "HasObjects | ArrayHolder | ArrayLike",
-        direction: "Direction | Vector | Triple" = (0, 0, -1),
+        direction: "Direction | Vector | Triple" = AHEAD,
         up: "Direction | Vector | Triple | None" = None,
         margin: float = 0.05,
         projection: Projection = "perspective",
         fov_degrees: float = 40.0,
         size: tuple[int, int] = (800, 600),
+        *,
+        view: str | tuple[float, float] | None = None,
+        zoom: float = 1.0,
     ) -> "Camera":
         """Return the camera that shows all objects as large as the picture allows.
 
@@ -183,6 +191,16 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
             The vertical field of view in degrees, > 0 and < 180; only for perspective.
         size
             Width and height of the picture in pixels.
+        view
+            Where it is seen from, instead of `direction`, with the z axis up: "front" (from -y),
+            "back", "left" (from -x), "right", "top", "bottom", "iso" (a corner of the cube, from
+            the right, in front and above), or an axis that points to the viewer, "x", "-x", "y",
+            "-y", "z" or "-z"; or azimuth and elevation of the viewer in degrees, the angle from x
+            towards y, and that above the plane of both. "auto" shows the shape: it looks along the
+            shortest of the principal axes of all centres, from 20 degrees above it, with the
+            longest horizontal. `up` is then that of the view unless it is given.
+        zoom
+            How many times as large as that, about the middle of the picture, > 0.
 
         Returns
         -------
@@ -198,7 +216,20 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         """
         from vtray.scene.placing.camera_fit import fitting
 
-        return cls(**fitting(subject, direction, up, margin, projection, fov_degrees, size))
+        if view is not None:
+            from vtray.scene.placing.views import view_of
+
+            if direction is not AHEAD:
+                words = "expected None where direction is given, or the other way round"
+                raise SceneError(f"Camera.fit: view: {words}, got {view!r}")
+            direction, upward = view_of(subject, view, "Camera.fit")
+            up = upward if up is None else up
+        camera = cls(**fitting(subject, direction, up, margin, projection, fov_degrees, size))
+        if zoom != 1.0:
+            from vtray.scene.placing.moved import zoomed
+
+            camera = camera.replace(**zoomed(camera, zoom, "Camera.fit: zoom"))
+        return camera
 
     def resized(self, size: tuple[int, int]) -> "Camera":
         """Return a camera with the same view at another size of the picture.
@@ -221,3 +252,114 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         factor = max(self.size[0] / width, self.size[1] / height)
         across, down = self.resolution
         return self.replace(size=(width, height), resolution=(across * factor, down * factor))
+
+    def zoomed(self, factor: float) -> "Camera":
+        """Return a camera whose picture shows all so many times as large, about its middle.
+
+        The eye stays where it is, so that in perspective the field of view becomes narrower.
+
+        Parameters
+        ----------
+        factor
+            How many times as large, > 0; below 1 for smaller.
+
+        Raises
+        ------
+        SceneError
+            If `factor` is not right.
+        """
+        from vtray.scene.placing.moved import zoomed
+
+        return self.replace(**zoomed(self, factor, "Camera.zoomed: factor"))
+
+    @explain_unknown
+    def orbit(
+        self,
+        degrees: float,
+        elevation: float = 0.0,
+        about: "Vector | Triple | HasObjects | ArrayHolder | None" = None,
+    ) -> "Camera":
+        """Return a camera turned about what it looks at.
+
+        Parameters
+        ----------
+        degrees
+            By how much it moves to its right on a circle about `up`, or about what is up in its
+            picture if it has none.
+        elevation
+            By how many degrees it rises before that. It cannot go beyond where it looks straight
+            down or up.
+        about
+            A point, or a scene or arrays of objects for the middle of these. By default the point
+            that the camera was made to look at by `look_at`, `orthographic` or, in perspective,
+            `fit`, which is 2**20 times its focus from its eye; give it for any other camera.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right.
+
+        Examples
+        --------
+        >>> camera = Camera.look_at((0, -8, 0), (0, 0, 0), up=(0, 0, 1))
+        >>> frames = [camera.orbit(15 * k) for k in range(24)]
+        """
+        from vtray.scene.placing.moved import orbiting
+
+        return self.replace(**orbiting(self, degrees, elevation, about))
+
+    @explain_unknown
+    def stereo(
+        self,
+        separation: float,
+        about: "Vector | Triple | HasObjects | ArrayHolder | None" = None,
+    ) -> tuple["Camera", "Camera"]:
+        """Return the cameras of a left and a right eye, which both look at the same point.
+
+        Parameters
+        ----------
+        separation
+            How far apart the eyes are, in scene units, > 0: for a calm picture about a thirtieth of
+            the distance to what is seen.
+        about
+            What both look at, which then is at the distance of the screen; as for `orbit`.
+
+        Returns
+        -------
+        left, right
+            The cameras.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right.
+        """
+        from vtray.scene.placing.moved import side_by_side
+
+        left, right = side_by_side(self, separation, about)
+        return self.replace(**left), self.replace(**right)
+
+    def project(self, points: "ArrayLike") -> "NDArray[np.float64]":
+        """Return where points of the world are in the picture.
+
+        Parameters
+        ----------
+        points
+            Places in world space, (n, 3), or of any shape (..., 3).
+
+        Returns
+        -------
+        array
+            Column, row and depth of each, (..., 3). The middle of a pixel is at its numbers, so
+            columns of the picture reach from -0.5 to its width less 0.5; those beyond are outside
+            of it. The depth is in scene units, as `Image.depth` has it. All three are NaN for what
+            is not in front of the image plane.
+
+        Raises
+        ------
+        SceneError
+            If `points` have another shape.
+        """
+        from vtray.scene.placing.moved import projected
+
+        return projected(self, points)

@@ -27,7 +27,7 @@ CALL = "add_arrows: "
 PIVOTS = {"tail": 0.0, "middle": 0.5, "tip": 1.0}
 """What is at the position of an arrow, as a share of its length."""
 
-THINNESS = 0.04
+THINNESS = 0.05
 """Radius of the shafts, as a share of the median length, where it is not given."""
 
 HEAD_WIDTH, HEAD_LENGTH = 2.5, 6.0
@@ -86,7 +86,7 @@ class AddingArrows:
         scale
             Length of an arrow in scene units, for a vector of length 1, > 0.
         radius
-            Radius of the shafts in scene units, (n,), or one for all, ≥ 0; by default 0.04 times
+            Radius of the shafts in scene units, (n,), or one for all, ≥ 0; by default 0.05 times
             the median length of the arrows that have one. Heads are 2.5 times as wide, and 6 radii
             long; an arrow that is less than twice as long as that is a smaller one as a whole.
         color

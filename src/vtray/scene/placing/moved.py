@@ -1,0 +1,161 @@
+"""Cameras made of others: turned about what they look at, side by side, nearer; and what they see.
+
+Cameras from `Camera.look_at`, `Camera.orthographic` and, in perspective, `Camera.fit` look at a
+point: their focus is a known part of its distance.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+from vtray.base.errors import SceneError
+from vtray.base.exact_math import cosine, sine
+from vtray.scene.checks.limits import Positive, Real
+from vtray.scene.checks.scene_words import show
+from vtray.scene.placing.directions import (
+    Vec,
+    along,
+    camera_axes,
+    cross,
+    dot,
+    unit,
+    view_axes,
+)
+from vtray.scene.placing.look_at import NEAR, argument
+from vtray.scene.vectors import Direction, Vector
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    from vtray.scene.camera import Camera
+
+
+def axes_of(camera: "Camera") -> tuple[Vec, Vec, Vec]:
+    """Return the unit axes of a camera: to the right, downwards and forward."""
+    forward = unit(camera.normal)
+    if camera.up is None:
+        return (*camera_axes(forward), forward)
+    return (*view_axes(forward, unit(camera.up)), forward)
+
+
+def orbiting(camera: "Camera", degrees: object, elevation: object, about: object) -> dict[str, Any]:
+    """Return the fields of `Camera.orbit` that change."""
+    call = "Camera.orbit"
+    turn = argument(call, "degrees", degrees, Real)
+    rise = argument(call, "elevation", elevation, Real)
+    target = _target(camera, about, call)
+    forward = unit(camera.normal)
+    up = unit(camera.up) if camera.up is not None else _times(-1.0, axes_of(camera)[1])
+    eye = along(_vec(camera.center), -camera.focus, forward)
+    offset = (eye[0] - target[0], eye[1] - target[1], eye[2] - target[2])
+    right = axes_of(camera)[0]
+    away = cross(right, up)
+    lifted = [_turned(vector, right, -rise) for vector in (offset, forward)]
+    if not dot(lifted[1], away) < 0:
+        words = "an elevation that leaves the camera on its side of what is up"
+        raise SceneError(f"{call}: elevation: expected {words}, got {show(elevation)}")
+    offset, forward = (_turned(vector, up, turn) for vector in lifted)
+    forward = unit(Direction(*forward))
+    eye = (target[0] + offset[0], target[1] + offset[1], target[2] + offset[2])
+    return {
+        "center": Vector(*along(eye, camera.focus, forward)),
+        "normal": Direction(*forward),
+        "up": Direction(*up) if camera.up is None else camera.up,
+    }
+
+
+def side_by_side(
+    camera: "Camera", separation: object, about: object
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return the fields of the cameras of `Camera.stereo` that change."""
+    call = "Camera.stereo"
+    apart = argument(call, "separation", separation, Positive)
+    target = _target(camera, about, call)
+    right, down, forward = axes_of(camera)
+    middle = along(_vec(camera.center), -camera.focus, forward)
+    found = []
+    for side in (-0.5, 0.5):
+        eye = along(middle, side * apart, right)
+        way = (target[0] - eye[0], target[1] - eye[1], target[2] - eye[2])
+        if not dot(way, forward) > 0:
+            words = "expected a point in front of the camera"
+            raise SceneError(f"{call}: about: {words}, got {show(target)}")
+        toward = unit(Direction(*way))
+        center = Vector(*along(eye, camera.focus, toward))
+        up = Direction(*_times(-1.0, down))
+        found.append({"center": center, "normal": Direction(*toward), "up": up})
+    return found[0], found[1]
+
+
+def zoomed(camera: "Camera", factor: object, place: str) -> dict[str, Any]:
+    """Return the fields that change of a camera whose picture shows all so many times as large."""
+    from vtray.scene.checks.scene_check import from_code
+
+    ratio = from_code(factor, Positive, place)
+    width, height = camera.resolution
+    return {"resolution": (width / ratio, height / ratio)}
+
+
+def projected(camera: "Camera", points: "ArrayLike") -> "NDArray[np.float64]":
+    """Return where points are in a picture, as `Camera.project` does."""
+    import numpy as np
+
+    try:
+        given = np.asarray(points, np.float64)
+    except (TypeError, ValueError):
+        raise SceneError("Camera.project: points: expected numbers of shape (n, 3)") from None
+    if given.ndim == 0 or given.shape[-1] != 3:
+        words = "expected numbers of shape (n, 3)"
+        raise SceneError(f"Camera.project: points: {words}, got shape {given.shape}")
+    right, down, forward = axes_of(camera)
+    center = camera.center
+    x, y, z = (given[..., k] - c for k, c in enumerate((center.x, center.y, center.z)))
+    across, below, ahead = (x * a + y * b + z * c for a, b, c in (right, down, forward))
+    with np.errstate(all="ignore"):
+        if camera.projection == "perspective":
+            far = ahead + camera.focus
+            share = camera.focus / far  # of the way from the eye, what lies before the image plane
+            depth = np.sqrt(across * across + below * below + far * far)
+        else:
+            share, depth = np.ones_like(ahead), ahead + camera.focus
+        column = across * share / camera.resolution[0] + camera.size[0] / 2
+        row = below * share / camera.resolution[1] + camera.size[1] / 2
+    found = np.stack([column, row, depth], axis=-1)
+    found[~(ahead > 0)] = np.nan
+    return found
+
+
+def _target(camera: "Camera", about: object, call: str) -> Vec:
+    """Return the point that a camera looks at, or that is given, or the middle of what is."""
+    if about is None:
+        return along(_vec(camera.center), camera.focus / NEAR - camera.focus, unit(camera.normal))
+    if hasattr(about, "objects") or hasattr(about, "hull"):
+        from vtray.scene.placing.bounds import balls_of, middle_of
+
+        x, y, z = map(float, middle_of(balls_of(about, call)))
+        return x, y, z
+    return _vec(argument(call, "about", about, Vector))
+
+
+def _turned(vector: Vec, axis: Vec, degrees: float) -> Vec:
+    """Return a vector turned about a unit axis: seen against it, counterclockwise.
+
+    References
+    ----------
+    Rodrigues' rotation formula.
+    """
+    c, s = cosine(degrees), sine(degrees)
+    beside = cross(axis, vector)
+    rest = (1.0 - c) * dot(axis, vector)
+    return (
+        c * vector[0] + s * beside[0] + rest * axis[0],
+        c * vector[1] + s * beside[1] + rest * axis[1],
+        c * vector[2] + s * beside[2] + rest * axis[2],
+    )
+
+
+def _times(factor: float, vector: Vec) -> Vec:
+    return factor * vector[0], factor * vector[1], factor * vector[2]
+
+
+def _vec(point: Vector) -> Vec:
+    return point.x, point.y, point.z
