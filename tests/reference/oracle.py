@@ -3,9 +3,9 @@
 It works on the scene as decoded JSON, on whole images, and tests every object against every ray.
 Nothing of vtray is imported. With ``dtype=np.float64`` vtray must equal it to the last bit: both do
 the same operations in the same order, and neither fuses a multiplication with an addition. With
-``dtype=np.longdouble`` it tells how near both are to the truth. Cylinders and cones are worked out by
-other formulas, and always in long doubles: where they are seen or in the way, vtray must equal it as
-far as rounding allows, but for pixels that are in `doubt`.
+``dtype=np.longdouble`` it tells how near both are to the truth. Cylinders and cones are worked out
+by other formulas, and always in long doubles: where they are seen or in the way, vtray must equal
+it as far as rounding allows, but for pixels that are in `doubt`.
 
 Rays go through any places in the image, which are in pixels from the left and from the top; a pixel
 itself is at integers.
