@@ -87,7 +87,7 @@ class Cone(Cylinder):
 
         half = np.broadcast_to((self.length + 2 * self.radius + 4 * np.abs(larger)) / length, count)
         low, high = -half, half
-        for _ in range(110):
+        for _ in range(80):
             one, other = high - SHARE * (high - low), low + SHARE * (high - low)
             left = bound(one) < bound(other)
             low, high = np.where(left, low, one), np.where(left, other, high)
