@@ -15,7 +15,18 @@ from test_cylinders import columns as columns_of_cylinders
 from test_spheres import CAMERA, COUNT, INF, NAN, OnlyArray, OnlyDLPack, columns
 
 import vtray
-from vtray import Cone, Cones, Copies, Cylinder, Cylinders, Plane, Scene, SceneError, Sphere, Spheres
+from vtray import (
+    Cone,
+    Cones,
+    Copies,
+    Cylinder,
+    Cylinders,
+    Plane,
+    Scene,
+    SceneError,
+    Sphere,
+    Spheres,
+)
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import check_spares_data
 from vtray.scene.copies import PARTS
