@@ -4,7 +4,7 @@ Cameras from `Camera.look_at`, `Camera.orthographic` and, in perspective, `Camer
 point: their focus is a known part of its distance.
 """
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from vtray.base.errors import SceneError
 from vtray.base.exact_math import cosine, sine
@@ -26,10 +26,33 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-    from vtray.scene.camera import Camera
+
+class HasView(Protocol):
+    """A camera, as far as what it sees goes; see `vtray.Camera`."""
+
+    @property
+    def center(self) -> Vector: ...  # noqa: D102
+
+    @property
+    def normal(self) -> Direction: ...  # noqa: D102
+
+    @property
+    def focus(self) -> float: ...  # noqa: D102
+
+    @property
+    def size(self) -> tuple[float, float]: ...  # noqa: D102
+
+    @property
+    def resolution(self) -> tuple[float, float]: ...  # noqa: D102
+
+    @property
+    def up(self) -> Direction | None: ...  # noqa: D102
+
+    @property
+    def projection(self) -> str: ...  # noqa: D102
 
 
-def axes_of(camera: "Camera") -> tuple[Vec, Vec, Vec]:
+def axes_of(camera: HasView) -> tuple[Vec, Vec, Vec]:
     """Return the unit axes of a camera: to the right, downwards and forward."""
     forward = unit(camera.normal)
     if camera.up is None:
@@ -37,7 +60,7 @@ def axes_of(camera: "Camera") -> tuple[Vec, Vec, Vec]:
     return (*view_axes(forward, unit(camera.up)), forward)
 
 
-def orbiting(camera: "Camera", degrees: object, elevation: object, about: object) -> dict[str, Any]:
+def orbiting(camera: HasView, degrees: object, elevation: object, about: object) -> dict[str, Any]:
     """Return the fields of `Camera.orbit` that change."""
     call = "Camera.orbit"
     turn = argument(call, "degrees", degrees, Real)
@@ -64,7 +87,7 @@ def orbiting(camera: "Camera", degrees: object, elevation: object, about: object
 
 
 def side_by_side(
-    camera: "Camera", separation: object, about: object
+    camera: HasView, separation: object, about: object
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return the fields of the cameras of `Camera.stereo` that change."""
     call = "Camera.stereo"
@@ -86,7 +109,7 @@ def side_by_side(
     return found[0], found[1]
 
 
-def zoomed(camera: "Camera", factor: object, place: str) -> dict[str, Any]:
+def zoomed(camera: HasView, factor: object, place: str) -> dict[str, Any]:
     """Return the fields that change of a camera whose picture shows all so many times as large."""
     from vtray.scene.checks.scene_check import from_code
 
@@ -95,7 +118,7 @@ def zoomed(camera: "Camera", factor: object, place: str) -> dict[str, Any]:
     return {"resolution": (width / ratio, height / ratio)}
 
 
-def projected(camera: "Camera", points: "ArrayLike") -> "NDArray[np.float64]":
+def projected(camera: HasView, points: "ArrayLike") -> "NDArray[np.float64]":
     """Return where points are in a picture, as `Camera.project` does."""
     import numpy as np
 
@@ -124,7 +147,7 @@ def projected(camera: "Camera", points: "ArrayLike") -> "NDArray[np.float64]":
     return found
 
 
-def _target(camera: "Camera", about: object, call: str) -> Vec:
+def _target(camera: HasView, about: object, call: str) -> Vec:
     """Return the point that a camera looks at, or that is given, or the middle of what is."""
     if about is None:
         return along(_vec(camera.center), camera.focus / NEAR - camera.focus, unit(camera.normal))
