@@ -79,7 +79,9 @@ def _compare(document: Scene, image: vtray.Image, seen: Any, mine: np.ndarray, n
     shape = render.cylinders[render.order.index(number)]
     axis = shape.frame[2].astype(float)
     is_cone = item["type"] == "cone"
-    radius = shape.bend(places).astype(float) if is_cone else float(item["radius"])
+    radius: Any = float(item["radius"])
+    if is_cone:
+        radius = np.where(is_round, np.maximum(shape.bend(places).astype(float), error), np.inf)
     steepness = 1.0 if is_cone else np.sqrt(np.square(np.cross(rays, axis)).sum(axis=-1))
     angle = np.abs(oracle.dot(rays, normals))
     along = error / np.maximum(angle, np.sqrt(error / radius) * steepness)
