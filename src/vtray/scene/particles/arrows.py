@@ -167,7 +167,7 @@ def _geometry(
     seen = lengths[lengths > 0]
     radius = found.get("radius")
     if radius is None:
-        radius = THINNESS * float(np.median(seen)) if len(seen) else 0.0
+        radius = THINNESS * float(np.sort(seen)[len(seen) // 2]) if len(seen) else 0.0
     head = HEAD_LENGTH * np.broadcast_to(np.asarray(radius, np.float64), len(lengths))
     room = MOST_HEAD * lengths
     share = np.where(head > room, room, head) / np.where(head > 0, head, 1.0)
