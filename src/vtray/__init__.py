@@ -1,4 +1,4 @@
-"""vtray: an exact and fast ray tracer for spheres, cylinders and planes.
+"""vtray: an exact and fast ray tracer for spheres, cylinders, cones and planes.
 
 import vtray
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from vtray.rendering.pixel_rays import trace_pixel
     from vtray.rendering.renderer import render
     from vtray.scene.colors.color_scale import ColorScale
+    from vtray.scene.cones import Cones
     from vtray.scene.copies import Copies
     from vtray.scene.cylinders import Cylinders
     from vtray.scene.files.scene_dict import load_dict
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
         Ambient,
         Camera,
         Color,
+        Cone,
         Cylinder,
         Direction,
         Gradient,
@@ -50,6 +52,8 @@ __all__ = [
     "Camera",
     "Color",
     "ColorScale",
+    "Cone",
+    "Cones",
     "Copies",
     "Cylinder",
     "Cylinders",
@@ -96,6 +100,8 @@ _MODULES = {
     "Camera": "scene.camera",
     "Color": "scene.vectors",
     "ColorScale": "scene.colors.color_scale",
+    "Cone": "scene.objects",
+    "Cones": "scene.cones",
     "Copies": "scene.copies",
     "Cylinder": "scene.objects",
     "Cylinders": "scene.cylinders",

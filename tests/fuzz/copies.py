@@ -9,11 +9,11 @@ SHARE = 0.3
 
 
 def with_copies(random: np.random.Generator, scene: dict[str, Any]) -> dict[str, Any]:
-    """Return a scene in which copies take the place of some of its spheres and cylinders.
+    """Return a scene in which copies take the place of some of its bounded shapes.
 
     Those places are often such that copies touch, coincide, or are far away.
     """
-    parts = [item for item in scene["objects"] if item["type"] in ("sphere", "cylinder")]
+    parts = [item for item in scene["objects"] if item["type"] in ("sphere", "cylinder", "cone")]
     if not parts:
         return scene
     chosen = [item for item in parts if random.random() < 0.5] or parts[:1]

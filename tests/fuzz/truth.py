@@ -2,8 +2,9 @@
 
 Scenes made to provoke rounding are rendered with a hierarchy and without. The light must be that
 of the oracle to the last bit; and a pixel that is more than 1 off from what it is in extended
-precision must lie at an edge, as near as rounding can tell. Where there are cylinders, which the
-oracle works out by other formulas, the picture must be as near to its own as rounding allows.
+precision must lie at an edge, as near as rounding can tell. Where there are cylinders or cones,
+which the oracle works out by other formulas, the picture must be as near to its own as rounding
+allows.
 """
 
 import itertools
@@ -35,6 +36,9 @@ WIDTH, HEIGHT = 12, 9
 SEED = 3
 """What chooses the rays to soft lights."""
 
+CONES = 0.4
+"""How many of the cylinders are cones, from 0 to 1."""
+
 ONE_FAN = 1e6
 """A tolerance at which each hit has one fan of rays to each soft light."""
 
@@ -61,7 +65,7 @@ def fault_of(scene: Scene) -> str | None:
         return _fault_of_soft_lights(scene)
     if any(item["type"] == "copies" for item in scene["objects"]):
         return _fault_of_copies(scene)
-    if any(item["type"] == "cylinder" for item in scene["objects"]):
+    if any(item["type"] in oracle.AXIAL for item in scene["objects"]):
         return _fault_of_cylinders(scene)
     exact = oracle.look(scene)
     for few in (FEW, ALL):
@@ -112,7 +116,7 @@ def _fault_of_copies(scene: Scene) -> str | None:
 
 
 def _fault_of_cylinders(scene: Scene) -> str | None:
-    """Return what is wrong with the picture of a scene with cylinders."""
+    """Return what is wrong with the picture of a scene with cylinders or cones."""
     image, with_tree = (_render(scene, few) for few in (FEW, ALL))
     if (image.linear != with_tree.linear).any() or (image.ids != with_tree.ids).any():
         return "hierarchy: not the picture of few"
@@ -217,7 +221,7 @@ def random_scene(random: Random) -> Scene:
 
 
 def with_cylinders(random: Random, scene: Scene) -> Scene:
-    """Return a scene with cylinders: beside, in, and around what is there, and cut open."""
+    """Return a scene with cylinders and cones: beside, in, around what is there, and cut open."""
     camera = scene["camera"]
     center, size = _array(camera["center"]), WIDTH * camera["resolution"][0]
     objects = list(scene["objects"]) if random.random() < 0.4 else []
@@ -241,7 +245,7 @@ def _array(xyz: dict[str, float]) -> np.ndarray:
 
 
 def _cylinder(random: Random, size: float, center: np.ndarray, others: list[Scene]) -> Scene:
-    """Return a cylinder of any size and shape, often where other things are."""
+    """Return a cylinder or a cone of any size and shape, often where other things are."""
     sizes = [0.0, 1e-9, 1e-3, 0.1, 0.5, 1.0, 2.0, 1e3, 1e7]
     length, radius = (
         float(size * random.choice(sizes, p=_OFTEN) * random.choice([1.0, random.uniform(0.5, 2)]))
@@ -260,6 +264,10 @@ def _cylinder(random: Random, size: float, center: np.ndarray, others: list[Scen
     item = {"type": "cylinder", "start": start, "end": end, "radius": radius, **_material(random)}
     if random.random() < 0.5:
         item["color_end"] = random.integers(0, 256, 3)
+    if random.random() < CONES:
+        other = size * random.choice(sizes, p=_OFTEN)
+        radius_end = float(random.choice([0.0, radius, 0.5 * radius, other]))
+        item |= {"type": "cone", "radius_end": radius_end}
     return _written(item)
 
 

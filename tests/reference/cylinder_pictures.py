@@ -37,6 +37,9 @@ def _with_ends(found: Any, item: Scene) -> Any:
         return found
     start, end = ([[item[name][c] for c in "xyz"]] for name in ("start", "end"))
     color, color_end = ([item[name][c] for c in "rgb"] for name in ("color", "color_end"))
+    if item["type"] == "cone":
+        radii = item["radius"], item["radius_end"]
+        return vtray.Cones(start, end, *radii, color, item["lambert"], color_end)
     return vtray.Cylinders(start, end, item["radius"], color, item["lambert"], color_end)
 
 
@@ -46,7 +49,7 @@ def assert_near_oracle(document: Scene, image: vtray.Image) -> float:
     What shows no cylinder must be the same to the last bit.
     """
     seen, doubt = oracle.look(document), oracle.doubt(document)
-    kinds = np.array([*(item["type"] == "cylinder" for item in document["objects"]), False])
+    kinds = np.array([*(item["type"] in oracle.AXIAL for item in document["objects"]), False])
     places = image.ids[..., 0]
     is_sure = ~doubt
     np.testing.assert_array_equal(places[is_sure], seen.ids[is_sure])
@@ -72,16 +75,20 @@ def _compare(document: Scene, image: vtray.Image, seen: Any, mine: np.ndarray, n
     # A ray that meets the surface at a small angle carries errors far along it; at an outline, no
     # farther than half the way through what is that deep inside.
     is_round = seen.parts[mine] % 3 == 0
-    radius = float(item["radius"])
-    axis = render.cylinders[render.order.index(number)].frame[2].astype(float)
-    steepness = np.sqrt(np.square(np.cross(rays, axis)).sum(axis=-1))
+    places = starts + (depth - (render.eye_distance - render.focus))[:, None] * rays
+    shape = render.cylinders[render.order.index(number)]
+    axis = shape.frame[2].astype(float)
+    is_cone = item["type"] == "cone"
+    radius: Any = float(item["radius"])
+    if is_cone:
+        radius = np.where(is_round, np.maximum(shape.bend(places).astype(float), error), np.inf)
+    steepness = 1.0 if is_cone else np.sqrt(np.square(np.cross(rays, axis)).sum(axis=-1))
     angle = np.abs(oracle.dot(rays, normals))
     along = error / np.maximum(angle, np.sqrt(error / radius) * steepness)
     assert (np.abs(image.depth[mine] - depth) <= along).all()
     turn = np.where(is_round, along / radius, 0) + 1e-14
     off = np.abs(image.normals[mine] - normals).max(axis=-1)
     assert (off <= turn).all()
-    places = starts + (depth - (render.eye_distance - render.focus))[:, None] * rays
     margin = np.zeros(len(rows))
     for light in document["lights"]:
         way = render.place(light["location"]) - places

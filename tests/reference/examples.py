@@ -27,6 +27,18 @@ def cylinder(start: tuple[float, ...], end: tuple[float, ...], radius: float, **
     return {"type": "cylinder", **ends, "radius": radius, **_material(), **more}
 
 
+def cone(
+    start: tuple[float, ...],
+    end: tuple[float, ...],
+    radius: float,
+    radius_end: float = 0.0,
+    **more: Any,
+) -> Scene:
+    """Return a white cone."""
+    item = cylinder(start, end, radius, **more)
+    return item | {"type": "cone", "radius_end": radius_end}
+
+
 def light(*location: float, intensity: float = 1.0) -> Scene:
     """Return a light."""
     return {"location": xyz(*location), "intensity": intensity}

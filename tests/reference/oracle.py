@@ -3,9 +3,9 @@
 It works on the scene as decoded JSON, on whole images, and tests every object against every ray.
 Nothing of vtray is imported. With ``dtype=np.float64`` vtray must equal it to the last bit: both do
 the same operations in the same order, and neither fuses a multiplication with an addition. With
-``dtype=np.longdouble`` it tells how near both are to the truth. Cylinders are worked out by other
-formulas, and always in long doubles: where they are seen or in the way, vtray must equal it as far
-as rounding allows, but for pixels that are in `doubt`.
+``dtype=np.longdouble`` it tells how near both are to the truth. Cylinders and cones are worked out
+by other formulas, and always in long doubles: where they are seen or in the way, vtray must equal
+it as far as rounding allows, but for pixels that are in `doubt`.
 
 Rays go through any places in the image, which are in pixels from the left and from the top; a pixel
 itself is at integers.
@@ -15,9 +15,11 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
+from oracle_cone import Cone
 from oracle_cylinder import Cylinder
 
 ROUNDING = 2.0**-47
+AXIAL = "cylinder", "cone"
 WHITE = {"r": 255, "g": 255, "b": 255}
 Scene = dict[str, Any]
 Array = np.ndarray
@@ -172,13 +174,13 @@ class _Render:
         # How far from there a ray may start.
         self.extent = self.width * self.shift[0] + self.height * self.shift[1]
         self.eye = -self.focus * self.forward
-        # At the same distance spheres come before cylinders, and these before planes.
+        # At the same distance spheres come before cylinders, these before cones, then planes.
         objects = scene["objects"]
-        kinds = ["sphere", "cylinder", "plane"]
+        kinds = ["sphere", *AXIAL, "plane"]
         self.order = sorted(range(len(objects)), key=lambda k: kinds.index(objects[k]["type"]))
         self.objects = [objects[k] for k in self.order]
         self.lights = [item for item in scene["lights"] if item.get("type", "point") == "point"]
-        # By how much of the bound on rounding each object is enlarged, if it is a cylinder.
+        # By how much of the bound on rounding each cylinder or cone is enlarged.
         self.growth = np.zeros(len(objects))
         self.cylinders = [self.cylinder(item) for item in self.objects]
 
@@ -189,13 +191,15 @@ class _Render:
         return self.vector(xyz) - self.center
 
     def cylinder(self, item: Scene) -> Cylinder | None:
-        if item["type"] != "cylinder":
+        if item["type"] not in AXIAL:
             return None
         center = self.center.astype(np.longdouble)
         start, end = (
             np.array([item[name][axis] for axis in "xyz"], np.longdouble) - center
             for name in ("start", "end")
         )
+        if item["type"] == "cone":
+            return Cone(start, end, item["radius"], item["radius_end"])
         return Cylinder(start, end, item["radius"])
 
     def color(self, item: Scene, name: str = "color") -> Array:
@@ -205,10 +209,11 @@ class _Render:
         return np.array([light.get("color", WHITE)[c] for c in "rgb"], self.dtype) / self.dtype(255)
 
     def magnitude(self, item: Scene) -> Any:
-        if item["type"] == "cylinder":
+        if item["type"] in AXIAL:
             way = self.vector(item["end"]).astype(np.longdouble) - self.vector(item["start"])
             length = self.dtype(np.sqrt(dot(way, way)))
-            return np.abs(self.place(item["start"])).sum() + length + self.dtype(item["radius"])
+            widest = max(item["radius"], item.get("radius_end", 0.0))
+            return np.abs(self.place(item["start"])).sum() + length + self.dtype(widest)
         return np.abs(self.place(item["center"])).sum() + self.dtype(item.get("radius", 0))
 
     def normal(self, plane: Scene) -> Array:
@@ -246,7 +251,7 @@ class _Render:
         hit = np.full(rays.shape[:-1], -1)
         forward = dot(rays, self.forward)
         for k, item in enumerate(self.objects):
-            if item["type"] == "cylinder":
+            if item["type"] in AXIAL:
                 distance = self.meet_cylinder(k, starts, rays)[0]
             else:
                 find = self.meet_sphere if item["type"] == "sphere" else self.meet_plane
@@ -314,7 +319,7 @@ class _Render:
         points = starts + distance[:, None] * rays
         parts = np.zeros(len(points), int)
         color = self.color(item)
-        if item["type"] == "cylinder":
+        if item["type"] in AXIAL:
             normal, parts = self.surface_of_cylinder(number, starts, rays, distance)
             color = np.where((parts >= 3)[:, None], self.color(item, "color_end"), color)
         elif item["type"] == "sphere":
@@ -344,7 +349,7 @@ class _Render:
         hidden = np.zeros(len(points), bool)
         for k, item in enumerate(self.objects):
             reach = ROUNDING * (error + self.magnitude(item))
-            if item["type"] == "cylinder":
+            if item["type"] in AXIAL:
                 hidden |= self.cylinder_hides(k, points, reach, light)
             else:
                 hides = self.sphere_hides if item["type"] == "sphere" else self.plane_hides

@@ -300,6 +300,7 @@ class SoftOracle:
             "sphere": self._sphere_stops,
             "plane": self._plane_stops,
             "cylinder": self._cylinder_stops,
+            "cone": self._cylinder_stops,
         }
         for k, item in enumerate(self.exact.objects):
             reach = ROUNDING * (rays.error + self.exact.magnitude(item))

@@ -286,7 +286,7 @@ def test_more_than_can_be_numbered(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = vtray.Scene()
     scene.add_copies(vtray.Spheres([(0, 0, 0), (1, 0, 0)], 1.0), np.zeros((5, 3)))
     monkeypatch.setattr(hierarchy, "MAX_NUMBERS", 9)
-    words = "^objects: expected at most 9 spheres and cylinders, copies counted, got 10$"
+    words = "^objects: expected at most 9 spheres, cylinders and cones, copies counted, got 10$"
     with pytest.raises(vtray.RenderError, match=words):
         accelerate(scene)
     monkeypatch.setattr(hierarchy, "MAX_NUMBERS", 10)

@@ -10,7 +10,7 @@ from vtray.base.errors import SceneError
 from vtray.scene.files.scene_file import loads
 from vtray.scene.scene import Scene
 
-TYPES = '"sphere", "cylinder", "plane", "spheres", "cylinders" or "copies"'
+TYPES = '"sphere", "cylinder", "cone", "plane", "spheres", "cylinders", "cones" or "copies"'
 OBJECT = f'expected an object with "type": {TYPES}, got'
 TYPE = f"expected {TYPES}, got"
 LIGHT = (

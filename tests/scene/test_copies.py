@@ -15,7 +15,18 @@ from test_cylinders import columns as columns_of_cylinders
 from test_spheres import CAMERA, COUNT, INF, NAN, OnlyArray, OnlyDLPack, columns
 
 import vtray
-from vtray import Copies, Cylinder, Cylinders, Plane, Scene, SceneError, Sphere, Spheres
+from vtray import (
+    Cone,
+    Cones,
+    Copies,
+    Cylinder,
+    Cylinders,
+    Plane,
+    Scene,
+    SceneError,
+    Sphere,
+    Spheres,
+)
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import check_spares_data
 from vtray.scene.copies import PARTS
@@ -25,12 +36,14 @@ from vtray.scene.fingerprint import scene_hash
 
 BALL = Sphere((0, 0, 5), 1)
 STICK = Cylinder((0, 0, 0), (0, 0, 1), 0.5)
+HAT = Cone((0, 0, 0), (0, 0, 1), 0.5)
 AT = np.arange(12.0).reshape(4, 3)
 
 
 def all_kinds() -> list[Any]:
     """Return objects of all kinds that can be placed."""
-    return [Spheres(**columns()), BALL, Cylinders(**columns_of_cylinders()), STICK]
+    cones = Cones([(0, 0, 0)], [(0, 0, 1)], 0.5)
+    return [Spheres(**columns()), BALL, Cylinders(**columns_of_cylinders()), STICK, cones, HAT]
 
 
 def test_all_kinds_can_be_placed() -> None:
@@ -97,7 +110,7 @@ def test_they_do_not_change() -> None:
         Copies(BALL)  # type: ignore[call-arg]
 
 
-KINDS = "expected Sphere, Cylinder, Spheres or Cylinders"
+KINDS = "expected Sphere, Cylinder, Cone, Spheres, Cylinders or Cones"
 FAR = "expected a number whose sums with all coordinates of the objects are doubles, up to 1.8e308"
 NEARER = "move the objects, or their places, nearer to the origin"
 FLOOR = Plane((0, 0, 0), (0, 0, 1))
@@ -338,13 +351,14 @@ def test_each_object_has_its_color() -> None:
             [BALL, STICK],
             "red",
             {"color_end": "red"},
-            "color_end: expected None, as only Cylinders have two colours, got 'red'",
+            "color_end: expected None, as only Cylinders and Cones have two colours, got 'red'",
         ),
         (
             [CYLINDERS, STICK],
             "red",
             {"color_end": ["red", "blue"]},
-            "objects[1]: color_end: expected None, as only Cylinders have two colours, got 'blue'",
+            "objects[1]: color_end: expected None, as only Cylinders and Cones have two colours, "
+            "got 'blue'",
         ),
         (
             [SPHERES, CYLINDERS],

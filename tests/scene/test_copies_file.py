@@ -155,7 +155,7 @@ def test_unknown_arrays_are_warned_of() -> None:
     ]
 
 
-KINDS = '"sphere", "cylinder", "spheres" or "cylinders"'
+KINDS = '"sphere", "cylinder", "cone", "spheres", "cylinders" or "cones"'
 PLACES = "an array of places, or the key data with the path of a .npz or .npy file"
 SUM = "expected a number whose sums with all coordinates of the objects are doubles"
 FAR = {**BALL, "center": {"x": 0, "y": -1e308, "z": 0}}

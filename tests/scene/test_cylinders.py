@@ -14,7 +14,7 @@ from test_spheres import BYTE, CAMERA, COUNT, INF, NAN, NUMERIC, OnlyArray, Only
 from test_spheres import columns as columns_of_spheres
 
 import vtray
-from vtray import Cylinder, Cylinders, Scene, SceneError, Spheres
+from vtray import Cones, Cylinder, Cylinders, Scene, SceneError, Spheres
 from vtray.scene.arrays import Arrays
 from vtray.scene.edits import recolored
 from vtray.scene.fingerprint import scene_hash
@@ -36,9 +36,17 @@ def columns(**changed: object) -> dict[str, Any]:
     }
 
 
+def columns_of_cones(**changed: object) -> dict[str, Any]:
+    """Return arrays of five cones, with others in place of some."""
+    first, second, third, *rest = columns().items()
+    radius_end = ("radius_end", np.linspace(1, 0.7, COUNT))
+    return dict([first, second, third, radius_end, *rest]) | changed
+
+
 COLUMNS_OF: dict[type[Arrays], Callable[..., dict[str, Any]]] = {
     Spheres: columns_of_spheres,
     Cylinders: columns,
+    Cones: columns_of_cones,
 }
 each_kind = pytest.mark.parametrize("kind", COLUMNS_OF, ids=lambda kind: kind.__name__)
 
@@ -401,7 +409,7 @@ def test_recolored() -> None:
     for index in (1, 2):
         with pytest.raises(SceneError) as caught:
             recolor(index, "red", color_end="blue")
-        words = "expected None, as only Cylinders have two colours, got 'blue'"
+        words = "expected None, as only Cylinders and Cones have two colours, got 'blue'"
         assert str(caught.value) == f"recolor: color_end: {words}"
     with pytest.raises(SceneError, match="recolor: color_end: expected one colour, or 5, one for"):
         recolor(0, "red", color_end=["blue"])
@@ -439,9 +447,10 @@ def test_hashes_stay_what_they_are(kind: type[Arrays]) -> None:
 HASHES: dict[type[Arrays], str] = {
     Spheres: "57801293ada7e1faa5cf8f106260f6b5",
     Cylinders: "fe8745703f2488b7260db2e0292e8eff",
+    Cones: "7a61d0166b3168ebf9aa13d59b800903",
 }
-KINDS_OF_NONE: list[tuple[Any, ...]] = [(Spheres, 1), (Cylinders, [], 1)]
+KINDS_OF_NONE: list[tuple[Any, ...]] = [(Spheres, 1), (Cylinders, [], 1), (Cones, [], 1)]
 
 
 def test_names_are_public() -> None:
-    assert (vtray.Cylinder, vtray.Cylinders) == (Cylinder, Cylinders)
+    assert (vtray.Cylinder, vtray.Cylinders, vtray.Cones) == (Cylinder, Cylinders, Cones)

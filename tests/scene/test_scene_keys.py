@@ -85,7 +85,7 @@ def test_files_of_plain_scenes_are_as_before(tmp_path: Path) -> None:
         assert json.loads(path.read_text()) == json.loads((tmp_path / "again.json").read_text())
 
 
-TYPES = '"sphere", "cylinder", "plane", "spheres", "cylinders" or "copies"'
+TYPES = '"sphere", "cylinder", "cone", "plane", "spheres", "cylinders", "cones" or "copies"'
 PARALLEL = "expected a direction that is not parallel to normal, got"
 FILTER = 'expected "box", "tent", "gaussian", "mitchell" or "blackman-harris", got'
 BACKGROUND = 'expected "black", "transparent", "sky" or an object with the keys r, g and b, got'

@@ -137,7 +137,8 @@ def test_sums_and_products_keep_their_order(options: dict[str, Any]) -> None:
 
 FIGURES = set(
     """
-    commands/diff figures/color_bar figures/comparison figures/drawn/cylinders figures/drawn/objects
+    commands/diff figures/color_bar figures/comparison figures/drawn/cones
+    figures/drawn/cylinders figures/drawn/objects
     figures/drawn/shapes figures/drawn/spheres figures/fan_lines figures/figure figures/flat
     figures/flip figures/oklab figures/pen
     figures/ray_drawing figures/ray_text figures/ray_tree figures/scale_bar figures/section

@@ -10,8 +10,8 @@ from vtray.commands.command import Parser
 WITH_VALUE = ("--scale-bar", "--color-bar")
 """Options whose value is only what follows an equals sign, so that a file after them is none."""
 
-KEYWORDS = ("title", "time", "axes", "scalebar", "colorbar")
-"""The keywords of `vtray.Image.annotated` that options give."""
+KEYWORDS = ("title", "time", "axes", "scalebar", "colorbar", "legend")
+"""The keywords of `vtray.Image.annotated` that options give; data alone have a legend."""
 
 
 def with_values(arguments: Sequence[str]) -> list[str]:
@@ -50,7 +50,7 @@ def annotations_of(options: argparse.Namespace) -> dict[str, Any]:
     OutputError
         The file is not one for painted pixels.
     """
-    given = {name: getattr(options, name) for name in KEYWORDS}
+    given = {name: getattr(options, name, None) for name in KEYWORDS}
     found = {name: value for name, value in given.items() if value is not None}
     for name in ("scalebar", "colorbar"):
         if found.get(name) == "":

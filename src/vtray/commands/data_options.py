@@ -38,9 +38,9 @@ def _limits(text: str) -> tuple[float, float]:
 
 
 def _times(text: str) -> tuple[int, ...]:
-    if not re.fullmatch(r"[0-9]{1,6}(x[0-9]{1,6}){2}", text):
-        raise wrong("three integers such as 3x3x1", text)
-    return tuple(map(int, text.split("x")))
+    if not re.fullmatch(r"[0-9]{1,6}(,[0-9]{1,6}){2}", text):
+        raise wrong("three integers such as 3,3,1", text)
+    return tuple(map(int, text.split(",")))
 
 
 def _radii(text: str) -> str | float:
@@ -63,7 +63,7 @@ WHAT: dict[str, dict[str, Any]] = {
     "frame": {"metavar": "N", "type": _integer, "help": "which frame, from 0; -1 is the last"},
     "columns": {**FLAG, "help": "write no image, print what is known of the particles"},
     "select": {"metavar": "EXPR", "help": "draw those alone, such as \"element == 'O' and z > 3\""},
-    "replicate": {"metavar": "AxBxC", "type": _times, "help": "show the cell so many times"},
+    "replicate": {"metavar": "A,B,C", "type": _times, "help": "show the cell so many times"},
     "wrap": {**FLAG, "help": "bring particles into the cell"},
     "unwrap": {**FLAG, "help": "make molecules whole that the cell's border cuts"},
 }
@@ -94,6 +94,7 @@ HOW: dict[str, dict[str, Any]] = {
         "help": "how values are spread over it",
     },
     "highlight": {"metavar": "EXPR", "help": "let the colours of all others fade"},
+    "legend": {**FLAG, "help": "show what the colours are called: elements, or names in a column"},
 }
 """What they look like."""
 

@@ -20,12 +20,17 @@ SAMPLES = 4
 TOLERANCE = 0.02
 """How noisy soft light may be: twice to five times fewer rays than scenes have among many atoms."""
 
+UNDRAWN = ("frame", "columns", "legend")
+"""Options that `add_particles` need not know."""
+
 USUAL = (-65.0, 20.0)
 """Azimuth and elevation of the view of a cell: three faces are seen, that in front most."""
 
 
 def load_data(options: argparse.Namespace) -> "Scene":
     """Read a file of data, and return a scene of its particles as the options say.
+
+    Where a legend is asked for, that option becomes what stands in it.
 
     Raises
     ------
@@ -38,7 +43,7 @@ def load_data(options: argparse.Namespace) -> "Scene":
     given = data_options.given(options)
     particles = read_particles(options)
     view = {name: given.pop(name) for name in VIEW if name in given}
-    drawing = {name: value for name, value in given.items() if name not in ("frame", "columns")}
+    drawing = {name: value for name, value in given.items() if name not in UNDRAWN}
     if "cutoff" in drawing:
         drawing["bonds"] = drawing.pop("cutoff")
     scene = Scene(render=RenderSettings(samples=SAMPLES, tolerance=TOLERANCE))
@@ -48,10 +53,15 @@ def load_data(options: argparse.Namespace) -> "Scene":
             scene.camera = _camera(particles.positions, particles, size, dict(view))
         if options.background is not None and not isinstance(options.background, str):
             drawing["background"] = options.background
-        scene.add_particles(particles, **drawing)
+        drawn = scene.add_particles(particles, **drawing)
         scene.camera = _camera(scene, particles, size, dict(view))
     except SceneError as error:
         raise SceneError(f"{options.scene}: {error}") from None
+    if data_options.given(options).get("legend"):
+        if not drawn.legend:
+            message = "--legend: colours have no names; --color-bar says what values they stand for"
+            raise SceneError(f"{options.scene}: {message}")
+        options.legend = drawn.legend
     return scene
 
 

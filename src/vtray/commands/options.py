@@ -27,8 +27,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         hint=HINT,
         prog="vtray",
         usage="vtray [OPTION ...] SCENE OUTPUT",
-        description="Render a scene of spheres, cylinders and planes, or data of particles, to an "
-        "image.",
+        description="Render a scene of spheres, cylinders, cones and planes, or data of particles, "
+        "to an image.",
         epilog="examples: vtray -t 4 --samples 16 scene.json picture.png; "
         "vtray --bonds --view front run.extxyz last.png",
     )

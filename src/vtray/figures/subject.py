@@ -57,7 +57,7 @@ class Subject(HasPixels, Protocol):
 
     @property
     def halves(self) -> NDArray[np.int8]:
-        """Which half of a cylinder is seen, 1 for that at its end, else 0, (height, width)."""
+        """Which half of a cylinder or cone is seen, 1 for that at its end, (height, width)."""
 
     def flat(self) -> Pixels:
         """Return the picture with light that changes lightness only, (height, width, 3)."""

@@ -10,18 +10,20 @@ from vtray.scene.scene import Scene
 
 @dataclass(frozen=True)
 class Surface:
-    """A sphere, a cylinder or a plane of the scene.
+    """A sphere, a cylinder, a cone or a plane of the scene.
 
     Attributes
     ----------
     object
         Its place in ``scene.objects``, or that of the `Copies` which place it.
     index
-        Its place in the arrays of `Spheres` or `Cylinders`; None for a single object.
+        Its place in the arrays of `Spheres` and their like; None for a single object.
     center
-        Centre of the sphere, start of the cylinder, or a point of the plane, in world space.
+        Centre of the sphere, start of the cylinder or cone, or a point of the plane, in world
+        space.
     radius
-        Radius of the sphere or the cylinder in scene units; None for a plane.
+        Radius of the sphere or the cylinder, or that of the cone at its start, in scene units; None
+        for a plane.
     normal
         Unit normal of the plane in world space; None for others.
     color
@@ -29,11 +31,13 @@ class Surface:
     lambert
         Share of the light that it scatters, from 0 to 1.
     end
-        End of the cylinder in world space; None for others.
+        End of the cylinder or cone in world space; None for others.
     copy
         Which copy it is a part of, a row of ``Copies.at``; None if it is not copied.
     part
         The place in ``Copies.objects`` of that which it belongs to; None if it is not copied.
+    radius_end
+        Radius of the cone at its end, in scene units; None for others.
     """
 
     object: int
@@ -46,10 +50,19 @@ class Surface:
     end: Vec | None = None
     copy: int | None = None
     part: int | None = None
+    radius_end: float | None = None
+
+    @property
+    def kind(self) -> str:
+        """What it is: "sphere", "cylinder", "cone" or "plane"."""
+        if self.radius is None:
+            return "plane"
+        if self.end is None:
+            return "sphere"
+        return "cylinder" if self.radius_end is None else "cone"
 
     def __str__(self) -> str:
-        name = "plane" if self.radius is None else "sphere" if self.end is None else "cylinder"
-        which = f"a {name}" if self.index is None else f"{name} {self.index}"
+        which = f"a {self.kind}" if self.index is None else f"{self.kind} {self.index}"
         if self.copy is None:
             return f"objects[{self.object}], {which}"
         return f"objects[{self.object}].objects[{self.part}], {which} of copy {self.copy}"

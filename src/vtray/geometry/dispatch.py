@@ -2,7 +2,8 @@
 
 What is done with a shape, an action, is a device function that is given the shape and what shapes
 of its kind can do. It is compiled once for each kind, so the loops in it are as fast as if there
-were no other. Nothing is compiled for cylinders where there are none: their columns are None then.
+were no other. Nothing is compiled for cylinders and cones where there are none: their columns are
+None then.
 """
 
 from collections.abc import Callable
@@ -12,6 +13,15 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.bundle import Bundle, Crossing
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.shapes.columns import Columns
+from vtray.geometry.shapes.cone import (
+    cone_crossing,
+    cone_distance,
+    cone_hides,
+    cone_is_aside,
+    cone_is_outside,
+    cone_surface,
+    load_cone,
+)
 from vtray.geometry.shapes.cylinder import (
     cylinder_crossing,
     cylinder_distance,
@@ -41,7 +51,7 @@ from vtray.geometry.shapes.sphere import (
 )
 from vtray.geometry.shapes.surface import Surface
 from vtray.geometry.vector import Vec
-from vtray.geometry.world import CYLINDER, PLANE, Group, World
+from vtray.geometry.world import CONE, CYLINDER, PLANE, Group, World
 
 Shape = Any
 """The numbers of a shape in the kernels' space. Each kind has a type of its own; all have an
@@ -100,13 +110,14 @@ def with_any(world: World, group: Group, slot: int, action: Action, arguments: A
 @device
 def with_bounded(world: World, group: Group, slot: int, action: Action, arguments: Any) -> Any:  # noqa: ANN401
     """Return what an action returns for a shape of a group that is none of planes."""
-    return _with_one_of(world.spheres, world.cylinders, group, slot, action, arguments)
+    return _with_one_of(world.spheres, world.cylinders, world.cones, group, slot, action, arguments)
 
 
 @device
 def _with_one_of(
     spheres: Columns,
     cylinders: Columns | None,
+    cones: Columns | None,
     group: Group,
     slot: int,
     action: Action,
@@ -125,6 +136,18 @@ def _with_one_of(
                 cylinder_surface,
             )
             return action(cylinder, verbs, group.number + cylinders.number[slot], arguments)
+    if cones is not None:  # noqa: SIM102
+        if group.kind == CONE:
+            cone = load_cone(cones, slot, group.place)
+            verbs_of_cones = Verbs(
+                cone_distance,
+                cone_is_aside,
+                cone_hides,
+                cone_is_outside,
+                cone_crossing,
+                cone_surface,
+            )
+            return action(cone, verbs_of_cones, group.number + cones.number[slot], arguments)
     sphere = load_sphere(spheres, slot, group.place)
     verbs_of_spheres = Verbs(
         sphere_distance,

@@ -17,7 +17,7 @@ from vtray.geometry.bvh.tree import EMPTY, Bvh, leaf_range
 from vtray.geometry.shapes.columns import Columns, Place
 from vtray.geometry.vector import Vec, magnitude, scale, sub
 
-PLANE, SPHERE, CYLINDER = 0, 1, 2
+PLANE, SPHERE, CYLINDER, CONE = 0, 1, 2, 3
 """The kinds of shape."""
 
 NO_TREE = EMPTY
@@ -102,17 +102,17 @@ class Places(NamedTuple):
 class World(NamedTuple):
     """What rays can meet.
 
-    Primitives are numbered: spheres, then cylinders, then planes, and each of these in the order of
-    the scene, where copies stand one after the other. At exactly the same distance the lower number
-    is hit.
+    Primitives are numbered: spheres, then cylinders, then cones, then planes, and each of these in
+    the order of the scene, where copies stand one after the other. At exactly the same distance the
+    lower number is hit.
 
     Attributes
     ----------
     groups
         The groups.
-    planes, spheres, cylinders
-        The columns of each kind; None for cylinders where there are none, so that no code is
-        compiled for them.
+    planes, spheres, cylinders, cones
+        The columns of each kind; None for cylinders and for cones where there are none, so that no
+        code is compiled for them.
     bvh
         The nodes of all hierarchies.
     places
@@ -125,6 +125,7 @@ class World(NamedTuple):
     planes: Columns
     spheres: Columns
     cylinders: Columns | None
+    cones: Columns | None
     bvh: Bvh
     places: Places | None
     scale: float

@@ -124,8 +124,8 @@ class Image(Rendered):
             The colour or colours, in all ways of `Scene.add_spheres`. Of `Copies` of several
             objects, one colour for all, or a list with an entry for each object.
         color_end
-            Those of the second halves of cylinders, as for `Scene.add_cylinders`; None for the same
-            as the first.
+            Those of the second halves of cylinders and cones, as for `Scene.add_cylinders`; None
+            for the same as the first.
         cmap, clim, nan_color
             How values become colours, as for `Scene.add_spheres`.
         lock
@@ -383,7 +383,7 @@ class Image(Rendered):
             The size of all text in points; None for those of ``rcParams``.
         at
             For perspective, a point in world space at whose distance the scale bar is right; None
-            for the median of the spheres and cylinders that are seen (without any: of the planes).
+            for the median of the bounded shapes that are seen (without any: of the planes).
         ax
             Axes of Matplotlib to draw in, for instance of ``pyplot.subplots()``; `width` and `dpi`
             are those of their figure then. Picture, title and bars are kept within the place that

@@ -156,7 +156,7 @@ class Rendered:
 
     @property
     def halves(self) -> NDArray[np.int8]:
-        """Which half of a cylinder is seen, (height, width): 1 for that at its end, else 0."""
+        """Which half of a cylinder or cone is seen, (height, width): 1 for that at its end."""
         return self._surfaces.halves
 
     @cached_property

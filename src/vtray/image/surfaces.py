@@ -21,7 +21,7 @@ class Surfaces(NamedTuple):
         Place in ``scene.objects``, and place in the arrays of that object, 0 if it has none; both
         -1 where nothing is; int32, (height, width, 2).
     halves
-        1 for the half at the end of a cylinder, else 0; int8, (height, width).
+        1 for the half at the end of a cylinder or a cone, else 0; int8, (height, width).
     copies
         Which copy of what `Copies` place, -1 where there is none; int32, (height, width).
     """

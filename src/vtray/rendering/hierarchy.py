@@ -165,7 +165,7 @@ def _check_counts(parts: Sequence[_Part], places: int, numbering: Numbering) -> 
     check_memory_of_spheres(sum(part.count for part in parts) + places)
     numbers = sum(map(int, numbering.size))
     if numbers > MAX_NUMBERS:
-        words = f"expected at most {MAX_NUMBERS} spheres and cylinders, copies counted"
+        words = f"expected at most {MAX_NUMBERS} spheres, cylinders and cones, copies counted"
         message = f"objects: {words}, got {numbers}"
         raise RenderError(message)
 

@@ -1,7 +1,7 @@
 """Which numbers the primitives of a scene have, and what a number leads to.
 
-Spheres come first, then cylinders, then planes, each in the order of the scene; those of `Copies`
-stand where these stand among the objects, copy by copy.
+Spheres come first, then cylinders, then cones, then planes, each in the order of the scene; those
+of `Copies` stand where these stand among the objects, copy by copy.
 """
 
 from collections.abc import Sequence

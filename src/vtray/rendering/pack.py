@@ -89,13 +89,15 @@ def _pack_world(planes: list[Plane], kept: Acceleration, unit: float, origin: Ve
         rows += [_pack_group(shapes, origin, unit, reach) for shapes in of_one]
         ends.append(len(rows))
     places = _pack_places(kept.placed, ends, origin, unit) if kept.placed else None
-    spheres, cylinders = (kept.columns[k] for k in range(2))
+    spheres, *others = kept.columns
+    cylinders, cones = (columns if columns.number.size else None for columns in others)
     has_trees = any(row.root != NO_TREE for row in rows) or (places and places.root != NO_TREE)
     return World(
         _pack_groups(rows),
         _pack_planes(planes),
         spheres,
-        cylinders if cylinders.number.size else None,
+        cylinders,
+        cones,
         kept.bvh if has_trees else no_bvh(),
         places,
         1.0 / unit,

@@ -11,7 +11,7 @@ from vtray.base.pool import Progress
 from vtray.base.tiles import TILE, Tile, split_into_tiles
 from vtray.geometry.packets.packet import NO_PRIMITIVE
 from vtray.geometry.ray import Footprint
-from vtray.geometry.shapes import cylinder, sphere
+from vtray.geometry.shapes import cone, cylinder, sphere
 from vtray.geometry.world import World
 from vtray.rendering.engines.engine import Engine, trace_to
 from vtray.rendering.engines.threads import Threads
@@ -245,6 +245,8 @@ def _thickest(world: World) -> float:
     radii = [world.spheres.data[3 :: sphere.SIZE]]
     if world.cylinders is not None:
         radii.append(world.cylinders.data[6 :: cylinder.SIZE])
+    if world.cones is not None:
+        radii += [world.cones.data[6 :: cone.SIZE], world.cones.data[7 :: cone.SIZE]]
     return max(float(of_kind.max(initial=0.0)) for of_kind in radii) * world.scale
 
 

@@ -1,5 +1,6 @@
 """What a number that rays have met stands for, as users are told it."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -39,17 +40,20 @@ def find_surface(
     single = isinstance(item, kind.single)
     if single:
         points = [_vec(getattr(item, name)) for name in kind.points]
-        color, radius, lambert, number = rgb(item.color), item.radius, item.lambert, None
+        radii = [getattr(item, name) for name in kind.radii]
+        color, lambert, number = rgb(item.color), item.lambert, None
     else:
         points = [_row(item, name, member) for name in kind.points]
         halves = is_second and getattr(item, "color_end", None) is not None
         color = _row(item, "color_end" if halves else "color", member)
-        radius, lambert = _number(item, "radius", member), _number(item, "lambert", member)
-        number = member
+        radii = [_number(item, name, member) for name in kind.radii]
+        lambert, number = _number(item, "lambert", member), member
     if copy is not None:
         points = [uncompiled(add)(point, shift) for point in points]
-    end = points[1] if len(points) > 1 else None
-    return Surface(found.place, number, points[0], radius, None, color, lambert, end, copy, part)
+    (center, *ends), (radius, *others) = points, radii
+    end, radius_end = (next(iter(rest), None) for rest in (ends, others))
+    surface = Surface(found.place, number, center, radius, None, color, lambert, end, copy, part)
+    return replace(surface, radius_end=radius_end)
 
 
 def find_blocker(

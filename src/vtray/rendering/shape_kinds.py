@@ -10,12 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.geometry.bvh.primitives import Primitives
+from vtray.geometry.shapes.cone_columns import GivenCones
 from vtray.geometry.shapes.cylinder_columns import GivenCylinders
 from vtray.geometry.shapes.sphere_columns import GivenSpheres
-from vtray.geometry.world import CYLINDER, SPHERE
+from vtray.geometry.world import CONE, CYLINDER, SPHERE
 from vtray.scene.arrays import Arrays
+from vtray.scene.cones import Cones
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.objects import Cylinder, Object, Sphere
+from vtray.scene.objects import Cone, Cylinder, Object, Sphere
 from vtray.scene.spheres import Spheres
 
 
@@ -31,8 +33,8 @@ class Source(NamedTuple):
     Attributes
     ----------
     geometry
-        The columns that shapes are made of, in world space: points, (n, 3), and last the radius,
-        (n,), or (1,) if all are the same.
+        The columns that shapes are made of, in world space: points, (n, 3), and last the radii,
+        each (n,), or (1,) if all are the same.
     color
         0 to 255, (n, 3), or (1, 3).
     color_end
@@ -60,7 +62,9 @@ class Kind:
     single, arrays
         The types of objects: of one shape, and of many.
     points
-        The names of the points that a shape is made of, beside its radius.
+        The names of the points that a shape is made of.
+    radii
+        The names of its radii.
     given
         Makes of their geometry what a hierarchy is built over.
     """
@@ -70,6 +74,7 @@ class Kind:
     single: type
     arrays: type[Arrays]
     points: tuple[str, ...]
+    radii: tuple[str, ...]
     given: Callable[..., Given]
 
     def items_of(self, objects: Sequence[Object]) -> list[Any]:
@@ -78,8 +83,17 @@ class Kind:
 
 
 KINDS = (
-    Kind("spheres", SPHERE, Sphere, Spheres, ("center",), GivenSpheres),
-    Kind("cylinders", CYLINDER, Cylinder, Cylinders, ("start", "end"), GivenCylinders),
+    Kind("spheres", SPHERE, Sphere, Spheres, ("center",), ("radius",), GivenSpheres),
+    Kind(
+        "cylinders",
+        CYLINDER,
+        Cylinder,
+        Cylinders,
+        ("start", "end"),
+        ("radius",),
+        GivenCylinders,
+    ),
+    Kind("cones", CONE, Cone, Cones, ("start", "end"), ("radius", "radius_end"), GivenCones),
 )
 """In the order in which primitives are numbered; planes come last."""
 
@@ -112,7 +126,8 @@ def _from_objects(kind: Kind, items: list[Any]) -> Source:
         np.stack([column(f"{name}.{axis}") for axis in "xyz"], axis=1) for name in kind.points
     )
     color = np.stack([column(f"color.{channel}") for channel in "rgb"], axis=1).astype(np.uint8)
-    return Source((*points, column("radius")), color, None, column("lambert"))
+    geometry = (*points, *map(column, kind.radii))
+    return Source(geometry, color, None, column("lambert"))
 
 
 def _from_arrays(kind: Kind, item: Any) -> Source:  # noqa: ANN401
@@ -121,7 +136,7 @@ def _from_arrays(kind: Kind, item: Any) -> Source:  # noqa: ANN401
     return Source(
         (
             *(_row_by_row(getattr(item, name)) for name in kind.points),
-            _row_by_row(np.atleast_1d(item.radius), np.float64),
+            *(_row_by_row(np.atleast_1d(getattr(item, name)), np.float64) for name in kind.radii),
         ),
         _row_by_row(np.atleast_2d(item.color)),
         None if end is None else _row_by_row(np.atleast_2d(end)),

@@ -7,9 +7,10 @@ from vtray.scene.checks.argument import argument
 from vtray.scene.checks.given_array import positions_in
 from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.colors.names import to_rgb
+from vtray.scene.cones import Cones
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.objects import Cylinder, Object, Plane, Sphere
+from vtray.scene.objects import Cone, Cylinder, Object, Plane, Sphere
 from vtray.scene.spheres import Spheres
 from vtray.scene.vectors import Color, Direction, Vector
 
@@ -215,8 +216,100 @@ class Adding:
         return cylinders
 
     @explain_unknown
+    def add_cone(
+        self,
+        start: "Vector | Triple",
+        end: "Vector | Triple",
+        radius: float,
+        radius_end: float = 0.0,
+        color: "AnyColor" = "white",
+        lambert: float = 1.0,
+    ) -> Cone:
+        """Add a solid cone with flat caps to the objects.
+
+        Parameters
+        ----------
+        start, end
+            Middles of its caps in world space; by default, the end is a tip.
+        radius
+            Radius at `start` in scene units, ≥ 0.
+        radius_end
+            Radius at `end`, ≥ 0.
+        color
+            A colour, in any of the ways of `vtray.colors.to_rgb`.
+        lambert
+            Share of the light that the surface scatters, from 0 to 1.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right.
+        """
+        one = argument("add_cone", "start", start, Vector)
+        other = argument("add_cone", "end", end, Vector)
+        rgb = Color(*to_rgb(color, "add_cone: color"))
+        cone = Cone(one, other, radius, radius_end, rgb, lambert)
+        self.objects.append(cone)
+        return cone
+
+    @explain_unknown
+    def add_cones(
+        self,
+        start: "ArrayLike",
+        end: "ArrayLike",
+        radius: "ArrayLike",
+        radius_end: "ArrayLike" = 0.0,
+        color: "AnyColor | ArrayLike | Sequence[AnyColor]" = "white",
+        lambert: "ArrayLike" = 1.0,
+        *,
+        color_end: "AnyColor | ArrayLike | Sequence[AnyColor] | None" = None,
+        cmap: "ColorMap | None" = None,
+        clim: tuple[float, float] | None = None,
+        nan_color: "AnyColor" = "gray",
+    ) -> Cones:
+        """Add many solid cones with flat caps to the objects.
+
+        Arrays may be of any package, and are shared, as for `add_spheres`.
+
+        Parameters
+        ----------
+        start, end
+            Middles of their caps in world space, each (n, 3); by default, the ends are tips.
+        radius, radius_end
+            Radii at `start` and at `end` in scene units, (n,), or one for all, ≥ 0.
+        color
+            The colours, in any of the ways of `add_spheres`.
+        lambert
+            Share of the light that the surfaces scatter, from 0 to 1, (n,), or one for all.
+        color_end, cmap, clim, nan_color
+            As for `add_cylinders`.
+
+        Returns
+        -------
+        Cones
+            What was added; its `color_scale` tells how values became colours.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right. The message names the place, for instance
+            ``add_cones: end[17, 2]``.
+        """
+        radii = {"radius": radius, "radius_end": radius_end}
+        cones = Cones.colored(
+            {"start": start, "end": end, **radii, "lambert": lambert},
+            {"color": color, "color_end": color_end},
+            "add_cones: ",
+            cmap=cmap,
+            clim=clim,
+            nan_color=nan_color,
+        )
+        self.objects.append(cones)
+        return cones
+
+    @explain_unknown
     def add_copies(self, objects: "Part | Sequence[Part]", at: "ArrayLike") -> Copies:
-        """Add the same spheres and cylinders many times, each time at another place.
+        """Add the same spheres, cylinders and cones many times, each time at another place.
 
         A copy takes no memory but its row of `at`: spheres by the hundred thousand at thousands of
         places are as light as those spheres alone. The arrays of the objects, and `at` where it is
@@ -225,9 +318,9 @@ class Adding:
         Parameters
         ----------
         objects
-            What is placed, at least one: `Sphere`, `Cylinder`, `Spheres` or `Cylinders`, alone or
-            in a sequence, in world space. They need not be among the objects of the scene: where
-            they are, they are seen as they stand too.
+            What is placed, at least one: `Sphere`, `Cylinder`, `Cone`, `Spheres`, `Cylinders` or
+            `Cones`, alone or in a sequence, in world space. They need not be among the objects of
+            the scene: where they are, they are seen as they stand too.
         at
             Translations in world space, (n, 3), in scene units. One of (0, 0, 0) leaves the objects
             where they stand.

@@ -1,4 +1,4 @@
-"""The same spheres and cylinders at many places."""
+"""The same spheres, cylinders and cones at many places."""
 
 import math
 import operator
@@ -12,8 +12,9 @@ from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import Arrays, Floats
 from vtray.scene.checks.checked import make_unchecked
 from vtray.scene.checks.columns import POINT, check_arrays
+from vtray.scene.cones import Cones
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.single import Cylinder, Plane, Sphere
+from vtray.scene.single import Cone, Cylinder, Plane, Sphere
 from vtray.scene.spheres import Spheres
 from vtray.scene.vectors import Vector
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-Part: TypeAlias = Sphere | Cylinder | Spheres | Cylinders
+Part: TypeAlias = Sphere | Cylinder | Cone | Spheres | Cylinders | Cones
 """What can be placed many times."""
 
 PARTS: tuple[type[Part], ...] = typing.get_args(Part)
@@ -32,7 +33,7 @@ _SHOWN = 4
 
 
 class Copies(ArrayHolder, frozen=True, eq=False, dict=True, tag_field="type", tag="copies"):
-    """The same spheres and cylinders at many places, which takes no memory for each copy.
+    """The same bounded shapes at many places, which takes no memory for each copy.
 
     A copy is the objects moved by one row of `at`. Each coordinate of a point that is moved is the
     sum of two doubles, rounded to a double; the picture is that of the copies written out, one
@@ -40,7 +41,7 @@ class Copies(ArrayHolder, frozen=True, eq=False, dict=True, tag_field="type", ta
 
     Attributes
     ----------
-    objects : tuple of Sphere, Cylinder, Spheres or Cylinders
+    objects : tuple of Sphere, Cylinder, Cone, Spheres, Cylinders or Cones
         What is placed, at least one, in world space; in code, one may be given alone. Their arrays
         are shared.
     at : array (n, 3)
@@ -102,7 +103,7 @@ lambert=1.0),), at=<float64 (2, 3)>)
         Parameters
         ----------
         index
-            Counts the spheres and cylinders of a copy through all its objects, from 0.
+            Counts the spheres, cylinders and cones of a copy through all its objects, from 0.
 
         Returns
         -------
@@ -112,7 +113,7 @@ lambert=1.0),), at=<float64 (2, 3)>)
         Raises
         ------
         IndexError
-            There is no such sphere or cylinder.
+            There is no such shape.
         """
         left = operator.index(index)
         for place, item in enumerate(self.objects):

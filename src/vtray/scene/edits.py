@@ -116,7 +116,9 @@ def _is_one_color(value: Any) -> bool:  # noqa: ANN401
 def _check_end(color_end: object, objects: Sequence[Any], place: str) -> None:
     """Raise SceneError if there are colours for second halves, and none to have them."""
     if color_end is not None and not any(map(_has_two, objects)):
-        words = f"expected None, as only Cylinders have two colours, got {show(color_end)}"
+        words = (
+            f"expected None, as only Cylinders and Cones have two colours, got {show(color_end)}"
+        )
         raise SceneError(f"{place}color_end: {words}")
 
 

@@ -2,14 +2,15 @@
 
 from typing import TypeAlias
 
+from vtray.scene.cones import Cones
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.single import Cylinder, Plane, Sphere
+from vtray.scene.single import Cone, Cylinder, Plane, Sphere
 from vtray.scene.spheres import Spheres
 
-__all__ = ["ARRAY_KINDS", "Cylinder", "Object", "Plane", "Sphere"]
+__all__ = ["ARRAY_KINDS", "Cone", "Cylinder", "Object", "Plane", "Sphere"]
 
-Object: TypeAlias = Sphere | Cylinder | Plane | Spheres | Cylinders | Copies
+Object: TypeAlias = Sphere | Cylinder | Cone | Plane | Spheres | Cylinders | Cones | Copies
 
-ARRAY_KINDS = {str(kind.__struct_config__.tag): kind for kind in (Spheres, Cylinders)}
+ARRAY_KINDS = {str(kind.__struct_config__.tag): kind for kind in (Spheres, Cylinders, Cones)}
 """The kinds of many objects as arrays, by what a file calls them."""

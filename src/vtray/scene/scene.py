@@ -17,6 +17,7 @@ from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.camera import Camera
 from vtray.scene.checks.checked import Checked
 from vtray.scene.checks.unknown_names import unknown_attribute
+from vtray.scene.cones import Cones
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
 from vtray.scene.light_types import (
@@ -29,8 +30,9 @@ from vtray.scene.light_types import (
     SphereLight,
     Sun,
 )
-from vtray.scene.objects import Cylinder, Object, Plane, Sphere
+from vtray.scene.objects import Cone, Cylinder, Object, Plane, Sphere
 from vtray.scene.particles.adding import AddingParticles
+from vtray.scene.particles.arrows import AddingArrows
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient
 from vtray.scene.spheres import Spheres
@@ -41,6 +43,8 @@ __all__ = [
     "AnyLight",
     "Camera",
     "Color",
+    "Cone",
+    "Cones",
     "Copies",
     "Cylinder",
     "Cylinders",
@@ -60,11 +64,19 @@ __all__ = [
 ]
 
 
-class Scene(msgspec.Struct, Adding, AddingLights, AddingParticles, metaclass=Checked, dict=True):
+class Scene(
+    msgspec.Struct,
+    Adding,
+    AddingLights,
+    AddingArrows,
+    AddingParticles,
+    metaclass=Checked,
+    dict=True,
+):
     """All that a picture is made from.
 
     Its attributes may be replaced, its lists changed, and so may arrays that `Spheres`,
-    `Cylinders` and `Copies` share; `check` looks at them again.
+    `Cylinders`, `Cones` and `Copies` share; `check` looks at them again.
 
     Attributes
     ----------
@@ -73,7 +85,7 @@ class Scene(msgspec.Struct, Adding, AddingLights, AddingParticles, metaclass=Che
     lights : list of Light, Sun, SphereLight, RectangleLight, Sky or Ambient
         The lights. Where they were never set and none was added, those of `vtray.lights.studio`
         are used; ``[]``, or `vtray.lights.none`, leaves a scene dark.
-    objects : list of Sphere, Cylinder, Plane, Spheres, Cylinders or Copies
+    objects : list of Sphere, Cylinder, Cone, Plane, Spheres, Cylinders, Cones or Copies
         The objects; may be empty.
     render : RenderSettings
         How the picture is taken, unless `vtray.render` is told otherwise.
@@ -135,7 +147,7 @@ class Scene(msgspec.Struct, Adding, AddingLights, AddingParticles, metaclass=Che
         dict
             What a scene file says, in Python's own types; `Spheres` are
             ``{"type": "spheres", "center": array, ...}`` with their read-only arrays, not copied,
-            and `Cylinders` likewise; `Copies` are
+            and `Cylinders` and `Cones` likewise; `Copies` are
             ``{"type": "copies", "objects": [...], "at": array}``.
 
         Raises
@@ -151,9 +163,10 @@ class Scene(msgspec.Struct, Adding, AddingLights, AddingParticles, metaclass=Che
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the scene as indented JSON that `vtray.load` reads back as an equal scene.
 
-        The arrays of `Spheres`, `Cylinders` and `Copies` go to files beside it: for scene.json to
-        scene.npz, those of further ones to scene-2.npz and so on. A file of such a name is replaced
-        if it belongs to the scene file that is replaced, or if these objects were read from it.
+        The arrays of `Spheres`, `Cylinders`, `Cones` and `Copies` go to files beside it: for
+        scene.json to scene.npz, those of further ones to scene-2.npz and so on. A file of such a
+        name is replaced if it belongs to the scene file that is replaced, or if these objects were
+        read from it.
 
         Parameters
         ----------

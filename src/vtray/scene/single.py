@@ -95,6 +95,54 @@ class Cylinder(Frozen, frozen=True, gc=False, tag_field="type", tag="cylinder"):
         return [(self.start, self.radius, self.end), (self.end, self.radius, self.start)]
 
 
+class Cone(Frozen, frozen=True, gc=False, tag_field="type", tag="cone"):
+    """A solid cone with flat caps and a matt surface, which can also be seen from inside.
+
+    In code, it is pointed, the colour is white and `lambert` 1 unless they are given.
+
+    Attributes
+    ----------
+    start : Vector
+        Middle of one cap in world space.
+    end : Vector
+        Middle of the other, or the tip; a cone of length 0 is never hit.
+    radius : float
+        Radius at `start` in scene units, ≥ 0.
+    radius_end : float
+        Radius at `end`, ≥ 0: 0 for a tip, less than `radius` for a cone that is cut off. A cone
+        whose radii are both 0 is never hit.
+    color : Color
+        Colour of the surface.
+    lambert : float
+        Share of the light that the surface scatters, from 0 to 1.
+    """
+
+    start: Vector
+    end: Vector
+    radius: NonNegative
+    radius_end: NonNegative
+    color: Color
+    lambert: Fraction
+
+    _in_code = MappingProxyType({"radius_end": 0.0, **_SURFACE})
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            start: "Vector | Triple",
+            end: "Vector | Triple",
+            radius: float,
+            radius_end: float = 0.0,
+            color: "Color | Triple" = ...,
+            lambert: float = 1.0,
+        ) -> None: ...
+
+    def hull(self) -> list[tuple[Vector, float, Vector | None]]:
+        """Return the discs whose hull this is, its caps, as `Cones.hull` does."""
+        return [(self.start, self.radius, self.end), (self.end, self.radius_end, self.start)]
+
+
 class Plane(Frozen, frozen=True, gc=False, tag_field="type", tag="plane"):
     """A plane without edges and with two matt sides.
 

@@ -14,7 +14,7 @@ PLACES = 97
 """Corners on each side of what a plane cuts out of a cylinder."""
 
 
-class _Lie(NamedTuple):
+class Lie(NamedTuple):
     """How cylinders lie to a plane.
 
     A point of the plane is t along the axis, as that lies in the drawing, and s beside it, both
@@ -47,20 +47,25 @@ class DrawnCylinders(DrawnShapes):
     """Some cylinders."""
 
     @property
+    def widest(self) -> Floats:
+        """Their radii where they are widest, (n,)."""
+        return self.radius
+
+    @property
     def extent(self) -> Floats:
         """From their middles to the edges of their caps."""
         start, end = self.points
-        extent: Floats = np.hypot(np.linalg.norm(end - start, axis=1) / 2, self.radius)
+        extent: Floats = np.hypot(np.linalg.norm(end - start, axis=1) / 2, self.widest)
         return extent
 
     def cut(self, section: Section) -> Cuts:
         """Return circles around what a plane cuts out of them."""
         lie = self._lie(section)
         low, high = self._range(lie)
-        meets = (low < high) & (self.radius > 0)
+        meets = (low < high) & (self.widest > 0)
         low, high = np.where(meets, low, np.nan), np.where(meets, high, np.nan)
         middle = lie.start + lie.along * ((low + high) / 2)[:, None]
-        return Cuts(middle, np.hypot((high - low) / 2, self.radius))
+        return Cuts(middle, np.hypot((high - low) / 2, self.widest))
 
     def sections(self, section: Section, **style: Any) -> "list[Patch]":  # noqa: ANN401
         """Return polygons."""
@@ -76,7 +81,7 @@ class DrawnCylinders(DrawnShapes):
         steps = np.cos(np.linspace(np.pi, 0, PLACES))
         t = ((low + high) / 2)[:, None] + ((high - low) / 2)[:, None] * steps
         off = lie.off[:, None] + t * lie.drift[:, None]
-        s = np.sqrt(np.maximum(np.square(self.radius)[:, None] - np.square(off), 0.0))
+        s = np.sqrt(np.maximum(np.square(self._radius_at(lie, t)) - np.square(off), 0.0))
         middle = lie.start[:, None] + lie.along[:, None] * t[..., None]
         side = lie.beside[:, None] * s[..., None]
         return np.concatenate([middle + side, (middle - side)[:, ::-1]], axis=1)
@@ -106,7 +111,7 @@ class DrawnCylinders(DrawnShapes):
         axis = (last - first) / length
         arm = start - first
         height, rise = float(arm @ axis), float(way @ axis)
-        low, high = _between(np.array([height]), np.array([rise]), 0.0, np.array([length]))
+        low, high = between(np.array([height]), np.array([rise]), 0.0, np.array([length]))
         beside, aside = arm - height * axis, way - rise * axis
         square = float(aside @ aside)
         if square == 0.0:
@@ -121,7 +126,7 @@ class DrawnCylinders(DrawnShapes):
         (start, end), middle, kind = self.points, self.middle, type(self)
         return kind([start, middle], self.radius), kind([middle, end], self.radius)
 
-    def _lie(self, section: Section) -> _Lie:
+    def _lie(self, section: Section) -> Lie:
         """Return how they lie to a plane."""
         start, end = self.points
         length = np.linalg.norm(end - start, axis=1)
@@ -133,14 +138,18 @@ class DrawnCylinders(DrawnShapes):
         )
         beside = np.stack([-along[:, 1], along[:, 0]], axis=1)
         below = -section.height(start)
-        return _Lie(
+        return Lie(
             section(start), along, beside, below * steep, slope, below * slope, -steep, length
         )
 
-    def _range(self, lie: _Lie) -> tuple[Floats, Floats]:
+    def _radius_at(self, lie: Lie, t: Floats) -> Floats:  # noqa: ARG002
+        """Return the radii at some places of a drawing, (n, 1) or (n, m)."""
+        return self.radius[:, None]
+
+    def _range(self, lie: Lie) -> tuple[Floats, Floats]:
         """Return the least and the greatest t in each; nowhere unless that is more."""
-        first, last = _between(lie.rise, lie.slope, 0.0, lie.length)
-        near, far = _between(lie.off, lie.drift, -self.radius, self.radius)
+        first, last = between(lie.rise, lie.slope, 0.0, lie.length)
+        near, far = between(lie.off, lie.drift, -self.radius, self.radius)
         return np.maximum(first, near), np.minimum(last, far)
 
     def _outline(self, section: Section) -> Floats:
@@ -153,7 +162,7 @@ class DrawnCylinders(DrawnShapes):
         return np.concatenate([end + cap, lie.start[0] - cap])
 
 
-def _between(
+def between(
     begin: Floats, change: Floats, low: Floats | float, high: Floats | float
 ) -> tuple[Floats, Floats]:
     """Return from which t to which ``begin + change * t`` is between two values, (n,)."""

@@ -5,15 +5,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from vtray.figures.drawn.cones import DrawnCones
 from vtray.figures.drawn.cylinders import DrawnCylinders
 from vtray.figures.drawn.shapes import DrawnShapes, Floats
 from vtray.figures.drawn.spheres import DrawnSpheres
 from vtray.figures.section import Section
 from vtray.figures.traced_rays import Surface
 from vtray.geometry.vector import Vec
+from vtray.scene.cones import Cones
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.objects import Cylinder, Object, Sphere
+from vtray.scene.objects import Cone, Cylinder, Object, Sphere
 from vtray.scene.scene import Scene
 from vtray.scene.spheres import Spheres
 from vtray.scene.vectors import Vector
@@ -26,6 +28,8 @@ SHAPES: dict[type, type[DrawnShapes]] = {
     Spheres: DrawnSpheres,
     Cylinder: DrawnCylinders,
     Cylinders: DrawnCylinders,
+    Cone: DrawnCones,
+    Cones: DrawnCones,
 }
 """How objects are drawn that have edges; planes have none."""
 
@@ -57,8 +61,9 @@ def _shapes_of(item: Any) -> DrawnShapes:  # noqa: ANN401
     """Return the shapes of an object that has edges."""
     hull = item.hull()
     points = [_rows(center) for center, _, _ in hull]
-    radius = np.broadcast_to(np.asarray(hull[0][1], float), len(points[0]))
-    return SHAPES[type(item)](points, radius)
+    radii = [np.broadcast_to(np.asarray(radius, float), len(points[0])) for _, radius, _ in hull]
+    kind = SHAPES[type(item)]
+    return kind(points, np.stack(radii, axis=1) if kind is DrawnCones else radii[0])
 
 
 def _rows(points: Any) -> Floats:  # noqa: ANN401
@@ -80,7 +85,8 @@ def shape_of(scene: Scene, surface: Surface) -> DrawnShapes | None:
     if kind is None:
         return None
     points = [surface.center] if surface.end is None else [surface.center, surface.end]
-    return kind([_rows([point]) for point in points], np.array([surface.radius], float))
+    radii = surface.radius if surface.radius_end is None else (surface.radius, surface.radius_end)
+    return kind([_rows([point]) for point in points], np.array([radii], float))
 
 
 def colored_parts(

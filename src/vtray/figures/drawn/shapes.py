@@ -38,7 +38,7 @@ class DrawnShapes(ABC):
     points
         The points that they are made of, in world space, each (n, 3).
     radius
-        Their radii in scene units, (n,).
+        Their radii in scene units, (n,), or at both ends, (n, 2).
     """
 
     def __init__(self, points: Sequence[Floats], radius: Floats) -> None:

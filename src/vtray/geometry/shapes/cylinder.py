@@ -13,22 +13,28 @@ from vtray.geometry.bundle import (
     Bundle,
     Crossing,
     bundle_width,
-    first_crossing,
-    is_looked_at,
     spread_along,
     spread_beside,
 )
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
+from vtray.geometry.shapes.axis_line import (
+    Line,
+    Span,
+    at_least,
+    axial_crossing,
+    both_spans,
+    cap_span,
+    is_second_half,
+    line_beside,
+    move_along,
+)
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
 from vtray.geometry.shapes.surface import Surface
 from vtray.geometry.vector import Vec, add, dot, magnitude, scale, sub
 
 SIZE = 7
 """Numbers of a cylinder in its columns: the two ends of its axis, and the radius."""
-
-TINY = 1e-300
-"""In place of a growth of 0, whose inverse must not be infinite times 0."""
 
 
 class CylinderShape(NamedTuple):
@@ -59,30 +65,6 @@ class CylinderShape(NamedTuple):
     error_scale: float
 
 
-class Line(NamedTuple):
-    """A line beside a cylinder: its way along the axis, and that around it.
-
-    Attributes
-    ----------
-    height, rise
-        How far along the axis it starts, and how that grows.
-    beside, aside
-        How far from the axis it starts, and how that grows, as vectors square to the axis.
-    """
-
-    height: float
-    rise: float
-    beside: Vec
-    aside: Vec
-
-
-class Span(NamedTuple):
-    """From where to where a line is within something, in its own unit; empty if not near < far."""
-
-    near: float
-    far: float
-
-
 @device
 def load_cylinder(columns: Columns, slot: int, place: Place) -> CylinderShape:
     """Return one of the cylinders."""
@@ -109,30 +91,6 @@ def load_cylinder(columns: Columns, slot: int, place: Place) -> CylinderShape:
 
 
 @device
-def line_beside(cylinder: CylinderShape, origin: Vec, way: Vec) -> Line:
-    """Return a line through a point in a direction as the cylinder sees it."""
-    from_start = sub(origin, cylinder.start)
-    height, rise = dot(from_start, cylinder.axis), dot(way, cylinder.axis)
-    return Line(
-        height,
-        rise,
-        sub(from_start, scale(height, cylinder.axis)),
-        sub(way, scale(rise, cylinder.axis)),
-    )
-
-
-@device
-def move_along(line: Line, distance: float) -> Line:
-    """Return a line that starts so much later."""
-    return Line(
-        line.height + distance * line.rise,
-        line.rise,
-        add(line.beside, scale(distance, line.aside)),
-        line.aside,
-    )
-
-
-@device
 def side_span(line: Line, side_radius: float) -> Span:
     """Return where a line is within the endless cylinder.
 
@@ -146,24 +104,6 @@ def side_span(line: Line, side_radius: float) -> Span:
     meets = discriminant > 0.0
     half = math.sqrt(max(discriminant, 0.0) / square) if is_slanted else math.inf
     return Span(middle - half if meets else math.inf, middle + half if meets else -math.inf)
-
-
-@device
-def cap_span(line: Line, low: float, high: float) -> Span:
-    """Return where a line is between two heights."""
-    rises = line.rise != 0.0
-    divisor = line.rise if rises else 1.0
-    first, last = (low - line.height) / divisor, (high - line.height) / divisor
-    between = (line.height > low) & (line.height < high)
-    near = min(first, last) if rises else -math.inf
-    far = max(first, last) if rises else math.inf
-    return Span(near if rises | between else math.inf, far if rises | between else -math.inf)
-
-
-@device
-def both_spans(one: Span, other: Span) -> Span:
-    """Return where a line is within two things."""
-    return Span(max(one.near, other.near), min(one.far, other.far))
 
 
 @device
@@ -278,24 +218,6 @@ def cylinder_surface(cylinder: CylinderShape, point: Vec, error_scale: float) ->
 
 
 @device
-def is_second_half(cylinder: CylinderShape, point: Vec, error_scale: float) -> bool:
-    """Tell whether a point is nearer to the end of the axis, by more than rounding can explain.
-
-    Parameters
-    ----------
-    cylinder
-        The cylinder.
-    point
-        The point.
-    error_scale
-        What its rounding error is relative to, beside the cylinder.
-    """
-    height = dot(sub(point, cylinder.start), cylinder.axis)
-    error_bound = ROUNDING * (cylinder.error_scale + error_scale)
-    return height - 0.5 * cylinder.length > error_bound
-
-
-@device
 def cylinder_is_outside(cylinder: CylinderShape, point: Vec, normal: Vec) -> bool:
     """Tell whether a point of a cylinder is looked at from outside, given the normal there."""
     is_outside: bool = dot(normal, sub(point, cylinder.center)) > 0.0
@@ -311,34 +233,15 @@ def cylinder_crossing(cylinder: CylinderShape, bundle: Bundle) -> Crossing:
     one that is so much smaller.
     """
     line = line_beside(cylinder, bundle.origin, bundle.direction)
-    caps = cap_span(line, 0.0, cylinder.length)
-    own = both_spans(side_span(line, cylinder.side_radius), caps)
     any_inside = _any_inside(cylinder, line, bundle)
-    entry = max(own.near, 0.0)
-    # A little farther on, the bundle is wider by a quarter.
-    before = 1.25 * bundle_width(bundle, entry)
-    valid = entry + 0.25 * bundle_width(bundle, entry) / max(bundle.growth, TINY)
-    if bundle.growth < 0.0:
-        before, valid = bundle_width(bundle, max(any_inside.near, 0.0)), math.inf
-    behind = max(bundle_width(bundle, own.near), bundle_width(bundle, own.far))
-    all_before = _all_inside(cylinder, line, bundle, before)
-    all_behind = _all_inside(cylinder, line, bundle, behind)
-    covers = (all_before.near < all_before.far) & (all_before.near <= valid)
-    end = all_behind.far if all_behind.near < all_behind.far else -math.inf
-    enters = Crossing(any_inside.near, all_before.near)
-    leaves = Crossing(end, any_inside.far)
-    found = first_crossing(enters, leaves, covers, bundle)
-    if is_looked_at(bundle.sight) and found.far < math.inf:
-        reverse = Line(line.height, -line.rise, line.beside, scale(-1.0, line.aside))
-        is_one = (
-            _is_one_part(cylinder, line, bundle, before, enters)
-            if found.far == enters.far
-            else _is_one_part(
-                cylinder, reverse, bundle, behind, Crossing(-leaves.far, -leaves.near)
-            )
-        )
-        return Crossing(found.near, found.far if is_one else math.inf)
-    return found
+    return axial_crossing(cylinder, line, bundle, any_inside, _spans)
+
+
+@device
+def _spans(cylinder: CylinderShape, line: Line, wide: float, along: float) -> tuple[Span, Span]:
+    """Return where a line is within the side and the caps of a larger cylinder."""
+    side = side_span(line, max(cylinder.side_radius + wide, 0.0))
+    return side, cap_span(line, -along, cylinder.length + along)
 
 
 @device
@@ -369,8 +272,8 @@ def _any_inside(cylinder: CylinderShape, line: Line, bundle: Bundle) -> Span:
     side = Span(math.inf if is_empty else near, -math.inf if is_empty else far)
     along = spread_along(bundle, cylinder.axis)
     wide, growth = along * bundle.width, along * bundle.growth
-    above = _at_least(line.rise + growth, -line.height - wide)
-    below = _at_least(growth - line.rise, line.height - cylinder.length - wide)
+    above = at_least(line.rise + growth, -line.height - wide)
+    below = at_least(growth - line.rise, line.height - cylinder.length - wide)
     span = both_spans(side, both_spans(above, below))
     # Beside the axis, the bundle may be narrower than its longest offset.
     gap2 = dot(beside, beside)
@@ -385,53 +288,3 @@ def _any_inside(cylinder: CylinderShape, line: Line, bundle: Bundle) -> Span:
     misses = misses | (span.near > span.far)
     misses = misses | (cylinder.side_radius <= 0.0) | (cylinder.length <= 0.0)
     return Span(math.inf if misses else span.near, -math.inf if misses else span.far)
-
-
-@device
-def _at_least(rate: float, value: float) -> Span:
-    """Return where so many times a distance are at least a value."""
-    divisor = rate if rate != 0.0 else 1.0
-    bound = value / divisor
-    never = (rate == 0.0) & (value > 0.0)
-    near = bound if rate > 0.0 else math.inf if never else -math.inf
-    far = bound if rate < 0.0 else -math.inf if never else math.inf
-    return Span(near, far)
-
-
-@device
-def _all_inside(cylinder: CylinderShape, line: Line, bundle: Bundle, width: float) -> Span:
-    """Return where all rays of a bundle no wider than that are inside a cylinder."""
-    along = width * spread_along(bundle, cylinder.axis)
-    side_radius = max(cylinder.side_radius - width * bundle.stretch, 0.0)
-    caps = cap_span(line, along, cylinder.length - along)
-    span = both_spans(side_span(line, side_radius), caps)
-    is_there = 2.0 * along < cylinder.length
-    return Span(span.near if is_there else math.inf, span.far if is_there else -math.inf)
-
-
-@device
-def _is_one_part(
-    cylinder: CylinderShape, line: Line, bundle: Bundle, width: float, enters: Crossing
-) -> bool:
-    """Tell whether all rays of a bundle no wider than that enter one cap, or one half of the side.
-
-    Parameters
-    ----------
-    cylinder, line, bundle, width
-        The cylinder, and the rays with the middle one.
-    enters
-        From where to where they enter it.
-    """
-    wide, along = width * bundle.stretch, width * spread_along(bundle, cylinder.axis)
-    larger_side = side_span(line, cylinder.side_radius + wide)
-    smaller_side = side_span(line, max(cylinder.side_radius - wide, 0.0))
-    larger_caps = cap_span(line, -along, cylinder.length + along)
-    smaller_caps = cap_span(line, along, cylinder.length - along)
-    on_cap, on_side = (
-        larger_caps.near >= smaller_side.near,
-        larger_side.near >= smaller_caps.near,
-    )
-    first, last = line.height + enters.near * line.rise, line.height + enters.far * line.rise
-    low, high = min(first, last) - along, max(first, last) + along
-    middle = 0.5 * cylinder.length
-    return on_cap | (on_side & ((high < middle) | (low > middle)))

@@ -18,10 +18,11 @@ from vtray.scene.checks.limits import (
     NpzPath,
     Real,
 )
+from vtray.scene.cones import Cones
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
 from vtray.scene.light_types import WHITE, Ambient, Light, RectangleLight, SphereLight, Sun
-from vtray.scene.objects import Cylinder, Plane, Sphere
+from vtray.scene.objects import Cone, Cylinder, Plane, Sphere
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient, check_one_of
 from vtray.scene.spheres import Spheres
@@ -111,15 +112,48 @@ class CylindersInFile(
     ONE = Cylinder
 
 
-PartInFile: TypeAlias = Sphere | Cylinder | SpheresInFile | CylindersInFile
-
-
-class CopiesInFile(HolderInFile, frozen=True, omit_defaults=True, tag_field="type", tag="copies"):
-    """The same spheres and cylinders at many places.
+class ConesInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="type", tag="cones"):
+    """Many cones, whose numbers stand in a file of NumPy arrays.
 
     Attributes
     ----------
-    objects : list of Sphere, Cylinder, SpheresInFile or CylindersInFile
+    data : str
+        Path of the arrays, relative to the scene file: a .npz file with the arrays start, end
+        and, where they are not keys of this object, radius, radius_end, color and lambert;
+        color_end may be in neither.
+    radius : float, optional
+        Radius of all cones at their starts, in scene units; it may stand in the file of arrays.
+    radius_end : float, optional
+        Radius of all cones at their ends, in scene units; it may stand in the file of arrays.
+    color : Color, optional
+        Colour of all cones, or of their halves at start if there is color_end; it may stand in
+        the file of arrays.
+    color_end : Color, optional
+        Colour of the halves at end; it may stand in the file of arrays, or be left out.
+    lambert : float, optional
+        Share of the light that the surfaces scatter; it may stand in the file of arrays.
+    """
+
+    data: NpzPath
+    radius: NonNegative | UnsetType = UNSET
+    radius_end: NonNegative | UnsetType = UNSET
+    color: Color | UnsetType = UNSET
+    color_end: Color | UnsetType = UNSET
+    lambert: Fraction | UnsetType = UNSET
+
+    MADE = Cones
+    ONE = Cone
+
+
+PartInFile: TypeAlias = Sphere | Cylinder | Cone | SpheresInFile | CylindersInFile | ConesInFile
+
+
+class CopiesInFile(HolderInFile, frozen=True, omit_defaults=True, tag_field="type", tag="copies"):
+    """The same spheres, cylinders and cones at many places.
+
+    Attributes
+    ----------
+    objects : list of Sphere, Cylinder, Cone, SpheresInFile, CylindersInFile or ConesInFile
         What is placed, at least one.
     at : list of Vector, optional
         Translations of the copies, in scene units; they stand here or in the file of data.
@@ -149,7 +183,9 @@ class CopiesInFile(HolderInFile, frozen=True, omit_defaults=True, tag_field="typ
         raise FieldError(field, message)
 
 
-ObjectInFile: TypeAlias = Sphere | Cylinder | Plane | SpheresInFile | CylindersInFile | CopiesInFile
+ObjectInFile: TypeAlias = (
+    Sphere | Cylinder | Cone | Plane | SpheresInFile | CylindersInFile | ConesInFile | CopiesInFile
+)
 
 KINDS: tuple[type[msgspec.Struct], ...] = typing.get_args(ObjectInFile)
 """The types of objects, in the order of messages."""
@@ -206,7 +242,8 @@ class SceneInFile(msgspec.Struct, omit_defaults=True):
         Where the picture is taken from.
     lights : list of Light, Sun, SphereLight, RectangleLight, SkyInFile or Ambient
         The lights; may be empty.
-    objects : list of Sphere, Cylinder, Plane, SpheresInFile, CylindersInFile or CopiesInFile
+    objects : list of Sphere, Cylinder, Cone, Plane, SpheresInFile, CylindersInFile, ConesInFile \
+or CopiesInFile
         The objects; may be empty.
     render : RenderSettings, optional
         How the picture is taken.

@@ -33,7 +33,7 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
     ----------
     data : dict
         What a scene file says. Numbers may also be NumPy's; in place of an array of the file, there
-        may be a tuple or an array of NumPy. Many spheres or cylinders may hold their arrays
+        may be a tuple or an array of NumPy. Many spheres, cylinders or cones may hold their arrays
         themselves: ``{"type": "spheres", "center": array, "radius": 0.5, "color": array,
         "lambert": 1}``, which are not copied where `Spheres` does not; so may copies hold ``"at":
         array``, and a sky ``"image": array``. Paths are relative to the current folder.

@@ -1,4 +1,4 @@
-"""A sphere around all spheres and cylinders of a scene."""
+"""A sphere around all bounded shapes of a scene."""
 
 import itertools
 from collections.abc import Iterator

@@ -1,7 +1,7 @@
-"""The spheres and cylinders of a scene as balls and discs, and the box around their centres.
+"""The bounded shapes of a scene as balls and discs, and the box around their centres.
 
-A sphere is a ball, and a cylinder the convex hull of two discs, its caps: what holds these holds
-it, and what touches it from outside touches one of them.
+A sphere is a ball, and a cylinder or a cone the convex hull of two discs, its caps: what holds
+these holds it, and what touches it from outside touches one of them.
 """
 
 from collections.abc import Sequence
@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from vtray.base.errors import SceneError
 from vtray.scene.arrays import Arrays
 from vtray.scene.copies import Copies
-from vtray.scene.cylinders import Cylinders
 from vtray.scene.objects import Object, Plane
 from vtray.scene.placing.directions import Vec, dot, unit
 from vtray.scene.placing.pieces import by_pieces
@@ -61,8 +60,8 @@ def balls_of(subject: object, place: str) -> list[Balls]:
     SceneError
         If there is none, or `subject` is nothing of all this. Messages begin with `place`.
     """
-    if isinstance(subject, (Spheres, Cylinders, Copies)):
-        found = _balls_in([subject])
+    if isinstance(subject, (Arrays, Copies)):
+        found = _balls_in([subject])  # type: ignore[list-item]  # arrays are of one of the kinds
     elif hasattr(subject, "objects"):
         found = _balls_in(subject.objects)
     else:

@@ -1,9 +1,9 @@
-"""The camera that shows all spheres and cylinders as large as the picture allows.
+"""The camera that shows all bounded shapes as large as the picture allows.
 
 A sphere is in a perspective picture if it is on the inner side of four planes through the eye, and
-a cylinder if its caps are, which are discs. For a given field of view these planes only move with
-the eye, so each gives one bound that is linear in the eye's position: the least of all bounds of
-balls and discs. The farthest eye forward that meets all four is the answer.
+a cylinder or a cone if its caps are, which are discs. For a given field of view these planes only
+move with the eye, so each gives one bound that is linear in the eye's position: the least of all
+bounds of balls and discs. The farthest eye forward that meets all four is the answer.
 """
 
 import math
@@ -54,7 +54,7 @@ def fitting(
     Raises
     ------
     SceneError
-        If there is no sphere or cylinder, or an argument is not right.
+        If there is no bounded shape, or an argument is not right.
     """
     call = "Camera.fit"
     forward = unit(argument(call, "direction", direction, Direction))
