@@ -295,6 +295,7 @@ def _light_softly(
         begin,
         scene,
         soft,
+        scene.lights.crowd,
         fans,
         seed,
         error,

@@ -1,4 +1,7 @@
-"""What soft lights add to the hits of a packet: a fan of rays from each hit to each of them."""
+"""What soft lights add to the hits of a packet: fans of rays from each hit to each of them.
+
+Many lights share their fans, unless it is kept what each of them adds.
+"""
 
 from typing import NamedTuple
 
@@ -30,7 +33,9 @@ from vtray.geometry.stopped import Bundle, stop_by_all, stop_by_touching
 from vtray.geometry.vector import Vec, add
 from vtray.transport.film import Rows
 from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
+from vtray.transport.integrators.soft_shared import add_shared_light
 from vtray.transport.light_buffer import KeptLight
+from vtray.transport.lights.crowd import Crowd
 from vtray.transport.lights.light import Lights, load_power, soft_worth
 from vtray.transport.lights.soft_light import (
     SoftLights,
@@ -98,6 +103,7 @@ def add_soft_lights(
     begin: int,
     scene: SceneArrays,
     soft: SoftLights | None,
+    crowd: Crowd | None,
     fans: Fans | None,
     seed: int,
     error: Rows,
@@ -115,7 +121,7 @@ def add_soft_lights(
         How many samples of each pixel the packet has, and the number of the first of them.
     block, begin
         Its lanes belong to the pixels of the block's list from `begin` on, one after the other.
-    scene, soft
+    scene, soft, crowd
         The scene, and its soft lights.
     fans, seed
         Which rays are cast.
@@ -136,25 +142,121 @@ def add_soft_lights(
                 lane = packet.view(np.int64)[SOURCE + hit]
                 pixel = work.pixels[begin + lane // samples]
                 column, row = block.left + (pixel & (BLOCK - 1)), block.top + pixel // BLOCK
-                material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
-                sample, spent = first + lane % samples, 0.0
-                for light in range(soft_count(soft)):
-                    if _is_uneven(packet, hit, scene, soft, light, is_wide, work):
-                        break
-                    keys = fan_keys(column, row, light, seed)
-                    number = fan_of_sample(fans.levels, sample, column, row, light, seed)
-                    point = number * fans.rays * fans.fans
-                    worth = soft_worth(scene.lights, soft, light, material)
-                    arriving = _arriving(
-                        packet, hit, scene, soft, light, worth, spent, fans, point, keys, work
-                    )
-                    spent += arriving.counted
-                    for component in range(component_count(soft, light)):
-                        part, share = soft.row[light] + component, arriving.shares[component]
-                        _add_share(packet, hit, scene.lights, part, share)
-                        _keep_share(packet, lane, part, share, kept)
-                    _add_noise(packet, hit, worth, arriving.variance, error)
-                    cast += arriving.cast
+                sample = first + lane % samples
+                cast += _light_hit(
+                    packet,
+                    hit,
+                    lane,
+                    column,
+                    row,
+                    sample,
+                    scene,
+                    soft,
+                    crowd,
+                    fans,
+                    seed,
+                    error,
+                    is_wide,
+                    kept,
+                    work,
+                )
+    return cast
+
+
+@device
+def _light_hit(
+    packet: Packet,
+    hit: int,
+    lane: int,
+    column: int,
+    row: int,
+    sample: int,
+    scene: SceneArrays,
+    soft: SoftLights,
+    crowd: Crowd | None,
+    fans: Fans,
+    seed: int,
+    error: Rows,
+    is_wide: bool | None,
+    kept: KeptLight | None,
+    work: Workspace,
+) -> int:
+    """Add all soft lights to a hit; return how many shadow rays were cast."""
+    # The compiler drops what follows where it knows that one of these holds.
+    if crowd is None:
+        return _light_by_each(
+            packet,
+            hit,
+            lane,
+            column,
+            row,
+            sample,
+            scene,
+            soft,
+            fans,
+            seed,
+            error,
+            is_wide,
+            kept,
+            work,
+        )
+    if kept is not None:
+        return _light_by_each(
+            packet,
+            hit,
+            lane,
+            column,
+            row,
+            sample,
+            scene,
+            soft,
+            fans,
+            seed,
+            error,
+            is_wide,
+            kept,
+            work,
+        )
+    return add_shared_light(
+        packet, hit, column, row, sample, scene, soft, crowd, fans, seed, error, is_wide, work
+    )
+
+
+@device
+def _light_by_each(
+    packet: Packet,
+    hit: int,
+    lane: int,
+    column: int,
+    row: int,
+    sample: int,
+    scene: SceneArrays,
+    soft: SoftLights,
+    fans: Fans,
+    seed: int,
+    error: Rows,
+    is_wide: bool | None,
+    kept: KeptLight | None,
+    work: Workspace,
+) -> int:
+    """Add soft lights to a hit, each by its own fans; return how many shadow rays were cast."""
+    material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
+    spent, cast = 0.0, 0
+    for light in range(soft_count(soft)):
+        if _is_uneven(packet, hit, scene, soft, light, is_wide, work):
+            break
+        keys = fan_keys(column, row, light, seed)
+        number = fan_of_sample(fans.levels, sample, column, row, light, seed)
+        point = number * fans.rays * fans.fans
+        worth = soft_worth(scene.lights, soft, light, material)
+        arriving = _arriving(packet, hit, scene, soft, light, worth, spent, fans, point, keys, work)
+        spent += arriving.counted
+        for component in range(component_count(soft, light)):
+            part, share = soft.row[light] + component, arriving.shares[component]
+            _add_share(packet, hit, scene.lights, part, share)
+            _keep_share(packet, lane, part, share, kept)
+        _add_noise(packet, hit, worth, arriving.variance, error)
+        cast += arriving.cast
     return cast
 
 
