@@ -76,19 +76,15 @@ def _brought(fan: Fan, ray: int, blocker: int) -> Vec:
 
 def _fan_of(lit: Lit, number: int, light: AnyLight, cast: list[_Cast], rays: int) -> ShadowFan:
     """Return the rays to a light, of so many that all lights have."""
-    full = np.array(added(lit.hit, light, (1.0, 1.0, 1.0)))
-    brought = np.array([ray.brought for ray in cast]).reshape(-1, 3)
-    # What each adds to the share of the light, channel by channel.
-    parts = brought / np.where(full > 0.0, full, np.inf) / max(rays, 1)
-    shares = np.array([ray.ray.blocker is None for ray in cast], bool) @ parts
-    channel = int(full.argmax())
-    if changes_color(light):
-        counts, told = parts.mean(axis=1), tuple(shares.tolist())
-    else:
-        counts, told = parts[:, channel], (float(shares[channel]),)
-    counts = counts * len(cast)
-    shown = [
-        FanRay(ray.ray.direction, ray.ray.length, float(count), ray.ray.blocker)
-        for ray, count in zip(cast, counts, strict=True)
-    ]
-    return shadow_fan(lit, number, light, tuple(shown), told)
+    full = added(lit.hit, light, (1.0, 1.0, 1.0))
+    channels = [0, 1, 2] if changes_color(light) else [full.index(max(full))]
+    shares = [0.0 for _ in channels]
+    shown = []
+    for ray, brought in cast:
+        # What it adds to the share of the light, channel by channel.
+        parts = [brought[k] / full[k] / rays if full[k] else 0.0 for k in channels]
+        count = len(cast) * sum(parts) / len(parts)
+        shown.append(FanRay(ray.direction, ray.length, count, ray.blocker))
+        if ray.blocker is None:
+            shares = [share + part for share, part in zip(shares, parts, strict=True)]
+    return shadow_fan(lit, number, light, tuple(shown), tuple(shares))
