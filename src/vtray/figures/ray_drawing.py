@@ -234,8 +234,8 @@ class _Drawing(Stage):
         elif lamp is not None:
             self.ball(goal, lamp.radius, LIT, strength)
         if not thin:
-            text = f"{fan.arriving} of {len(fan.rays)} rays arrive\nadds {_numbers(fan.adds)}"
-            if not fan.arrives:
+            text = f"{fan.outcome}\nadds {_numbers(fan.adds)}"
+            if fan.rays and not fan.arrives:
                 text = "behind the surface" if fan.is_behind else _blocked_by(fan)
             text = f"lights[{fan.light}], {fan.kind}: {text}"
             radius = 0.0 if lamp is None else lamp.radius

@@ -23,8 +23,11 @@ def describe(tree: TracedRays) -> str:
         lines.append("hit          nothing in front of the image plane")
     else:
         lines += _describe_hit(tree.hit, tree.scene)
-        for ray in tree.lights:
-            lines += _describe_light(ray, tree.hit)
+        told = [way for way in tree.lights if not _is_idle(way)]
+        for way in told:
+            lines += _describe_light(way, tree.hit)
+        if len(told) < len(tree.lights):
+            lines.append(_describe_others(len(tree.lights) - len(told), bool(told)))
     of = "the sum over all lights" if tree.lamp is None else "that of the lamp"
     lines.append(f"light        {_vector(tree.light)}, {of}")
     if tree.exposed is not None:
@@ -62,7 +65,7 @@ def _describe_light(way: WayToLight, hit: Hit) -> list[str]:
     """Return the lines on a light: its direction, what blocks it or what it adds."""
     name = f"lights[{way.light}]"
     if isinstance(way, ShadowFan):
-        first = f"{name:12} {way.kind}: {way.arriving} of {len(way.rays)} rays arrive"
+        first = f"{name:12} {way.kind}: {way.outcome}"
         shown = f"{way.share:.6g}" if way.shares is None else _vector(way.shares)
         first += f", {shown} of its light"
         factor, strength = "share", way.measure
@@ -77,6 +80,20 @@ def _describe_light(way: WayToLight, hit: Hit) -> list[str]:
     if way.color != WHITE:
         factors += f" x {_vector([channel / 255 for channel in way.color])} of the light"
     return [first, f"  adds       {_vector(way.adds)} = {factors}"]
+
+
+def _is_idle(way: WayToLight) -> bool:
+    """Tell whether a light adds nothing, and has none of the rays that many lights share."""
+    return isinstance(way, ShadowFan) and not way.rays and not way.arrives
+
+
+def _describe_others(count: int, are_others: bool) -> str:
+    """Return the line on lights that have no rays."""
+    which = f"{count} other" if are_others else f"{count}"
+    noun = "light" if count == 1 else "lights"
+    return (
+        f"lights       {which} {noun} have no ray of those that all share: they are hidden or weak"
+    )
 
 
 def _obstacle(way: WayToLight) -> str:

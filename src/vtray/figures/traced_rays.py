@@ -188,7 +188,8 @@ class ShadowFan:
         Unit vector from the hit to the middle of the light, in world space; where light comes from
         all sides, the normal of the hit.
     rays
-        The rays. With one sample a pixel, those of the picture.
+        The rays. With one sample a pixel, those of the picture. Many lights share them: then there
+        are none if the light as a whole is known to arrive or not, or if it can bring little.
     share
         How much of the light arrives: the mean weight of its rays, 0 for those that do not. Of a
         sky whose colour changes with the direction, the mean over red, green and blue.
@@ -223,6 +224,13 @@ class ShadowFan:
     def arrives(self) -> bool:
         """Whether any of its light reaches the side of the surface that is seen."""
         return self.share > 0.0
+
+    @property
+    def outcome(self) -> str:
+        """In words, how many of its rays arrive."""
+        if self.rays:
+            return f"{self.arriving} of {len(self.rays)} rays arrive"
+        return "all of it arrives" if self.arrives else "no ray goes to it"
 
     @property
     def is_behind(self) -> bool:

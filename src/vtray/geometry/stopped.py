@@ -70,7 +70,7 @@ class Bundle(NamedTuple):
     start, normal
         Where they start, and the unit normal of the surface there, above which they all are.
     end_scale
-        What the rounding errors of their ends are relative to.
+        What the rounding errors of their ends are relative to; None if field ``END_SCALE`` says it.
     longest
         No ray is longer.
     """
@@ -79,7 +79,7 @@ class Bundle(NamedTuple):
     rays: int
     start: Start
     normal: Vec
-    end_scale: float
+    end_scale: float | None
     longest: float
 
 

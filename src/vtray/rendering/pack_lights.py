@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from vtray.base.exact_math import sine
 from vtray.geometry.vector import Vec
+from vtray.rendering.pack_crowd import order_by_place
 from vtray.rendering.pack_rectangles import join_rectangles, pack_rectangle
 from vtray.rendering.pack_skies import changes_color, pack_skies
 from vtray.scene.light_types import (
@@ -25,6 +26,7 @@ from vtray.scene.light_types import (
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.vectors import Vector
 from vtray.transport.camera_rays import CameraFrame
+from vtray.transport.lights.crowd import Crowd
 from vtray.transport.lights.light import Lights
 from vtray.transport.lights.rectangle import SIZE as RECTANGLE_SIZE
 from vtray.transport.lights.soft_light import AROUND, NO_SKY, RECTANGLE, SPHERE, SUN, SoftLights
@@ -32,6 +34,10 @@ from vtray.transport.lights.visible import SIZE as LAMP_SIZE
 from vtray.transport.lights.visible import VisibleLamps
 
 Floats = NDArray[np.float64]
+
+FEW = 128
+"""So many soft lights have fans of their own; more share them. Around here small ones take as long
+either way, and wide ones less if they share."""
 
 FAR = 2.0**221
 """How long shadow rays are that end nowhere: two million times as far as all that is given."""
@@ -70,6 +76,7 @@ def pack_lights(
         error_scale=_magnitude(x, y, z) + _magnitude(*origin),
         points=len(hard) if hard or not soft else None,
         soft=packed,
+        crowd=_pack_crowd(packed) if packed else None,
         visible=_pack_visible(soft, packed) if packed else None,
         intensity=np.array([intensity for intensity, _ in parts], float),
         color=np.array([color for _, color in parts], float).reshape(-1, 3) / 255.0,
@@ -146,6 +153,13 @@ def _is_rare(light: AnyLight) -> bool:
     """
     is_seen = isinstance(light, Lamp) and light.visible
     return is_seen or isinstance(light, RectangleLight) or changes_color(light)
+
+
+def _pack_crowd(soft: SoftLights) -> Crowd | None:
+    """Return what is known of many soft lights; None where there are few."""
+    if len(soft.kind) <= FEW:
+        return None
+    return Crowd(order_by_place(soft))
 
 
 def _pack_visible(lights: Sequence[AnyLight], soft: SoftLights) -> VisibleLamps | None:

@@ -149,14 +149,18 @@ class Tracer:
             return Noise(settings.tolerance * len(soft.kind), by_light=False)
         if white is None:
             white = self._about_peak(settings)
-        return Noise(settings.tolerance * white or math.inf, by_light=True)
+        return self._noise_of_light(settings.tolerance * white or math.inf)
+
+    def _noise_of_light(self, error: float) -> Noise:
+        """Return how noisy light may be that is not kept to be changed."""
+        return Noise(error, by_light=True, are_shared=self._scene.lights.crowd is not None)
 
     def _about_peak(self, settings: RenderSettings) -> float:
         """Return the largest channel of some pixels, with as few rays as there can be."""
         marks = np.zeros(self._size[::-1], np.bool_)
         marks[SPARSE // 2 :: SPARSE, SPARSE // 2 :: SPARSE] = True
         has_samples = settings.samples > 1
-        fans = fans_of_middles(Noise(math.inf, by_light=True))
+        fans = fans_of_middles(self._noise_of_light(math.inf))
         rays = middle_rays(before_samples=has_samples, fans=fans, seed=int(settings.seed))
         film = new_film(*self._size, *(SAMPLES if has_samples else one_ray(self._scene)))
         tiles = split_into_tiles(*self._size, self._tile)

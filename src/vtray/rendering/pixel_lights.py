@@ -68,7 +68,7 @@ def trace_fans(
     noise: Noise | None,
     seed: int,
 ) -> tuple[list[WayToLight], Vec]:
-    """Trace the rays to all lights that are no points.
+    """Trace the rays to all lights that are no points, each of which has its own.
 
     Parameters
     ----------
@@ -108,10 +108,12 @@ def trace_fans(
             for number in range(lamp.fans):
                 trace_fan(*known, number, seed, stack, fan, blockers)
                 rays += [
-                    _fan_ray(lit, light, _Ray(fan, ray, start, length, components), int(blocker))
+                    fan_ray(
+                        lit, light, SpreadRay(fan, ray, start, length, components), int(blocker)
+                    )
                     for ray, blocker in enumerate(blockers)
                 ]
-            ways.append(_shadow_fan(lit, k, light, tuple(rays), lamp.shares[:components]))
+            ways.append(shadow_fan(lit, k, light, tuple(rays), lamp.shares[:components]))
             traced = traced._replace(value=lamp.value)
             spent += lamp.counted
     return ways, traced.value
@@ -127,12 +129,12 @@ def _shadow_ray(lit: Lit, number: int, light: Light, cosine: float, primitive: i
     is_free = primitive == NOTHING
     blocker = None if is_free else find_blocker(lit.scene, lit.numbering, primitive, point, way)
     arriving = cosine if is_free else 0.0
-    adds = _added(lit.hit, light, (arriving, arriving, arriving))
+    adds = added(lit.hit, light, (arriving, arriving, arriving))
     color = rgb(light.color)
     return ShadowRay(number, place, light.intensity, way, distance, cosine, blocker, adds, color)
 
 
-def _shadow_fan(
+def shadow_fan(
     lit: Lit, number: int, light: AnyLight, rays: tuple[FanRay, ...], shares: tuple[float, ...]
 ) -> ShadowFan:
     """Return the rays from a hit to a light that is no point."""
@@ -140,13 +142,13 @@ def _shadow_fan(
     share, color = sum(shares) / len(shares), rgb(light.color)
     middle = _middle(lit.hit, light)
     red, green, blue = shares if len(shares) == 3 else 3 * shares
-    adds = _added(lit.hit, light, (red, green, blue))
+    adds = added(lit.hit, light, (red, green, blue))
     several = None if len(shares) == 1 else (red, green, blue)
     strength, measure = strength_of(light), measure_of(light)
     return ShadowFan(number, kind, strength, middle, rays, share, adds, color, measure, several)
 
 
-class _Ray(NamedTuple):
+class SpreadRay(NamedTuple):
     """A ray of a fan in the kernels' space.
 
     Attributes
@@ -178,7 +180,7 @@ class _Ray(NamedTuple):
         return x, y, z
 
 
-def _fan_ray(lit: Lit, light: AnyLight, ray: _Ray, primitive: int) -> FanRay:
+def fan_ray(lit: Lit, light: AnyLight, ray: SpreadRay, primitive: int) -> FanRay:
     """Return a ray of a fan; `primitive` is the number of what blocks it."""
     direction = ray.vector(DIRECTION)
     length = math.inf
@@ -205,7 +207,7 @@ def _middle(hit: Hit, light: AnyLight) -> Vec:
     return hit.normal
 
 
-def _added(hit: Hit, light: AnyLight, shares: Vec) -> Vec:
+def added(hit: Hit, light: AnyLight, shares: Vec) -> Vec:
     """Return what a light adds to a pixel, of whose red, green and blue so much arrives."""
     # In the order of the kernels, so that the sum has the same bits.
     strengths = [share * hit.surface.lambert * strength_of(light) for share in shares]

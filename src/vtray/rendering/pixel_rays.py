@@ -18,6 +18,7 @@ from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.numbering import number_objects
 from vtray.rendering.pack import Packed, pack
 from vtray.rendering.passes import Tracer
+from vtray.rendering.pixel_crowd import trace_shared
 from vtray.rendering.pixel_lights import Lit, shadow_rays, trace_fans
 from vtray.rendering.pixel_surfaces import find_surface
 from vtray.scene.default_light import lights_of, settings_of
@@ -102,7 +103,11 @@ def trace_rays(
         )
         lit = Lit(scene, numbering, hit)
         noise = _noise(packed, settings) if image is None else image.noise
-        fans, light = trace_fans(lit, packed, traced, (column, row), noise, int(settings.seed))
+        known = lit, packed, traced, (column, row)
+        if noise is not None and noise.are_shared:
+            fans, light = trace_shared(*known, noise, int(settings.seed))
+        else:
+            fans, light = trace_fans(*known, noise, int(settings.seed))
         ways = [*shadow_rays(lit, cosines, blockers), *fans]
     return RayTree(
         (column, row),

@@ -12,6 +12,9 @@ from vtray.geometry.vector import Vec
 FAN = 64
 """Rays of a fan at the most."""
 
+MOST_RAYS = 64 * FAN
+"""Rays of all fans that lights share at one hit, at the most."""
+
 END = 0
 """Where a ray ends, a vector."""
 END_PLANE_DEPTH = 3 * FAN
@@ -26,7 +29,9 @@ WEIGHT = 9 * FAN
 """What the ray counts, if nothing stops it: one number, or three for red, green and blue."""
 SINGLES = 12 * FAN
 """Its direction in single precision, two in the place of one number."""
-SIZE = 14 * FAN
+END_SCALE = 14 * FAN
+"""What the rounding error of its end is relative to, where rays go to several lights."""
+SIZE = 15 * FAN
 
 Fan = NDArray[np.float64]
 """The fields of all rays, one after the other, as those of a packet."""
@@ -76,8 +81,17 @@ def load_end(fan: Fan, ray: int) -> Vec:
 
 
 @device
-def fan_segment(fan: Fan, ray: int, start: Start, end_scale: float) -> Segment:
-    """Return the way of a ray."""
+def fan_segment(fan: Fan, ray: int, start: Start, end_scale: float | None) -> Segment:
+    """Return the way of a ray; `end_scale` is that of all ends, or None if each has its own."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if end_scale is None:
+        return _segment(fan, ray, start, fan[END_SCALE + ray])
+    return _segment(fan, ray, start, end_scale)
+
+
+@device
+def _segment(fan: Fan, ray: int, start: Start, end_scale: float) -> Segment:
+    """Return the way of a ray whose end has this scale of rounding errors."""
     return Segment(
         start.point,
         load_end(fan, ray),

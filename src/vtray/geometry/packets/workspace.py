@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.geometry.packets.cone import Touching, new_touching
-from vtray.geometry.packets.fan import Fan, new_fan
+from vtray.geometry.packets.fan import FAN, MOST_RAYS, Fan, new_fan
 from vtray.geometry.packets.packet import BLOCK, LANES
 from vtray.geometry.packets.ray_bounds import Cones, new_cones
 from vtray.geometry.packets.stack import Stack, new_stack
@@ -38,6 +38,38 @@ class Sums(NamedTuple):
     squares: NDArray[np.float64]
 
 
+UNKNOWN = -1.0
+"""Stands for how much arrives of a light that rays are cast to."""
+
+
+class Shared(NamedTuple):
+    """Notes on the rays that the lights of a crowd share.
+
+    Attributes
+    ----------
+    sums
+        What the lights before each of them would bring with nothing in the way, and at last all.
+    known
+        How much arrives of each light that was asked as a whole, ``UNKNOWN`` for others.
+    light
+        The light of each ray of a fan.
+    brought
+        What all rays bring, in three rows.
+    """
+
+    sums: NDArray[np.float64]
+    known: NDArray[np.float64]
+    light: NDArray[np.int64]
+    brought: NDArray[np.float64]
+
+
+def new_shared(lights: int) -> Shared:
+    """Return the notes for so many lights, none where nothing is shared."""
+    rays = MOST_RAYS if lights > 0 else 0
+    numbers = np.zeros(FAN, np.int64)
+    return Shared(np.zeros(lights + 1), np.zeros(lights), numbers, np.zeros(3 * rays))
+
+
 class Workspace(NamedTuple):
     """A thread's notes on the packet at hand.
 
@@ -65,6 +97,8 @@ class Workspace(NamedTuple):
         The sums of the samples of the pixels of a packet.
     fan, touching
         The shadow rays of one hit to one light, and the shapes that touch their cone.
+    shared
+        Notes on rays that many lights share.
     table, owner, member, size
         The hash table of what is hit: a number for each, what it is, which lanes hit it, how many.
     """
@@ -82,6 +116,7 @@ class Workspace(NamedTuple):
     sums: Sums
     fan: Fan
     touching: Touching
+    shared: Shared
     table: NDArray[np.int64]
     owner: NDArray[np.int64]
     member: NDArray[np.int64]
@@ -100,8 +135,11 @@ def curve_of_block() -> Pixels:
     return row * BLOCK + column
 
 
-def new_workspace(world: World) -> Workspace:
-    """Return the scratch memory of one thread for what rays can meet."""
+def new_workspace(world: World, sharing: int = 0) -> Workspace:
+    """Return the scratch memory of one thread for what rays can meet.
+
+    So many lights share their rays.
+    """
     groups = world.groups
     few = int(groups.end[(groups.kind != PLANE) & (groups.root == NO_TREE)].max(initial=0))
     planes = len(world.planes.number)
@@ -123,6 +161,7 @@ def new_workspace(world: World) -> Workspace:
         sums=Sums(*(np.zeros(size * LANES) for size in (3, 1, 1, 3, 3))),
         fan=new_fan(),
         touching=new_touching(),
+        shared=new_shared(sharing),
         table=integers(TABLE),
         owner=integers(LANES),
         member=integers(LANES),

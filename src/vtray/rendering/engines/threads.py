@@ -12,6 +12,7 @@ from vtray.geometry.packets.workspace import new_workspace
 from vtray.rendering.engines.engine import Cast, Done
 from vtray.transport.film import Film
 from vtray.transport.integrators.direct import trace_tile
+from vtray.transport.lights.crowd import sharing_lights
 from vtray.transport.sampling.pixel_samples import Sampling
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -41,10 +42,11 @@ class Threads:
         stop = np.zeros(1, np.bool_)
         results: list[tuple[float, int]] = []
         world, places = pinned(scene), pinned(sampling)
+        sharing = sharing_lights(scene.lights.crowd)
         canvas, flag = pinned(film), pinned(stop)
 
         def new_worker() -> Callable[[Tile], None]:
-            packet, work = pinned(new_packet()), pinned(new_workspace(scene.world))
+            packet, work = pinned(new_packet()), pinned(new_workspace(scene.world, sharing))
 
             def trace_one(tile: Tile) -> None:
                 results.append(trace_tile(world, places, *tile, canvas, packet, work, flag))

@@ -38,8 +38,10 @@ from vtray.transport.film import (
 from vtray.transport.integrators.lamps import mix_lamps, see_lamps
 from vtray.transport.integrators.points import add_points
 from vtray.transport.integrators.soft import add_soft_lights, clear_noise
+from vtray.transport.integrators.soft_shared import add_shared_light
 from vtray.transport.interaction import gather_interactions
 from vtray.transport.light_buffer import KeptLight
+from vtray.transport.lights.crowd import Crowd
 from vtray.transport.lights.light import points_of
 from vtray.transport.lights.soft_light import SoftLights
 from vtray.transport.sampling.adaptive import (
@@ -144,6 +146,7 @@ def _trace_pixels(
             rays += _add_soft_lights(
                 scene,
                 scene.lights.soft,
+                scene.lights.crowd,
                 sampling,
                 sampling.fans,
                 block,
@@ -259,6 +262,7 @@ def _add_points(
 def _add_soft_lights(
     scene: SceneArrays,
     soft: SoftLights | None,
+    crowd: Crowd | None,
     sampling: Sampling,
     fans: Fans | None,
     block: Block,
@@ -278,17 +282,35 @@ def _add_soft_lights(
         return 0
     if soft is not None:  # noqa: SIM102 - by itself, it is known to the compiler
         if fans is not None:
+            lit, seed, samples = lit_world(scene), sampling.seed, last - first
+            if crowd is not None:  # noqa: SIM102
+                if kept.cosines.shape[0] == 0:
+                    return add_shared_light(
+                        packet,
+                        hits,
+                        samples,
+                        first,
+                        block,
+                        begin,
+                        lit,
+                        soft,
+                        crowd,
+                        fans,
+                        seed,
+                        is_wide,
+                        work,
+                    )
             return add_soft_lights(
                 packet,
                 hits,
-                last - first,
+                samples,
                 first,
                 block,
                 begin,
-                lit_world(scene),
+                lit,
                 soft,
                 fans,
-                sampling.seed,
+                seed,
                 is_wide,
                 kept.cosines,
                 work,

@@ -10,20 +10,25 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
 from vtray.geometry.between import first_between
+from vtray.geometry.packets.cone import Touching
 from vtray.geometry.packets.fan import BLOCKED, Fan, Start, fan_segment
 from vtray.geometry.packets.stack import Stack
+from vtray.geometry.packets.workspace import Shared
 from vtray.geometry.queries import NOTHING, nearest_hit
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, add, dot, sub
 from vtray.transport.camera_rays import camera_ray
 from vtray.transport.integrators.lamps import nearest_lamp
+from vtray.transport.integrators.soft_shared import decide_by_cones
 from vtray.transport.interaction import Interaction, interact
+from vtray.transport.lights.crowd import Crowd
 from vtray.transport.lights.light import (
     lamp_light,
     light_count,
     light_target,
     load_power,
+    powers_of,
     soft_worth,
 )
 from vtray.transport.lights.soft_light import SoftLights, aim_at, component_count, soft_count
@@ -38,7 +43,14 @@ from vtray.transport.sampling.estimate import (
 )
 from vtray.transport.sampling.fans import Fans, fan_keys
 from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
-from vtray.transport.scene_arrays import SceneArrays
+from vtray.transport.sampling.shared_estimate import (
+    light_of,
+    needs_more_shared,
+    no_shared_estimate,
+    with_shared_fan,
+)
+from vtray.transport.sampling.shared_fans import spread_among, weigh_lights
+from vtray.transport.scene_arrays import SceneArrays, lit_world
 
 
 class TracedPixel(NamedTuple):
@@ -246,3 +258,137 @@ def trace_lamp(
         power = load_power(scene.lights, soft.row[light] + component)
         value = add(value, scattered(material, shares[component], power))
     return TracedLamp(shares, counted, estimate.fans, value)
+
+
+def _trace_shared_fan(
+    scene: SceneArrays,
+    soft: SoftLights,
+    crowd: Crowd,
+    traced: TracedPixel,
+    column: int,
+    row: int,
+    fans: Fans,
+    number: int,
+    seed: int,
+    stack: Stack,
+    fan: Fan,
+    blockers: NDArray[np.int64],
+    shared: Shared,
+) -> None:
+    """Trace the rays of a shared fan from the hit of a pixel, one by one.
+
+    Parameters
+    ----------
+    scene, soft, crowd
+        The scene, and its soft lights.
+    traced, column, row, fans, number, seed, stack, fan, blockers
+        As for `trace_fan`.
+    shared
+        What `trace_crowd` leaves there; out: the light of each ray.
+    """
+    point, normal, error_scale, is_second = traced.interaction
+    material = load_material(scene.materials, traced.primitive, is_second)
+    start = Start(point, dot(point, scene.camera.forward), error_scale)
+    keys, place = fan_keys(column, row, soft_count(soft), seed), number * fans.rays
+    spread_among(
+        fan,
+        fans.rays,
+        powers_of(scene.lights),
+        soft,
+        crowd,
+        start,
+        normal,
+        material,
+        scene.camera.forward,
+        fans.points,
+        place,
+        keys,
+        shared,
+    )
+    for ray in range(fans.rays):
+        blockers[ray] = NOTHING
+        if fan[BLOCKED + ray] == 0.0:
+            blockers[ray] = first_between(scene.world, fan_segment(fan, ray, start, None), stack)
+            fan[BLOCKED + ray] = 0.0 if blockers[ray] == NOTHING else 1.0
+
+
+trace_shared_fan, _trace_any_shared_fan = kernel(_trace_shared_fan), device(_trace_shared_fan)
+"""What traces one shared fan, for Python and for kernels."""
+
+
+class TracedCrowd(NamedTuple):
+    """What all shared fans from a hit tell.
+
+    Attributes
+    ----------
+    fans
+        How many there were.
+    value
+        The light of the pixel with all that arrives.
+    """
+
+    fans: int
+    value: Vec
+
+
+@kernel
+def trace_crowd(
+    scene: SceneArrays,
+    soft: SoftLights,
+    crowd: Crowd,
+    traced: TracedPixel,
+    column: int,
+    row: int,
+    fans: Fans,
+    seed: int,
+    stack: Stack,
+    fan: Fan,
+    blockers: NDArray[np.int64],
+    shared: Shared,
+    touching: Touching,
+) -> TracedCrowd:
+    """Trace all shared fans from the hit of a pixel.
+
+    Parameters
+    ----------
+    scene, soft, crowd, column, row, fans, seed, stack, fan, blockers
+        As for `trace_shared_fan`.
+    traced
+        The pixel, with the light of the points.
+    shared
+        Out: notes on the lights.
+    touching
+        Scratch memory.
+    """
+    point, normal, error_scale, is_second = traced.interaction
+    material = load_material(scene.materials, traced.primitive, is_second)
+    start = Start(point, dot(point, scene.camera.forward), error_scale)
+    lit, value, estimate = lit_world(scene), traced.value, no_shared_estimate()
+    most = weigh_lights(lit.powers, soft, crowd, start, normal, material, shared.sums)
+    if not most > 0.0:
+        return TracedCrowd(0, value)
+    whole, pool = decide_by_cones(
+        lit, soft, crowd, start, normal, material, most, shared, touching, stack
+    )
+    value = add(value, whole)
+    if not pool.most > 0.0:
+        return TracedCrowd(0, value)
+    while needs_more_shared(estimate, fans):
+        number = estimate.fans
+        _trace_any_shared_fan(
+            scene,
+            soft,
+            crowd,
+            traced,
+            column,
+            row,
+            fans,
+            number,
+            seed,
+            stack,
+            fan,
+            blockers,
+            shared,
+        )
+        estimate = with_shared_fan(estimate, pool, fan, fans, 0, shared.brought)
+    return TracedCrowd(estimate.fans, add(value, light_of(estimate, fans)))

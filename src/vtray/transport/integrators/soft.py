@@ -1,4 +1,4 @@
-"""What soft lights add to the hits of a packet: a fan of rays from each hit to each of them."""
+"""What soft lights add to the hits of a packet: fans of rays from each hit to each of them."""
 
 from typing import NamedTuple
 

@@ -9,6 +9,7 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.occlusion import Target
 from vtray.geometry.packets.packet import NO_PRIMITIVE
 from vtray.geometry.vector import Vec, pick
+from vtray.transport.lights.crowd import Crowd
 from vtray.transport.lights.soft_light import SoftLights, component_count
 from vtray.transport.lights.visible import VisibleLamps
 from vtray.transport.materials.material import Material, Power, scattered
@@ -37,6 +38,8 @@ class Lights(NamedTuple):
     soft
         The lights that are no points; None where there are none, so that no code is compiled for
         them.
+    crowd
+        The lights among which fans of rays are shared; None where each light has its own.
     visible
         Those that the camera sees; None where `SoftLights.skies` is, or there are no soft lights.
     intensity
@@ -52,6 +55,7 @@ class Lights(NamedTuple):
     error_scale: Floats
     points: int | None
     soft: SoftLights | None
+    crowd: Crowd | None
     visible: VisibleLamps | None
     intensity: Floats
     color: Floats
@@ -89,7 +93,7 @@ def powers_of(lights: Lights) -> Powers:
 def no_lights() -> Lights:
     """Return no lights at all."""
     none = np.zeros(0)
-    return Lights(none, none, none, none, none, None, None, None, none, np.zeros((0, 3)))
+    return Lights(none, none, none, none, none, None, None, None, None, none, np.zeros((0, 3)))
 
 
 @device

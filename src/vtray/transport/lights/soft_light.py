@@ -177,6 +177,27 @@ def middle_share(aim: Aim, normal: Vec) -> float:
 
 
 @device
+def unhindered_share(aim: Aim, start: Start, normal: Vec) -> float:
+    """Return about what share of a light arrives at a point where nothing is in the way.
+
+    Of light from all sides and of cones above the horizon it is known. Of what may be partly below
+    it is half of the most that a ray could bring; so no ray brings more than twice the mean that is
+    expected, and where it is 0, no ray brings anything.
+    """
+    if aim.spread == ALL_AROUND:
+        return 1.0
+    axis, whole = aim.axis, aim.whole
+    if aim.kind == RECTANGLE:
+        # As the ball around it; where that is all around, the cosine may be anything.
+        if aim.spread == 1.0 or aim.share == 0.0:
+            return aim.share
+        way = sub(aim.place, start.point)
+        axis, whole = scale(1.0 / math.sqrt(dot(way, way)), way), aim.share
+    rise, sine = dot(normal, axis), _sine(aim)
+    return whole * (rise if rise > sine else max(0.5 * (rise + sine), 0.0))
+
+
+@device
 def is_above(aim: Aim, normal: Vec) -> bool:
     """Tell whether all of a cone is above the horizon of a surface."""
     return is_cone(aim) and dot(normal, aim.axis) > _sine(aim) + CLEARLY

@@ -85,10 +85,13 @@ class Noise(NamedTuple):
         The standard error of a pixel.
     by_light
         Whether it is one of light; see `Fans`.
+    are_shared
+        Whether all lights share their fans.
     """
 
     error: float
     by_light: bool
+    are_shared: bool = False
 
     def of_one(self, samples: int) -> float:
         """Return the standard error that the light at one of the samples of a pixel may have."""
@@ -97,7 +100,8 @@ class Noise(NamedTuple):
 
 def fans_of_middles(noise: Noise) -> Fans:
     """Return the fans of rays through the middles of pixels."""
-    points = fan_points(WHOLE_FAN, MOST_FANS)
+    points_of = shared_points if noise.are_shared else fan_points
+    points = points_of(WHOLE_FAN, MOST_FANS)
     return Fans(WHOLE_FAN, MOST_FANS, 0, points, noise.error, noise.by_light)
 
 
@@ -108,7 +112,11 @@ def fans_of_samples(samples: int, noise: Noise) -> Fans:
         rays *= 2
     fans = max(MOST_FANS_OF_SAMPLES // samples, 1)
     levels = (samples - 1).bit_length()
-    points = fan_points(rays, fans << levels)
+    if noise.are_shared:
+        fans = 1 << fans.bit_length() - 1
+        points = shared_points(rays, fans, 1 << levels)
+    else:
+        points = fan_points(rays, fans << levels)
     return Fans(rays, fans, levels, points, noise.of_one(samples), noise.by_light)
 
 
@@ -133,6 +141,35 @@ def fan_points(fan: int, samples: int) -> Integers:
     starts = fan * np.arange(samples)
     order = starts[:, None] + _fan_order(fan)
     return sobol_points(fan * samples).take(order.reshape(-1), axis=1)
+
+
+def shared_points(fan: int, fans: int, samples: int = 1) -> Integers:
+    """Return the points of shared fans before they are scrambled.
+
+    Parameters
+    ----------
+    fan, fans
+        Points of a fan, and fans of a sample: powers of two.
+    samples
+        Samples of a pixel.
+
+    Returns
+    -------
+    NDArray[np.int64]
+        One sample after the other, as `sobol_points` has them, ``(2, fan * fans * samples)``: first
+        a fan, and then in passes as many points again as there were, each pass along the first
+        coordinate. So 2, 4, 8 ... points in a row share a part of that.
+    """
+    order = _along_first(fan)
+    while len(order) < fan * fans:
+        order = np.concatenate([order, len(order) + _along_first(len(order))])
+    starts = len(order) * np.arange(samples)
+    return sobol_points(len(order) * samples).take((starts[:, None] + order).reshape(-1), axis=1)
+
+
+def _along_first(count: int) -> Integers:
+    """Return the numbers of the first points, a power of two, by their first coordinate."""
+    return _reversed_bits(np.arange(count), count.bit_length() - 1)
 
 
 @device

@@ -76,7 +76,7 @@ def spread_fan(
     if not spread_to_sky(fan, rays, skies, aim.sky, normal):
         _spread_evenly(fan, rays, aim, normal)
     for ray in range(rays):
-        _set_end(fan, ray, aim, start, forward)
+        set_end(fan, ray, aim, start, forward)
     return count_open(fan, rays)
 
 
@@ -98,6 +98,24 @@ def _spread_evenly(fan: Fan, rays: int, aim: Aim, normal: Vec) -> None:
 
 
 @device
+def direction_to(aim: Aim, u: float, v: float, normal: Vec) -> Vec:
+    """Return a direction to a light of one colour, for a point of the unit square."""
+    if aim.kind == RECTANGLE:
+        return _direction_to_rectangle(u, v, aim.seen)
+    if aim.spread == ALL_AROUND:
+        return cosine_direction(u, v, normal)
+    return cone_direction(u, v, aim.axis, aim.spread)
+
+
+@device
+def _direction_to_rectangle(u: float, v: float, seen: SeenRectangle | None) -> Vec:
+    """Return a direction to a rectangle; no direction if a scene has none."""
+    if seen is None:
+        return 0.0, 0.0, 0.0
+    return rectangle_direction(u, v, seen.shape)
+
+
+@device
 def _spread_over_rectangle(fan: Fan, rays: int, seen: SeenRectangle | None) -> None:
     """Set the directions of rays to a rectangle."""
     # An argument that is None is known to the compiler, which drops what depends on that alone.
@@ -110,14 +128,19 @@ def _spread_over_rectangle(fan: Fan, rays: int, seen: SeenRectangle | None) -> N
 @device
 def _set_weight(fan: Fan, ray: int, aim: Aim, normal: Vec) -> None:
     """Set what a ray counts; one that counts nothing is not cast."""
-    cosine = max(dot(normal, load_direction(fan, ray)), 0.0)
-    weight = 1.0 if aim.spread == ALL_AROUND else aim.share * cosine
+    weight = weight_of(aim, dot(normal, load_direction(fan, ray)))
     fan[WEIGHT + ray] = weight
     fan[BLOCKED + ray] = 0.0 if weight > 0.0 else 1.0
 
 
 @device
-def _set_end(fan: Fan, ray: int, aim: Aim, start: Start, forward: Vec) -> None:
+def weight_of(aim: Aim, cosine: float) -> float:
+    """Return what a ray counts, given its cosine."""
+    return 1.0 if aim.spread == ALL_AROUND else aim.share * max(cosine, 0.0)
+
+
+@device
+def set_end(fan: Fan, ray: int, aim: Aim, start: Start, forward: Vec) -> None:
     """Set where a ray ends."""
     direction = load_direction(fan, ray)
     length = _length(aim, start.point, direction)

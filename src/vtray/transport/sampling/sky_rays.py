@@ -38,10 +38,10 @@ def spread_to_sky(fan: Fan, rays: int, skies: Skies | None, sky: int, normal: Ve
         return False
     for ray in range(rays):
         u, v, _ = load_direction(fan, ray)
-        set_direction(fan, ray, _sky_direction(u, v, normal, skies, skies.bright, sky))
+        set_direction(fan, ray, sky_direction(u, v, normal, skies, skies.bright, sky))
     for ray in range(rays):
         direction = load_direction(fan, ray)
-        _set_weights(fan, ray, _sky_weights(direction, normal, skies, skies.bright, sky))
+        _set_weights(fan, ray, sky_weights(direction, normal, skies, skies.bright, sky))
     return True
 
 
@@ -56,7 +56,7 @@ def _set_weights(fan: Fan, ray: int, light: Vec) -> None:
 
 
 @device
-def _sky_direction(
+def sky_direction(
     u: float, v: float, normal: Vec, skies: Skies, bright: Brightness, sky: int
 ) -> Vec:
     """Return the direction of a ray for a point of the unit square."""
@@ -67,7 +67,7 @@ def _sky_direction(
 
 
 @device
-def _sky_weights(direction: Vec, normal: Vec, skies: Skies, bright: Brightness, sky: int) -> Vec:
+def sky_weights(direction: Vec, normal: Vec, skies: Skies, bright: Brightness, sky: int) -> Vec:
     """Return what a ray counts: the sky's light, times cosine over pi, over its density."""
     place = map_place(skies, sky, direction)
     light = light_at(skies, sky, place.across, place.down)
