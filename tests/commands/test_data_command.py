@@ -8,7 +8,9 @@ import pytest
 from PIL import Image
 
 from conftest import compiled_only
+from vtray.base.errors import SceneError
 from vtray.commands import cli
+from vtray.commands.annotation_options import annotations_of
 from vtray.commands.data_options import joined
 from vtray.commands.data_scene import load_data
 from vtray.commands.options import parse
@@ -49,7 +51,7 @@ def test_data_becomes_a_scene(water: Path) -> None:
     assert last.objects[0].center[0].tolist() == [1, 0, 0]
     assert (last.objects[0].color_scale.low, last.objects[0].color_scale.high) == (-1, 1)
     assert last.camera.size == (1024, 1024)
-    bound = scene_of(water, "--cutoff", "1.2", "--wrap", "--replicate", "2x1x1", "--no-cell")
+    bound = scene_of(water, "--cutoff", "1.2", "--wrap", "--replicate", "2,1,1", "--no-cell")
     assert [len(item) for item in bound.objects] == [6, 6]
     points = scene_of(water, "--style", "points", "--no-cell", "--size", "80x60")
     assert points.camera.size == (80, 60)
@@ -81,7 +83,7 @@ def test_values_that_look_like_options() -> None:
         (["--style", "ball"], "argument --style: invalid choice: 'ball' (choose from "),
         (
             ["--replicate", "2"],
-            "argument --replicate: expected three integers such as 3x3x1, got 2",
+            "argument --replicate: expected three integers such as 3,3,1, got 2",
         ),
         (["--view", "up"], "argument --view: expected x, -x, y, -y, z, -z, top, bottom, "),
         (["--clim", "1"], "argument --clim: expected two numbers such as -1,1, got 1"),
@@ -126,3 +128,11 @@ def test_picture_of_data(water: Path, vtray_command: Callable[..., CompletedProc
     with Image.open(picture) as made:
         assert made.size == (40, 30)
         assert made.getpixel((0, 0)) == (255, 255, 255)
+
+
+def test_legend_of_data(water: Path) -> None:
+    options = parse(["--legend", str(water), "picture.png"])
+    load_data(options)
+    assert [name for name, _ in annotations_of(options)["legend"]] == ["H", "O"]
+    with pytest.raises(SceneError, match="--legend: colours have no names"):
+        scene_of(water, "--legend", "--color", "charge")
