@@ -50,9 +50,20 @@ def scene_of(kind: str, size: float, place: float) -> Scene:
     if kind == "bonds":
         ends = centers + random.normal(size=(count, 3)) * 0.3
         scene.add_cylinders(centers * size + place, ends * size + place, 0.05 * size)
+        # So few that they have no hierarchy, and so long that balls around them say nothing.
+        scene.add_cones(centers[:3] * size + place, -4 * ends[:3] * size + place, 0.2 * size, 0)
     if kind == "copies":
         scene.add_copies(vtray.Sphere((0, 0, 0), 0.1), random.uniform(-1, 1, (20, 3)))
     return scene
+
+
+def spot_on_bond(bonds: Any, random: np.random.Generator) -> tuple[Any, Any]:
+    """Return a point of the side of one of many cylinders, and the normal there."""
+    which = random.integers(len(bonds))
+    axis = bonds.end[which] - bonds.start[which]
+    normal = np.cross(axis, random.normal(size=3))
+    normal = normal / math.sqrt(normal @ normal)
+    return bonds.start[which] + random.random() * axis + bonds.radius * normal, normal
 
 
 def set_fan(fan: Fan, start: Start, normal: Vec, length: float, forward: Vec, seed: int) -> None:
@@ -102,6 +113,8 @@ def test_what_stops_a_fan_stops_each_of_its_rays(
         if k % 4:
             which = random.integers(len(spheres.center))
             spot = spheres.center[which] + normal * np.asarray(spheres.radius)[which]
+        if kind == "bonds" and k % 3 == 0:
+            spot, normal = spot_on_bond(scene.objects[1], random)
         point = tuple(float(x) for x in spot * unit - np.array(world.origin))
         start = Start(point, dot(point, forward), magnitude(point))
         if start.plane_depth <= 0:

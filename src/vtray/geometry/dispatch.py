@@ -19,6 +19,7 @@ from vtray.geometry.shapes.cone import (
     cone_hides,
     cone_is_aside,
     cone_is_outside,
+    cone_sides,
     cone_surface,
     load_cone,
 )
@@ -28,6 +29,7 @@ from vtray.geometry.shapes.cylinder import (
     cylinder_hides,
     cylinder_is_aside,
     cylinder_is_outside,
+    cylinder_sides,
     cylinder_surface,
     load_cylinder,
 )
@@ -38,8 +40,10 @@ from vtray.geometry.shapes.plane import (
     plane_hides,
     plane_is_aside,
     plane_is_outside,
+    plane_sides,
     plane_surface,
 )
+from vtray.geometry.shapes.sides import Sides
 from vtray.geometry.shapes.sphere import (
     load_sphere,
     sphere_crossing,
@@ -47,6 +51,7 @@ from vtray.geometry.shapes.sphere import (
     sphere_hides,
     sphere_is_aside,
     sphere_is_outside,
+    sphere_sides,
     sphere_surface,
 )
 from vtray.geometry.shapes.surface import Surface
@@ -69,6 +74,8 @@ class Verbs(NamedTuple):
         Tells whether a ray is sure to miss a shape, at less cost: worth asking one ray at a time.
     hides
         Tells whether a shape stands between two points.
+    sides
+        Returns half-spaces in which a shape lies as it is seen from a point.
     is_outside
         Tells whether a point of the surface is looked at from outside, given the normal there.
     crossing
@@ -81,6 +88,7 @@ class Verbs(NamedTuple):
     distance_to: Callable[[Shape, Ray], float]
     is_aside: Callable[[Shape, Ray], bool]
     hides: Callable[[Shape, Segment], bool]
+    sides: Callable[[Shape, Vec, float], Sides]
     is_outside: Callable[[Shape, Vec, Vec], bool]
     crossing: Callable[[Shape, Bundle], Crossing]
     surface: Callable[[Shape, Vec, float], Surface]
@@ -99,6 +107,7 @@ def with_any(world: World, group: Group, slot: int, action: Action, arguments: A
             plane_distance,
             plane_is_aside,
             plane_hides,
+            plane_sides,
             plane_is_outside,
             plane_crossing,
             plane_surface,
@@ -131,6 +140,7 @@ def _with_one_of(
                 cylinder_distance,
                 cylinder_is_aside,
                 cylinder_hides,
+                cylinder_sides,
                 cylinder_is_outside,
                 cylinder_crossing,
                 cylinder_surface,
@@ -143,6 +153,7 @@ def _with_one_of(
                 cone_distance,
                 cone_is_aside,
                 cone_hides,
+                cone_sides,
                 cone_is_outside,
                 cone_crossing,
                 cone_surface,
@@ -153,6 +164,7 @@ def _with_one_of(
         sphere_distance,
         sphere_is_aside,
         sphere_hides,
+        sphere_sides,
         sphere_is_outside,
         sphere_crossing,
         sphere_surface,

@@ -37,6 +37,7 @@ from vtray.geometry.packets.fan_rays import (
     narrow_directions,
     open_rays,
     rays_along,
+    rays_between,
     set_ball,
     view_from,
 )
@@ -45,6 +46,7 @@ from vtray.geometry.rounding import MARGIN, ROUNDING
 from vtray.geometry.vector import Vec, add, dot, magnitude, scale, sub
 from vtray.geometry.world import (
     NO_TREE,
+    PLANE,
     SPHERE,
     Group,
     Places,
@@ -94,9 +96,10 @@ def stop_by_touching(bundle: Bundle, world: World, touching: Touching, count: in
     world, touching, count
         The shapes, so many.
     """
+    narrow_directions(bundle.fan, bundle.rays)
     for k in range(count):
         group = load_group(world, touching.row[k])
-        with_any(world, group, touching.slot[k], _stop_by_shape, bundle)
+        with_any(world, group, touching.slot[k], _stop_by_shape, (bundle, group.kind))
 
 
 @device
@@ -112,20 +115,25 @@ def stop_by_all(bundle: Bundle, world: World, stack: Stack) -> None:
     stack
         Scratch memory.
     """
+    narrow_directions(bundle.fan, bundle.rays)
     for row in range(group_count(world)):
         group = load_group(world, row)
         if group.root == NO_TREE:
             for slot in range(group.begin, group.end):
-                with_any(world, group, slot, _stop_by_shape, bundle)
+                with_any(world, group, slot, _stop_by_shape, (bundle, group.kind))
         else:
             _stop_by_tree(bundle, world, group, stack)
     _stop_by_placed(bundle, world, world.places, stack)
 
 
 @device
-def _stop_by_shape(shape: Shape, verbs: Verbs, number: int, bundle: Bundle) -> int:
+def _stop_by_shape(shape: Shape, verbs: Verbs, number: int, arguments: tuple[Bundle, int]) -> int:
     """Mark the rays that a shape stops."""
+    bundle, kind = arguments
     fan, rays, start, _, end_scale, _ = bundle
+    if kind not in (SPHERE, PLANE):
+        _hidden_rays(shape, verbs, number, (bundle, kind, open_rays(fan, rays)))
+        return number
     for ray in range(rays):
         segment = fan_segment(fan, ray, start, end_scale)
         fan[BLOCKED + ray] = 1.0 if verbs.hides(shape, segment) else fan[BLOCKED + ray]
@@ -141,7 +149,6 @@ def _stop_by_tree(bundle: Bundle, world: World, group: Group, stack: Stack) -> N
     margin = shape_margin(group.to_boxes, apex, start.error_scale)
     view = view_from(apex, bundle.normal, margin, ratio * bundle.longest)
     few = FEW if magnitude(apex) < SINGLE_HUGE else FAN + 1
-    narrow_directions(fan, bundle.rays)
     unstopped = open_rays(fan, bundle.rays)
     stack.node[0] = group.root
     stack.rays[0] = unstopped
@@ -224,7 +231,9 @@ def _stop_by_leaf(
             way = balls[k], balls[WIDTH + k], balls[2 * WIDTH + k]
             near &= rays_along(bundle.fan, bundle.rays, way, balls[3 * WIDTH + k])
         if near != NONE:
-            stopped |= with_bounded(world, group, stack.slot[k], _hidden_rays, (bundle, near))
+            stopped |= with_bounded(
+                world, group, stack.slot[k], _hidden_rays, (bundle, group.kind, near)
+            )
     return stopped
 
 
@@ -254,15 +263,18 @@ def _hidden_rays(
     shape: Shape,
     verbs: Verbs,
     number: int,  # noqa: ARG001
-    arguments: tuple[Bundle, np.uint64],
+    arguments: tuple[Bundle, int, np.uint64],
 ) -> np.uint64:
     """Mark those of some rays that a shape stops, and return them."""
-    bundle, rays = arguments
-    fan, hidden = bundle.fan, NONE
+    bundle, kind, rays = arguments
+    fan, start, hidden = bundle.fan, bundle.start, NONE
+    # Spheres are asked by their balls; for others, asking takes as long as four of the rays.
+    if kind not in (SPHERE, PLANE):
+        rays &= rays_between(fan, bundle.rays, verbs.sides(shape, start.point, start.error_scale))
     while rays != NONE:
         ray = first_bit(rays)
         rays &= rays - ONE
-        if verbs.hides(shape, fan_segment(fan, ray, bundle.start, bundle.end_scale)):
+        if verbs.hides(shape, fan_segment(fan, ray, start, bundle.end_scale)):
             fan[BLOCKED + ray] = 1.0
             hidden |= ONE << np.uint64(ray)
     return hidden

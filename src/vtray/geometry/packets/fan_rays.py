@@ -15,6 +15,7 @@ from vtray.geometry.bvh.boxes import Singles
 from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh
 from vtray.geometry.packets.beam import NEVER
 from vtray.geometry.packets.fan import BLOCKED, DIRECTION, FAN, SINGLES, Fan
+from vtray.geometry.shapes.sides import Sides
 from vtray.geometry.vector import Vec, magnitude
 
 OCTET = 8
@@ -192,6 +193,15 @@ def rays_along(fan: Fan, rays: int, way: Singles, least: np.float32) -> np.uint6
         met = octet_within(singles, 2 * SINGLES + OCTET * octet, FAN, way, least)
         found |= met << np.uint64(OCTET * octet)
     return found
+
+
+@device
+def rays_between(fan: Fan, rays: int, sides: Sides) -> np.uint64:
+    """Return the rays that are in all of some half-spaces, as far as single precision can tell."""
+    least = np.float32(-SINGLE_ERROR)
+    found = rays_along(fan, rays, narrow(sides.one), least)
+    found &= rays_along(fan, rays, narrow(sides.other), least)
+    return found & rays_along(fan, rays, narrow(sides.end), least)
 
 
 @written_in_llvm("vtray.geometry.packets.fan_in_llvm:write_octet_within")

@@ -13,11 +13,17 @@ from vtray.geometry.bundle import (
     is_looked_at,
     spread_along,
 )
-from vtray.geometry.rounding import ROUNDING
-from vtray.geometry.vector import Vec, add, dot, scale, sub
+from vtray.geometry.rounding import MARGIN, ROUNDING
+from vtray.geometry.shapes.sides import Sides
+from vtray.geometry.vector import Vec, add, cross, dot, scale, sub
+
+ON_SIDE = 0.125
+"""A point is on the side, or beside it, if it is no deeper than such a part of what rounding may
+do. What a shape stops comes in deeper than all of that."""
 
 TINY = 1e-300
-"""In place of a growth of 0, whose inverse must not be infinite times 0."""
+"""In place of a growth of 0, whose inverse must not be infinite times 0; the least square of a
+length whose direction is known."""
 
 
 class Axial(Protocol):
@@ -115,6 +121,36 @@ def cap_span(line: Line, low: float, high: float) -> Span:
 def both_spans(one: Span, other: Span) -> Span:
     """Return where a line is within two things."""
     return Span(max(one.near, other.near), min(one.far, other.far))
+
+
+@device
+def sides_around(shape: Axial, radius: float, point: Vec, error_scale: float) -> Sides:
+    """Return the half-spaces in which a shape lies as it is seen from a point.
+
+    Two are bounded by the planes through the point that touch an endless cylinder around the shape,
+    the third by the cap that the point is beyond.
+
+    Parameters
+    ----------
+    shape, radius
+        The shape, and how far it is from its axis at the most.
+    point, error_scale
+        The point, and what its rounding error is relative to.
+    """
+    error_bound = ROUNDING * (shape.error_scale + error_scale)
+    margin = MARGIN * (shape.error_scale + error_scale)
+    line = line_beside(shape, point, shape.axis)
+    distance2 = dot(line.beside, line.beside)
+    distance = math.sqrt(distance2)
+    end = 1.0 if line.height < -margin else -1.0 if line.height > shape.length + margin else 0.0
+    is_beside = (distance2 > TINY) & (distance >= radius - ON_SIDE * error_bound)
+    inverse = 1.0 / distance if is_beside else 0.0
+    inward = scale(-inverse, line.beside)
+    # From the side itself, what leads away from the axis does not come back.
+    sine = min((radius + margin) * inverse, 1.0)
+    cosine = math.sqrt(1.0 - sine * sine)
+    along, aside = scale(sine, inward), scale(cosine, cross(inward, shape.axis))
+    return Sides(add(along, aside), sub(along, aside), scale(end, shape.axis))
 
 
 @device

@@ -23,8 +23,10 @@ from vtray.geometry.shapes.axis_line import (
     is_second_half,
     line_beside,
     move_along,
+    sides_around,
 )
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
+from vtray.geometry.shapes.sides import Sides
 from vtray.geometry.shapes.surface import Surface
 from vtray.geometry.vector import Vec, add, cross, dot, magnitude, scale, sub
 
@@ -254,6 +256,14 @@ def cone_hides(cone: ConeShape, segment: Segment) -> bool:
     enters = meets & ((end_outside < -end_bound) | (middle < 1.0))
     leaves = (end_outside > end_bound) & ((start_outside < -error_bound) | meets)
     return enters if start_outside > error_bound else leaves
+
+
+@device
+def cone_sides(cone: ConeShape, point: Vec, error_scale: float) -> Sides:
+    """Return the half-spaces in which a cone lies as it is seen from a point."""
+    divisor = cone.cosine if cone.cosine > 0.0 else 1.0
+    widest = max(cone.room, cone.room + cone.length * cone.sine) / divisor
+    return sides_around(cone, widest, point, error_scale)
 
 
 @device

@@ -28,8 +28,10 @@ from vtray.geometry.shapes.axis_line import (
     is_second_half,
     line_beside,
     move_along,
+    sides_around,
 )
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
+from vtray.geometry.shapes.sides import Sides
 from vtray.geometry.shapes.surface import Surface
 from vtray.geometry.vector import Vec, add, dot, magnitude, scale, sub
 
@@ -185,6 +187,12 @@ def cylinder_hides(cylinder: CylinderShape, segment: Segment) -> bool:
     enters = meets & ((end_outside < -end_bound) | (middle < 1.0))
     leaves = (end_outside > end_bound) & ((start_outside < -error_bound) | meets)
     return enters if start_outside > error_bound else leaves
+
+
+@device
+def cylinder_sides(cylinder: CylinderShape, point: Vec, error_scale: float) -> Sides:
+    """Return the half-spaces in which a cylinder lies as it is seen from a point."""
+    return sides_around(cylinder, cylinder.side_radius, point, error_scale)
 
 
 @device

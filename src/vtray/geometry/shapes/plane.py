@@ -8,6 +8,7 @@ from vtray.geometry.bundle import Bundle, Crossing, spread_along
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
+from vtray.geometry.shapes.sides import Sides, all_sides
 from vtray.geometry.shapes.surface import Surface
 from vtray.geometry.vector import Vec, dot, magnitude, sub
 
@@ -133,6 +134,12 @@ def plane_blocks(
     # (|start| end_plane_depth + |end| start_plane_depth) / (|start| + |end|).
     crossing = abs(start) * end_plane_depth + abs(end) * start_plane_depth
     return opposite & (crossing > error_bound * (abs(start) + abs(end)))
+
+
+@device
+def plane_sides(plane: PlaneShape, point: Vec, error_scale: float) -> Sides:  # noqa: ARG001
+    """Return half-spaces that hold all directions: a plane is everywhere."""
+    return all_sides()
 
 
 @device

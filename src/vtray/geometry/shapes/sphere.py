@@ -15,6 +15,7 @@ from vtray.geometry.bundle import (
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
+from vtray.geometry.shapes.sides import Sides, all_sides
 from vtray.geometry.shapes.surface import Surface
 from vtray.geometry.vector import Vec, add, cross, dot, magnitude, scale, sub
 
@@ -180,6 +181,12 @@ def sphere_blocks(
     )
     leaves = (end > end_slack) & ((start < -slack) | (toward > 0.0))
     return enters if start > slack else leaves
+
+
+@device
+def sphere_sides(sphere: SphereShape, point: Vec, error_scale: float) -> Sides:  # noqa: ARG001
+    """Return half-spaces that hold all directions: the ball around it says as much."""
+    return all_sides()
 
 
 @device
