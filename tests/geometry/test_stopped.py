@@ -19,6 +19,7 @@ from vtray.geometry.packets.fan import (
     DIRECTION,
     END,
     END_PLANE_DEPTH,
+    END_SCALE,
     FAN,
     LENGTH,
     SINGLES,
@@ -146,7 +147,7 @@ def ask_bits(bits: Any) -> Any:
 def test_octets_are_asked_as_numpy_asks_them() -> None:
     random = np.random.default_rng(2)
     singles = new_fan().view(np.float32)
-    singles[2 * SINGLES :] = random.normal(size=4 * FAN)
+    singles[2 * SINGLES : 2 * END_SCALE] = random.normal(size=4 * FAN)
     singles[2 * SINGLES : 2 * SINGLES + FAN] = np.round(singles[2 * SINGLES : 2 * SINGLES + FAN])
     for _ in range(100):
         way = tuple(np.float32(x) for x in np.round(random.normal(size=3)))

@@ -77,10 +77,8 @@ def test_threads_and_tiles_are_checked(bad: object) -> None:
 def test_scene_changed_in_code_is_checked() -> None:
     document = vtray.loads(json.dumps(one_sphere()))
     document.objects.append("cube")
-    with pytest.raises(
-        vtray.SceneError,
-        match=r"Scene.objects\[1\]: expected Sphere, Cylinder, Plane, Spheres, Cylinders or Copies",
-    ):
+    kinds = "Sphere, Cylinder, Cone, Plane, Spheres, Cylinders, Cones or Copies"
+    with pytest.raises(vtray.SceneError, match=rf"Scene.objects\[1\]: expected {kinds}"):
         vtray.render(document)
 
 
