@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.scene.camera import Camera
-from vtray.scene.placing.directions import Vec, camera_axes, unit, view_axes
+from vtray.scene.placing.moved import axes_of
 
 Floats = NDArray[np.float64]
 
@@ -26,14 +26,6 @@ class Places(NamedTuple):
     column: Floats
     row: Floats
     depth: Floats
-
-
-def axes_of(camera: Camera) -> tuple[Vec, Vec, Vec]:
-    """Return the unit axes of a camera in world space: right, down, forward."""
-    forward = unit(camera.normal)
-    if camera.up is None:
-        return *camera_axes(forward), forward
-    return *view_axes(forward, unit(camera.up)), forward
 
 
 def project(camera: Camera, points: Floats) -> Places:

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.exact_math import hypotenuse
-from vtray.figures.projection import axes_of
 from vtray.figures.sheet import FigureError
 from vtray.scene.camera import Camera
 from vtray.scene.placing.directions import dot
+from vtray.scene.placing.moved import axes_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -61,7 +61,7 @@ class AddingParticles:
         particles
             What `vtray.read` returns; atoms of ASE; or positions of shape (n, 3).
         style
-            ``"spacefill"``: balls of van der Waals radii. ``"ball-and-stick"``: half of covalent
+            ``"spacefill"``: balls of van der Waals radii. ``"ball-and-stick"``: 0.6 of covalent
             radii, and thin bonds. ``"licorice"``: bonds, and balls as thick as these. ``"points"``:
             balls of one size in the picture, 1.5 pixels wide, so that none falls between pixels.
             By default ball-and-stick where bonds are asked for, or known between at most 5000
