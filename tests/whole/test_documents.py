@@ -96,7 +96,7 @@ def test_caption_counts_the_lights_of_the_scene() -> None:
 def test_blocks_are_found() -> None:
     assert list(blocks("command")) == ["run", "test"]
     assert all(f"<!-- command: {name} -->" in README for name in blocks("command"))
-    assert set(blocks("example")) == {"arrays", "data", "file", "code", "knot"}
+    assert set(blocks("example")) == {"arrays", "data", "code", "knot"}
     assert len(blocks("output")) == 1
     assert list(blocks("arrays")) == list(blocks("object")) == ["atoms"]
 
