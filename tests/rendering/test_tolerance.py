@@ -108,6 +108,13 @@ def test_hard_lights_have_no_error_and_changed_pictures_none_that_is_known() -> 
     assert np.isnan(kept.relight([0.5]).error).all()
 
 
+def test_error_of_a_lamp_with_a_radiance_is_a_part_of_its_light() -> None:
+    # Its rays count little, as it is small: what none of them meets is no more than that.
+    lamp = vtray.SphereLight((3, -4, 9), 0.2, radiance=400.0)
+    image = render(scene_of([lamp]), exposure=1.0, tolerance=1e6)
+    assert 0 < image.error.max() < 0.2 * image.linear.max()
+
+
 @compiled_only
 @pytest.mark.parametrize("samples", [1, 4])
 def test_kept_light_does_not_look_at_light(samples: int) -> None:

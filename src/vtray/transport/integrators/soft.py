@@ -201,7 +201,7 @@ def _arriving(
         shares, spread = arriving_shares(fan, fans.rays, components, aim, normal)
         estimate = with_fan(estimate, shares, spread)
         arrived += count_open(fan, fans.rays)
-    variance = with_unseen(estimate, fans.rays)
+    variance = with_unseen(estimate, fans.rays, aim.share)
     counted = counted_variance(estimate, fans, worth)
     return Arriving(shares_of(estimate), variance, counted, cast, arrived)
 

@@ -122,7 +122,10 @@ def variance_of(estimate: Estimate) -> float:
 
 
 @device
-def with_unseen(estimate: Estimate, rays: int) -> float:
-    """Return the variance of the shares, at least what fans of so many rays may not see."""
-    unseen = UNSEEN / (max(estimate.fans, 1) * rays)
+def with_unseen(estimate: Estimate, rays: int, weight: float) -> float:
+    """Return the variance of the shares, at least what fans of so many rays may not see.
+
+    The weight is what one of the rays counts.
+    """
+    unseen = UNSEEN * weight / (max(estimate.fans, 1) * rays)
     return max(variance_of(estimate), unseen * unseen)
