@@ -48,11 +48,15 @@ def test_machine_code_of_all_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(key_sort, "SMALL", 16)  # so many keys are worth a thread
     scene = vtray.Scene()
     scene.objects = [cloud("uniform", 200, 1)]
-    for count in (0, 200):  # without cylinders, and with them, kernels are not the same
+    for count in (0, 200):  # without long shapes, and with them, kernels are not the same
         if count:
             start, end = np.random.default_rng(1).uniform(-1, 1, (2, count, 3))
             scene.add_cylinders(start, end, 0.05)
+            scene.add_cones(start, end, 0.05)
         render_all_ways(scene)
+    scene.lights = [vtray.Sun((1, 2, -3 - k)) for k in range(150)]  # so many share their rays
+    vtray.render(scene)
+    vtray.trace_pixel(scene, 4, 3)
     for item in kernels():
         files = [file for types in item._native if (file := item._file(types))]
         found = [compiled for file in files for compiled in with_parts(file)]
