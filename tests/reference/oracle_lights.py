@@ -21,7 +21,6 @@ Scene = dict[str, Any]
 Long = np.longdouble
 
 FANS = 2**16
-MOST_RAYS, LEAST_RAYS = 64, 8
 FAR = Long(2) ** 2000
 """How long rays are that end nowhere."""
 
@@ -155,9 +154,7 @@ class SoftOracle:
             error = render.magnitude(item) + (render.extent + render.focus) + distance[0]
         return Hit(item, (start + distance[:, None] * ray)[0], normal[0], float(error))
 
-    def fan(
-        self, hit: Hit, light: int, column: int, row: int, seed: int, samples: int = 1, at: int = 0
-    ) -> Fan:
+    def fan(self, hit: Hit, light: int, column: int, row: int, seed: int, rays: int) -> Fan:
         """Return the rays from a hit to one of the soft lights.
 
         Parameters
@@ -168,12 +165,11 @@ class SoftOracle:
             The light, counted among the soft ones.
         column, row, seed
             The pixel, and the seed.
-        samples, at
-            How many samples a pixel has, and which of them this is.
+        rays
+            How many.
         """
-        rays = rays_of(samples)
         keys = sample_places.pixel_keys(column, row, FANS + light, seed)
-        numbers = sobol((at + 1) * rays)[:, at * rays :]
+        numbers = sobol(rays)
         points = np.stack(
             [sample_places.owen(numbers[k], np.uint64(keys[k])) for k in range(2)], axis=-1
         )
@@ -372,14 +368,6 @@ class SoftOracle:
 def sobol(count: int) -> Array:
     """Return the first points of Sobol's sequence, (2, count) of 32 bits each."""
     return np.array(sample_places.sobol(count), np.uint64)
-
-
-def rays_of(samples: int) -> int:
-    """Return how many rays go from a hit to a light, if a pixel has so many samples."""
-    rays = MOST_RAYS
-    while rays > LEAST_RAYS and rays * samples > MOST_RAYS:
-        rays //= 2
-    return rays
 
 
 def unit(vector: Array) -> Array:

@@ -25,7 +25,7 @@ from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
 from vtray.rendering.pack_lights import FAR
 from vtray.transport.integrators import reference
-from vtray.transport.sampling.fans import Noise, fan_keys, fan_point, fans_of_middles
+from vtray.transport.sampling.fans import NO_OFFSET, Noise, fan_keys, fan_point, fans_of_middles
 
 Scene = dict[str, Any]
 
@@ -80,7 +80,7 @@ def compare_fans(
             found, _ = reference.trace_fan(
                 arrays, soft, traced, column, row, light, fans, 0, seed, stack, fan, stopped
             )
-            expected = by_rules.fan(hit, light, column, row, seed)
+            expected = by_rules.fan(hit, light, column, row, seed, fans.rays)
             share = np.array(found[: expected.weights.shape[1]])
             shares.append(share)
             sky = by_rules.skies.get(light)
@@ -110,7 +110,7 @@ def is_same(hit: Hit, point: np.ndarray, normal: np.ndarray) -> bool:
 
 def _order(points: np.ndarray, keys: tuple[int, int], expected: np.ndarray) -> np.ndarray:
     """Return which of the points expected vtray's rays have, (rays,): the same, in any order."""
-    found = np.array([fan_point(points, k, keys) for k in range(len(expected))])
+    found = np.array([fan_point(points, k, NO_OFFSET, keys) for k in range(len(expected))])
     one, other = (np.lexsort(item.T) for item in (found, expected))
     np.testing.assert_array_equal(found[one], expected[other])
     order = np.empty(len(one), int)

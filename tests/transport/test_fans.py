@@ -13,7 +13,22 @@ from machine_code import instructions_in
 from conftest import JIT, compiled_only, x86_only
 from vtray.base.compiler.compiled import Kernel, kernel, uncompiled
 from vtray.base.compiler.object_code import compile_object
-from vtray.transport.sampling.fans import RUN, fan_keys, fan_of_sample, fan_point, fan_points
+from vtray.transport.sampling.fans import (
+    COARSE,
+    NO_OFFSET,
+    RUN,
+    Noise,
+    block_offsets,
+    fan_keys,
+    fan_point,
+    fan_points,
+    fans_of_middles,
+    fans_of_samples,
+    is_coarse,
+    offset_of,
+    place_of,
+    shared_keys,
+)
 from vtray.transport.sampling.sobol import (
     IMAGE_PLACE,
     pixel_keys,
@@ -28,9 +43,15 @@ FANS = [8, 16, 32, 64, 128, 256]
 SIDE = 64 if JIT else 24
 
 
+def points_of(fan: int, blocks: int) -> np.ndarray:
+    """Return the points of so many blocks of fans, one after the other, unscrambled."""
+    points, offsets = fan_points(fan), block_offsets(fan, blocks)
+    return (points[:, None, :] ^ offsets[:, :, None]).reshape(2, -1)
+
+
 def places(points: np.ndarray, keys: tuple[int, int]) -> np.ndarray:
-    """Return all points of fans, (count, 2)."""
-    return np.array([fan_point(points, k, keys) for k in range(points.shape[1])])
+    """Return points of fans, (count, 2)."""
+    return np.array([fan_point(points, k, NO_OFFSET, keys) for k in range(points.shape[1])])
 
 
 def cells_of(found: np.ndarray, columns: int, rows: int) -> np.ndarray:
@@ -62,10 +83,10 @@ def test_cells_are_nearly_square() -> None:
 @pytest.mark.parametrize("fan", FANS)
 @pytest.mark.parametrize("samples", [1, 3, 4])
 def test_fans_are_blocks_of_sobols_sequence(fan: int, samples: int) -> None:
-    points = fan_points(fan, samples)
-    assert points.shape == (2, fan * samples)
-    assert points.dtype == np.int64
-    assert points.flags.c_contiguous
+    assert fan_points(fan).shape == (2, fan)
+    assert fan_points(fan).dtype == np.int64
+    assert fan_points(fan).flags.c_contiguous
+    points = points_of(fan, samples)
     numbers = points[0].reshape(samples, fan)
     assert (np.sort(numbers) == np.arange(fan * samples).reshape(samples, fan)).all()
     np.testing.assert_array_equal(points, sobol_points(fan * samples)[:, points[0]])
@@ -76,7 +97,7 @@ def test_fans_are_blocks_of_sobols_sequence(fan: int, samples: int) -> None:
 @pytest.mark.parametrize("fan", FANS)
 @given(keys=KEYS)
 def test_runs_share_a_cell(fan: int, keys: tuple[int, int]) -> None:
-    found = places(fan_points(fan, 3), keys)
+    found = places(points_of(fan, 3), keys)
     assert ((found >= 0) & (found < 1)).all()
     columns, rows = grid_of(fan)
     cells = cells_of(found, columns, rows).reshape(3, fan // RUN, RUN, 2)
@@ -89,7 +110,7 @@ def test_runs_share_a_cell(fan: int, keys: tuple[int, int]) -> None:
 @given(keys=KEYS)
 def test_runs_that_follow_share_larger_cells(fan: int, keys: tuple[int, int]) -> None:
     columns, rows = grid_of(fan)
-    cells = cells_of(places(fan_points(fan, 2), keys)[::RUN], columns, rows)
+    cells = cells_of(places(points_of(fan, 2), keys)[::RUN], columns, rows)
     together = 2
     while together < fan // RUN:
         for group in cells.reshape(-1, together, 2):
@@ -106,13 +127,13 @@ def test_runs_that_follow_share_larger_cells(fan: int, keys: tuple[int, int]) ->
 
 @given(keys=KEYS)
 def test_two_runs_of_64_points_share_a_quarter(keys: tuple[int, int]) -> None:
-    quarters = cells_of(places(fan_points(64, 2), keys), 2, 2).reshape(-1, 2 * RUN, 2)
+    quarters = cells_of(places(points_of(64, 2), keys), 2, 2).reshape(-1, 2 * RUN, 2)
     assert (quarters == quarters[:, :1]).all()
 
 
 @pytest.mark.parametrize("fan", FANS)
 def test_runs_that_follow_are_side_by_side(fan: int) -> None:
-    points = fan_points(fan, 1)
+    points = fan_points(fan)
     unscrambled = np.array([[int(f"{n:032b}"[::-1], 2) for n in axis] for axis in points.tolist()])
     cells = cells_of(unscrambled.T[::RUN] / 2**32, *grid_of(fan))
     assert (np.abs(np.diff(cells, axis=0)).sum(axis=1) == 1).all()
@@ -121,25 +142,55 @@ def test_runs_that_follow_are_side_by_side(fan: int) -> None:
 @pytest.mark.parametrize("fan", [8, 32, 64])
 @given(keys=KEYS)
 def test_each_fan_and_all_together_are_nets(fan: int, keys: tuple[int, int]) -> None:
-    found = places(fan_points(fan, 4), keys)
+    found = places(points_of(fan, 4), keys)
     for block in found.reshape(4, fan, 2):
         assert_net(block)
     assert_net(found[: 2 * fan])
     assert_net(found)
 
 
+@pytest.mark.parametrize("samples", [4, 16, 64])
+def test_fans_of_samples_are_nets_together_and_each(samples: int) -> None:
+    fans = fans_of_samples(samples, Noise(0.01, by_light=True))
+    keys, places_of_all = fan_keys(7, 2, 3, 5), range(1 << fans.levels)
+
+    def fan(sample: int, number: int) -> np.ndarray:
+        place = place_of(fans.levels, sample, 7, 2, 3, 5)
+        offset = offset_of(fans.offsets, place, number)
+        return np.array([fan_point(fans.points, k, offset, keys) for k in range(fans.rays)])
+
+    # The first fans of 2, 4 ... samples that follow each other, and the first fans of each.
+    for count in (2, 4, samples):
+        assert_net(np.concatenate([fan(sample, 0) for sample in places_of_all[:count]]))
+    for sample in places_of_all[:4]:
+        for count in (2, 4):
+            assert_net(np.concatenate([fan(sample, number) for number in range(count)]))
+    numbers = [k ^ place for place in places_of_all for k in range(fans.fans)]
+    assert max(numbers) < fans.offsets.shape[1]
+
+
+@pytest.mark.parametrize("tolerance", [0.001, COARSE / 1.01, COARSE, 1.0])
+def test_fans_of_samples_have_fewer_rays_where_much_noise_may_be(tolerance: float) -> None:
+    noise = Noise(tolerance, by_light=True, is_coarse=is_coarse(tolerance))
+    parts = 1 if tolerance < COARSE else 2
+    assert fans_of_middles(noise).rays == 64
+    assert fans_of_samples(16, noise).rays == 16 // parts
+    assert fans_of_samples(2, noise).rays == 32 // parts
+
+
 def test_keys_of_lights_differ_from_all_others() -> None:
     lights = [fan_keys(5, 3, light, 1) for light in range(1000)]
+    lights += [shared_keys(5, 3, sample, 1) for sample in range(1000)]
     others = [pixel_keys(5, 3, purpose, 1) for purpose in range(1000)]
-    assert len(set(lights + others)) == 2000
+    assert len(set(lights + others)) == 3000
 
 
 def field(point: int, light: int) -> np.ndarray:
     """Return where a point of the fans of each pixel of a picture lies, (SIDE, SIDE, 2)."""
-    points = fan_points(64, point // 64 + 1)
+    points = points_of(64, point // 64 + 1)
     return np.array(
         [
-            [fan_point(points, point, fan_keys(x, y, light, 0)) for x in range(SIDE)]
+            [fan_point(points, point, NO_OFFSET, fan_keys(x, y, light, 0)) for x in range(SIDE)]
             for y in range(SIDE)
         ]
     )
@@ -176,13 +227,13 @@ def test_lights_and_places_in_the_image_are_independent(point: int) -> None:
 @pytest.mark.parametrize("levels", [2, 4, 6])
 def test_samples_of_two_lights_and_the_image_are_independent(levels: int) -> None:
     samples = 1 << levels
-    points, numbers = fan_points(16, samples), sobol_points(samples).T.tolist()
+    points, numbers = points_of(16, samples), sobol_points(samples).T.tolist()
     pixels = [(x, y) for x in range(20) for y in range(20 if JIT else 5)]
 
     def fans(x: int, y: int, light: int) -> np.ndarray:
         keys = fan_keys(x, y, light, 0)
-        order = [fan_of_sample(levels, k, x, y, light, 0) for k in range(samples)]
-        return np.array([fan_point(points, 16 * k, keys) for k in order])
+        order = [place_of(levels, k, x, y, light, 0) for k in range(samples)]
+        return np.array([fan_point(points, 16 * k, NO_OFFSET, keys) for k in order])
 
     def image(x: int, y: int) -> np.ndarray:
         keys = pixel_keys(x, y, IMAGE_PLACE, 0)
@@ -211,9 +262,11 @@ def test_shuffled_blocks_stay_blocks(levels: int, key: int) -> None:
 
 @given(KEYS, st.integers(0, 64 * 3 - 1))
 def test_compiled_equals_plain_python(keys: tuple[int, int], k: int) -> None:
-    points = fan_points(64, 3)
-    found = fan_point(points, k, keys)
-    assert found == uncompiled(fan_point)(points, k, keys)
+    points = points_of(64, 3)
+    found = fan_point(points, k, NO_OFFSET, keys)
+    assert found == uncompiled(fan_point)(points, k, NO_OFFSET, keys)
+    first, offsets = fan_points(64), block_offsets(64, 3)
+    assert found == fan_point(first, k % 64, (offsets[0, k // 64], offsets[1, k // 64]), keys)
     reversed_points = [sample_places.reversed_bits(n) for n in points[:, k].tolist()]
     assert found == tuple(map(sample_places.owen, reversed_points, keys))
 
@@ -222,13 +275,13 @@ def test_compiled_equals_plain_python(keys: tuple[int, int], k: int) -> None:
 def place_run(points: Any, first: int, count: int, keys: tuple[int, int], run: Any) -> None:
     """Set the points of a run, all columns and then all rows."""
     for k in range(count):
-        u, v = fan_point(points, first + k, keys)
+        u, v = fan_point(points, first + k, NO_OFFSET, keys)
         run[k] = u
         run[RUN + k] = v
 
 
 def test_runs_in_kernels() -> None:
-    points, run = fan_points(32, 2), np.zeros(2 * RUN)
+    points, run = points_of(32, 2), np.zeros(2 * RUN)
     place_run(points, 40, RUN, (3, 2**32 - 1), run)
     np.testing.assert_array_equal(
         run.reshape(2, RUN).T, places(points, (3, 2**32 - 1))[40 : 40 + RUN]
@@ -238,7 +291,7 @@ def test_runs_in_kernels() -> None:
 @compiled_only
 @x86_only
 def test_runs_are_vectorised() -> None:
-    arguments = fan_points(32, 2), 40, RUN, (3, 5), np.zeros(2 * RUN)
+    arguments = points_of(32, 2), 40, RUN, (3, 5), np.zeros(2 * RUN)
     code = compile_object(place_run._function, arguments, Kernel._options).code
     # Several products of integers at once.
     assert instructions_in(code) & {"pmuludq", "vpmuludq", "vpmullq"}

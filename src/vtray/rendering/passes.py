@@ -19,7 +19,7 @@ from vtray.rendering.growth import DRAFT_TILE, Growth, draft_camera
 from vtray.scene.settings import RenderSettings
 from vtray.transport.film import Film, new_film
 from vtray.transport.light_buffer import KeptLight, new_kept_light
-from vtray.transport.sampling.fans import Noise, fans_of_middles, fans_of_samples
+from vtray.transport.sampling.fans import Noise, fans_of_middles, fans_of_samples, is_coarse
 from vtray.transport.sampling.pixel_samples import (
     Sampling,
     filter_footprint,
@@ -146,21 +146,23 @@ class Tracer:
         if soft is None:
             return None
         if keep:
-            return Noise(settings.tolerance * len(soft.kind), by_light=False)
+            error, coarse = settings.tolerance * len(soft.kind), is_coarse(settings.tolerance)
+            return Noise(error, by_light=False, is_coarse=coarse)
         if white is None:
             white = self._about_peak(settings)
-        return self._noise_of_light(settings.tolerance * white or math.inf)
+        return self._noise_of_light(settings.tolerance * white or math.inf, settings)
 
-    def _noise_of_light(self, error: float) -> Noise:
+    def _noise_of_light(self, error: float, settings: RenderSettings) -> Noise:
         """Return how noisy light may be that is not kept to be changed."""
-        return Noise(error, by_light=True, are_shared=self._scene.lights.crowd is not None)
+        are_shared = self._scene.lights.crowd is not None
+        return Noise(error, True, are_shared, is_coarse(settings.tolerance))
 
     def _about_peak(self, settings: RenderSettings) -> float:
         """Return the largest channel of some pixels, with as few rays as there can be."""
         marks = np.zeros(self._size[::-1], np.bool_)
         marks[SPARSE // 2 :: SPARSE, SPARSE // 2 :: SPARSE] = True
         has_samples = settings.samples > 1
-        fans = fans_of_middles(self._noise_of_light(math.inf))
+        fans = fans_of_middles(self._noise_of_light(math.inf, settings))
         rays = middle_rays(before_samples=has_samples, fans=fans, seed=int(settings.seed))
         film = new_film(*self._size, *(SAMPLES if has_samples else one_ray(self._scene)))
         tiles = split_into_tiles(*self._size, self._tile)

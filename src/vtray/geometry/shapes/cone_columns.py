@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import device, input_array, kernel, pinned
 from vtray.geometry.bvh.primitives import Boxes, Numbers
 from vtray.geometry.shapes.cone import SIZE
-from vtray.geometry.vector import Vec, add, lower, scale, sub, upper
+from vtray.geometry.shapes.cylinder_columns import half_point, radius_of
+from vtray.geometry.vector import add, lower, scale, sub, upper
 
 
 class ConeColumns(NamedTuple):
@@ -79,22 +80,15 @@ def gather_cones(
         for axis in range(3):
             data[place + axis] = given.start[number, axis]
             data[place + 3 + axis] = given.end[number, axis]
-        data[place + 6] = _pick(given.radius, number)
-        data[place + 7] = _pick(given.radius_end, number)
+        data[place + 6] = radius_of(given.radius, number)
+        data[place + 7] = radius_of(given.radius_end, number)
         _set_box(given, number, boxes, k)
-
-
-@device
-def _pick(column: NDArray[np.float64], number: int) -> float:
-    """Return one of some radii."""
-    radius: float = column[number if column.shape[0] > 1 else 0]
-    return radius
 
 
 @device
 def _set_box(given: ConeColumns, number: int, boxes: Boxes, k: int) -> None:
     """Set a box to that of a cone, which is that of the discs at its ends."""
-    start, end = _half(given.start, number), _half(given.end, number)
+    start, end = half_point(given.start, number), half_point(given.end, number)
     way = sub(end, start)
     # In parts of the largest, so that no square overflows.
     largest = max(abs(way[0]), abs(way[1]), abs(way[2]))
@@ -105,14 +99,8 @@ def _set_box(given: ConeColumns, number: int, boxes: Boxes, k: int) -> None:
         math.sqrt((x * x + z * z) / length2),
         math.sqrt((x * x + y * y) / length2),
     )
-    first = scale(0.5 * _pick(given.radius, number), disc)
-    last = scale(0.5 * _pick(given.radius_end, number), disc)
+    first = scale(0.5 * radius_of(given.radius, number), disc)
+    last = scale(0.5 * radius_of(given.radius_end, number), disc)
     low, high = lower(sub(start, first), sub(end, last)), upper(add(start, first), add(end, last))
     boxes[0, k], boxes[1, k], boxes[2, k] = add(low, high)
     boxes[3, k], boxes[4, k], boxes[5, k] = sub(high, low)
-
-
-@device
-def _half(points: NDArray[np.float64], k: int) -> Vec:
-    """Return half of a point, as sums and differences of whole ones could overflow."""
-    return 0.5 * points[k, 0], 0.5 * points[k, 1], 0.5 * points[k, 2]

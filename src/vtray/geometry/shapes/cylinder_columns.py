@@ -72,23 +72,23 @@ def gather_cylinders(
         for axis in range(3):
             data[place + axis] = given.start[number, axis]
             data[place + 3 + axis] = given.end[number, axis]
-        data[place + 6] = _radius(given, number)
+        data[place + 6] = radius_of(given.radius, number)
         _set_box(given, number, boxes, k)
 
 
 @device
-def _radius(given: CylinderColumns, number: int) -> float:
-    """Return the radius of a cylinder."""
-    radius: float = given.radius[number if given.radius.shape[0] > 1 else 0]
+def radius_of(column: NDArray[np.float64], number: int) -> float:
+    """Return one of some radii, of which there may be one for all."""
+    radius: float = column[number if column.shape[0] > 1 else 0]
     return radius
 
 
 @device
 def _set_box(given: CylinderColumns, number: int, boxes: Boxes, k: int) -> None:
     """Set a box to that of a cylinder, which is that of the discs at its ends."""
-    start, end = _half(given.start, number), _half(given.end, number)
+    start, end = half_point(given.start, number), half_point(given.end, number)
     center, half = add(start, end), sub(end, start)
-    radius = _radius(given, number)
+    radius = radius_of(given.radius, number)
     # In parts of the largest, so that no square overflows.
     largest = max(abs(half[0]), abs(half[1]), abs(half[2]))
     x, y, z = scale(1.0 / largest, half) if largest > 0.0 else (1.0, 1.0, 1.0)
@@ -100,6 +100,6 @@ def _set_box(given: CylinderColumns, number: int, boxes: Boxes, k: int) -> None:
 
 
 @device
-def _half(points: NDArray[np.float64], k: int) -> Vec:
+def half_point(points: NDArray[np.float64], k: int) -> Vec:
     """Return half of a point, as sums and differences of whole ones could overflow."""
     return 0.5 * points[k, 0], 0.5 * points[k, 1], 0.5 * points[k, 2]

@@ -41,7 +41,7 @@ from vtray.transport.sampling.estimate import (
     shares_of,
     with_fan,
 )
-from vtray.transport.sampling.fans import Fans, fan_keys
+from vtray.transport.sampling.fans import Fans, fan_keys, offset_of, place_of, shared_keys
 from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
 from vtray.transport.sampling.shared_estimate import (
     light_of,
@@ -181,8 +181,9 @@ def _trace_fan(
     start = Start(point, dot(point, scene.camera.forward), error_scale)
     aim = aim_at(soft, light, start, normal)
     keys, forward = fan_keys(column, row, light, seed), scene.camera.forward
-    place = number * fans.rays
-    spread_fan(fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, place, keys)
+    place = place_of(fans.levels, 0, column, row, light, seed)
+    offset = offset_of(fans.offsets, place, number)
+    spread_fan(fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, offset, keys)
     end_scale = soft.error_scale[light] + error_scale
     for ray in range(fans.rays):
         blockers[ray] = NOTHING
@@ -289,7 +290,7 @@ def _trace_shared_fan(
     point, normal, error_scale, is_second = traced.interaction
     material = load_material(scene.materials, traced.primitive, is_second)
     start = Start(point, dot(point, scene.camera.forward), error_scale)
-    keys, place = fan_keys(column, row, soft_count(soft), seed), number * fans.rays
+    keys, first = shared_keys(column, row, 0, seed), number * fans.rays
     spread_among(
         fan,
         fans.rays,
@@ -301,7 +302,7 @@ def _trace_shared_fan(
         material,
         scene.camera.forward,
         fans.points,
-        place,
+        first,
         keys,
         shared,
     )
@@ -390,5 +391,5 @@ def trace_crowd(
             blockers,
             shared,
         )
-        estimate = with_shared_fan(estimate, pool, fan, fans, 0, shared.brought)
+        estimate = with_shared_fan(estimate, pool, fan, fans, shared.brought)
     return TracedCrowd(estimate.fans, add(value, light_of(estimate, fans)))

@@ -26,7 +26,7 @@ from vtray.geometry.packets.packet import (
     load,
     store,
 )
-from vtray.geometry.packets.workspace import Workspace
+from vtray.geometry.packets.workspace import Pixels, Workspace
 from vtray.geometry.stopped import Bundle, stop_by_all, stop_by_touching
 from vtray.geometry.vector import Vec, add
 from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
@@ -52,7 +52,7 @@ from vtray.transport.sampling.estimate import (
     with_fan,
     with_unseen,
 )
-from vtray.transport.sampling.fans import Fans, fan_keys, fan_of_sample
+from vtray.transport.sampling.fans import Fans, fan_keys, offset_of, place_of
 from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
 from vtray.transport.scene_arrays import LitWorld
 
@@ -85,6 +85,19 @@ def clear_noise(packet: Packet, hits: int) -> None:
     """Start with light of no variance."""
     for hit in range(hits):
         packet[NOISE + hit] = 0.0
+
+
+@device
+def sample_of(
+    lane: int, samples: int, first: int, block: Block, begin: int, pixels: Pixels
+) -> tuple[int, int, int]:
+    """Return the pixel of a lane, its column and row, and the number of its sample.
+
+    The parameters are those of `add_soft_lights`; `pixels` is the block's list.
+    """
+    pixel = pixels[begin + lane // samples]
+    column, row = block.left + (pixel & (BLOCK - 1)), block.top + pixel // BLOCK
+    return column, row, first + lane % samples
 
 
 @part
@@ -128,19 +141,16 @@ def add_soft_lights(
     clear_noise(packet, hits)
     for hit in range(hits):
         lane = packet.view(np.int64)[SOURCE + hit]
-        pixel = work.pixels[begin + lane // samples]
-        column, row = block.left + (pixel & (BLOCK - 1)), block.top + pixel // BLOCK
-        material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
-        sample, spent = first + lane % samples, 0.0
+        column, row, sample = sample_of(lane, samples, first, block, begin, work.pixels)
+        material, spent = Material(load(packet, COLOR, hit), packet[LAMBERT + hit]), 0.0
         for light in range(soft_count(soft)):
             if _is_uneven(packet, hit, lit, soft, light, is_wide, work):
                 break
             keys = fan_keys(column, row, light, seed)
-            number = fan_of_sample(fans.levels, sample, column, row, light, seed)
-            point = number * fans.rays * fans.fans
+            place = place_of(fans.levels, sample, column, row, light, seed)
             worth = soft_worth(lit.powers, soft, light, material)
             arriving = _arriving(
-                packet, hit, lit, soft, light, worth, spent, fans, point, keys, work
+                packet, hit, lit, soft, light, worth, spent, fans, place, keys, work
             )
             spent += arriving.counted
             for component in range(component_count(soft, light)):
@@ -162,7 +172,7 @@ def _arriving(
     worth: float,
     spent: float,
     fans: Fans,
-    first: int,
+    place: int,
     keys: tuple[int, int],
     work: Workspace,
 ) -> Arriving:
@@ -190,9 +200,9 @@ def _arriving(
     bundle = Bundle(fan, fans.rays, start, normal, end_scale, longest_ray(aim, start))
     estimate, cast, arrived, lights = no_estimate(), 0, 0, soft_count(soft)
     while needs_more(estimate, fans, worth, spent, light, lights):
-        place = first + estimate.fans * fans.rays
+        offset = offset_of(fans.offsets, place, estimate.fans)
         cast += spread_fan(
-            fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, place, keys
+            fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, offset, keys
         )
         if count >= 0:
             stop_by_touching(bundle, lit.world, touching, count)

@@ -6,7 +6,6 @@ from vtray.base.compiler.compiled import device, part
 from vtray.geometry.packets.cone import CLOSED, Touching, find_touching
 from vtray.geometry.packets.fan import Start
 from vtray.geometry.packets.packet import (
-    BLOCK,
     COLOR,
     ERROR_SCALE,
     LAMBERT,
@@ -26,7 +25,7 @@ from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import UNKNOWN, Shared, Workspace
 from vtray.geometry.stopped import Bundle, stop_by_all
 from vtray.geometry.vector import Vec, add
-from vtray.transport.integrators.soft import clear_noise
+from vtray.transport.integrators.soft import clear_noise, sample_of
 from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
 from vtray.transport.lights.crowd import Crowd
 from vtray.transport.lights.light import load_power
@@ -39,7 +38,7 @@ from vtray.transport.lights.soft_light import (
     soft_count,
 )
 from vtray.transport.materials.material import Material, scattered
-from vtray.transport.sampling.fans import Fans, fan_keys, fan_of_sample
+from vtray.transport.sampling.fans import Fans, shared_keys
 from vtray.transport.sampling.shared_estimate import (
     Pool,
     light_of,
@@ -95,9 +94,7 @@ def add_shared_light(
     clear_noise(packet, hits)
     for hit in range(hits):
         lane = packet.view(np.int64)[SOURCE + hit]
-        pixel = work.pixels[begin + lane // samples]
-        column, row = block.left + (pixel & (BLOCK - 1)), block.top + pixel // BLOCK
-        sample = first + lane % samples
+        column, row, sample = sample_of(lane, samples, first, block, begin, work.pixels)
         cast += _light_hit(
             packet, hit, column, row, sample, lit, soft, crowd, fans, seed, is_wide, work
         )
@@ -127,19 +124,17 @@ def _light_hit(
     most = weigh_lights(powers, soft, crowd, start, normal, material, shared.sums)
     if _is_uneven(packet, hit, lit, soft, crowd, is_wide, shared, work) or not most > 0.0:
         return 0
-    forward, light = lit.forward, soft_count(soft)
+    forward = lit.forward
     whole, pool = decide_by_cones(
         lit, soft, crowd, start, normal, material, most, shared, work.touching, work.stack
     )
     store(packet, VALUE, hit, add(load(packet, VALUE, hit), whole))
     if not pool.most > 0.0:
         return 0
-    keys = fan_keys(column, row, light, seed)
-    number = fan_of_sample(fans.levels, sample, column, row, light, seed)
-    first = number * fans.rays * fans.fans
+    keys = shared_keys(column, row, sample, seed)
     estimate, cast = no_shared_estimate(), 0
     while needs_more_shared(estimate, fans):
-        place = first + estimate.fans * fans.rays
+        first = estimate.fans * fans.rays
         cast += spread_among(
             fan,
             fans.rays,
@@ -151,13 +146,13 @@ def _light_hit(
             material,
             forward,
             fans.points,
-            place,
+            first,
             keys,
             shared,
         )
         longest = longest_of(fan, fans.rays)
         stop_by_all(Bundle(fan, fans.rays, start, normal, None, longest), lit.world, work.stack)
-        estimate = with_shared_fan(estimate, pool, fan, fans, first, shared.brought)
+        estimate = with_shared_fan(estimate, pool, fan, fans, shared.brought)
     store(packet, VALUE, hit, add(load(packet, VALUE, hit), light_of(estimate, fans)))
     packet[NOISE + hit] += estimate.variance
     return cast

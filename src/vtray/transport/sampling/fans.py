@@ -1,10 +1,14 @@
 """Where the shadow rays of a surface point aim within a light: a fan of points of the unit square.
 
-Each sample of a pixel has its fans for each light, the next blocks of Sobol's sequence. Both a fan
-and all fans of a pixel together fill the square evenly. Points that follow each other are near each
-other: each two share an elementary cell, a side of which is a power of 1/2, in the places of its
-size, and each 4, 8 ... a larger one. Scrambling moves whole cells, and so does going from a block
-to the next; thus one order of a fan's points is right for all of them.
+Fans are blocks of one of Sobol's sequences for all samples of a pixel. A fan fills the square
+evenly, and so do the first fans of 2, 4 ... samples: what one has too much, another has too little.
+Fan k of the sample at place n is block k XOR n; thus all fans of a sample fill the square evenly,
+too.
+
+Points that follow each other are near each other: each two share an elementary cell, a side of
+which is a power of 1/2, in the places of its size, and each 4, 8 ... a larger one. Scrambling moves
+whole cells, and so does going from a block to the next, which is adding its first number modulo 2,
+digit by digit; thus one order of a fan's points is right for all of them.
 
 References
 ----------
@@ -23,6 +27,7 @@ from vtray.base.compiler.compiled import device
 from vtray.transport.sampling.sobol import (
     FAN_ORDER,
     LIGHT_FANS,
+    SHARED_FANS,
     pixel_keys,
     scrambled,
     shuffled,
@@ -34,12 +39,20 @@ Integers = NDArray[np.int64]
 RUN = 2
 """Points in a row that share a cell."""
 
+NO_OFFSET = (0, 0)
+"""That of the first block of points."""
 
 WHOLE_FAN = 64
 """Rays from a hit to a light at a time, where a pixel has one sample."""
 
 LEAST_FAN = 16
 """Rays of each of many samples of a pixel."""
+
+COARSE = 0.012
+"""From this tolerance on, the fans of samples have half as many rays. How much the samples of a
+pixel differ says what that does; where there is but one, thin bars would make errors larger than
+they are estimated to be.
+"""
 
 MOST_FANS = 64
 """Fans from the one hit of a pixel to one light at the most."""
@@ -58,9 +71,11 @@ class Fans(NamedTuple):
     fans
         How often that is repeated at the most, while the estimated variance is too large.
     levels
-        A pixel's samples share ``2**levels`` times as many fans.
+        There are ``2**levels`` places for the samples of a pixel.
     points
-        What `fan_points` returns.
+        What `fan_points` returns; for lights that share their fans, `shared_points`.
+    offsets
+        What `block_offsets` returns.
     error
         The standard error that the light at a hit may have.
     by_light
@@ -72,6 +87,7 @@ class Fans(NamedTuple):
     fans: int
     levels: int
     points: Integers
+    offsets: Integers
     error: float
     by_light: bool
 
@@ -87,22 +103,28 @@ class Noise(NamedTuple):
         Whether it is one of light; see `Fans`.
     are_shared
         Whether all lights share their fans.
+    is_coarse
+        Whether fans of samples have half as many rays; see `is_coarse`.
     """
 
     error: float
     by_light: bool
     are_shared: bool = False
+    is_coarse: bool = False
 
     def of_one(self, samples: int) -> float:
         """Return the standard error that the light at one of the samples of a pixel may have."""
         return self.error * math.sqrt(samples)
 
 
+def is_coarse(tolerance: float) -> bool:
+    """Tell whether fans of samples have half as many rays for a tolerance, 1 for white."""
+    return tolerance >= COARSE
+
+
 def fans_of_middles(noise: Noise) -> Fans:
     """Return the fans of rays through the middles of pixels."""
-    points_of = shared_points if noise.are_shared else fan_points
-    points = points_of(WHOLE_FAN, MOST_FANS)
-    return Fans(WHOLE_FAN, MOST_FANS, 0, points, noise.error, noise.by_light)
+    return _fans(WHOLE_FAN, MOST_FANS, 1, noise)
 
 
 def fans_of_samples(samples: int, noise: Noise) -> Fans:
@@ -110,61 +132,68 @@ def fans_of_samples(samples: int, noise: Noise) -> Fans:
     rays = LEAST_FAN
     while 2 * rays * samples <= WHOLE_FAN:
         rays *= 2
-    fans = max(MOST_FANS_OF_SAMPLES // samples, 1)
-    levels = (samples - 1).bit_length()
+    rays = rays // 2 if noise.is_coarse else rays
+    return _fans(rays, max(MOST_FANS_OF_SAMPLES // samples, 1), samples, noise)
+
+
+def _fans(rays: int, fans: int, samples: int, noise: Noise) -> Fans:
+    """Return fans of so many rays, so many for each of the samples of a pixel at the most."""
+    levels, error = (samples - 1).bit_length(), noise.of_one(samples)
     if noise.are_shared:
         fans = 1 << fans.bit_length() - 1
-        points = shared_points(rays, fans, 1 << levels)
+        points, offsets = shared_points(rays, fans), block_offsets(rays, 1)
     else:
-        points = fan_points(rays, fans << levels)
-    return Fans(rays, fans, levels, points, noise.of_one(samples), noise.by_light)
+        blocks = max(1 << levels, 1 << (fans - 1).bit_length())
+        points, offsets = fan_points(rays), block_offsets(rays, blocks)
+    return Fans(rays, fans, levels, points, offsets, error, noise.by_light)
 
 
-def fan_points(fan: int, samples: int) -> Integers:
-    """Return the points of the fans of a pixel before they are scrambled.
+def fan_points(fan: int) -> Integers:
+    """Return the points of the first block of fans, before they are scrambled.
 
     Parameters
     ----------
     fan
         Points of a fan: a power of two, at least ``RUN``.
-    samples
-        Fans of a pixel.
 
     Returns
     -------
     NDArray[np.int64]
-        One fan after the other, as `sobol_points` has them, ``(2, fan * samples)``. Each ``RUN``
-        points of a fan share one of ``fan // RUN`` cells, which are squares or half as wide as
-        high; each 2, 4 ... of these runs share a larger cell. Without scrambling, cells that
-        follow each other are side by side; with it, those in a common square of four are.
+        As `sobol_points` has them, ``(2, fan)``. Each ``RUN`` points share one of ``fan // RUN``
+        cells, which are squares or half as wide as high; each 2, 4 ... of these runs share a larger
+        cell. Without scrambling, cells that follow each other are side by side; with it, those in a
+        common square of four are.
     """
-    starts = fan * np.arange(samples)
-    order = starts[:, None] + _fan_order(fan)
-    return sobol_points(fan * samples).take(order.reshape(-1), axis=1)
+    return sobol_points(fan).take(_fan_order(fan), axis=1)
 
 
-def shared_points(fan: int, fans: int, samples: int = 1) -> Integers:
-    """Return the points of shared fans before they are scrambled.
+def block_offsets(fan: int, blocks: int) -> Integers:
+    """Return the first points of blocks of so many points, a power of two, ``(2, blocks)``.
+
+    Combined with them by XOR, the points of the first block become those of the others.
+    """
+    return sobol_points(blocks, fan)
+
+
+def shared_points(fan: int, fans: int) -> Integers:
+    """Return the points of the shared fans of a sample before they are scrambled.
 
     Parameters
     ----------
     fan, fans
-        Points of a fan, and fans of a sample: powers of two.
-    samples
-        Samples of a pixel.
+        Points of a fan, and how many fans there are: powers of two.
 
     Returns
     -------
     NDArray[np.int64]
-        One sample after the other, as `sobol_points` has them, ``(2, fan * fans * samples)``: first
-        a fan, and then in passes as many points again as there were, each pass along the first
-        coordinate. So 2, 4, 8 ... points in a row share a part of that.
+        As `sobol_points` has them, ``(2, fan * fans)``: first a fan, and then in passes as many
+        points again as there were, each pass along the first coordinate. So 2, 4, 8 ... points in a
+        row share a part of that.
     """
     order = _along_first(fan)
     while len(order) < fan * fans:
         order = np.concatenate([order, len(order) + _along_first(len(order))])
-    starts = len(order) * np.arange(samples)
-    return sobol_points(len(order) * samples).take((starts[:, None] + order).reshape(-1), axis=1)
+    return sobol_points(len(order)).take(order, axis=1)
 
 
 def _along_first(count: int) -> Integers:
@@ -179,8 +208,14 @@ def fan_keys(column: int, row: int, light: int, seed: int) -> tuple[int, int]:
 
 
 @device
-def fan_of_sample(levels: int, sample: int, column: int, row: int, light: int, seed: int) -> int:
-    """Return which of its ``2**levels`` fans for a light a sample of a pixel has.
+def shared_keys(column: int, row: int, sample: int, seed: int) -> tuple[int, int]:
+    """Return what scrambles the shared fans of a sample of a pixel."""
+    return pixel_keys(column, row, SHARED_FANS + sample, seed)
+
+
+@device
+def place_of(levels: int, sample: int, column: int, row: int, light: int, seed: int) -> int:
+    """Return the place of a sample among the ``2**levels`` of a pixel, for a light.
 
     In the order of the samples, those of two lights, and the places in the image, would be alike:
     points of the same number are in the same halves of the square, or all in opposite ones.
@@ -194,19 +229,29 @@ def fan_of_sample(levels: int, sample: int, column: int, row: int, light: int, s
 
 
 @device
-def fan_point(points: Integers, k: int, keys: tuple[int, int]) -> tuple[float, float]:
-    """Return a point of the fans of a pixel, from 0 to below 1 either way.
+def offset_of(offsets: Integers, place: int, number: int) -> tuple[int, int]:
+    """Return the offset of a fan, given by its number, of the sample at a place."""
+    block = place ^ number
+    return offsets[0, block], offsets[1, block]
+
+
+@device
+def fan_point(
+    points: Integers, k: int, offset: tuple[int, int], keys: tuple[int, int]
+) -> tuple[float, float]:
+    """Return a point of a fan, from 0 to below 1 either way.
 
     Parameters
     ----------
-    points
-        What `fan_points` returns.
-    k
-        Its number: ``rays * fan + ray``.
+    points, k
+        Those of the first fan, and the number of one of them.
+    offset
+        What `offset_of` returns.
     keys
         What `fan_keys` returns.
     """
-    return scrambled(points[0, k], keys[0]), scrambled(points[1, k], keys[1])
+    u = scrambled(points[0, k] ^ offset[0], keys[0])
+    return u, scrambled(points[1, k] ^ offset[1], keys[1])
 
 
 def _fan_order(fan: int) -> Integers:

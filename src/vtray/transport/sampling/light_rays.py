@@ -52,7 +52,7 @@ def spread_fan(
     forward: Vec,
     skies: Skies | None,
     points: NDArray[np.int64],
-    first: int,
+    offset: tuple[int, int],
     keys: tuple[int, int],
 ) -> int:
     """Set the rays of a fan to a light; return how many of them count.
@@ -67,12 +67,12 @@ def spread_fan(
         The unit direction in which the camera looks.
     skies
         The skies whose colour changes with the direction.
-    points, first, keys
-        The points that choose the rays, from the first on, and what they are scrambled by.
+    points, offset, keys
+        The points that choose the rays, as `fans.fan_point` takes them.
     """
     # A loop for each step: only so are they vectorised.
     for ray in range(rays):
-        fan[DIRECTION + ray], fan[DIRECTION + FAN + ray] = fan_point(points, first + ray, keys)
+        fan[DIRECTION + ray], fan[DIRECTION + FAN + ray] = fan_point(points, ray, offset, keys)
     if not spread_to_sky(fan, rays, skies, aim.sky, normal):
         _spread_evenly(fan, rays, aim, normal)
     for ray in range(rays):

@@ -78,7 +78,6 @@ def with_shared_fan(
     pool: Pool,
     fan: Fan,
     fans: Fans,
-    first: int,
     brought: NDArray[np.float64],
 ) -> SharedEstimate:
     """Return what is known after one more fan.
@@ -89,15 +88,13 @@ def with_shared_fan(
         What was known before it, and the lights.
     fan, fans
         Its rays, and which fans there are.
-    first
-        The place of the first point of the first fan.
     brought
         What all rays bring, by the numbers of their points.
     """
-    begin = first + estimate.fans * fans.rays
+    begin = estimate.fans * fans.rays
     total = estimate.total
     for ray in range(fans.rays):
-        number = fans.points[0, begin + ray] - first
+        number = fans.points[0, begin + ray]
         arrives = fan[BLOCKED + ray] == 0.0
         red = fan[WEIGHT + ray] if arrives else 0.0
         green = fan[WEIGHT + FAN + ray] if arrives else 0.0

@@ -43,7 +43,7 @@ from vtray.transport.lights.soft_light import (
     unhindered_share,
 )
 from vtray.transport.materials.material import Material, scattered
-from vtray.transport.sampling.fans import fan_point
+from vtray.transport.sampling.fans import NO_OFFSET, fan_point
 from vtray.transport.sampling.light_rays import direction_to, set_end, weight_of
 from vtray.transport.sampling.sky_rays import sky_direction, sky_weights
 from vtray.transport.sampling.table import find_part, part_of
@@ -125,7 +125,8 @@ def spread_among(
         The sums of `weigh_lights`; out: the light of each ray.
     """
     for ray in range(rays):
-        fan[DIRECTION + ray], fan[DIRECTION + FAN + ray] = fan_point(points, first + ray, keys)
+        u, v = fan_point(points, first + ray, NO_OFFSET, keys)
+        fan[DIRECTION + ray], fan[DIRECTION + FAN + ray] = u, v
     count = soft_count(soft)
     total = shared.sums[count]
     seen = crowd.order[0]

@@ -26,21 +26,26 @@ LIGHT_FANS = 1 << 16
 FAN_ORDER = 1 << 24
 """The purposes from here on: which sample gets which fan of a light, one purpose for each."""
 
+SHARED_FANS = 1 << 25
+"""The purposes from here on: where rays aim that many lights share, one purpose for each sample."""
+
 BITS = (1 << 32) - 1
 
 UNIT = 2.0**-32
 
 
-def sobol_points(count: int) -> NDArray[np.int64]:
-    """Return the first points of Sobol's sequence as integers with their bits reversed, (2, count).
+def sobol_points(count: int, step: int = 1) -> NDArray[np.int64]:
+    """Return points of Sobol's sequence as integers with their bits reversed, (2, count).
+
+    Those are the first ones; with a step, each so many.
 
     The first coordinate is the sample's number with its 32 bits reversed, so it stands here as the
     number itself; the second takes the rows of Pascal's triangle modulo 2.
     """
-    number = np.arange(count, dtype=np.int64)
+    number = step * np.arange(count, dtype=np.int64)
     second = np.zeros(count, np.int64)
     row = 1  # the bits of a direction, in the order of the reversed coordinate
-    for bit in range(count.bit_length()):
+    for bit in range((count * step).bit_length()):
         second ^= np.where(number >> bit & 1, row, 0)
         row ^= row << 1 & BITS
     return np.stack([number, second])
