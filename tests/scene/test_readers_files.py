@@ -101,6 +101,17 @@ END
 """
 
 
+@pytest.mark.parametrize(
+    ("group", "is_whole"), [("P 1", True), ("P1", True), ("", True), ("P 61", False)]
+)
+def test_pdb_has_a_cell_where_its_atoms_are_all_that_it_repeats(
+    group: str, is_whole: bool, tmp_path: Path
+) -> None:
+    path = tmp_path / "a.pdb"
+    path.write_text(PDB.replace("P 1", f"{group:11}   6"))
+    assert (vtray.read(path).cell is not None) == is_whole
+
+
 def test_pdb(tmp_path: Path) -> None:
     path = tmp_path / "a.pdb"
     path.write_text(PDB)

@@ -57,7 +57,9 @@ def read(given: Given) -> Particles:
     Columns are ``element``, ``name``, ``resname``, ``resid``, ``chain``, ``occupancy`` and
     ``tempfactor``, and ``altloc`` where it is used. Elements are those of columns 77 and 78; where
     these are blank, of the first two characters of the name, in which a symbol stands to the right.
-    Bonds are not read, as most files name but a few of them.
+    Bonds are not read, as most files name but a few of them. There is a cell where the atoms are
+    all that it repeats; not where its space group makes others of them, as in most crystals of
+    proteins.
 
     Raises
     ------
@@ -111,8 +113,13 @@ def _models_of(content: bytes) -> "tuple[list[_Model], Cell | None]":
                 models.append(now)
             now = _Model([], [])
         elif line.startswith(b"CRYST1"):
-            cell = _cell_of(line.decode("latin-1"), number)
+            cell = _cell_of(line.decode("latin-1"), number) if _is_whole(line) else None
     return [*models, now] if now.atoms else models, cell
+
+
+def _is_whole(line: bytes) -> bool:
+    """Tell whether the atoms are all of a cell: its space group is P 1, or is not named."""
+    return line[55:66].replace(b" ", b"") in (b"", b"P1")
 
 
 def _cell_of(line: str, number: int) -> "Cell | None":
