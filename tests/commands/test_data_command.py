@@ -53,6 +53,8 @@ def test_data_becomes_a_scene(water: Path) -> None:
     assert last.camera.size == (1024, 1024)
     bound = scene_of(water, "--cutoff", "1.2", "--wrap", "--replicate", "2,1,1", "--no-cell")
     assert [len(item) for item in bound.objects] == [6, 6]
+    dashed = scene_of(water, "--hydrogen-bonds", "--no-cell")
+    assert [len(item) for item in dashed.objects] == [3, 0]
     points = scene_of(water, "--style", "points", "--no-cell", "--size", "80x60")
     assert points.camera.size == (80, 60)
 
@@ -106,8 +108,8 @@ def test_options_of_data_are_not_for_scenes(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     scene = tmp_path / "scene.json"
-    assert cli.run([str(scene), "out.png", "--bonds"]) == 1
-    words = f"--bonds is for files of data, and {scene} is a scene"
+    assert cli.run([str(scene), "out.png", "--hydrogen-bonds"]) == 1
+    words = f"--hydrogen-bonds is for files of data, and {scene} is a scene"
     assert capfd.readouterr().err == f"Error: {words}\n"
 
 

@@ -79,6 +79,7 @@ HOW: dict[str, dict[str, Any]] = {
     "scale": {"metavar": "NUMBER", "type": _positive, "help": "multiply all radii by it"},
     "bonds": {**YES_OR_NO, "help": "bonds by covalent radii, or none"},
     "cutoff": {"metavar": "LENGTH", "type": _positive, "help": "bonds of that length or shorter"},
+    "hydrogen-bonds": {**FLAG, "help": "hydrogen bonds as dashes"},
     "cell": {**YES_OR_NO, "help": "the edges of the cell, or not"},
     "color": {"metavar": "COLUMN", "help": "colours by a column, or one colour for all"},
     "colors": {"metavar": "jmol|cpk", "choices": ("jmol", "cpk"), "help": "those of elements"},
@@ -148,7 +149,8 @@ def add_data_options(parser: Parser) -> None:
 
 def given(options: argparse.Namespace) -> dict[str, Any]:
     """Return the options that were given, by their names."""
-    found = {name: getattr(options, name, None) for name in NAMES}
+    names = [name.replace("-", "_") for name in NAMES]
+    found = {name: getattr(options, name, None) for name in names}
     return {name: value for name, value in found.items() if value is not None}
 
 
@@ -164,9 +166,8 @@ def check_kind(options: argparse.Namespace, *, is_data: bool) -> None:
     """
     used = given(options)
     if not is_data and used:
-        raise UsageError(
-            f"--{next(iter(used))} is for files of data, and {options.scene} is a scene"
-        )
+        name = next(iter(used)).replace("_", "-")
+        raise UsageError(f"--{name} is for files of data, and {options.scene} is a scene")
     if is_data and options.replay is not None:
         words = "a picture does not tell how it was made of data"
         raise UsageError(f"--replay is for scene files, and {options.scene} is none; {words}")

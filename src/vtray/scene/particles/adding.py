@@ -48,6 +48,7 @@ class AddingParticles:
         background: "AnyColor" = "white",
         bonds: "bool | float | ArrayLike | None" = None,
         bond_radius: float | None = None,
+        hydrogen_bonds: "bool | tuple[float, float]" = False,
         cell: bool | None = None,
         replicate: Sequence[int] = (1, 1, 1),
         wrap: bool = False,
@@ -103,6 +104,12 @@ class AddingParticles:
             none. By default those that are known, or True, in styles that show bonds.
         bond_radius
             In the unit of the positions; by default as the style says.
+        hydrogen_bonds
+            Whether hydrogen bonds are drawn, as grey dashes from the hydrogen to the acceptor: of
+            donors and acceptors N, O and F, at most 2.5 Å from the hydrogen to the acceptor, with
+            an angle between them at the hydrogen of at least 120 degrees [1]_. Two numbers are
+            another length, in the unit of the positions, and another angle, such as
+            ``(2.2, 150)``.
         cell
             Whether the edges of the cell are drawn; by default, if there is one.
         replicate
@@ -126,6 +133,11 @@ class AddingParticles:
         ------
         SceneError
             An argument is not right, or something that it needs is not known of the particles.
+
+        References
+        ----------
+        .. [1] E. N. Baker and R. E. Hubbard, "Hydrogen bonding in globular proteins", Progress in
+           Biophysics and Molecular Biology 44, 1984.
 
         Examples
         --------
@@ -157,6 +169,7 @@ class AddingParticles:
             background=background,
             bonds=bonds,
             bond_radius=bond_radius,
+            hydrogen_bonds=hydrogen_bonds,
             cell=cell,
             replicate=replicate,
             wrap=wrap,

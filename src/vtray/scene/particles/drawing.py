@@ -23,6 +23,7 @@ from vtray.scene.particles.cell import (
 from vtray.scene.particles.coloring import Coloring, color_particles, faded
 from vtray.scene.particles.expression import mask
 from vtray.scene.particles.from_objects import as_particles
+from vtray.scene.particles.hydrogen_bonds import criterion_of, dashes, find_hydrogen_bonds
 from vtray.scene.particles.lattice import columns_of, lattice_of
 from vtray.scene.particles.made_of import MadeOf, remember, written_out
 from vtray.scene.particles.particles import Particles
@@ -73,12 +74,14 @@ class Drawn:
         The particles.
     bonds : Cylinders or None
         The bonds: first those that are whole, then the halves of those that cross the border.
+    hydrogen_bonds : Cylinders or None
+        The hydrogen bonds: six dashes for each.
     cell : tuple of Cylinders and Spheres, or None
         The cell's edges, and its corners.
     copies : Copies or None
-        What stands at all places of a cell that is shown several times, with `spheres` and `bonds`,
-        which are then not among the objects of the scene themselves. None where these are so few
-        that they hold all cells, one after the other.
+        What stands at all places of a cell that is shown several times, with `spheres`, `bonds`
+        and `hydrogen_bonds`, which are then not among the objects of the scene themselves. None
+        where these are so few that they hold all cells, one after the other.
     color_scale : ColorScale or None
         How values became colours, if they did.
     legend : list
@@ -92,6 +95,7 @@ class Drawn:
 
     spheres: Spheres
     bonds: Cylinders | None
+    hydrogen_bonds: Cylinders | None
     cell: tuple[Cylinders, Spheres] | None
     copies: Copies | None
     color_scale: "ColorScale | None"
@@ -107,7 +111,7 @@ class _Placed(NamedTuple):
     ----------
     positions
         Of all of them, (n, 3).
-    bonds
+    bonds, hydrogen_bonds
         Those to draw, between any of them.
     rows
         Which are drawn, (k,).
@@ -117,6 +121,7 @@ class _Placed(NamedTuple):
 
     positions: NDArray[Any]
     bonds: Bonds | None
+    hydrogen_bonds: Bonds | None
     rows: Integers
     places: Floats
 
@@ -134,6 +139,7 @@ def draw(
     background: "AnyColor",
     bonds: Any,  # noqa: ANN401
     bond_radius: float | None,
+    hydrogen_bonds: Any,  # noqa: ANN401
     cell: bool | None,
     replicate: Sequence[int],
     wrap: bool,
@@ -146,25 +152,32 @@ def draw(
     name = style_of(style, particles, bonds)
     times = times_of(replicate)
     rows = np.flatnonzero(chosen(particles, select, "select"))
-    placed = _place(particles, name, rows, bonds, times, wrap=wrap, unwrap=unwrap)
+    wanted = criterion_of(hydrogen_bonds)
+    pairs = None if wanted is None else find_hydrogen_bonds(particles, wanted)
+    placed = _place(particles, name, rows, bonds, pairs, times, wrap=wrap, unwrap=unwrap)
     found = color_particles(particles, rows, **coloring)
     if highlight is not None:
         kept = chosen(particles, highlight, "highlight")[rows]
         found = found._replace(colors=faded(found.colors, kept, background))
     radius = _radii(particles, name, radii, size, placed, camera or scene.camera)
     spheres = _spheres(particles, placed, radius, found)
-    sticks = None
-    if placed.bonds is not None:
+    sticks = dashed = None
+    if placed.bonds is not None or placed.hydrogen_bonds is not None:
         thick = stick_radius(particles, name, radii, size)
         if bond_radius is not None:
             thick = _positive(bond_radius, "bond_radius")
-        sticks = _cylinders(particles, placed, thick, found)
+        if placed.bonds is not None:
+            sticks = _cylinders(particles, placed, thick, found)
+        if placed.hydrogen_bonds is not None:
+            dashed = dashes(particles, placed.positions, placed.hydrogen_bonds, thick)
     copies, images = None, len(placed.places)
-    if 1 < images <= WRITTEN_OUT // max(len(spheres) + len(sticks or ()), 1):
+    parts = [part for part in (spheres, sticks, dashed) if part is not None]
+    if 1 < images <= WRITTEN_OUT // max(sum(map(len, parts)), 1):
         spheres = written_out(spheres, placed.places)
         sticks = None if sticks is None else written_out(sticks, placed.places)
+        dashed = None if dashed is None else written_out(dashed, placed.places)
+        parts = [part for part in (spheres, sticks, dashed) if part is not None]
         images = 1
-    parts: list[Spheres | Cylinders] = [spheres] if sticks is None else [spheres, sticks]
     if images > 1:
         copies = Copies(parts, placed.places)
     scene.objects.extend(parts if copies is None else [copies])
@@ -172,7 +185,8 @@ def draw(
     if cell if cell is not None else particles.cell is not None:
         edges = _edges(particles, times)
         scene.objects.extend(edges)
-    return Drawn(spheres, sticks, edges, copies, found.scale, list(found.legend), rows, name)
+    legend = list(found.legend)
+    return Drawn(spheres, sticks, dashed, edges, copies, found.scale, legend, rows, name)
 
 
 def chosen(particles: Particles, given: Any, name: str) -> NDArray[np.bool_]:  # noqa: ANN401
@@ -199,6 +213,7 @@ def _place(
     style: str,
     rows: Integers,
     bonds: Any,  # noqa: ANN401
+    hydrogen_bonds: Bonds | None,
     times: tuple[int, int, int],
     *,
     wrap: bool,
@@ -219,11 +234,19 @@ def _place(
             known = bonds_between(particles, particles.bonds)
         positions, moves = unwrapped(particles, known) if unwrap else wrapped(particles)
         found = None if found is None else found.after(moves)
-    if found is not None and len(rows) < len(particles):
+        hydrogen_bonds = None if hydrogen_bonds is None else hydrogen_bonds.after(moves)
+    if len(rows) < len(particles):
         drawn = np.zeros(len(particles), np.bool_)
         drawn[rows] = True
-        found = found.some(drawn[found.pairs[:, 0]] & drawn[found.pairs[:, 1]])
-    return _Placed(positions, found, rows, translations(particles, times))
+        found, hydrogen_bonds = _among(found, drawn), _among(hydrogen_bonds, drawn)
+    return _Placed(positions, found, hydrogen_bonds, rows, translations(particles, times))
+
+
+def _among(bonds: Bonds | None, drawn: NDArray[np.bool_]) -> Bonds | None:
+    """Return the bonds between particles that are drawn, (n,)."""
+    if bonds is None:
+        return None
+    return bonds.some(drawn[bonds.pairs[:, 0]] & drawn[bonds.pairs[:, 1]])
 
 
 def _bonds_of(particles: Particles, bonds: Any) -> Bonds:  # noqa: ANN401
@@ -263,7 +286,7 @@ def _spheres(
     whole = len(placed.rows) == len(particles)
     positions = placed.positions if whole else placed.positions[placed.rows]
     spheres = Spheres(positions, radius, found.colors).with_scale(found.scale)
-    return remember(spheres, MadeOf(particles, placed.rows))
+    return remember(spheres, MadeOf(particles, placed.rows, "particle"))
 
 
 def _cylinders(particles: Particles, placed: _Placed, radius: float, found: Coloring) -> Cylinders:
@@ -295,7 +318,8 @@ def _cylinders(particles: Particles, placed: _Placed, radius: float, found: Colo
         place[placed.rows] = np.arange(len(placed.rows))
         each = place[indices]
         colors = {"color": found.colors[each[:, 0]], "color_end": found.colors[each[:, 1]]}
-    return remember(Cylinders(starts, ends, radius, **colors), MadeOf(particles, indices))
+    sticks = Cylinders(starts, ends, radius, **colors)
+    return remember(sticks, MadeOf(particles, indices, "bond"))
 
 
 def _edges(particles: Particles, times: tuple[int, int, int]) -> tuple[Cylinders, Spheres]:
