@@ -62,6 +62,22 @@ def test_known_bonds_of_few_atoms_are_drawn() -> None:
     assert drawn(known, style="licorice", bonds=False).bonds is None
 
 
+def test_bonds_change_colour_in_the_middle_of_what_is_seen() -> None:
+    pair = {"element": np.array(["Ti", "O"])}
+    both = Particles([(0, 0, 0), (2, 0, 0)], pair)
+    large, small = drawn(both, bonds=True).spheres.radius.tolist()
+    sticks = drawn(both, bonds=True).bonds
+    start, end = sticks.start[0, 0], sticks.end[0, 0]
+    assert (start + end) / 2 == pytest.approx((large + 2 - small) / 2)
+    assert 0 < start < large
+    assert end == 2
+    cut = Particles([(0, 0, 0), (6, 0, 0)], pair, cell=np.diag([8.0] * 3))
+    halves = drawn(cut, bonds=True).bonds
+    assert halves.start[:, 0].tolist() == [0, 6]
+    middle = (large + 2 - small) / 2
+    assert halves.end[:, 0].tolist() == pytest.approx([-middle, 8 - middle])
+
+
 def test_size_is_that_of_a_column_or_of_the_mean_distance() -> None:
     lattice = np.stack(np.meshgrid(*[np.arange(5.0)] * 3), axis=-1).reshape(-1, 3)
     assert mean_spacing(Particles(lattice)) == pytest.approx(4 / 5)

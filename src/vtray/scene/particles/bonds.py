@@ -233,7 +233,8 @@ def _join_ions(bonds: Bonds, symbols: NDArray[Any]) -> NDArray[np.bool_]:
     ions = np.zeros(len(symbols), np.bool_)
     ions[one[metals[one] & anions[two]]] = True
     ions[two[metals[two] & anions[one]]] = True
-    return ions[one] & ions[two]
+    both: NDArray[np.bool_] = ions[one] & ions[two]
+    return both
 
 
 def _lower_first(bonds: Bonds) -> Bonds:

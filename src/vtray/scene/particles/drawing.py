@@ -167,7 +167,7 @@ def draw(
         if bond_radius is not None:
             thick = _positive(bond_radius, "bond_radius")
         if placed.bonds is not None:
-            sticks = _cylinders(particles, placed, thick, found)
+            sticks = _cylinders(particles, placed, thick, radius, found)
         if placed.hydrogen_bonds is not None:
             dashed = dashes(particles, placed.positions, placed.hydrogen_bonds, thick)
     copies, images = None, len(placed.places)
@@ -289,22 +289,38 @@ def _spheres(
     return remember(spheres, MadeOf(particles, placed.rows, "particle"))
 
 
-def _cylinders(particles: Particles, placed: _Placed, radius: float, found: Coloring) -> Cylinders:
-    """Return bonds as cylinders, those that cross the border as halves at both of its sides."""
+def _cylinders(
+    particles: Particles,
+    placed: _Placed,
+    thick: float,
+    radius: Floats | float,
+    found: Coloring,
+) -> Cylinders:
+    """Return bonds as cylinders, those that cross the border as halves at both of its sides.
+
+    Colours change, and halves end, in the middle of what is seen between the balls.
+    """
     bonds = placed.bonds
     assert bonds is not None  # noqa: S101
     crosses = (bonds.shifts != 0).any(axis=1)
     one, two = bonds.pairs[~crosses].T
     begin, end = bonds.pairs[crosses].T
     near, far = placed.positions[begin], placed.positions[end]
-    across, back = far, near
+    across = far
     lattice = lattice_of(particles)
     if lattice is not None and len(begin):
-        steps = bonds.shifts[crosses].T
-        across = np.stack(lattice.moved(columns_of(far), steps), axis=1)
-        back = np.stack(lattice.moved(columns_of(near), [-step for step in steps]), axis=1)
-    starts = np.concatenate([placed.positions[one], near, far])
-    ends = np.concatenate([placed.positions[two], (near + across) / 2, (far + back) / 2])
+        across = np.stack(lattice.moved(columns_of(far), bonds.shifts[crosses].T), axis=1)
+    place = np.zeros(len(particles), np.int64)
+    place[placed.rows] = np.arange(len(placed.rows))
+    starts, ends = placed.positions[one], placed.positions[two]
+    way = ends - starts
+    share = _larger_by(way, radius, place[one], place[two])
+    # The end in the larger ball moves, so that the middle is where it should be.
+    starts, ends = starts + np.maximum(share, 0.0) * way, ends + np.minimum(share, 0.0) * way
+    way = across - near
+    half = (1.0 + _larger_by(way, radius, place[begin], place[end])) / 2 * way
+    starts = np.concatenate([starts, near, far])
+    ends = np.concatenate([ends, near + half, far - (way - half)])
     indices = np.concatenate(
         [
             np.stack([one, two], axis=1),
@@ -314,12 +330,32 @@ def _cylinders(particles: Particles, placed: _Placed, radius: float, found: Colo
     )
     colors: dict[str, Bytes] = {"color": found.colors}
     if found.colors.ndim == 2:
-        place = np.zeros(len(particles), np.int64)
-        place[placed.rows] = np.arange(len(placed.rows))
         each = place[indices]
         colors = {"color": found.colors[each[:, 0]], "color_end": found.colors[each[:, 1]]}
-    sticks = Cylinders(starts, ends, radius, **colors)
+    sticks = Cylinders(starts, ends, thick, **colors)
     return remember(sticks, MadeOf(particles, indices, "bond"))
+
+
+def _larger_by(
+    way: NDArray[Any], radius: Floats | float, one: Integers, two: Integers
+) -> Floats | float:
+    """Return by how much balls are larger than others, in parts of their distance, (m, 1).
+
+    Parameters
+    ----------
+    way
+        From each ball to the other, (m, 3).
+    radius
+        Of all balls that are drawn, (k,), or one for all.
+    one, two
+        Which balls they are, (m,).
+    """
+    if isinstance(radius, float):
+        return 0.0
+    x, y, z = way.T.astype(np.float64)
+    length = np.sqrt(x * x + y * y + z * z)
+    share = (radius[one] - radius[two]) / np.where(length > 0.0, length, 1.0)
+    return np.clip(share, -1.0, 1.0)[:, None]
 
 
 def _edges(particles: Particles, times: tuple[int, int, int]) -> tuple[Cylinders, Spheres]:
