@@ -55,6 +55,9 @@ def test_data_becomes_a_scene(water: Path) -> None:
     assert [len(item) for item in bound.objects] == [6, 6]
     dashed = scene_of(water, "--hydrogen-bonds", "--no-cell")
     assert [len(item) for item in dashed.objects] == [3, 0]
+    shining = scene_of(water, "--emission", "z", "--stretch", "log", "--peak", "2")
+    (stars,) = shining.objects
+    assert (stars.stretch, stars.softening, stars.peak) == ("log", None, 2)
     points = scene_of(water, "--style", "points", "--no-cell", "--size", "80x60")
     assert points.camera.size == (80, 60)
 
@@ -90,6 +93,10 @@ def test_values_that_look_like_options() -> None:
         (["--view", "up"], "argument --view: expected x, -x, y, -y, z, -z, top, bottom, "),
         (["--clim", "1"], "argument --clim: expected two numbers such as -1,1, got 1"),
         (["--zoom", "0"], "argument --zoom: expected a number > 0, got 0"),
+        (["--emission", "mass"], "DATA: emission: expected a number or the name of a column, got"),
+        (["--emission", "charge"], "DATA: add_particles: emission[0]: expected a number ≥ 0, got"),
+        (["--emission", "z", "--bonds"], "DATA: bonds: points that shine have none; leave out"),
+        (["--softening", "0"], "argument --softening: expected a number from 1e-9 to 1e9, got 0"),
         (["--frame", "1.5"], "argument --frame: expected an integer such as 0, or -1 for the last"),
         (["--replay", "a.png"], "--replay is for scene files, and DATA is none; "),
     ],

@@ -151,6 +151,21 @@ def test_objects_remember_particles_until_they_are_saved() -> None:
     )
 
 
+def test_particles_shine() -> None:
+    scene = vtray.Scene()
+    boxed = Particles([(1, 1, 1), (2, 1, 1)], {"mass": [1.0, 3.0]}, cell=np.eye(3) * 4)
+    found = scene.add_particles(boxed, emission="mass", replicate=(2, 1, 1), select="x > 1")
+    assert (found.style, len(found.spheres), found.cell) == ("points", 0, None)
+    assert scene.objects == [found.stars]
+    assert found.stars.center.tolist() == [[2, 1, 1], [6, 1, 1]]
+    assert found.stars.emission.tolist() == [3, 3]
+    assert found.stars.color.tolist() == [255, 255, 255]
+    charged = WATER.with_columns(light=[1.0, 2.0, 3.0])
+    colored = drawn(charged, emission="light", color="charge", highlight="index == 0")
+    assert colored.stars.color_scale.high == 0.4
+    assert colored.stars.color[1].tolist() == (colored.color_scale.colors([0.4])[0] // 5).tolist()
+
+
 def test_cell_is_drawn_where_there_is_one() -> None:
     boxed = Particles([(1, 1, 1)], cell=np.eye(3) * 4)
     edges, corners = drawn(boxed).cell
@@ -173,6 +188,11 @@ def test_cell_is_drawn_where_there_is_one() -> None:
         ({"color": "charge", "norm": "sqrt"}, 'norm: expected "linear", "log" or "centered"'),
         ({"color": "charge", "norm": "log", "clim": (0, 1)}, "expected numbers above 0"),
         ({"color": [1.0, 2.0]}, "add_particles: color"),
+        ({"emission": "chrage"}, "emission: expected a number or the name of a column, got"),
+        ({"emission": 1.0, "style": "licorice"}, 'style: expected "points" with emission'),
+        ({"emission": 1.0, "radii": 2.0}, "radii: points that shine have none; leave out"),
+        ({"emission": [1.0, 2.0]}, "add_particles: emission: expected a number or an array of"),
+        ({"emission": 1.0, "stretch": "root"}, "add_particles: stretch: expected"),
         ({"select": [True]}, "select: expected an expression, or an array of 3 bool"),
         ({"select": "x >"}, "select"),
         ({"bonds": [(0, 3)]}, r"bonds[0]: expected indices from 0 to 2, got [0, 3]"),

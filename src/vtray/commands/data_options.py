@@ -12,6 +12,7 @@ from vtray.base.errors import UsageError
 from vtray.commands.command import Parser
 from vtray.commands.setting_options import wrong
 
+STRETCHES = ("linear", "asinh", "log")
 STYLES = ("spacefill", "ball-and-stick", "licorice", "points")
 VIEWS = ("x", "-x", "y", "-y", "z", "-z", "top", "bottom", "front", "back", "left", "right", "iso")
 
@@ -41,6 +42,12 @@ def _times(text: str) -> tuple[int, ...]:
     if not re.fullmatch(r"[0-9]{1,6}(,[0-9]{1,6}){2}", text):
         raise wrong("three integers such as 3,3,1", text)
     return tuple(map(int, text.split(",")))
+
+
+def _softening(text: str) -> float:
+    if not re.fullmatch(_NUMBER, text) or not 1e-9 <= float(text) <= 1e9:
+        raise wrong("a number from 1e-9 to 1e9", text)
+    return float(text)
 
 
 def _radii(text: str) -> str | float:
@@ -93,6 +100,26 @@ HOW: dict[str, dict[str, Any]] = {
         "metavar": "log|centered",
         "choices": ("linear", "log", "centered"),
         "help": "how values are spread over it",
+    },
+    "emission": {
+        "metavar": "COLUMN",
+        "type": _radii,
+        "help": "let points shine, so that their light adds up: by a column, or a number",
+    },
+    "stretch": {
+        "metavar": "NAME",
+        "choices": STRETCHES,
+        "help": f"how light becomes brightness: {', '.join(STRETCHES)} (asinh unless given)",
+    },
+    "softening": {
+        "metavar": "NUMBER",
+        "type": _softening,
+        "help": "from which part of the brightest on it counts by its logarithm",
+    },
+    "peak": {
+        "metavar": "NUMBER",
+        "type": _positive,
+        "help": "the light of a pixel that is as bright as can be",
     },
     "highlight": {"metavar": "EXPR", "help": "let the colours of all others fade"},
     "legend": {**FLAG, "help": "show what the colours are called: elements, or names in a column"},

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from vtray.scene.particles.drawing import Drawn
     from vtray.scene.particles.particles import Particles
     from vtray.scene.particles.radii import Radii
+    from vtray.scene.stars import Stretch
 
 StyleName = Literal["spacefill", "ball-and-stick", "licorice", "points"]
 
@@ -45,10 +46,14 @@ class AddingParticles:
         nan_color: "AnyColor" = "gray",
         select: "str | NDArray[np.bool_] | None" = None,
         highlight: "str | NDArray[np.bool_] | None" = None,
-        background: "AnyColor" = "white",
+        background: "AnyColor | None" = None,
         bonds: "bool | float | ArrayLike | None" = None,
         bond_radius: float | None = None,
         hydrogen_bonds: "bool | tuple[float, float]" = False,
+        emission: "str | float | ArrayLike | None" = None,
+        stretch: "Stretch" = "asinh",
+        softening: float | None = None,
+        peak: float | None = None,
         cell: bool | None = None,
         replicate: Sequence[int] = (1, 1, 1),
         wrap: bool = False,
@@ -64,7 +69,8 @@ class AddingParticles:
         style
             ``"spacefill"``: balls of van der Waals radii. ``"ball-and-stick"``: 0.6 of covalent
             radii, and thin bonds. ``"licorice"``: bonds, and balls as thick as these. ``"points"``:
-            balls of one size in the picture, 1.5 pixels wide, so that none falls between pixels.
+            balls of one size in the picture, 1.5 pixels wide, so that none falls between pixels;
+            or, with `emission`, points whose light adds up.
             By default ball-and-stick where bonds are asked for, or known between at most 5000
             atoms, and else spacefill.
         radii
@@ -97,7 +103,7 @@ class AddingParticles:
         highlight
             What keeps its colour, in the same ways; all others come near `background`.
         background
-            The colour that they come near.
+            The colour that they come near; by default white, and black for points that shine.
         bonds
             True for pairs nearer than 1.2 times the sum of their covalent radii, by
             `find_bonds`; a number for pairs nearer than that; pairs of indices, (m, 2); False for
@@ -110,8 +116,17 @@ class AddingParticles:
             an angle between them at the hydrogen of at least 120 degrees [1]_. Two numbers are
             another length, in the unit of the positions, and another angle, such as
             ``(2.2, 150)``.
+        emission
+            Let points shine, as `Stars`: each adds so much light to the picture, a column, a
+            number, or an array (n,), ≥ 0. Their colours are white unless `color` or `cmap` is
+            given, the background is black unless it is set, and there are neither balls nor radii.
+        stretch, softening, peak
+            How the light that adds up becomes brightness: ``"linear"``, ``"asinh"`` or ``"log"``;
+            from which part of the brightest on it counts by its logarithm; and the light of a
+            pixel that is as bright as can be. See `Stars`.
         cell
-            Whether the edges of the cell are drawn; by default, if there is one.
+            Whether the edges of the cell are drawn; by default, if there is one, and nothing
+            shines.
         replicate
             How many times the cell is shown along each of its edges. Where all
             cells together have more than half a million objects, they are `Copies`, which take no
@@ -170,6 +185,8 @@ class AddingParticles:
             bonds=bonds,
             bond_radius=bond_radius,
             hydrogen_bonds=hydrogen_bonds,
+            emission=emission,
+            stretched={"stretch": stretch, "softening": softening, "peak": peak},
             cell=cell,
             replicate=replicate,
             wrap=wrap,

@@ -27,6 +27,7 @@ from vtray.scene.particles.hydrogen_bonds import criterion_of, dashes, find_hydr
 from vtray.scene.particles.lattice import columns_of, lattice_of
 from vtray.scene.particles.made_of import MadeOf, remember, written_out
 from vtray.scene.particles.particles import Particles
+from vtray.scene.particles.shining import check_shining, shining
 from vtray.scene.particles.styles import (
     COVERED,
     STYLES,
@@ -36,6 +37,7 @@ from vtray.scene.particles.styles import (
     style_of,
 )
 from vtray.scene.spheres import Spheres
+from vtray.scene.stars import Stars
 
 if TYPE_CHECKING:
     from vtray.scene.camera import Camera
@@ -71,7 +73,7 @@ class Drawn:
     Attributes
     ----------
     spheres : Spheres
-        The particles.
+        The particles; none where they shine.
     bonds : Cylinders or None
         The bonds: first those that are whole, then the halves of those that cross the border.
     hydrogen_bonds : Cylinders or None
@@ -82,6 +84,8 @@ class Drawn:
         What stands at all places of a cell that is shown several times, with `spheres`, `bonds`
         and `hydrogen_bonds`, which are then not among the objects of the scene themselves. None
         where these are so few that they hold all cells, one after the other.
+    stars : Stars or None
+        The particles, those of all cells that are shown, if they shine.
     color_scale : ColorScale or None
         How values became colours, if they did.
     legend : list
@@ -98,6 +102,7 @@ class Drawn:
     hydrogen_bonds: Cylinders | None
     cell: tuple[Cylinders, Spheres] | None
     copies: Copies | None
+    stars: Stars | None
     color_scale: "ColorScale | None"
     legend: "list[tuple[str, Rgb]]"
     indices: Integers
@@ -126,6 +131,27 @@ class _Placed(NamedTuple):
     places: Floats
 
 
+class _Solid(NamedTuple):
+    """Particles as objects that hide what is behind them; see `Drawn`."""
+
+    spheres: Spheres
+    bonds: Cylinders | None
+    hydrogen_bonds: Cylinders | None
+
+    @property
+    def parts(self) -> list[Spheres | Cylinders]:
+        """Those that there are."""
+        return [part for part in self if part is not None]
+
+    def written_out(self, places: Floats) -> "_Solid":
+        """Return the same at several places, one after the other."""
+        spheres, *others = self
+        bonds, hydrogen_bonds = (
+            None if part is None else written_out(part, places) for part in others
+        )
+        return _Solid(written_out(spheres, places), bonds, hydrogen_bonds)
+
+
 def draw(
     scene: HasObjects,
     given: Any,  # noqa: ANN401
@@ -136,10 +162,12 @@ def draw(
     coloring: Mapping[str, Any],
     select: Any,  # noqa: ANN401
     highlight: Any,  # noqa: ANN401
-    background: "AnyColor",
+    background: "AnyColor | None",
     bonds: Any,  # noqa: ANN401
     bond_radius: float | None,
     hydrogen_bonds: Any,  # noqa: ANN401
+    emission: Any,  # noqa: ANN401
+    stretched: Mapping[str, Any],
     cell: bool | None,
     replicate: Sequence[int],
     wrap: bool,
@@ -149,7 +177,10 @@ def draw(
     """Add particles to a scene, as `Scene.add_particles` says, whose parameters these are."""
     particles = as_particles(given)
     size = _positive(scale, "scale")
-    name = style_of(style, particles, bonds)
+    shines = emission is not None
+    if shines:
+        coloring = check_shining(style, coloring, radii=radii, bonds=bonds, hydrogen=hydrogen_bonds)
+    name = "points" if shines else style_of(style, particles, bonds)
     times = times_of(replicate)
     rows = np.flatnonzero(chosen(particles, select, "select"))
     wanted = criterion_of(hydrogen_bonds)
@@ -158,35 +189,56 @@ def draw(
     found = color_particles(particles, rows, **coloring)
     if highlight is not None:
         kept = chosen(particles, highlight, "highlight")[rows]
-        found = found._replace(colors=faded(found.colors, kept, background))
-    radius = _radii(particles, name, radii, size, placed, camera or scene.camera)
+        behind = background or ("black" if shines else "white")
+        found = found._replace(colors=faded(found.colors, kept, behind))
+    if shines:
+        positions, places = placed.positions[rows], placed.places
+        stars = shining(particles, rows, positions, places, emission, found, stretched)
+        solid = _Solid(Spheres(np.zeros((0, 3)), 0.0), None, None)
+        copies = None
+        scene.objects.append(stars)
+    else:
+        stars = None
+        solid = _solid(
+            particles, placed, found, name, radii, size, bond_radius, camera or scene.camera
+        )
+        copies = None
+        if 1 < len(placed.places) <= WRITTEN_OUT // max(sum(map(len, solid.parts)), 1):
+            solid = solid.written_out(placed.places)
+        elif len(placed.places) > 1:
+            copies = Copies(solid.parts, placed.places)
+        scene.objects.extend(solid.parts if copies is None else [copies])
+    edges = None
+    if cell if cell is not None else particles.cell is not None and not shines:
+        edges = _edges(particles, times)
+        scene.objects.extend(edges)
+    legend = list(found.legend)
+    return Drawn(*solid, edges, copies, stars, found.scale, legend, rows, name)
+
+
+def _solid(
+    particles: Particles,
+    placed: _Placed,
+    found: Coloring,
+    style: str,
+    radii: "Radii | None",
+    scale: float,
+    bond_radius: float | None,
+    camera: "Camera | None",
+) -> "_Solid":
+    """Return particles, bonds and hydrogen bonds as objects, without the copies of their cell."""
+    radius = _radii(particles, style, radii, scale, placed, camera)
     spheres = _spheres(particles, placed, radius, found)
     sticks = dashed = None
     if placed.bonds is not None or placed.hydrogen_bonds is not None:
-        thick = stick_radius(particles, name, radii, size)
+        thick = stick_radius(particles, style, radii, scale)
         if bond_radius is not None:
             thick = _positive(bond_radius, "bond_radius")
         if placed.bonds is not None:
             sticks = _cylinders(particles, placed, thick, radius, found)
         if placed.hydrogen_bonds is not None:
             dashed = dashes(particles, placed.positions, placed.hydrogen_bonds, thick)
-    copies, images = None, len(placed.places)
-    parts = [part for part in (spheres, sticks, dashed) if part is not None]
-    if 1 < images <= WRITTEN_OUT // max(sum(map(len, parts)), 1):
-        spheres = written_out(spheres, placed.places)
-        sticks = None if sticks is None else written_out(sticks, placed.places)
-        dashed = None if dashed is None else written_out(dashed, placed.places)
-        parts = [part for part in (spheres, sticks, dashed) if part is not None]
-        images = 1
-    if images > 1:
-        copies = Copies(parts, placed.places)
-    scene.objects.extend(parts if copies is None else [copies])
-    edges = None
-    if cell if cell is not None else particles.cell is not None:
-        edges = _edges(particles, times)
-        scene.objects.extend(edges)
-    legend = list(found.legend)
-    return Drawn(spheres, sticks, dashed, edges, copies, found.scale, legend, rows, name)
+    return _Solid(spheres, sticks, dashed)
 
 
 def chosen(particles: Particles, given: Any, name: str) -> NDArray[np.bool_]:  # noqa: ANN401

@@ -157,7 +157,7 @@ def _are_straight(
         square += ahead * ahead
         other += behind * behind
     # The acceptor is not the donor itself, whatever the angle.
-    apart = to_taker.pairs[:, 1] != to_donor.pairs[:, 1]
+    apart: NDArray[np.bool_] = to_taker.pairs[:, 1] != to_donor.pairs[:, 1]
     apart |= (to_taker.shifts != to_donor.shifts).any(axis=1)
     straight: NDArray[np.bool_] = product <= cosine(angle) * np.sqrt(square) * np.sqrt(other)
     return apart & straight
