@@ -90,6 +90,18 @@ def test_size_is_that_of_a_column_or_of_the_mean_distance() -> None:
     assert drawn(sized, radii="size", scale=2).spheres.radius[7] == 0.2
 
 
+def test_mean_distance_is_that_where_particles_are() -> None:
+    x, y = (side.ravel() for side in np.meshgrid(*[np.arange(60.0)] * 2))
+    hills = np.stack([x, y, 15 * np.sin(x / 10) * np.sin(y / 10)], axis=1)
+    assert mean_spacing(Particles(hills)) == pytest.approx(1.2, abs=0.3)
+    turn = np.arange(2000.0) / 2000
+    helix = np.stack([300 * np.cos(9 * turn), 300 * np.sin(9 * turn), 700 * turn], axis=1)
+    assert mean_spacing(Particles(helix)) == pytest.approx(1.4, rel=0.5)
+    far = np.concatenate([hills, hills + 1e5])
+    assert mean_spacing(Particles(far)) == pytest.approx(1.2, abs=0.3)
+    assert mean_spacing(Particles(np.repeat([(0.0, 0, 0), (1, 1, 1)], 500, axis=0))) > 0
+
+
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 def test_points_are_as_large_as_pixels(projection: Any) -> None:
     scene = vtray.Scene()
