@@ -75,7 +75,9 @@ Cl1 Cl 0.5 0.5 0.5
 def test_symmetry_of_crystals(symmetry: str, count: int, tmp_path: Path) -> None:
     path = tmp_path / "salt.cif"
     path.write_text(CIF.format(symmetry=symmetry))
-    assert len(vtray.read(path)) == count
+    found = vtray.read(path)
+    assert len(found) == count
+    assert found.periodic == (True, True, True)
 
 
 def test_frames_of_ase(tmp_path: Path) -> None:

@@ -84,4 +84,6 @@ def _crystals(given: Given) -> Iterator[Any]:
             listed = next((block[key] for key in _OPERATIONS if key in block), None)
             operations = [listed] if isinstance(listed, str) else listed or ()
             is_alone = [text.replace(" ", "").lower() for text in operations] == ["x,y,z"]
-            yield block.get_unsymmetrized_structure() if is_alone else block.get_atoms()
+            atoms = block.get_unsymmetrized_structure() if is_alone else block.get_atoms()
+            atoms.pbc = atoms.cell.rank == 3
+            yield atoms
