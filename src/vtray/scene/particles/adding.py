@@ -79,7 +79,7 @@ class AddingParticles:
             name of a column. By default the column ``radius``, the elements, or half the mean
             distance: that is the side of the cube that each particle has in the box around all.
         scale
-            What all radii are multiplied by, those of bonds too, > 0.
+            What all radii are multiplied by, those of bonds too, from 1e-20 to 1e20.
         color
             A colour, in any of the ways of `vtray.colors.to_rgb`; the name of a column, or x, y or
             z; or one colour or one number for each particle. Names and at most eight different
