@@ -308,6 +308,10 @@ def _bonds_of(particles: Particles, bonds: Any) -> Bonds:  # noqa: ANN401
     """Return the bonds that are asked for."""
     if bonds is True:
         return find_bonds(particles)
+    if isinstance(bonds, str) and bonds == "file":
+        if particles.bonds is None:
+            raise SceneError('bonds: "file" are those that are known, and there are none')
+        return bonds_between(particles, particles.bonds)
     if isinstance(bonds, (int, float, np.number)):
         return find_bonds(particles, cutoff=float(bonds))
     return bonds_between(particles, bonds)
