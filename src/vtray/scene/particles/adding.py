@@ -47,7 +47,7 @@ class AddingParticles:
         select: "str | NDArray[np.bool_] | None" = None,
         highlight: "str | NDArray[np.bool_] | None" = None,
         background: "AnyColor | None" = None,
-        bonds: "bool | float | ArrayLike | None" = None,
+        bonds: "bool | float | Literal['file'] | ArrayLike | None" = None,
         bond_radius: float | None = None,
         hydrogen_bonds: "bool | tuple[float, float]" = False,
         emission: "str | float | ArrayLike | None" = None,
@@ -79,7 +79,7 @@ class AddingParticles:
             name of a column. By default the column ``radius``, the elements, or half the mean
             distance: that is the side of the cube that each particle has in the box around all.
         scale
-            What all radii are multiplied by, those of bonds too, > 0.
+            What all radii are multiplied by, those of bonds too, from 1e-20 to 1e20.
         color
             A colour, in any of the ways of `vtray.colors.to_rgb`; the name of a column, or x, y or
             z; or one colour or one number for each particle. Names and at most eight different
@@ -106,8 +106,9 @@ class AddingParticles:
             The colour that they come near; by default white, and black for points that shine.
         bonds
             True for pairs nearer than 1.2 times the sum of their covalent radii, by
-            `find_bonds`; a number for pairs nearer than that; pairs of indices, (m, 2); False for
-            none. By default those that are known, or True, in styles that show bonds.
+            `find_bonds`; a number for pairs nearer than that; ``"file"`` for those that are known,
+            as a file or a topology names them; pairs of indices, (m, 2); False for none. By default
+            those that are known, or True, in styles that show bonds.
         bond_radius
             In the unit of the positions; by default as the style says.
         hydrogen_bonds

@@ -50,6 +50,9 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Bytes = NDArray[np.uint8]
 
+SCALES = (1e-20, 1e20, "a number from 1e-20 to 1e20")
+"""What radii may be multiplied by: enough for any two units of length."""
+
 CELL_COLOR = (70, 70, 70)
 
 WRITTEN_OUT = 500_000
@@ -176,7 +179,7 @@ def draw(
 ) -> Drawn:
     """Add particles to a scene, as `Scene.add_particles` says, whose parameters these are."""
     particles = as_particles(given)
-    size = _positive(scale, "scale")
+    size = _number(scale, "scale", *SCALES)
     shines = emission is not None
     if shines:
         coloring = check_shining(style, coloring, radii=radii, bonds=bonds, hydrogen=hydrogen_bonds)
@@ -233,7 +236,7 @@ def _solid(
     if placed.bonds is not None or placed.hydrogen_bonds is not None:
         thick = stick_radius(particles, style, radii, scale)
         if bond_radius is not None:
-            thick = _positive(bond_radius, "bond_radius")
+            thick = _number(bond_radius, "bond_radius")
         if placed.bonds is not None:
             sticks = _cylinders(particles, placed, thick, radius, found)
         if placed.hydrogen_bonds is not None:
@@ -305,6 +308,10 @@ def _bonds_of(particles: Particles, bonds: Any) -> Bonds:  # noqa: ANN401
     """Return the bonds that are asked for."""
     if bonds is True:
         return find_bonds(particles)
+    if isinstance(bonds, str) and bonds == "file":
+        if particles.bonds is None:
+            raise SceneError('bonds: "file" are those that are known, and there are none')
+        return bonds_between(particles, particles.bonds)
     if isinstance(bonds, (int, float, np.number)):
         return find_bonds(particles, cutoff=float(bonds))
     return bonds_between(particles, bonds)
@@ -417,9 +424,15 @@ def _edges(particles: Particles, times: tuple[int, int, int]) -> tuple[Cylinders
     return Cylinders(starts, ends, radius, CELL_COLOR), Spheres(corners, radius, CELL_COLOR)
 
 
-def _positive(value: Any, name: str) -> float:  # noqa: ANN401
-    """Return a number > 0."""
+def _number(
+    value: Any,  # noqa: ANN401
+    name: str,
+    least: float = 0.0,
+    most: float = np.inf,
+    words: str = "a number > 0",
+) -> float:
+    """Return a number > 0 between two limits, as words say."""
     is_number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
-    if not is_number or not 0.0 < float(value) < np.inf:
-        raise SceneError(f"{name}: expected a number > 0, got {show(value)}")
+    if not is_number or not 0.0 < float(value) < np.inf or not least <= float(value) <= most:
+        raise SceneError(f"{name}: expected {words}, got {show(value)}")
     return float(value)

@@ -54,7 +54,7 @@ def read(given: Given) -> Particles:
     """
     what = READERS[given.format].what
     io: Any = need("ase.io", "atoms", f"reading {what}")
-    check_room(given.path, _TIMES)
+    check_room(given.file, _TIMES)
     name = _NAMES.get(given.format, given.format)
     # Of the frames that were met, only those that may be asked for are kept.
     met: deque[Any] = deque(maxlen=max(-given.frame, 1))
