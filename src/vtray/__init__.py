@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     )
     from vtray.scene.settings import RenderSettings
     from vtray.scene.spheres import Spheres
+    from vtray.scene.stars import Stars
 
 __all__ = [
     "Ambient",
@@ -75,6 +76,7 @@ __all__ = [
     "Sphere",
     "SphereLight",
     "Spheres",
+    "Stars",
     "Sun",
     "Vector",
     "VtrayError",
@@ -123,6 +125,7 @@ _MODULES = {
     "Sphere": "scene.objects",
     "SphereLight": "scene.light_types",
     "Spheres": "scene.spheres",
+    "Stars": "scene.stars",
     "Sun": "scene.light_types",
     "Vector": "scene.vectors",
     "VtrayError": "base.errors",

@@ -9,7 +9,7 @@ from PIL import Image
 
 from conftest import compiled_only
 from vtray.base.errors import SceneError
-from vtray.commands import cli
+from vtray.commands import cli, data_scene
 from vtray.commands.annotation_options import annotations_of
 from vtray.commands.data_options import joined
 from vtray.commands.data_scene import load_data
@@ -39,7 +39,7 @@ def water(tmp_path: Path) -> Path:
 
 def scene_of(*arguments: object) -> Scene:
     """Return the scene that the command makes of data."""
-    return load_data(parse([*map(str, arguments), "picture.png"]))
+    return load_data(parse([*map(str, arguments), "picture.png"]))[0]
 
 
 def test_data_becomes_a_scene(water: Path) -> None:
@@ -53,6 +53,11 @@ def test_data_becomes_a_scene(water: Path) -> None:
     assert last.camera.size == (1024, 1024)
     bound = scene_of(water, "--cutoff", "1.2", "--wrap", "--replicate", "2,1,1", "--no-cell")
     assert [len(item) for item in bound.objects] == [6, 6]
+    dashed = scene_of(water, "--hydrogen-bonds", "--no-cell")
+    assert [len(item) for item in dashed.objects] == [3, 0]
+    shining = scene_of(water, "--emission", "z", "--stretch", "log", "--peak", "2")
+    (stars,) = shining.objects
+    assert (stars.stretch, stars.softening, stars.peak) == ("log", None, 2)
     points = scene_of(water, "--style", "points", "--no-cell", "--size", "80x60")
     assert points.camera.size == (80, 60)
 
@@ -87,7 +92,18 @@ def test_values_that_look_like_options() -> None:
         ),
         (["--view", "up"], "argument --view: expected x, -x, y, -y, z, -z, top, bottom, "),
         (["--clim", "1"], "argument --clim: expected two numbers such as -1,1, got 1"),
-        (["--zoom", "0"], "argument --zoom: expected a number > 0, got 0"),
+        (["--zoom", "0"], "argument --zoom: expected a number from 1e-9 to 1e9, got 0"),
+        (["--zoom", "1e300"], "argument --zoom: expected a number from 1e-9 to 1e9, got 1e300"),
+        (["--scale", "1e200"], "argument --scale: expected a number from 1e-20 to 1e20, got"),
+        (["--label", "nam"], "DATA: --label: no column 'nam'; there are x, y, z, element, charge"),
+        (["--label", "1,2,:a"], "argument --label: expected x,y,z:TEXT such as 0,0,1.5:top, or"),
+        (["--emission", "mass"], "DATA: emission: expected a number or the name of a column, got"),
+        (["--emission", "charge"], "DATA: add_particles: emission[0]: expected a number ≥ 0, got"),
+        (["--emission", "z", "--bonds"], "DATA: bonds: points that shine have none; leave out"),
+        (
+            ["--softening", "0"],
+            "argument --softening: expected a number from 1e-9 to 1e9, got 0",
+        ),
         (["--frame", "1.5"], "argument --frame: expected an integer such as 0, or -1 for the last"),
         (["--replay", "a.png"], "--replay is for scene files, and DATA is none; "),
     ],
@@ -106,9 +122,36 @@ def test_options_of_data_are_not_for_scenes(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     scene = tmp_path / "scene.json"
-    assert cli.run([str(scene), "out.png", "--bonds"]) == 1
-    words = f"--bonds is for files of data, and {scene} is a scene"
+    assert cli.run([str(scene), "out.png", "--hydrogen-bonds"]) == 1
+    words = f"--hydrogen-bonds is for files of data, and {scene} is a scene"
     assert capfd.readouterr().err == f"Error: {words}\n"
+    assert cli.run([str(scene), "out.png", "--label", "name"]) == 1
+    words = "--label: expected x,y,z:TEXT, got name; columns are those of files of data"
+    assert capfd.readouterr().err == f"Error: {words}\n"
+
+
+def test_radius_is_another_word(water: Path) -> None:
+    one, other = (scene_of(water, flag, "0.5", "--no-cell") for flag in ("--radii", "--radius"))
+    assert one.objects == other.objects
+    assert one.objects[0].radius == 0.5
+
+
+def test_labels_of_data(water: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    given = ["--label", "element", "--label", "-1,0,2:A: b", "--label=charge", "--select", "x != 0"]
+    options = parse([*given, str(water), "picture.png"])
+    scene, of_data = load_data(options)
+    labels = annotations_of(options, of_data)["labels"]
+    assert labels[0] == ("A: b", (-1, 0, 2))
+    assert [text for text, _ in labels[1:]] == ["H", "H", "0.4", "0.4"]
+    assert [point for _, point in labels[1:3]] == [
+        tuple(place) for place in scene.objects[0].center.tolist()
+    ]
+    assert of_data["hide_labels"]
+    twice = load_data(parse(["--label=z", "--replicate=1,2,1", str(water), "picture.png"]))[1]
+    assert len(twice["labels"]) == 6
+    monkeypatch.setattr(data_scene, "MOST_LABELS", 2)
+    with pytest.raises(SceneError, match="--label z: expected at most 2 particles to label, got 3"):
+        scene_of(water, "--label", "z")
 
 
 def test_columns_are_listed(water: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -132,7 +175,8 @@ def test_picture_of_data(water: Path, vtray_command: Callable[..., CompletedProc
 
 def test_legend_of_data(water: Path) -> None:
     options = parse(["--legend", str(water), "picture.png"])
-    load_data(options)
-    assert [name for name, _ in annotations_of(options)["legend"]] == ["H", "O"]
+    _, of_data = load_data(options)
+    assert [name for name, _ in annotations_of(options, of_data)["legend"]] == ["H", "O"]
+    assert options.legend is True
     with pytest.raises(SceneError, match="--legend: colours have no names"):
         scene_of(water, "--legend", "--color", "charge")

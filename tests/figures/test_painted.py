@@ -192,6 +192,18 @@ def test_legend_has_balls_of_its_colours_beside_names() -> None:
             assert (pixels[y - middle : y + middle, x + middle + 3 : x + 60] == 255).any()
 
 
+def test_labels_that_overlap_are_left_out() -> None:
+    image = plain(120, 60)
+    near, far, beside = (0, 0, 1), (0.2, 0, 0), (0, 2, 0)
+    alone = changed(image, labels=[("near", near)])
+    both = changed(image, labels=[("far away", far), ("near", near)])
+    assert np.array_equal(both, alone)
+    first = changed(image, labels=[("one", far), ("two", far)])
+    assert np.array_equal(first, changed(image, labels=[("one", far)]))
+    apart = changed(image, labels=[("near", near), ("high", beside)])
+    assert apart.sum() > alone.sum()
+
+
 @pytest.mark.parametrize("at", [(0, 0, 0), (7.2, -3.1, 0), (9.9, 9.9, 0), (-9.9, -9.9, 0)])
 def test_labels_stand_around_their_points(at: Any) -> None:
     image = plain(200, 200, (255, 255, 255))

@@ -77,7 +77,7 @@ def test_threads_and_tiles_are_checked(bad: object) -> None:
 def test_scene_changed_in_code_is_checked() -> None:
     document = vtray.loads(json.dumps(one_sphere()))
     document.objects.append("cube")
-    kinds = "Sphere, Cylinder, Cone, Plane, Spheres, Cylinders, Cones or Copies"
+    kinds = "Sphere, Cylinder, Cone, Plane, Spheres, Cylinders, Cones, Copies or Stars"
     with pytest.raises(vtray.SceneError, match=rf"Scene.objects\[1\]: expected {kinds}"):
         vtray.render(document)
 

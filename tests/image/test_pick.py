@@ -37,8 +37,10 @@ def test_picked_particles(written_out: int, monkeypatch: pytest.MonkeyPatch) -> 
     assert ball.values == {"x": 1.5, "y": 2, "z": 2, "name": "right", "force": [0, 1, 0]}
     assert ball.distance == pytest.approx(4.7, abs=0.01)
     assert at(0.5, 6).copy == 1
+    assert [ball.kind, at(0.9, 2).kind] == ["particle", "bond"]
     assert [at(0.9, 2).particle, at(1.1, 6).particle] == [0, 1]  # the halves of the bond
     single = at(5, 2)
+    assert single.kind is None
     assert (single.object, single.copy, single.particle, single.values) == (0, None, None, {})
     assert at(1, 4) is None
     with pytest.raises(RenderError, match="pick: there is no pixel 80, 0 in a picture of 80 x 80"):

@@ -11,6 +11,9 @@ The blocks of a page run in their order, in one process and in a folder of their
 - ``text`` right after one of these, or after a comment that follows it, is what it prints; after
   `sh` it may be an error, and the status is 1 then.
 
+A comment ``<!-- smaller in tests: 1_000_000 -> 4_000, ... -->`` says what stands for something else
+where a page would take long: tests then see that its code runs, and make small pictures.
+
 Pictures of the page are those of `docs/images/pages` with the name of a file that a block wrote.
 """
 
@@ -22,7 +25,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -32,6 +37,7 @@ NOT_RUN = ("architecture", "benchmarks", "changelog", "gallery", "measured", "re
 PAGES = sorted(page for page in DOCS.glob("*.md") if page.stem not in NOT_RUN)
 
 _BLOCK = re.compile(r"^```(\w+)([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_SMALLER = re.compile(r"<!-- smaller in tests: (.*?) -->", re.DOTALL)
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _TITLE = re.compile(r'title="([^"]+)"')
 
@@ -77,8 +83,29 @@ def blocks(page: str) -> list[Block]:
     return found
 
 
-def run_page(page: Path) -> None:
+def smaller_of(page: Path) -> dict[str, str]:
+    """Return what tests put for which words of a page, so that it takes less time."""
+    found = _SMALLER.search(page.read_text(encoding="utf-8"))
+    pairs = re.split(r";\s+", found[1]) if found else []
+    return dict(re.split(r"\s+->\s+", pair, maxsplit=1) for pair in pairs)
+
+
+def made_smaller(text: str, smaller: Mapping[str, str]) -> str:
+    """Return code with other words for some."""
+    for words, fewer in smaller.items():
+        text = text.replace(words, fewer)
+    return text
+
+
+def run_page(page: Path, smaller: Mapping[str, str] = MappingProxyType({})) -> None:
     """Run the blocks of a page in the current folder.
+
+    Parameters
+    ----------
+    page
+        The page.
+    smaller
+        What stands for which words of the code.
 
     Raises
     ------
@@ -86,7 +113,7 @@ def run_page(page: Path) -> None:
         A block printed something else, or a command failed.
     """
     names: dict[str, Any] = {"__name__": page.stem}
-    for block in blocks(page.read_text(encoding="utf-8")):
+    for block in blocks(made_smaller(page.read_text(encoding="utf-8"), smaller)):
         place = f"{page.name}:{block.line}"
         if block.title and block.kind != "python":
             Path(block.title).write_text(block.text, encoding="utf-8")

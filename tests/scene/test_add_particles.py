@@ -62,6 +62,22 @@ def test_known_bonds_of_few_atoms_are_drawn() -> None:
     assert drawn(known, style="licorice", bonds=False).bonds is None
 
 
+def test_bonds_change_colour_in_the_middle_of_what_is_seen() -> None:
+    pair = {"element": np.array(["Ti", "O"])}
+    both = Particles([(0, 0, 0), (2, 0, 0)], pair)
+    large, small = drawn(both, bonds=True).spheres.radius.tolist()
+    sticks = drawn(both, bonds=True).bonds
+    start, end = sticks.start[0, 0], sticks.end[0, 0]
+    assert (start + end) / 2 == pytest.approx((large + 2 - small) / 2)
+    assert 0 < start < large
+    assert end == 2
+    cut = Particles([(0, 0, 0), (6, 0, 0)], pair, cell=np.diag([8.0] * 3))
+    halves = drawn(cut, bonds=True).bonds
+    assert halves.start[:, 0].tolist() == [0, 6]
+    middle = (large + 2 - small) / 2
+    assert halves.end[:, 0].tolist() == pytest.approx([-middle, 8 - middle])
+
+
 def test_size_is_that_of_a_column_or_of_the_mean_distance() -> None:
     lattice = np.stack(np.meshgrid(*[np.arange(5.0)] * 3), axis=-1).reshape(-1, 3)
     assert mean_spacing(Particles(lattice)) == pytest.approx(4 / 5)
@@ -72,6 +88,18 @@ def test_size_is_that_of_a_column_or_of_the_mean_distance() -> None:
     sized = Particles(lattice, {"radius": np.full(125, 0.3), "size": np.full(125, 0.1)})
     assert drawn(sized).spheres.radius[7] == 0.3
     assert drawn(sized, radii="size", scale=2).spheres.radius[7] == 0.2
+
+
+def test_mean_distance_is_that_where_particles_are() -> None:
+    x, y = (side.ravel() for side in np.meshgrid(*[np.arange(60.0)] * 2))
+    hills = np.stack([x, y, 15 * np.sin(x / 10) * np.sin(y / 10)], axis=1)
+    assert mean_spacing(Particles(hills)) == pytest.approx(1.2, abs=0.3)
+    turn = np.arange(2000.0) / 2000
+    helix = np.stack([300 * np.cos(9 * turn), 300 * np.sin(9 * turn), 700 * turn], axis=1)
+    assert mean_spacing(Particles(helix)) == pytest.approx(1.4, rel=0.5)
+    far = np.concatenate([hills, hills + 1e5])
+    assert mean_spacing(Particles(far)) == pytest.approx(1.2, abs=0.3)
+    assert mean_spacing(Particles(np.repeat([(0.0, 0, 0), (1, 1, 1)], 500, axis=0))) > 0
 
 
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
@@ -135,6 +163,21 @@ def test_objects_remember_particles_until_they_are_saved() -> None:
     )
 
 
+def test_particles_shine() -> None:
+    scene = vtray.Scene()
+    boxed = Particles([(1, 1, 1), (2, 1, 1)], {"mass": [1.0, 3.0]}, cell=np.eye(3) * 4)
+    found = scene.add_particles(boxed, emission="mass", replicate=(2, 1, 1), select="x > 1")
+    assert (found.style, len(found.spheres), found.cell) == ("points", 0, None)
+    assert scene.objects == [found.stars]
+    assert found.stars.center.tolist() == [[2, 1, 1], [6, 1, 1]]
+    assert found.stars.emission.tolist() == [3, 3]
+    assert found.stars.color.tolist() == [255, 255, 255]
+    charged = WATER.with_columns(light=[1.0, 2.0, 3.0])
+    colored = drawn(charged, emission="light", color="charge", highlight="index == 0")
+    assert colored.stars.color_scale.high == 0.4
+    assert colored.stars.color[1].tolist() == (colored.color_scale.colors([0.4])[0] // 5).tolist()
+
+
 def test_cell_is_drawn_where_there_is_one() -> None:
     boxed = Particles([(1, 1, 1)], cell=np.eye(3) * 4)
     edges, corners = drawn(boxed).cell
@@ -150,13 +193,20 @@ def test_cell_is_drawn_where_there_is_one() -> None:
             {"style": "ball"},
             'style: expected "spacefill", "ball-and-stick", "licorice" or "points"',
         ),
-        ({"scale": 0}, "scale: expected a number > 0, got 0"),
+        ({"scale": 0}, "scale: expected a number from 1e-20 to 1e20, got 0"),
+        ({"scale": 1e200}, "scale: expected a number from 1e-20 to 1e20, got 1e+200"),
+        ({"bonds": True, "bond_radius": 0}, "bond_radius: expected a number > 0, got 0"),
         ({"color": "chrage"}, "expected a colour or the name of a column, got 'chrage'; did you"),
         ({"color": "name", "cmap": "viridis"}, "holds names, which no colour map is for"),
         ({"colors": "rasmol"}, 'colors: expected "jmol" or "cpk"'),
         ({"color": "charge", "norm": "sqrt"}, 'norm: expected "linear", "log" or "centered"'),
         ({"color": "charge", "norm": "log", "clim": (0, 1)}, "expected numbers above 0"),
         ({"color": [1.0, 2.0]}, "add_particles: color"),
+        ({"emission": "chrage"}, "emission: expected a number or the name of a column, got"),
+        ({"emission": 1.0, "style": "licorice"}, 'style: expected "points" with emission'),
+        ({"emission": 1.0, "radii": 2.0}, "radii: points that shine have none; leave out"),
+        ({"emission": [1.0, 2.0]}, "add_particles: emission: expected a number or an array of"),
+        ({"emission": 1.0, "stretch": "root"}, "add_particles: stretch: expected"),
         ({"select": [True]}, "select: expected an expression, or an array of 3 bool"),
         ({"select": "x >"}, "select"),
         ({"bonds": [(0, 3)]}, r"bonds[0]: expected indices from 0 to 2, got [0, 3]"),

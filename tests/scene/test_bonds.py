@@ -9,6 +9,7 @@ from ase.neighborlist import neighbor_list
 
 from vtray.base.errors import SceneError
 from vtray.scene.particles import bonds as module
+from vtray.scene.particles import elements
 from vtray.scene.particles.bonds import bonds_between, find_bonds
 from vtray.scene.particles.particles import Particles
 
@@ -72,6 +73,25 @@ def test_hydrogen_is_bound_in_water_and_to_itself_alone_in_a_molecule_of_it() ->
     places = [(0, 0, 0), (0.76, 0.59, 0), (-0.76, 0.59, 0), (5, 0, 0), (5.735, 0, 0)]
     water = Particles(places, {"element": np.array(list("OHHHH"))})
     assert sorted(find_bonds(water).pairs.tolist()) == [[0, 1], [0, 2], [3, 4]]
+
+
+def test_ions_of_metals_are_bound_to_anions_alone() -> None:
+    u, a, c = 0.305, 4.594, 2.959
+    places = [(0, 0, 0), (0.5, 0.5, 0.5), (u, u, 0), (-u, -u, 0)]
+    places += [(0.5 + u, 0.5 - u, 0.5), (0.5 - u, 0.5 + u, 0.5)]
+    element = np.array(["Ti", "Ti", "O", "O", "O", "O"])
+    cell = np.diag([a, a, c])
+    rutile = Particles(places @ cell, {"element": element}, cell=cell)
+    ends = [sorted(pair) for pair in element[find_bonds(rutile).pairs].tolist()]
+    assert ends == [["O", "Ti"]] * 12
+    near = len(find_bonds(rutile, radii=elements.radii_of(element)))
+    assert near > 12, "by distance alone, there are bonds between metals"
+
+
+def test_metals_are_bound_where_they_are_no_ions() -> None:
+    places = [(0, 0, 0), (2.7, 0, 0), (5.4, 0, 0), (-2.2, 0, 0)]
+    gold = Particles(places, {"element": np.array(["Au", "Au", "Au", "S"])})
+    assert sorted(find_bonds(gold).pairs.tolist()) == [[0, 1], [0, 3], [1, 2]]
 
 
 def test_few_and_equal_places() -> None:

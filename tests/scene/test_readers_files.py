@@ -75,7 +75,9 @@ Cl1 Cl 0.5 0.5 0.5
 def test_symmetry_of_crystals(symmetry: str, count: int, tmp_path: Path) -> None:
     path = tmp_path / "salt.cif"
     path.write_text(CIF.format(symmetry=symmetry))
-    assert len(vtray.read(path)) == count
+    found = vtray.read(path)
+    assert len(found) == count
+    assert found.periodic == (True, True, True)
 
 
 def test_frames_of_ase(tmp_path: Path) -> None:
@@ -101,6 +103,17 @@ END
 """
 
 
+@pytest.mark.parametrize(
+    ("group", "is_whole"), [("P 1", True), ("P1", True), ("", True), ("P 61", False)]
+)
+def test_pdb_has_a_cell_where_its_atoms_are_all_that_it_repeats(
+    group: str, is_whole: bool, tmp_path: Path
+) -> None:
+    path = tmp_path / "a.pdb"
+    path.write_text(PDB.replace("P 1", f"{group:11}   6"))
+    assert (vtray.read(path).cell is not None) == is_whole
+
+
 def test_pdb(tmp_path: Path) -> None:
     path = tmp_path / "a.pdb"
     path.write_text(PDB)
@@ -124,6 +137,35 @@ def test_pdb(tmp_path: Path) -> None:
     # Without the columns of elements, the place of the name tells calcium from alpha carbon.
     path.write_text("".join(f"{line[:76]}\n" for line in PDB.splitlines()))
     assert vtray.read(path)["element"].tolist() == ["C", "H", "Ca"]
+
+
+LIGAND = """\
+HETATM    7  C1  LIG A   1       1.000   0.000   0.000  1.00 10.00           C
+HETATM    8  C2  LIG A   1       2.500   0.000   0.000  1.00 10.00           C
+HETATM    9  O   HOH A   2       9.000   0.000   0.000  1.00 10.00           O
+CONECT    7    8    8
+CONECT    8    7    7   99
+"""
+
+
+def test_bonds_of_pdb(tmp_path: Path) -> None:
+    path = tmp_path / "a.pdb"
+    path.write_text(LIGAND)
+    found = vtray.read(path)
+    assert found.bonds.tolist() == [[0, 1]]
+    drawn = vtray.Scene().add_particles(found, bonds="file")
+    assert len(drawn.bonds) == 1
+    assert drawn.style == "ball-and-stick"
+    # Where not all atoms of a residue are reached, most bonds are left out.
+    for text in (
+        LIGAND.replace("HOH A   2", "LIG A   1"),
+        LIGAND.replace("CONECT    7    8    8", "CONECT").replace("CONECT    8", "CONECT    9"),
+        LIGAND.replace("HETATM    9", "HETATM    8"),
+    ):
+        path.write_text(text)
+        assert vtray.read(path).bonds is None
+    with pytest.raises(SceneError, match='bonds: "file" are those that are known, and there are'):
+        vtray.Scene().add_particles(vtray.read(path), bonds="file")
 
 
 DUMP = """\
@@ -440,6 +482,9 @@ WRONG = [
     ("a.csv", "x,x\n1,2\n", "line 1: expected each column once, got 'x' twice"),
     ("a.csv", "x,y,z\n1,2,\n", "Particles.positions[0, 2]: must be finite, got nan"),
     ("a.pdb", PDB.replace("  -1.500", "  -1.5x0"), "line 4: columns 31 to 38: x must be a number"),
+    ("a.pdb", PDB.replace("  -1.500", "     nan"), "line 4: x must be finite, got nan"),
+    ("a.dump", dump(one="0 1 inf"), "line 10: z must be finite, got inf"),
+    ("a.data", "\n\n1 atoms\n\nAtoms\n\n1 1 0 0 nan\n", "line 7: z must be finite, got nan"),
     ("a.pdb", PDB.replace("110.00", "190.00"), "line 1: expected three lengths and three angles"),
     ("a.pdb", PDB.replace("80.00  90.00 110.00", "10.00  90.00 170.00"), "line 1: no cell has"),
     ("a.dump", dump(box="1 2\n3 x\n5 6"), "line 9: expected the bounds of the box, got '1 2 / 3 x"),

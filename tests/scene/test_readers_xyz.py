@@ -148,7 +148,7 @@ def test_lines(texts: list[str], step: int, count: int) -> None:
         ("2\n\nO 0 0 0\nH 0 0\n", "line 4: expected 4 entries, got 3: 'H 0 0'"),
         ("2\n\nO 0 0 0\nH 0 x 0\n", "line 4: entry 3 must be a number, got 'x'"),
         ("2\n\n1 0 0 0 5\n1 0 0\n", "line 4: expected 4 entries, got 3: '1 0 0'"),
-        ("1\n\nO 0 nan 0\n", "Particles.positions[0, 1]: must be finite, got nan"),
+        ("1\n\nO 0 nan 0\n", "line 3: y must be finite, got nan"),
         ("1\nProperties=pos:R:3:a:Q:1\n", "line 2: Properties: expected name:R, I, S or L:width"),
         ("1\nProperties=pos:R\n", "line 2: Properties: expected three parts for each column"),
         ("1\nProperties=a:S:1\nO\n", "line 2: Properties: expected pos:R:3 among the columns"),

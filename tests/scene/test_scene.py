@@ -16,7 +16,7 @@ from vtray.scene.scene import Camera, Color, Direction, Light, Plane, Scene, Sph
 CAMERA = Camera(Vector(0, 0, 0), Direction(0, 0, 1), 10, (4, 3), (0.5, 0.25))
 SPHERE = Sphere(Vector(1, 2, 3), 0.1, Color(1, 2, 255), 0.3)
 PLANE = Plane(Vector(0, 5, 0), Direction(0, -1, 0), Color(9, 8, 7), 1)
-OBJECTS = "expected Sphere, Cylinder, Cone, Plane, Spheres, Cylinders, Cones or Copies"
+OBJECTS = "expected Sphere, Cylinder, Cone, Plane, Spheres, Cylinders, Cones, Copies or Stars"
 LIGHTS = "expected Light, Sun, SphereLight, RectangleLight, Sky or Ambient"
 LIGHT = Light(Vector(0.1, -0.0, 1e300), 1e-320)
 

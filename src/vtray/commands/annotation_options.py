@@ -1,17 +1,52 @@
 """The options for what is painted onto a picture: a title, axes, a scale bar, colour bars."""
 
 import argparse
-from collections.abc import Sequence
-from typing import Any
+import math
+import re
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 from vtray.base.errors import OutputError
 from vtray.commands.command import Parser
+from vtray.commands.setting_options import wrong
 
 WITH_VALUE = ("--scale-bar", "--color-bar")
 """Options whose value is only what follows an equals sign, so that a file after them is none."""
 
 KEYWORDS = ("title", "time", "axes", "scalebar", "colorbar", "legend")
 """The keywords of `vtray.Image.annotated` that options give; data alone have a legend."""
+
+_POINT = re.compile(r"([^:,]*),([^:,]*),([^:,]*):(.+)", re.DOTALL)
+"""A place and a text, as ``--label`` has them."""
+
+
+class PointLabel(NamedTuple):
+    """A text at a point in world space."""
+
+    text: str
+    point: tuple[float, float, float]
+
+
+def _label(text: str) -> PointLabel | str:
+    """Return the value of ``--label``: a text at a point, or the name of a column."""
+    found = _POINT.fullmatch(text)
+    if found is None:
+        return text
+    try:
+        x, y, z = map(float, found.groups()[:3])
+    except ValueError:
+        x = y = z = math.nan
+    if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
+        raise wrong("x,y,z:TEXT such as 0,0,1.5:top, or the name of a column", text)
+    return PointLabel(found[4], (x, y, z))
+
+
+def labels_of(options: argparse.Namespace) -> tuple[list[PointLabel], list[str]]:
+    """Return the texts at points that options ask for, and the columns that label particles."""
+    given: list[PointLabel | str] = options.label or []
+    points = [label for label in given if isinstance(label, PointLabel)]
+    return points, [label for label in given if isinstance(label, str)]
 
 
 def with_values(arguments: Sequence[str]) -> list[str]:
@@ -32,6 +67,13 @@ def add_annotations(parser: Parser) -> None:
         "--axes", action="store_const", const=True, help="show how x, y and z lie, in a corner"
     )
     group.add_argument(
+        "--label",
+        metavar="X,Y,Z:TEXT",
+        type=_label,
+        action="append",
+        help="write a text at a point, or of data a COLUMN at all that are drawn; may be repeated",
+    )
+    group.add_argument(
         "--scale-bar", metavar="UNIT", dest="scalebar", help="show a scale bar, =nm for its unit"
     )
     group.add_argument(
@@ -42,8 +84,17 @@ def add_annotations(parser: Parser) -> None:
     )
 
 
-def annotations_of(options: argparse.Namespace) -> dict[str, Any]:
+def annotations_of(
+    options: argparse.Namespace, of_data: Mapping[str, Any] = MappingProxyType({})
+) -> dict[str, Any]:
     """Return what to call `vtray.Image.annotated` with; empty if nothing is asked for.
+
+    Parameters
+    ----------
+    options
+        The options.
+    of_data
+        What data add to these: their ``legend``, and ``labels``.
 
     Raises
     ------
@@ -52,6 +103,10 @@ def annotations_of(options: argparse.Namespace) -> dict[str, Any]:
     """
     given = {name: getattr(options, name, None) for name in KEYWORDS}
     found = {name: value for name, value in given.items() if value is not None}
+    if options.label:
+        found["labels"] = labels_of(options)[0]
+    for name, value in of_data.items():
+        found[name] = [*found["labels"], *value] if name == "labels" else value
     for name in ("scalebar", "colorbar"):
         if found.get(name) == "":
             found[name] = True

@@ -5,7 +5,7 @@ import contextlib
 import sys
 import warnings
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import printable
 from vtray.base.memory import BYTES_PER_PIXEL_AND_MORE, check_memory, check_memory_of_start
@@ -49,7 +49,7 @@ def _run(options: argparse.Namespace) -> int:
         _check_output(options)
     check_memory_of_start()
     clock = Stopwatch()
-    scene = _load_data(options) if is_data else _load(options)
+    scene, of_data = _load_data(options) if is_data else (_load(options), {})
     if options.pixel is None:
         _check_picture(scene, options)
     if told is not None:
@@ -63,7 +63,7 @@ def _run(options: argparse.Namespace) -> int:
 
         print_result(explain_pixel(scene, image, *options.pixel))
     else:
-        annotations = annotations_of(options)
+        annotations = annotations_of(options, of_data)
         if annotations:
             image.annotated(**annotations).save(options.output)
         else:
@@ -148,15 +148,15 @@ def _is_data(options: argparse.Namespace) -> bool:
         from vtray.scene.readers.reader_table import is_data as is_called_data
 
         is_data = is_called_data(str(options.scene))
-    if is_data or given:
+    if is_data or given or options.label:
         data_options.check_kind(options, is_data=is_data)
     if options.threads is None and not is_data:
         options.threads = 1
     return is_data
 
 
-def _load_data(options: argparse.Namespace) -> "Scene":
-    """Read a file of data, and make a scene of it."""
+def _load_data(options: argparse.Namespace) -> "tuple[Scene, dict[str, Any]]":
+    """Read a file of data, and make a scene of it, and what is painted on its picture."""
     from vtray.commands.data_scene import load_data
 
     return load_data(options)

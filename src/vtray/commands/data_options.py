@@ -4,14 +4,17 @@ They are only made where one of them is used, or help is asked for: a scene file
 """
 
 import argparse
+import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from vtray.base.errors import UsageError
+from vtray.commands.annotation_options import labels_of
 from vtray.commands.command import Parser
 from vtray.commands.setting_options import wrong
 
+STRETCHES = ("linear", "asinh", "log")
 STYLES = ("spacefill", "ball-and-stick", "licorice", "points")
 VIEWS = ("x", "-x", "y", "-y", "z", "-z", "top", "bottom", "front", "back", "left", "right", "iso")
 
@@ -25,9 +28,19 @@ def _integer(text: str) -> int:
 
 
 def _positive(text: str) -> float:
-    if not re.fullmatch(_NUMBER, text) or not 0.0 < float(text) < float("inf"):
-        raise wrong("a number > 0", text)
-    return float(text)
+    return _between(0.0, math.inf, "a number > 0")(text)
+
+
+def _between(least: float, most: float, words: str) -> Callable[[str], float]:
+    """Return what makes a number of an argument, above 0 and between two limits, as words say."""
+
+    def number(text: str) -> float:
+        value = float(text) if re.fullmatch(_NUMBER, text) else 0.0
+        if not (least <= value <= most and 0.0 < value < math.inf):
+            raise wrong(words, text)
+        return value
+
+    return number
 
 
 def _limits(text: str) -> tuple[float, float]:
@@ -76,9 +89,14 @@ HOW: dict[str, dict[str, Any]] = {
         "type": _radii,
         "help": "covalent, vdw, a number, or the name of a column",
     },
-    "scale": {"metavar": "NUMBER", "type": _positive, "help": "multiply all radii by it"},
+    "scale": {
+        "metavar": "NUMBER",
+        "type": _between(1e-20, 1e20, "a number from 1e-20 to 1e20"),
+        "help": "multiply all radii by it",
+    },
     "bonds": {**YES_OR_NO, "help": "bonds by covalent radii, or none"},
     "cutoff": {"metavar": "LENGTH", "type": _positive, "help": "bonds of that length or shorter"},
+    "hydrogen-bonds": {**FLAG, "help": "hydrogen bonds as dashes"},
     "cell": {**YES_OR_NO, "help": "the edges of the cell, or not"},
     "color": {"metavar": "COLUMN", "help": "colours by a column, or one colour for all"},
     "colors": {"metavar": "jmol|cpk", "choices": ("jmol", "cpk"), "help": "those of elements"},
@@ -93,6 +111,26 @@ HOW: dict[str, dict[str, Any]] = {
         "choices": ("linear", "log", "centered"),
         "help": "how values are spread over it",
     },
+    "emission": {
+        "metavar": "COLUMN",
+        "type": _radii,
+        "help": "let points shine, so that their light adds up: by a column, or a number",
+    },
+    "stretch": {
+        "metavar": "NAME",
+        "choices": STRETCHES,
+        "help": f"how light becomes brightness: {', '.join(STRETCHES)} (asinh unless given)",
+    },
+    "softening": {
+        "metavar": "NUMBER",
+        "type": _between(1e-9, 1e9, "a number from 1e-9 to 1e9"),
+        "help": "from which part of the brightest on it counts by its logarithm",
+    },
+    "peak": {
+        "metavar": "NUMBER",
+        "type": _positive,
+        "help": "the light of a pixel that is as bright as can be",
+    },
     "highlight": {"metavar": "EXPR", "help": "let the colours of all others fade"},
     "legend": {**FLAG, "help": "show what the colours are called: elements, or names in a column"},
 }
@@ -104,7 +142,11 @@ VIEW: dict[str, dict[str, Any]] = {
         "type": _view,
         "help": "from where: x, -x, ..., top, front, right, ..., iso, or AZIMUTH,ELEVATION",
     },
-    "zoom": {"metavar": "NUMBER", "type": _positive, "help": "show everything larger by that"},
+    "zoom": {
+        "metavar": "NUMBER",
+        "type": _between(1e-9, 1e9, "a number from 1e-9 to 1e9"),
+        "help": "show everything larger by that",
+    },
     "orthographic": {**FLAG, "help": "without perspective"},
 }
 """From where they are seen."""
@@ -116,8 +158,12 @@ GROUPS = {
 }
 NAMES = tuple(name for group in GROUPS.values() for name in group)
 
+SAME = {"radii": ("--radius",)}
+"""Other names of options."""
+
 _FLAGS = {f"--{name}" for name in NAMES} | {"--no-bonds", "--no-cell"}
-_MAY_BE_NEGATIVE = ("--view", "--clim")
+_FLAGS |= {flag for flags in SAME.values() for flag in flags}
+_MAY_BE_NEGATIVE = ("--view", "--clim", "--label")
 
 
 def are_used(arguments: Sequence[str]) -> bool:
@@ -143,12 +189,13 @@ def add_data_options(parser: Parser) -> None:
     for title, options in GROUPS.items():
         group = parser.add_argument_group(title)
         for name, known in options.items():
-            group.add_argument(f"--{name}", **known)
+            group.add_argument(f"--{name}", *SAME.get(name, ()), **known)
 
 
 def given(options: argparse.Namespace) -> dict[str, Any]:
     """Return the options that were given, by their names."""
-    found = {name: getattr(options, name, None) for name in NAMES}
+    names = [name.replace("-", "_") for name in NAMES]
+    found = {name: getattr(options, name, None) for name in names}
     return {name: value for name, value in found.items() if value is not None}
 
 
@@ -164,9 +211,12 @@ def check_kind(options: argparse.Namespace, *, is_data: bool) -> None:
     """
     used = given(options)
     if not is_data and used:
-        raise UsageError(
-            f"--{next(iter(used))} is for files of data, and {options.scene} is a scene"
-        )
+        name = next(iter(used)).replace("_", "-")
+        raise UsageError(f"--{name} is for files of data, and {options.scene} is a scene")
+    columns = [] if is_data else labels_of(options)[1]
+    if columns:
+        words = f"expected x,y,z:TEXT, got {columns[0]}; columns are those of files of data"
+        raise UsageError(f"--label: {words}")
     if is_data and options.replay is not None:
         words = "a picture does not tell how it was made of data"
         raise UsageError(f"--replay is for scene files, and {options.scene} is none; {words}")

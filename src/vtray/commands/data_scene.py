@@ -5,9 +5,13 @@ from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
 from vtray.commands import data_options
+from vtray.commands.annotation_options import PointLabel, labels_of
 from vtray.commands.data_options import VIEW
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
+    from vtray.scene.particles.drawing import Drawn
     from vtray.scene.particles.particles import Particles
     from vtray.scene.scene import Camera, Scene
 
@@ -20,6 +24,9 @@ SAMPLES = 4
 TOLERANCE = 0.02
 """How noisy soft light may be: twice to five times fewer rays than scenes have among many atoms."""
 
+MOST_LABELS = 2000
+"""How many particles may have a label: more can neither be read nor placed in time."""
+
 UNDRAWN = ("frame", "columns", "legend")
 """Options that `add_particles` need not know."""
 
@@ -27,10 +34,10 @@ USUAL = (-65.0, 20.0)
 """Azimuth and elevation of the view of a cell: three faces are seen, that in front most."""
 
 
-def load_data(options: argparse.Namespace) -> "Scene":
+def load_data(options: argparse.Namespace) -> "tuple[Scene, dict[str, Any]]":
     """Read a file of data, and return a scene of its particles as the options say.
 
-    Where a legend is asked for, that option becomes what stands in it.
+    Beside it, what `vtray.Image.annotated` is to be given of the data: a legend, and labels.
 
     Raises
     ------
@@ -57,12 +64,39 @@ def load_data(options: argparse.Namespace) -> "Scene":
         scene.camera = _camera(scene, particles, size, dict(view))
     except SceneError as error:
         raise SceneError(f"{options.scene}: {error}") from None
+    marks: dict[str, Any] = {}
     if data_options.given(options).get("legend"):
         if not drawn.legend:
             message = "--legend: colours have no names; --color-bar says what values they stand for"
             raise SceneError(f"{options.scene}: {message}")
-        options.legend = drawn.legend
-    return scene
+        marks["legend"] = drawn.legend
+    _, columns = labels_of(options)
+    if columns:
+        marks["labels"] = [
+            label for name in columns for label in _labels(drawn, particles, name, options.scene)
+        ]
+        # Of atoms behind others, too, would be too many.
+        marks["hide_labels"] = True
+    return scene, marks
+
+
+def _labels(drawn: "Drawn", particles: "Particles", name: str, file: "Path") -> list[PointLabel]:
+    """Return what a column says of each particle that is drawn, and where it is."""
+    try:
+        values = particles[name]
+    except SceneError as error:
+        raise SceneError(f"{file}: --label: {error}, or give x,y,z:TEXT") from None
+    if values.ndim != 1:
+        raise SceneError(f"{file}: --label: column {name} has {values.shape[1]} numbers each")
+    places = drawn.spheres.center if drawn.stars is None else drawn.stars.center
+    if len(places) > MOST_LABELS:
+        words = f"expected at most {MOST_LABELS} particles to label, got {len(places)}"
+        raise SceneError(f"{file}: --label {name}: {words}; choose some by --select")
+    rows = values[drawn.indices]
+    texts = [f"{value:.4g}" for value in rows] if rows.dtype.kind == "f" else [*map(str, rows)]
+    times = len(places) // max(len(texts), 1)
+    pairs = zip(texts * times, places.tolist(), strict=True)
+    return [PointLabel(text, (x, y, z)) for text, (x, y, z) in pairs if text.strip()]
 
 
 def read_particles(options: argparse.Namespace) -> "Particles":

@@ -32,11 +32,14 @@ class Label(NamedTuple):
         What is written, its middle at the place.
     column, row
         In pixels from the left and from the top; those of a pixel itself are integers.
+    depth
+        How far from the eye along the view it is, in scene units.
     """
 
     text: str
     column: float
     row: float
+    depth: float
 
 
 def shown_labels(image: Subject, labels: "LabelsGiven", *, hide: bool) -> list[Label]:
@@ -67,7 +70,9 @@ def shown_labels(image: Subject, labels: "LabelsGiven", *, hide: bool) -> list[L
     if hide and len(shown):
         shown = shown[~_hidden(image, points[shown], column[shown], row[shown], depth[shown])]
     shown = shown[np.argsort(-depth[shown], kind="stable")]
-    return [Label(texts[k], float(column[k]), float(row[k])) for k in shown.tolist()]
+    return [
+        Label(texts[k], float(column[k]), float(row[k]), float(depth[k])) for k in shown.tolist()
+    ]
 
 
 def _read(labels: Any) -> tuple[list[str], Floats]:  # noqa: ANN401

@@ -109,8 +109,12 @@ def _obstacle(way: WayToLight) -> str:
 def _describe_exposure(exposed: Exposed, tree: TracedRays) -> list[str]:
     """Return the lines on the value before and after exposure."""
     lines, share = [], f"{100 * exposed.background:.3g}"
-    if exposed.light != tree.light:
-        lines.append(f"samples      {_vector(exposed.light)}, the mean of all rays of the pixel")
+    shine = exposed.stars or (0.0, 0.0, 0.0)
+    if exposed.light != tuple(one + two for one, two in zip(tree.light, shine, strict=True)):
+        traced = [one - two for one, two in zip(exposed.light, shine, strict=True)]
+        lines.append(f"samples      {_vector(traced)}, the mean of all rays of the pixel")
+    if exposed.stars is not None:
+        lines.append(f"stars        {_vector(shine)}, added to that")
     if exposed.sky is not None:
         lines.append(f"sky          {_vector(exposed.sky)}, seen in {share} % of the pixel")
     what = "the brightest channel of the picture" if exposed.brightest else "what becomes 255"

@@ -282,7 +282,9 @@ class Exposed:
     ----------
     light
         Linear red, green and blue in the picture; with more than one ray for a pixel their
-        weighted mean, which is not that of the ray in the middle alone.
+        weighted mean, which is not that of the ray in the middle alone. That of stars is a part.
+    stars
+        The red, green and blue that points add which shine; None without any in the scene.
     white
         The light that becomes 255; 0 if the whole picture is black.
     brightest
@@ -296,6 +298,7 @@ class Exposed:
     """
 
     light: Vec
+    stars: Vec | None
     white: float
     brightest: bool
     background: float

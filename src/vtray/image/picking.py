@@ -34,6 +34,8 @@ class Pick:
     particle : int or None
         Which particle it was made of, as an index; of a bond, the one at this half. None for what
         was not made of particles.
+    kind : str or None
+        What it stands for, if it was made of particles: "particle", "bond" or "hydrogen bond".
     values : dict
         What the columns say of that particle, and x, y and z, by name; empty if there is none.
     """
@@ -43,6 +45,7 @@ class Pick:
     copy: int | None
     distance: float
     particle: int | None
+    kind: str | None
     values: Mapping[str, Any]
 
 
@@ -62,10 +65,10 @@ def pick(image: "Rendered", x: int, y: int) -> Pick | None:
     if isinstance(item, Copies):
         part, within = item.locate(index)
         item = item.objects[part]
-    source, particle, values = made_of(item), None, {}
+    source, particle, kind, values = made_of(item), None, None, {}
     if source is not None:
         particle = source.particle(within, int(image.halves[row, column]))
-        values = source.values(particle)
+        kind, values = source.kind, source.values(particle)
         copy = source.image(within) if copy == NONE else copy
     distance = float(image.depth[row, column])
-    return Pick(place, index, None if copy == NONE else copy, distance, particle, values)
+    return Pick(place, index, None if copy == NONE else copy, distance, particle, kind, values)

@@ -48,6 +48,9 @@ class Rendered:
     sky
         Gives the light of the skies of a scene where its pixels are not covered; called where that
         is the background.
+    starlight
+        Gives the light of the points that shine in a scene, which is a part of `linear` and `raw`;
+        None if there are none.
     """
 
     def __init__(
@@ -71,6 +74,7 @@ class Rendered:
         locked: bool = False,
         partial: float | None = None,
         sky: Callable[[Scene, Floats], Floats] | None = None,
+        starlight: Callable[[Scene], Floats | None] | None = None,
     ) -> None:
         self.linear = linear
         self.white = white
@@ -91,6 +95,7 @@ class Rendered:
         self.locked = locked
         self.partial = partial
         self._sky = sky
+        self._starlight = starlight
 
     def __repr__(self) -> str:
         height, width = self.linear.shape[:2]
@@ -174,6 +179,11 @@ class Rendered:
         behind = self._sky(self.scene, self.alpha)
         return self.linear + (1.0 - self.alpha[..., None]) * behind
 
+    @property
+    def starlight(self) -> Floats | None:
+        """The part of `linear` that points give which shine; None if there are none."""
+        return None if self._starlight is None else self._starlight(self.scene)
+
     @cached_property
     def error(self) -> Floats:
         """The estimated standard error of `linear`, (height, width): that of the worst channel.
@@ -205,6 +215,9 @@ class Rendered:
         unknown = np.full(self.linear.shape[:2], np.nan)
         raw = self._relighting(scene)
         linear = raw if self._denoising is None else self._denoising(scene, raw)
+        shine = None if self._starlight is None else self._starlight(scene)
+        if shine is not None:
+            linear, raw = linear + shine, raw + shine
         return self._again(
             lock, _raw=raw, linear=linear, scene=scene, _error=unknown, _original=given
         )

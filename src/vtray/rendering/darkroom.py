@@ -33,6 +33,8 @@ class Darkroom:
         Gives what the middle rays meet.
     sky
         Gives the light of the skies of a scene where its pixels are not covered.
+    starlight
+        Gives the light of the points that shine in a scene, if there are any.
     lock
         A picture whose exposure is taken, or None.
     threads
@@ -44,6 +46,7 @@ class Darkroom:
     settings: RenderSettings
     look: Callable[[], Surfaces]
     sky: Callable[[Scene, Floats], Floats]
+    starlight: Callable[[Scene], Floats | None]
     lock: object
     threads: int
 
@@ -79,9 +82,13 @@ class Darkroom:
         peak
             The largest channel of light.
         """
-        raw = linear
+        traced = raw = linear
         if denoising is not None:
             linear = denoising(self.scene, raw)
+        shine = self.starlight(self.scene)
+        if shine is not None:
+            linear, raw = linear + shine, raw + shine
+        if linear is not traced:
             peak = max(float(linear.max()), 0.0)
         return Image(
             linear,
@@ -102,4 +109,5 @@ class Darkroom:
             locked=self.lock is not None,
             partial=partial,
             sky=self.sky,
+            starlight=None if shine is None else self.starlight,
         )

@@ -35,6 +35,7 @@ from vtray.scene.fingerprint import hash_arrays
 from vtray.scene.light_types import Light
 from vtray.scene.objects import Plane
 from vtray.scene.scene import Scene
+from vtray.scene.stars import Stars
 
 FEW = 128
 """Up to so many shapes, no hierarchy is needed: testing each for a whole packet is faster.
@@ -52,7 +53,7 @@ def accelerate(scene: Scene, threads: int = 1, progress: Progress | None = None)
     RenderError
         There are more than a hierarchy or the memory can hold.
     """
-    items = [item for item in scene.objects if not isinstance(item, Plane)]
+    items = [item for item in scene.objects if not isinstance(item, (Plane, Stars))]
     few = LEAF if _has_soft_light(scene) else FEW
     fingerprint = _fingerprint(items, threads) + few.to_bytes(8, "little")
     kept: Acceleration | None = scene.__dict__.get(_KEPT)

@@ -15,6 +15,7 @@ from vtray.rendering.shape_kinds import KINDS, Kind, count_of
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.copies import Copies
 from vtray.scene.objects import Object
+from vtray.scene.stars import Stars
 
 Integers = NDArray[np.int64]
 
@@ -23,6 +24,9 @@ PLANES = len(KINDS)
 
 COPIED = PLANES + 1
 """In place of a kind: copies, which may be of several."""
+
+UNMET = PLANES + 2
+"""In place of a kind: what no ray meets."""
 
 
 class Numbering(NamedTuple):
@@ -124,7 +128,7 @@ def number_objects(objects: Sequence[Object]) -> Numbering:
     held = {found for found in kind_of if issubclass(found, ArrayHolder)}
     for k in (k for k, found in enumerate(types) if found in held):
         size[k] = len(objects[k])  # type: ignore[arg-type]
-    rows = np.stack([kind, place, size, each])[:, kind != COPIED]
+    rows = np.stack([kind, place, size, each])[:, kind < COPIED]
     copied = [_rows_of(k, objects[k]) for k in np.flatnonzero(kind == COPIED).tolist()]
     rows = np.concatenate([rows, *copied], axis=1)
     kind, place, size, each = rows[:, np.lexsort(rows[1::-1])]
@@ -132,7 +136,9 @@ def number_objects(objects: Sequence[Object]) -> Numbering:
 
 
 def _kind_of(found: type) -> int:
-    """Return the place of a type of objects in ``KINDS``, ``PLANES``, or ``COPIED``."""
+    """Return the place of a type of objects in ``KINDS``, ``PLANES``, ``COPIED`` or ``UNMET``."""
+    if issubclass(found, Stars):
+        return UNMET
     kinds = (k for k, kind in enumerate(KINDS) if issubclass(found, (kind.single, kind.arrays)))
     return COPIED if issubclass(found, Copies) else next(kinds, PLANES)
 

@@ -151,9 +151,14 @@ def _exposed(image: "Image", column: int, row: int) -> Exposed:
     if image.settings.background == "sky":
         x, y, z = map(float, image.with_sky[row, column] - image.linear[row, column])
         sky = x, y, z
+    shine, stars = image.starlight, None
+    if shine is not None:
+        x, y, z = map(float, shine[row, column])
+        stars = x, y, z
     white = float(image.white)
     return Exposed(
         light=(red, green, blue),
+        stars=stars,
         white=white,
         brightest=white == float(image.linear.max()),
         background=0.0 if image.settings.background == "black" else 1 - image.alpha[row, column],

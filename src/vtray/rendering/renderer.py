@@ -29,6 +29,7 @@ from vtray.rendering.pack import pack
 from vtray.rendering.passes import Tracer, compile_kernels
 from vtray.rendering.relighting import Relighting
 from vtray.rendering.seen_sky import SeenSky, check_sky
+from vtray.rendering.starlight import Starlight, check_stars
 from vtray.rendering.surfaces import Look
 from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.default_light import lights_of, settings_of
@@ -36,6 +37,7 @@ from vtray.scene.files.scene_file import Warn
 from vtray.scene.light_types import AnyLight, strength_of
 from vtray.scene.scene import Camera, Scene
 from vtray.scene.settings import RenderSettings, overridden
+from vtray.scene.stars import Stars
 
 Progress = Callable[[str, int, int], None]
 
@@ -165,7 +167,7 @@ def render(
         (warn or _warn)(problem)
     _check_memory(shown.camera, settings, is_shown=on_update is not None)
     check_brightness(shown.lights)
-    check_sky(shown.lights, settings)
+    _check_background(shown, settings)
     clock = Stopwatch()
     loaded = loading_seconds()
     kept = accelerate(scene, threads, _step_of(progress, "build"))
@@ -180,7 +182,14 @@ def render(
     clock.lap("compile")
     look = Look(shown, packed, threads)
     darkroom = Darkroom(
-        shown, _snapshot(scene, lights, scene.camera), settings, look, sky, lock, threads
+        shown,
+        _snapshot(scene, lights, scene.camera),
+        settings,
+        look,
+        sky,
+        Starlight(lambda: look().depth),
+        lock,
+        threads,
     )
     growth = _growth(darkroom, on_update, update_seconds)
     tracer = Tracer(packed.arrays, threads, tile, _step_of(progress, "trace"), growth)
@@ -228,7 +237,8 @@ def _growth(
 
 def _darkness(scene: Scene, *, keep_lights: bool) -> str:
     """Say why all that is seen is black, if that is known before; "" if it is not."""
-    if not scene.objects or any(strength_of(light) > 0 for light in scene.lights):
+    seen = [item for item in scene.objects if not isinstance(item, Stars)]
+    if not seen or any(strength_of(light) > 0 for light in scene.lights):
         return ""
     if not scene.lights:
         remedy = "add one by scene.add_light, or some of vtray.lights; in a file, under that key"
@@ -260,6 +270,12 @@ def _check_memory(camera: Camera, settings: RenderSettings, *, is_shown: bool) -
     more = BYTES_PER_PIXEL_SHOWN if is_shown else 0
     more += BYTES_PER_PIXEL_DENOISED if settings.denoise else 0
     check_memory(int(width), int(height), int(settings.samples), behind, more)
+
+
+def _check_background(scene: Scene, settings: RenderSettings) -> None:
+    """Raise RenderError if the background is one that the scene cannot have."""
+    check_sky(scene.lights, settings)
+    check_stars(scene, settings)
 
 
 def _snapshot(scene: Scene, lights: list[AnyLight], camera: Camera) -> Scene:

@@ -200,7 +200,7 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
             shortest of the principal axes of all centres, from 20 degrees above it, with the
             longest horizontal. `up` is then that of the view unless it is given.
         zoom
-            How many times as large as that, about the middle of the picture, > 0.
+            How many times as large as that, about the middle of the picture, from 1e-9 to 1e9.
 
         Returns
         -------
@@ -261,7 +261,7 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         Parameters
         ----------
         factor
-            How many times as large, > 0; below 1 for smaller.
+            How many times as large, from 1e-9 to 1e9; below 1 for smaller.
 
         Raises
         ------

@@ -6,6 +6,7 @@ from vtray.scene.light_presets import studio
 from vtray.scene.light_types import Ambient, AnyLight, NeverSet
 from vtray.scene.objects import Plane
 from vtray.scene.settings import RenderSettings
+from vtray.scene.stars import Stars
 from vtray.scene.studio import HasCamera
 from vtray.scene.vectors import Color
 
@@ -31,11 +32,13 @@ def has_default_light(scene: HasLights) -> bool:
 def lights_of(scene: HasLights) -> list[AnyLight]:
     """Return the lights of a checked scene; those of `vtray.lights.studio` if none were ever set.
 
-    Without anything for a studio to be built around, planes alone, all light is ambient.
+    Without anything for a studio to be built around, planes alone, all light is ambient; points
+    that shine need none.
     """
-    if not has_default_light(scene) or not scene.objects:
+    kinds = set(map(type, scene.objects)) - {Stars}
+    if not has_default_light(scene) or not kinds:
         return list(scene.lights)
-    if all(isinstance(item, Plane) for item in scene.objects):
+    if kinds == {Plane}:
         return [Ambient()]
     return studio(scene)
 
@@ -44,11 +47,12 @@ def settings_of(scene: HasSettings) -> RenderSettings:
     """Return the settings of a scene; in default light with others for those that were not set.
 
     Its light is made for an exposure of 1, with which colours are what they were given as, and its
-    rims for a bright background.
+    rims for a bright background. Behind points that shine, the background is black.
     """
     look: dict[str, Any] = {}
     if has_default_light(scene) and scene.render.exposure == "max":
         look["exposure"] = 1.0
-    if has_default_light(scene) and scene.render.background == "black":
+    shines = any(isinstance(item, Stars) for item in scene.objects)
+    if has_default_light(scene) and scene.render.background == "black" and not shines:
         look["background"] = Color(255, 255, 255)
     return scene.render.replace(**look)

@@ -36,6 +36,7 @@ from vtray.scene.particles.arrows import AddingArrows
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient
 from vtray.scene.spheres import Spheres
+from vtray.scene.stars import Stars, check_in_file
 from vtray.scene.vectors import Color, Direction, Vector
 
 __all__ = [
@@ -59,6 +60,7 @@ __all__ = [
     "Sphere",
     "SphereLight",
     "Spheres",
+    "Stars",
     "Sun",
     "Vector",
 ]
@@ -85,7 +87,7 @@ class Scene(
     lights : list of Light, Sun, SphereLight, RectangleLight, Sky or Ambient
         The lights. Where they were never set and none was added, those of `vtray.lights.studio`
         are used; ``[]``, or `vtray.lights.none`, leaves a scene dark.
-    objects : list of Sphere, Cylinder, Cone, Plane, Spheres, Cylinders, Cones or Copies
+    objects : list of Sphere, Cylinder, Cone, Plane, Spheres, Cylinders, Cones, Copies or Stars
         The objects; may be empty.
     render : RenderSettings
         How the picture is taken, unless `vtray.render` is told otherwise.
@@ -153,11 +155,12 @@ class Scene(
         Raises
         ------
         SceneError
-            If the scene is not valid.
+            If the scene is not valid, or holds `Stars`.
         """
         from vtray.scene.files.scene_dict import to_dict
 
         self.check()
+        check_in_file(self.objects)
         return to_dict(self)
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -177,13 +180,14 @@ class Scene(
         Raises
         ------
         SceneError
-            If the scene is not valid any more.
+            If the scene is not valid any more, or holds `Stars`.
         OutputError
             If a file cannot be written, or one for arrays is there that is not the scene's own.
         """
         from vtray.scene.files.saving import save
 
         self.check()
+        check_in_file(self.objects)
         save(self, path)
 
 

@@ -2,11 +2,14 @@
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from vtray.figures.annotations import Annotations, Marks, find_marks
 from vtray.figures.painted.canvas import Canvas
 from vtray.figures.painted.layout import Placed, arranged
 from vtray.figures.painted.letters import check_letters, letters
 from vtray.figures.painted.words import Words
+from vtray.figures.point_labels import Label
 from vtray.figures.sheet import FigureError, check_number
 from vtray.figures.subject import Pixels, Subject
 
@@ -85,16 +88,41 @@ def _sizes(fontsize: float | None, width: int, height: int) -> Iterator[int]:
         em = min(em - 1, round(0.92 * em))
 
 
-def _painted(pixels: Pixels, marks: Marks, placed: list[Placed], em: int) -> Pixels:
-    """Return pixels with labels painted on them, and then all else."""
-    canvas = Canvas(pixels, em)
-    for label in marks.labels:
+def free_labels(labels: list[Label], em: int, width: int, height: int) -> list[Placed]:
+    """Return the labels that there is room for, and where they stand.
+
+    One that would overlap another is left out: that of the farther point, or of two at the same
+    distance the one that was given later.
+
+    Parameters
+    ----------
+    labels
+        Those of far points first.
+    em
+        The size of letters, in pixels.
+    width, height
+        Of the picture, in pixels.
+    """
+    taken = np.zeros((height, width), np.bool_)
+    found = []
+    for label in sorted(labels, key=lambda label: label.depth):
         words = Words(label.text.split("\n"), letters(em), "center")
         # Around its point, but within the picture.
         left = round(label.column + 0.5 - words.width / 2)
         top = round(label.row + 0.5 - words.middle)
-        left = max(1, min(left, canvas.width - words.width - 1))
-        top = max(1, min(top, canvas.height - words.height - 1))
+        left = max(1, min(left, width - words.width - 1))
+        top = max(1, min(top, height - words.height - 1))
+        rectangle = taken[top : top + words.height, left : left + words.width]
+        if not rectangle.any():
+            rectangle[...] = True
+            found.append(Placed(words, left, top))
+    return found[::-1]
+
+
+def _painted(pixels: Pixels, marks: Marks, placed: list[Placed], em: int) -> Pixels:
+    """Return pixels with labels painted on them, and then all else."""
+    canvas = Canvas(pixels, em)
+    for words, left, top in free_labels(marks.labels, em, canvas.width, canvas.height):
         words.paint(canvas, left, top)
     for block, left, top in placed:
         block.paint(canvas, left, top)

@@ -11,6 +11,7 @@ from msgspec import Meta
 
 Real = Annotated[float, Meta(description="a finite number")]
 Positive = Annotated[float, Meta(gt=0, description="a number > 0")]
+Zoom = Annotated[float, Meta(ge=1e-9, le=1e9, description="a number from 1e-9 to 1e9")]
 NonNegative = Annotated[float, Meta(ge=0, description="a number ≥ 0")]
 Fraction = Annotated[float, Meta(ge=0, le=1, description="a number from 0 to 1")]
 # An integer may be written 255 or 255.0: JSON knows only numbers.

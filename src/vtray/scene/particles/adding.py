@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from vtray.scene.particles.drawing import Drawn
     from vtray.scene.particles.particles import Particles
     from vtray.scene.particles.radii import Radii
+    from vtray.scene.stars import Stretch
 
 StyleName = Literal["spacefill", "ball-and-stick", "licorice", "points"]
 
@@ -45,9 +46,14 @@ class AddingParticles:
         nan_color: "AnyColor" = "gray",
         select: "str | NDArray[np.bool_] | None" = None,
         highlight: "str | NDArray[np.bool_] | None" = None,
-        background: "AnyColor" = "white",
-        bonds: "bool | float | ArrayLike | None" = None,
+        background: "AnyColor | None" = None,
+        bonds: "bool | float | Literal['file'] | ArrayLike | None" = None,
         bond_radius: float | None = None,
+        hydrogen_bonds: "bool | tuple[float, float]" = False,
+        emission: "str | float | ArrayLike | None" = None,
+        stretch: "Stretch" = "asinh",
+        softening: float | None = None,
+        peak: float | None = None,
         cell: bool | None = None,
         replicate: Sequence[int] = (1, 1, 1),
         wrap: bool = False,
@@ -63,7 +69,8 @@ class AddingParticles:
         style
             ``"spacefill"``: balls of van der Waals radii. ``"ball-and-stick"``: 0.6 of covalent
             radii, and thin bonds. ``"licorice"``: bonds, and balls as thick as these. ``"points"``:
-            balls of one size in the picture, 1.5 pixels wide, so that none falls between pixels.
+            balls of one size in the picture, 1.5 pixels wide, so that none falls between pixels;
+            or, with `emission`, points whose light adds up.
             By default ball-and-stick where bonds are asked for, or known between at most 5000
             atoms, and else spacefill.
         radii
@@ -72,7 +79,7 @@ class AddingParticles:
             name of a column. By default the column ``radius``, the elements, or half the mean
             distance: that is the side of the cube that each particle has in the box around all.
         scale
-            What all radii are multiplied by, those of bonds too, > 0.
+            What all radii are multiplied by, those of bonds too, from 1e-20 to 1e20.
         color
             A colour, in any of the ways of `vtray.colors.to_rgb`; the name of a column, or x, y or
             z; or one colour or one number for each particle. Names and at most eight different
@@ -96,15 +103,31 @@ class AddingParticles:
         highlight
             What keeps its colour, in the same ways; all others come near `background`.
         background
-            The colour that they come near.
+            The colour that they come near; by default white, and black for points that shine.
         bonds
             True for pairs nearer than 1.2 times the sum of their covalent radii, by
-            `find_bonds`; a number for pairs nearer than that; pairs of indices, (m, 2); False for
-            none. By default those that are known, or True, in styles that show bonds.
+            `find_bonds`; a number for pairs nearer than that; ``"file"`` for those that are known,
+            as a file or a topology names them; pairs of indices, (m, 2); False for none. By default
+            those that are known, or True, in styles that show bonds.
         bond_radius
             In the unit of the positions; by default as the style says.
+        hydrogen_bonds
+            Whether hydrogen bonds are drawn, as grey dashes from the hydrogen to the acceptor: of
+            donors and acceptors N, O and F, at most 2.5 Å from the hydrogen to the acceptor, with
+            an angle between them at the hydrogen of at least 120 degrees [1]_. Two numbers are
+            another length, in the unit of the positions, and another angle, such as
+            ``(2.2, 150)``.
+        emission
+            Let points shine, as `Stars`: each adds so much light to the picture, a column, a
+            number, or an array (n,), ≥ 0. Their colours are white unless `color` or `cmap` is
+            given, the background is black unless it is set, and there are neither balls nor radii.
+        stretch, softening, peak
+            How the light that adds up becomes brightness: ``"linear"``, ``"asinh"`` or ``"log"``;
+            from which part of the brightest on it counts by its logarithm; and the light of a
+            pixel that is as bright as can be. See `Stars`.
         cell
-            Whether the edges of the cell are drawn; by default, if there is one.
+            Whether the edges of the cell are drawn; by default, if there is one, and nothing
+            shines.
         replicate
             How many times the cell is shown along each of its edges. Where all
             cells together have more than half a million objects, they are `Copies`, which take no
@@ -126,6 +149,11 @@ class AddingParticles:
         ------
         SceneError
             An argument is not right, or something that it needs is not known of the particles.
+
+        References
+        ----------
+        .. [1] E. N. Baker and R. E. Hubbard, "Hydrogen bonding in globular proteins", Progress in
+           Biophysics and Molecular Biology 44, 1984.
 
         Examples
         --------
@@ -157,6 +185,9 @@ class AddingParticles:
             background=background,
             bonds=bonds,
             bond_radius=bond_radius,
+            hydrogen_bonds=hydrogen_bonds,
+            emission=emission,
+            stretched={"stretch": stretch, "softening": softening, "peak": peak},
             cell=cell,
             replicate=replicate,
             wrap=wrap,

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
+from vtray.scene.particles.elements import are_anions, are_metals
 from vtray.scene.particles.lattice import Lattice, columns_of, lattice_of
 from vtray.scene.particles.radii import radii_of
 
@@ -82,8 +83,11 @@ def find_bonds(
     """Return the bonds of particles: those nearer than `factor` times the sum of their radii.
 
     Distance alone decides, for hydrogens too: with covalent radii, two of them are bound up to
-    0.74 Å, as in a hydrogen molecule, and no others come so near to each other. In a cell that
-    repeats, each pair of images counts once, also where the cell is thinner than a bond.
+    0.74 Å, as in a hydrogen molecule, and no others come so near to each other. With covalent
+    radii, metals that are both bound to anions are not bound to each other: radii are those of
+    atoms, and ions of metals are so much smaller that they are near without a bond, as titanium is
+    to titanium in rutile. In a cell that repeats, each pair of images counts once, also where the
+    cell is thinner than a bond.
 
     Parameters
     ----------
@@ -132,7 +136,10 @@ def find_bonds(
     bonds = Bonds(np.concatenate(pairs), np.concatenate(shifts))
     if moves is not None:
         bonds = bonds.after(-moves)
-    return _lower_first(bonds)
+    bonds = _lower_first(bonds)
+    if cutoff is None and isinstance(radii, str) and radii == "covalent":
+        bonds = bonds.some(~_join_ions(bonds, particles["element"]))
+    return bonds
 
 
 def bonds_between(particles: "Particles", pairs: Any) -> Bonds:  # noqa: ANN401
@@ -217,6 +224,17 @@ def _images(
             inside &= (column >= first) & (column <= last)
         if inside.any():
             yield rows[inside], (shift[0], shift[1], shift[2])
+
+
+def _join_ions(bonds: Bonds, symbols: NDArray[Any]) -> NDArray[np.bool_]:
+    """Tell which bonds are those of two metals that are both bound to anions, (m,)."""
+    one, two = bonds.pairs.T
+    metals, anions = are_metals(symbols), are_anions(symbols)
+    ions = np.zeros(len(symbols), np.bool_)
+    ions[one[metals[one] & anions[two]]] = True
+    ions[two[metals[two] & anions[one]]] = True
+    both: NDArray[np.bool_] = ions[one] & ions[two]
+    return both
 
 
 def _lower_first(bonds: Bonds) -> Bonds:

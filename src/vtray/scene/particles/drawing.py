@@ -23,9 +23,11 @@ from vtray.scene.particles.cell import (
 from vtray.scene.particles.coloring import Coloring, color_particles, faded
 from vtray.scene.particles.expression import mask
 from vtray.scene.particles.from_objects import as_particles
+from vtray.scene.particles.hydrogen_bonds import criterion_of, dashes, find_hydrogen_bonds
 from vtray.scene.particles.lattice import columns_of, lattice_of
 from vtray.scene.particles.made_of import MadeOf, remember, written_out
 from vtray.scene.particles.particles import Particles
+from vtray.scene.particles.shining import check_shining, shining
 from vtray.scene.particles.styles import (
     COVERED,
     STYLES,
@@ -35,6 +37,7 @@ from vtray.scene.particles.styles import (
     style_of,
 )
 from vtray.scene.spheres import Spheres
+from vtray.scene.stars import Stars
 
 if TYPE_CHECKING:
     from vtray.scene.camera import Camera
@@ -46,6 +49,9 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Bytes = NDArray[np.uint8]
+
+SCALES = (1e-20, 1e20, "a number from 1e-20 to 1e20")
+"""What radii may be multiplied by: enough for any two units of length."""
 
 CELL_COLOR = (70, 70, 70)
 
@@ -70,15 +76,19 @@ class Drawn:
     Attributes
     ----------
     spheres : Spheres
-        The particles.
+        The particles; none where they shine.
     bonds : Cylinders or None
         The bonds: first those that are whole, then the halves of those that cross the border.
+    hydrogen_bonds : Cylinders or None
+        The hydrogen bonds: six dashes for each.
     cell : tuple of Cylinders and Spheres, or None
         The cell's edges, and its corners.
     copies : Copies or None
-        What stands at all places of a cell that is shown several times, with `spheres` and `bonds`,
-        which are then not among the objects of the scene themselves. None where these are so few
-        that they hold all cells, one after the other.
+        What stands at all places of a cell that is shown several times, with `spheres`, `bonds`
+        and `hydrogen_bonds`, which are then not among the objects of the scene themselves. None
+        where these are so few that they hold all cells, one after the other.
+    stars : Stars or None
+        The particles, those of all cells that are shown, if they shine.
     color_scale : ColorScale or None
         How values became colours, if they did.
     legend : list
@@ -92,8 +102,10 @@ class Drawn:
 
     spheres: Spheres
     bonds: Cylinders | None
+    hydrogen_bonds: Cylinders | None
     cell: tuple[Cylinders, Spheres] | None
     copies: Copies | None
+    stars: Stars | None
     color_scale: "ColorScale | None"
     legend: "list[tuple[str, Rgb]]"
     indices: Integers
@@ -107,7 +119,7 @@ class _Placed(NamedTuple):
     ----------
     positions
         Of all of them, (n, 3).
-    bonds
+    bonds, hydrogen_bonds
         Those to draw, between any of them.
     rows
         Which are drawn, (k,).
@@ -117,8 +129,30 @@ class _Placed(NamedTuple):
 
     positions: NDArray[Any]
     bonds: Bonds | None
+    hydrogen_bonds: Bonds | None
     rows: Integers
     places: Floats
+
+
+class _Solid(NamedTuple):
+    """Particles as objects that hide what is behind them; see `Drawn`."""
+
+    spheres: Spheres
+    bonds: Cylinders | None
+    hydrogen_bonds: Cylinders | None
+
+    @property
+    def parts(self) -> list[Spheres | Cylinders]:
+        """Those that there are."""
+        return [part for part in self if part is not None]
+
+    def written_out(self, places: Floats) -> "_Solid":
+        """Return the same at several places, one after the other."""
+        spheres, *others = self
+        bonds, hydrogen_bonds = (
+            None if part is None else written_out(part, places) for part in others
+        )
+        return _Solid(written_out(spheres, places), bonds, hydrogen_bonds)
 
 
 def draw(
@@ -131,9 +165,12 @@ def draw(
     coloring: Mapping[str, Any],
     select: Any,  # noqa: ANN401
     highlight: Any,  # noqa: ANN401
-    background: "AnyColor",
+    background: "AnyColor | None",
     bonds: Any,  # noqa: ANN401
     bond_radius: float | None,
+    hydrogen_bonds: Any,  # noqa: ANN401
+    emission: Any,  # noqa: ANN401
+    stretched: Mapping[str, Any],
     cell: bool | None,
     replicate: Sequence[int],
     wrap: bool,
@@ -142,37 +179,69 @@ def draw(
 ) -> Drawn:
     """Add particles to a scene, as `Scene.add_particles` says, whose parameters these are."""
     particles = as_particles(given)
-    size = _positive(scale, "scale")
-    name = style_of(style, particles, bonds)
+    size = _number(scale, "scale", *SCALES)
+    shines = emission is not None
+    if shines:
+        coloring = check_shining(style, coloring, radii=radii, bonds=bonds, hydrogen=hydrogen_bonds)
+    name = "points" if shines else style_of(style, particles, bonds)
     times = times_of(replicate)
     rows = np.flatnonzero(chosen(particles, select, "select"))
-    placed = _place(particles, name, rows, bonds, times, wrap=wrap, unwrap=unwrap)
+    wanted = criterion_of(hydrogen_bonds)
+    pairs = None if wanted is None else find_hydrogen_bonds(particles, wanted)
+    placed = _place(particles, name, rows, bonds, pairs, times, wrap=wrap, unwrap=unwrap)
     found = color_particles(particles, rows, **coloring)
     if highlight is not None:
         kept = chosen(particles, highlight, "highlight")[rows]
-        found = found._replace(colors=faded(found.colors, kept, background))
-    radius = _radii(particles, name, radii, size, placed, camera or scene.camera)
-    spheres = _spheres(particles, placed, radius, found)
-    sticks = None
-    if placed.bonds is not None:
-        thick = stick_radius(particles, name, radii, size)
-        if bond_radius is not None:
-            thick = _positive(bond_radius, "bond_radius")
-        sticks = _cylinders(particles, placed, thick, found)
-    copies, images = None, len(placed.places)
-    if 1 < images <= WRITTEN_OUT // max(len(spheres) + len(sticks or ()), 1):
-        spheres = written_out(spheres, placed.places)
-        sticks = None if sticks is None else written_out(sticks, placed.places)
-        images = 1
-    parts: list[Spheres | Cylinders] = [spheres] if sticks is None else [spheres, sticks]
-    if images > 1:
-        copies = Copies(parts, placed.places)
-    scene.objects.extend(parts if copies is None else [copies])
+        behind = background or ("black" if shines else "white")
+        found = found._replace(colors=faded(found.colors, kept, behind))
+    if shines:
+        positions, places = placed.positions[rows], placed.places
+        stars = shining(particles, rows, positions, places, emission, found, stretched)
+        solid = _Solid(Spheres(np.zeros((0, 3)), 0.0), None, None)
+        copies = None
+        scene.objects.append(stars)
+    else:
+        stars = None
+        solid = _solid(
+            particles, placed, found, name, radii, size, bond_radius, camera or scene.camera
+        )
+        copies = None
+        if 1 < len(placed.places) <= WRITTEN_OUT // max(sum(map(len, solid.parts)), 1):
+            solid = solid.written_out(placed.places)
+        elif len(placed.places) > 1:
+            copies = Copies(solid.parts, placed.places)
+        scene.objects.extend(solid.parts if copies is None else [copies])
     edges = None
-    if cell if cell is not None else particles.cell is not None:
+    if cell if cell is not None else particles.cell is not None and not shines:
         edges = _edges(particles, times)
         scene.objects.extend(edges)
-    return Drawn(spheres, sticks, edges, copies, found.scale, list(found.legend), rows, name)
+    legend = list(found.legend)
+    return Drawn(*solid, edges, copies, stars, found.scale, legend, rows, name)
+
+
+def _solid(
+    particles: Particles,
+    placed: _Placed,
+    found: Coloring,
+    style: str,
+    radii: "Radii | None",
+    scale: float,
+    bond_radius: float | None,
+    camera: "Camera | None",
+) -> "_Solid":
+    """Return particles, bonds and hydrogen bonds as objects, without the copies of their cell."""
+    radius = _radii(particles, style, radii, scale, placed, camera)
+    spheres = _spheres(particles, placed, radius, found)
+    sticks = dashed = None
+    if placed.bonds is not None or placed.hydrogen_bonds is not None:
+        thick = stick_radius(particles, style, radii, scale)
+        if bond_radius is not None:
+            thick = _number(bond_radius, "bond_radius")
+        if placed.bonds is not None:
+            sticks = _cylinders(particles, placed, thick, radius, found)
+        if placed.hydrogen_bonds is not None:
+            dashed = dashes(particles, placed.positions, placed.hydrogen_bonds, thick)
+    return _Solid(spheres, sticks, dashed)
 
 
 def chosen(particles: Particles, given: Any, name: str) -> NDArray[np.bool_]:  # noqa: ANN401
@@ -199,6 +268,7 @@ def _place(
     style: str,
     rows: Integers,
     bonds: Any,  # noqa: ANN401
+    hydrogen_bonds: Bonds | None,
     times: tuple[int, int, int],
     *,
     wrap: bool,
@@ -219,17 +289,29 @@ def _place(
             known = bonds_between(particles, particles.bonds)
         positions, moves = unwrapped(particles, known) if unwrap else wrapped(particles)
         found = None if found is None else found.after(moves)
-    if found is not None and len(rows) < len(particles):
+        hydrogen_bonds = None if hydrogen_bonds is None else hydrogen_bonds.after(moves)
+    if len(rows) < len(particles):
         drawn = np.zeros(len(particles), np.bool_)
         drawn[rows] = True
-        found = found.some(drawn[found.pairs[:, 0]] & drawn[found.pairs[:, 1]])
-    return _Placed(positions, found, rows, translations(particles, times))
+        found, hydrogen_bonds = _among(found, drawn), _among(hydrogen_bonds, drawn)
+    return _Placed(positions, found, hydrogen_bonds, rows, translations(particles, times))
+
+
+def _among(bonds: Bonds | None, drawn: NDArray[np.bool_]) -> Bonds | None:
+    """Return the bonds between particles that are drawn, (n,)."""
+    if bonds is None:
+        return None
+    return bonds.some(drawn[bonds.pairs[:, 0]] & drawn[bonds.pairs[:, 1]])
 
 
 def _bonds_of(particles: Particles, bonds: Any) -> Bonds:  # noqa: ANN401
     """Return the bonds that are asked for."""
     if bonds is True:
         return find_bonds(particles)
+    if isinstance(bonds, str) and bonds == "file":
+        if particles.bonds is None:
+            raise SceneError('bonds: "file" are those that are known, and there are none')
+        return bonds_between(particles, particles.bonds)
     if isinstance(bonds, (int, float, np.number)):
         return find_bonds(particles, cutoff=float(bonds))
     return bonds_between(particles, bonds)
@@ -263,25 +345,41 @@ def _spheres(
     whole = len(placed.rows) == len(particles)
     positions = placed.positions if whole else placed.positions[placed.rows]
     spheres = Spheres(positions, radius, found.colors).with_scale(found.scale)
-    return remember(spheres, MadeOf(particles, placed.rows))
+    return remember(spheres, MadeOf(particles, placed.rows, "particle"))
 
 
-def _cylinders(particles: Particles, placed: _Placed, radius: float, found: Coloring) -> Cylinders:
-    """Return bonds as cylinders, those that cross the border as halves at both of its sides."""
+def _cylinders(
+    particles: Particles,
+    placed: _Placed,
+    thick: float,
+    radius: Floats | float,
+    found: Coloring,
+) -> Cylinders:
+    """Return bonds as cylinders, those that cross the border as halves at both of its sides.
+
+    Colours change, and halves end, in the middle of what is seen between the balls.
+    """
     bonds = placed.bonds
     assert bonds is not None  # noqa: S101
     crosses = (bonds.shifts != 0).any(axis=1)
     one, two = bonds.pairs[~crosses].T
     begin, end = bonds.pairs[crosses].T
     near, far = placed.positions[begin], placed.positions[end]
-    across, back = far, near
+    across = far
     lattice = lattice_of(particles)
     if lattice is not None and len(begin):
-        steps = bonds.shifts[crosses].T
-        across = np.stack(lattice.moved(columns_of(far), steps), axis=1)
-        back = np.stack(lattice.moved(columns_of(near), [-step for step in steps]), axis=1)
-    starts = np.concatenate([placed.positions[one], near, far])
-    ends = np.concatenate([placed.positions[two], (near + across) / 2, (far + back) / 2])
+        across = np.stack(lattice.moved(columns_of(far), bonds.shifts[crosses].T), axis=1)
+    place = np.zeros(len(particles), np.int64)
+    place[placed.rows] = np.arange(len(placed.rows))
+    starts, ends = placed.positions[one], placed.positions[two]
+    way = ends - starts
+    share = _larger_by(way, radius, place[one], place[two])
+    # The end in the larger ball moves, so that the middle is where it should be.
+    starts, ends = starts + np.maximum(share, 0.0) * way, ends + np.minimum(share, 0.0) * way
+    way = across - near
+    half = (1.0 + _larger_by(way, radius, place[begin], place[end])) / 2 * way
+    starts = np.concatenate([starts, near, far])
+    ends = np.concatenate([ends, near + half, far - (way - half)])
     indices = np.concatenate(
         [
             np.stack([one, two], axis=1),
@@ -291,11 +389,32 @@ def _cylinders(particles: Particles, placed: _Placed, radius: float, found: Colo
     )
     colors: dict[str, Bytes] = {"color": found.colors}
     if found.colors.ndim == 2:
-        place = np.zeros(len(particles), np.int64)
-        place[placed.rows] = np.arange(len(placed.rows))
         each = place[indices]
         colors = {"color": found.colors[each[:, 0]], "color_end": found.colors[each[:, 1]]}
-    return remember(Cylinders(starts, ends, radius, **colors), MadeOf(particles, indices))
+    sticks = Cylinders(starts, ends, thick, **colors)
+    return remember(sticks, MadeOf(particles, indices, "bond"))
+
+
+def _larger_by(
+    way: NDArray[Any], radius: Floats | float, one: Integers, two: Integers
+) -> Floats | float:
+    """Return by how much balls are larger than others, in parts of their distance, (m, 1).
+
+    Parameters
+    ----------
+    way
+        From each ball to the other, (m, 3).
+    radius
+        Of all balls that are drawn, (k,), or one for all.
+    one, two
+        Which balls they are, (m,).
+    """
+    if isinstance(radius, float):
+        return 0.0
+    x, y, z = way.T.astype(np.float64)
+    length = np.sqrt(x * x + y * y + z * z)
+    share = (radius[one] - radius[two]) / np.where(length > 0.0, length, 1.0)
+    return np.clip(share, -1.0, 1.0)[:, None]
 
 
 def _edges(particles: Particles, times: tuple[int, int, int]) -> tuple[Cylinders, Spheres]:
@@ -305,9 +424,15 @@ def _edges(particles: Particles, times: tuple[int, int, int]) -> tuple[Cylinders
     return Cylinders(starts, ends, radius, CELL_COLOR), Spheres(corners, radius, CELL_COLOR)
 
 
-def _positive(value: Any, name: str) -> float:  # noqa: ANN401
-    """Return a number > 0."""
+def _number(
+    value: Any,  # noqa: ANN401
+    name: str,
+    least: float = 0.0,
+    most: float = np.inf,
+    words: str = "a number > 0",
+) -> float:
+    """Return a number > 0 between two limits, as words say."""
     is_number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
-    if not is_number or not 0.0 < float(value) < np.inf:
-        raise SceneError(f"{name}: expected a number > 0, got {show(value)}")
+    if not is_number or not 0.0 < float(value) < np.inf or not least <= float(value) <= most:
+        raise SceneError(f"{name}: expected {words}, got {show(value)}")
     return float(value)

@@ -90,6 +90,14 @@ _CPK = _words(
 )
 """Those of RasMol to lawrencium; X is pink."""
 
+_NONMETALS = frozenset(
+    _words("X H He B C N O F Ne Si P S Cl Ar Ge As Se Br Kr Te I Xe At Rn Ts Og")
+)
+"""Elements that are no metals, those on the border among them."""
+
+_ANIONS = frozenset(_words("N O F S Cl Se Br Te I"))
+"""Nonmetals that metals give electrons to."""
+
 _PINK = "ff1493"
 """Of elements that a scheme does not know."""
 
@@ -214,6 +222,24 @@ def colors_of(symbols: "ArrayLike", scheme: str = "jmol") -> "NDArray[np.uint8]"
     """
     numbers = atomic_numbers(symbols)
     return _colors(_one_of(scheme, SCHEMES, "colors"))[numbers]
+
+
+def are_metals(symbols: "ArrayLike") -> "NDArray[np.bool_]":
+    """Tell which symbols are those of metals, (n,)."""
+    return ~_are_among(_NONMETALS)[atomic_numbers(symbols)]
+
+
+def are_anions(symbols: "ArrayLike") -> "NDArray[np.bool_]":
+    """Tell which symbols are those of nonmetals that metals give electrons to, (n,)."""
+    return _are_among(_ANIONS)[atomic_numbers(symbols)]
+
+
+@cache
+def _are_among(chosen: frozenset[str]) -> "NDArray[np.bool_]":
+    """Tell by atomic number which elements are among some."""
+    import numpy as np
+
+    return np.array([symbol in chosen for symbol in SYMBOLS])
 
 
 @cache

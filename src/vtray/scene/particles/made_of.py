@@ -29,10 +29,13 @@ class MadeOf(NamedTuple):
     indices
         Which of them, (n,) for spheres, (n, 2) for the two ends of cylinders. Objects that stand
         at several places come n at a time.
+    kind
+        What the objects stand for.
     """
 
     particles: "Particles"
     indices: Integers
+    kind: str
 
     def particle(self, index: int, half: int) -> int:
         """Return the particle of an object; of a cylinder, that at its start or, 1, its end."""

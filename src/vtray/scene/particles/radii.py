@@ -1,6 +1,6 @@
 """How large particles are: by element, by a column, or by how far they are apart."""
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,17 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Radii: TypeAlias = "str | float | ArrayLike"
+
+CROWD = 16
+"""Particles in a box, on average, twice as many as there are in boxes of two mean distances: with
+more, they fill but a part of the space around all."""
+
+MOST_BOXES = 2**19
+"""How many boxes there are at most along an axis, so that their numbers fit into 64 bits."""
+
+_BORDERS = (2.0**1.5, 2.0**2.5)
+"""Growth of the number of filled boxes, as they become half as large, between one and two, and two
+and three dimensions."""
 
 FILLED = 0.5
 """Radius of particles whose size is not known, in mean distances: as near balls touch."""
@@ -71,6 +82,8 @@ def mean_spacing(particles: "Particles") -> float:
 
     That is the side of the cube that one of them has in the box around all. Where they lie in a
     plane, or on a line, within that distance, it is the side of a square, or a length, instead.
+    Where they fill but a part of the box, such as the surface of a landscape, it is that in the
+    small boxes which they do fill.
     """
     positions = particles.positions
     if len(positions) == 0:
@@ -86,8 +99,41 @@ def mean_spacing(particles: "Particles") -> float:
             volume *= side
         spacing = _root(volume / count, power)
         if spacing > 0.0 and sides[power - 1] >= spacing:
-            return spacing
+            return _local_spacing(positions, spacing, sides[0])
     return 1.0
+
+
+def _local_spacing(positions: NDArray[Any], spacing: float, longest: float) -> float:
+    """Return how far particles are apart where they are, if that is less than in the whole box.
+
+    Parameters
+    ----------
+    positions
+        Of all, (n, 3).
+    spacing
+        How far they would be apart if they filled the box around all.
+    longest
+        The longest side of that.
+    """
+    count, side = len(positions), 2.0 * spacing
+    filled = _filled(positions, side)
+    if count <= CROWD * filled:
+        return spacing
+    while count > CROWD * filled:
+        if side * MOST_BOXES < longest:
+            return spacing  # many are at one place
+        larger, side = filled, side / 2
+        filled = _filled(positions, side)
+    # Half as large boxes are twice as many on a line, four times on a surface.
+    growth = filled / larger
+    power = 1 if growth < _BORDERS[0] else 2 if growth < _BORDERS[1] else 3
+    return side / _root(count / filled, power)
+
+
+def _filled(positions: NDArray[Any], side: float) -> int:
+    """Return how many boxes of a grid have particles in them."""
+    x, y, z = (np.floor((column - column.min()) / side).astype(np.int64) for column in positions.T)
+    return len(np.unique((z * (int(y.max()) + 1) + y) * (int(x.max()) + 1) + x))
 
 
 def _root(value: float, power: int) -> float:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from vtray.base.errors import SceneError
 from vtray.base.exact_math import cosine, sine
-from vtray.scene.checks.limits import Positive, Real
+from vtray.scene.checks.limits import Positive, Real, Zoom
 from vtray.scene.checks.scene_words import show
 from vtray.scene.placing.directions import (
     Vec,
@@ -113,7 +113,7 @@ def zoomed(camera: HasView, factor: object, place: str) -> dict[str, Any]:
     """Return the fields that change of a camera whose picture shows all so many times as large."""
     from vtray.scene.checks.scene_check import from_code
 
-    ratio = from_code(factor, Positive, place)
+    ratio = from_code(factor, Zoom, place)
     width, height = camera.resolution
     return {"resolution": (width / ratio, height / ratio)}
 

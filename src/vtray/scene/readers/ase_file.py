@@ -54,7 +54,7 @@ def read(given: Given) -> Particles:
     """
     what = READERS[given.format].what
     io: Any = need("ase.io", "atoms", f"reading {what}")
-    check_room(given.path, _TIMES)
+    check_room(given.file, _TIMES)
     name = _NAMES.get(given.format, given.format)
     # Of the frames that were met, only those that may be asked for are kept.
     met: deque[Any] = deque(maxlen=max(-given.frame, 1))
@@ -84,4 +84,6 @@ def _crystals(given: Given) -> Iterator[Any]:
             listed = next((block[key] for key in _OPERATIONS if key in block), None)
             operations = [listed] if isinstance(listed, str) else listed or ()
             is_alone = [text.replace(" ", "").lower() for text in operations] == ["x,y,z"]
-            yield block.get_unsymmetrized_structure() if is_alone else block.get_atoms()
+            atoms = block.get_unsymmetrized_structure() if is_alone else block.get_atoms()
+            atoms.pbc = atoms.cell.rank == 3
+            yield atoms

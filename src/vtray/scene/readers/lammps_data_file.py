@@ -15,7 +15,7 @@ from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.frames import frame_number
 from vtray.scene.readers.lines import Lines
 from vtray.scene.readers.reader_table import Given
-from vtray.scene.readers.rows import read_rows
+from vtray.scene.readers.rows import check_places, read_rows
 
 if TYPE_CHECKING:
     import numpy as np
@@ -150,6 +150,8 @@ def _sections_of(lines: Lines, box: _Box) -> "tuple[dict[str, Array], dict[str, 
 
 def _atoms_of(lines: Lines, count: int, style: str) -> "dict[str, Array]":
     """Read the section Atoms."""
+    import numpy as np
+
     lines.next()
     place = lines.place()
     first = (lines.next() or "").partition("#")[0].split()
@@ -162,7 +164,10 @@ def _atoms_of(lines: Lines, count: int, style: str) -> "dict[str, Array]":
         raise SceneError(f"line {lines.number - 1}: {problem}; {remedy}")
     names = _STYLES[name].split()
     kinds = "".join("I" if each in _INTEGERS else "R" for each in names)
-    return dict(zip(names, read_rows(lines, count, kinds, more=True), strict=True))
+    columns = dict(zip(names, read_rows(lines, count, kinds, more=True), strict=True))
+    positions = np.stack([columns[name] for name in "xyz"], axis=1)
+    check_places(positions, range(lines.number - count + 1, lines.number + 1))
+    return columns
 
 
 def _section(lines: Lines, count: int, title: str) -> "Array":

@@ -15,7 +15,7 @@ from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.frames import find_frame
 from vtray.scene.readers.lines import Lines
 from vtray.scene.readers.reader_table import Given
-from vtray.scene.readers.rows import kind_of, read_rows
+from vtray.scene.readers.rows import check_places, kind_of, read_rows
 
 if TYPE_CHECKING:
     import numpy as np
@@ -77,6 +77,7 @@ def read(given: Given) -> Particles:
     columns = dict(zip(head.names, read_rows(lines, head.size, kinds), strict=True))
     cell, origin, periodic = _box_of(head)
     positions = _places_of(columns, cell, origin, head.line)
+    check_places(positions, range(head.line + 1, head.line + 1 + head.size))
     return Particles(
         positions,
         name_columns(columns),

@@ -60,6 +60,8 @@ def read(given: Given) -> Particles:
         lack = lack_of_memory(count * _BYTES)
         if lack:
             raise SceneError(f"{count} points need {lack}")
+        if reader.header.are_points_compressed:
+            _check_chunks(given.file, reader.header)
         points = reader.read()
         if len(points) < count:
             raise SceneError(f"holds {len(points)} of {count} points; expected all")
@@ -93,6 +95,25 @@ def _check_head(file: BinaryIO) -> None:
         parts = f"{records + further} records and {chunks} chunks"
         raise SceneError(f"claims {parts}, which do not fit into its {size} bytes; write it again")
     file.seek(0)
+
+
+def _check_chunks(file: BinaryIO, header: Any) -> None:  # noqa: ANN401
+    """Raise SceneError if there is no memory for the largest chunk of compressed points.
+
+    A chunk is unpacked as a whole, and lazrs would end the process where it gets no memory for it.
+    """
+    lazrs: Any = need("lazrs", "points", "reading .laz files")
+    place = file.tell()
+    file.seek(header.offset_to_point_data)
+    (record,) = (one for one in header.vlrs if type(one).__name__ == "LasZipVlr")
+    packing = lazrs.LazVlr(record.record_data)
+    if not (packing.chunk_size() and packing.item_size()):
+        raise SceneError("claims chunks without points; write it again")
+    points, size = zip(*lazrs.read_chunk_table(file, packing), strict=True)
+    lack = lack_of_memory(max(points) * packing.item_size() + max(size))
+    file.seek(place)
+    if lack:
+        raise SceneError(f"has chunks of {max(points)} points, which need {lack}")
 
 
 def _chunks(file: BinaryIO, start: int, size: int) -> int:

@@ -45,7 +45,7 @@ def read(given: Given) -> Particles:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         library: Any = need("MDAnalysis", "atoms", "reading topologies and trajectories")
-    check_room(given.path, _TIMES)
+    check_room(given.file, _TIMES)
     what = READERS[given.format].what
     second = [] if given.trajectory is None else [given.trajectory]
     expected = what

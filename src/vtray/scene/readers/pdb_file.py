@@ -19,6 +19,7 @@ from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.frames import frame_number
 from vtray.scene.readers.libraries import check_room
 from vtray.scene.readers.reader_table import Given
+from vtray.scene.readers.rows import check_places
 
 if TYPE_CHECKING:
     import numpy as np
@@ -57,7 +58,9 @@ def read(given: Given) -> Particles:
     Columns are ``element``, ``name``, ``resname``, ``resid``, ``chain``, ``occupancy`` and
     ``tempfactor``, and ``altloc`` where it is used. Elements are those of columns 77 and 78; where
     these are blank, of the first two characters of the name, in which a symbol stands to the right.
-    Bonds are not read, as most files name but a few of them.
+    Bonds are those of CONECT, where they reach each atom of all residues with more than one; most
+    files name but a few of them, which are not read. There is a cell where the atoms are all that
+    it repeats; not where its space group makes others of them, as in most crystals of proteins.
 
     Raises
     ------
@@ -66,9 +69,8 @@ def read(given: Given) -> Particles:
     """
     import numpy as np
 
-    if given.path:
-        check_room(given.path, _TIMES)
-    models, cell = _models_of(given.file.read())
+    check_room(given.file, _TIMES)
+    models, cell, conects = _models_of(given.file.read())
     if not models:
         raise SceneError("expected lines that begin with ATOM or HETATM; there are none")
     number = frame_number(given.frame, len(models))
@@ -90,15 +92,19 @@ def read(given: Given) -> Particles:
     for name, start in (("occupancy", 54), ("tempfactor", 60)):
         if (_text(table, start, start + 6) != "").all():
             columns[name] = _numbers(table, start, start + 6, numbers, name)
-    return Particles(np.stack(places, axis=1), columns, cell=cell, frame=number)
+    positions = np.stack(places, axis=1)
+    check_places(positions, numbers)
+    bonds = _bonds_of(conects, table) if conects else None
+    return Particles(positions, columns, bonds=bonds, cell=cell, frame=number)
 
 
 _PLACES = ((0, 30), (1, 38), (2, 46))
 """Where x, y and z begin in a line."""
 
 
-def _models_of(content: bytes) -> "tuple[list[_Model], Cell | None]":
-    """Return the models of a file, and its cell."""
+def _models_of(content: bytes) -> "tuple[list[_Model], Cell | None, list[bytes]]":
+    """Return the models of a file, its cell, and its lines of bonds."""
+    conects: list[bytes] = []
     models: list[_Model] = []
     cell = None
     now = _Model([], [])
@@ -111,8 +117,42 @@ def _models_of(content: bytes) -> "tuple[list[_Model], Cell | None]":
                 models.append(now)
             now = _Model([], [])
         elif line.startswith(b"CRYST1"):
-            cell = _cell_of(line.decode("latin-1"), number)
-    return [*models, now] if now.atoms else models, cell
+            cell = _cell_of(line.decode("latin-1"), number) if _is_whole(line) else None
+        elif line.startswith(b"CONECT"):
+            conects.append(line)
+    return [*models, now] if now.atoms else models, cell, conects
+
+
+def _bonds_of(conects: list[bytes], table: "Array") -> "Array | None":
+    """Return the bonds that lines name, (m, 2); None if they are not all that there are.
+
+    Serial numbers that are none, as in files with more atoms than these have digits for, name no
+    atom, and so do those of other models.
+    """
+    import numpy as np
+
+    serials = _text(table, 6, 11).tolist()
+    row_of = {serial: row for row, serial in enumerate(serials)}
+    if len(row_of) < len(serials):
+        return None
+    pairs = set()
+    for line in conects:
+        named = [line[i : i + 5].decode("latin-1").strip() for i in range(6, 31, 5)]
+        first, *others = [row_of.get(serial) for serial in named]
+        for other in others:
+            if first is not None and other is not None and first != other:
+                pairs.add((min(first, other), max(first, other)))
+    bonds = np.array(sorted(pairs), np.int64).reshape(-1, 2)
+    residues = np.ascontiguousarray(table[:, 17:27]).view("S10").ravel()
+    _, which, counts = np.unique(residues, return_inverse=True, return_counts=True)
+    reached = counts[which] == 1
+    reached[bonds.ravel()] = True
+    return bonds if reached.all() else None
+
+
+def _is_whole(line: bytes) -> bool:
+    """Tell whether the atoms are all of a cell: its space group is P 1, or is not named."""
+    return line[55:66].replace(b" ", b"") in (b"", b"P1")
 
 
 def _cell_of(line: str, number: int) -> "Cell | None":

@@ -35,7 +35,7 @@ def read(given: Given) -> Particles:
 
     library: Any = need("plyfile", "points", "reading PLY files")
     frame_number(given.frame, 1)
-    check_room(given.path, _TIMES)
+    check_room(given.file, _TIMES)
     with told("plyfile", "a PLY file"):
         found = library.PlyData.read(given.file)
         if "vertex" not in found:

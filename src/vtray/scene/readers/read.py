@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, SupportsIndex
 
 from vtray.base.errors import SceneError, why_unreadable
 from vtray.base.input_file import open_input
+from vtray.base.memory import available_memory, readable
 from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.particles.from_columns import renamed
 from vtray.scene.particles.particles import POSITION, Particles
 from vtray.scene.readers.reader_table import Given, reader_of
+from vtray.scene.readers.unpacked import unpacked
 
 if TYPE_CHECKING:
     AnyPath = str | os.PathLike[str]
@@ -38,7 +40,7 @@ def read(
     ----------
     path
         The file. The ending of its name says what it is; an unknown one is an error that lists
-        those that are known.
+        those that are known. After that of a text, .gz, .bz2 or .xz may follow.
     frame
         Which of its frames, from 0; a negative one counts from the end, so that -1 is the last.
     format
@@ -74,13 +76,16 @@ def read(
         module = import_module(f"vtray.scene.readers.{reader.module}")
         second = None if trajectory is None else os.fsdecode(trajectory)
         with open_input(path) as file:
-            given = Given(file, name, kind, _whole(frame), columns or {}, second)
-            found: Particles = module.read(given)
+            named = Given(file, name, kind, _whole(frame), columns or {}, second)
+            with unpacked(named, reader.module, reader.what) as given:
+                found: Particles = module.read(given)
         if columns and reader.module not in _BY_NAME:
             found = _with_names(found, columns)
     except SceneError as error:
         raise SceneError(f"{name}: {error}") from None
-    except (OSError, ValueError, MemoryError) as error:  # a path with a null byte is a ValueError
+    except MemoryError as error:
+        raise SceneError(f"{name}: {_too_large(error)}") from None
+    except (OSError, ValueError) as error:  # a path with a null byte is a ValueError
         raise SceneError(f"{name}: {why_unreadable(error, 'file of data')}") from None
     return replace(found, source=Path(name))
 
@@ -91,6 +96,15 @@ def _whole(frame: SupportsIndex) -> int:
         return operator.index(frame)
     except TypeError:
         raise SceneError(f"frame: expected an integer, got {short(repr(frame))}") from None
+
+
+def _too_large(error: MemoryError) -> str:
+    """Say how much memory was asked for, as far as that is known, and how much there is."""
+    # NumPy says: "Unable to allocate 7.28 TiB for an array with shape ...".
+    _, _, asked = str(error).partition("Unable to allocate ")
+    needed = f"it needs {' '.join(asked.split()[:2])} at least, " if asked else ""
+    there = f"{readable(available_memory())} of memory is available"
+    return f"is too large to hold in memory: {needed}{there}"
 
 
 def _with_names(found: Particles, called: Mapping[str, str]) -> Particles:

@@ -101,6 +101,16 @@ READERS: dict[str, Reader] = {
 """All kinds of files, by the names that ``format=`` takes."""
 
 
+PACKINGS = (".gz", ".bz2", ".xz")
+"""What follows the ending of a text that is compressed."""
+
+
+def packing_of(path: str) -> str:
+    """Return the ending that says how a file is compressed; "" if it is not."""
+    ending = os.path.splitext(path)[1].lower()
+    return ending if ending in PACKINGS else ""
+
+
 def reader_of(path: str, named: str | None) -> tuple[str, Reader]:
     """Return what reads a file, and the name of its kind.
 
@@ -116,6 +126,7 @@ def reader_of(path: str, named: str | None) -> tuple[str, Reader]:
             raise SceneError(f"format: expected one of {known}, got {short(named)!r}")
         return named.lower().removeprefix("."), found
     base = os.path.basename(path)
+    base = base[: len(base) - len(packing_of(base))]
     ending = os.path.splitext(base)[1].lower()
     for kind, reader in READERS.items():
         if ending in reader.names or any(fnmatchcase(base, name) for name in reader.names):

@@ -5,6 +5,7 @@ many entries as there are columns. Only where that or a number is wrong, lines a
 one.
 """
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
@@ -79,6 +80,25 @@ def read_rows(lines: Lines, count: int, kinds: str, more: bool = False) -> "list
     if not parts:
         parts = [_columns(b"", 0, kinds, more, 0)]
     return [np.concatenate(column) for column in zip(*parts, strict=True)]
+
+
+def check_places(positions: "Array", lines: Sequence[int]) -> None:
+    """Raise SceneError if a coordinate is not finite.
+
+    Parameters
+    ----------
+    positions
+        The places, (n, 3).
+    lines
+        The number of the line where each stands.
+    """
+    import numpy as np
+
+    if np.isfinite(positions).all():
+        return
+    row, axis = (int(place) for place in np.argwhere(~np.isfinite(positions))[0])
+    words = f"{'xyz'[axis]} must be finite, got {positions[row, axis]}"
+    raise SceneError(f"line {lines[row]}: {words}")
 
 
 def _columns(block: bytes, count: int, kinds: str, more: bool, first: int) -> "list[Array]":

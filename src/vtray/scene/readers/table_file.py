@@ -129,7 +129,7 @@ def _read_parquet(given: Given) -> "dict[str, Array]":
     import numpy as np
 
     parquet: Any = need("pyarrow.parquet", "tables", "reading Parquet files")
-    check_room(given.path, 3)
+    check_room(given.file, 3)
     with told("pyarrow", "a Parquet file"):
         table = parquet.read_table(given.file)
         columns = {}

@@ -15,7 +15,7 @@ from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.frames import find_frame
 from vtray.scene.readers.lines import Lines
 from vtray.scene.readers.reader_table import Given
-from vtray.scene.readers.rows import kind_of, read_rows
+from vtray.scene.readers.rows import check_places, kind_of, read_rows
 
 if TYPE_CHECKING:
     import numpy as np
@@ -75,6 +75,7 @@ def read(given: Given) -> Particles:
     positions = columns.pop("pos", None)
     if positions is None or positions.shape != (head.size, 3):
         raise SceneError(f"line {head.line + 1}: Properties: expected pos:R:3 among the columns")
+    check_places(positions, range(head.line + 2, head.line + 2 + head.size))
     cell, origin = _cell_of(said, head.line + 1)
     return Particles(
         positions,
