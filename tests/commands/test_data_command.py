@@ -62,6 +62,19 @@ def test_data_becomes_a_scene(water: Path) -> None:
     assert points.camera.size == (80, 60)
 
 
+def test_large_balls_have_less_grain(water: Path) -> None:
+    def tolerance(*options: str) -> float:
+        return scene_of(water, "--no-cell", "--orthographic", *options).render.tolerance
+
+    assert tolerance() == 0.012
+    assert tolerance("--size", "12x9") == 0.03
+    # Of three balls of 0.35 and 0.66, the usual one is small.
+    middle = [tolerance("--size", f"{4 * k}x{3 * k}") for k in (6, 8, 10)]
+    assert middle == pytest.approx([middle[0], middle[0] * 6 / 8, middle[0] * 6 / 10], rel=0.05)
+    assert 0.012 < middle[2] < middle[0] < 0.03
+    assert tolerance("--emission", "z") == 0.03
+
+
 def test_views(water: Path) -> None:
     def looks(*view: str) -> tuple[float, ...]:
         normal = scene_of(water, "--no-cell", *view).camera.normal

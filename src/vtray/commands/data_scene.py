@@ -21,8 +21,11 @@ SIZE = (1024, 1024)
 SAMPLES = 4
 """Rays for each pixel that needs them: pictures of data are figures, whose edges are smooth."""
 
-TOLERANCE = 0.02
-"""How noisy soft light may be: twice to five times fewer rays than scenes have among many atoms."""
+FINEST, COARSEST = 0.012, 0.03
+"""How noisy soft light may be: grain is seen on large balls, and lost among small ones."""
+
+NO_GRAIN = 0.15
+"""The tolerance for a ball with a radius of a pixel, and for larger ones a part of that."""
 
 MOST_LABELS = 2000
 """How many particles may have a label: more can neither be read nor placed in time."""
@@ -45,7 +48,6 @@ def load_data(options: argparse.Namespace) -> "tuple[Scene, dict[str, Any]]":
         The file cannot be read, or what is asked for is not in it.
     """
     from vtray.scene.scene import Scene
-    from vtray.scene.settings import RenderSettings
 
     given = data_options.given(options)
     particles = read_particles(options)
@@ -53,7 +55,7 @@ def load_data(options: argparse.Namespace) -> "tuple[Scene, dict[str, Any]]":
     drawing = {name: value for name, value in given.items() if name not in UNDRAWN}
     if "cutoff" in drawing:
         drawing["bonds"] = drawing.pop("cutoff")
-    scene = Scene(render=RenderSettings(samples=SAMPLES, tolerance=TOLERANCE))
+    scene = Scene()
     size = options.size or SIZE
     try:
         if drawing.get("style") == "points":
@@ -62,6 +64,8 @@ def load_data(options: argparse.Namespace) -> "tuple[Scene, dict[str, Any]]":
             drawing["background"] = options.background
         drawn = scene.add_particles(particles, **drawing)
         scene.camera = _camera(scene, particles, size, dict(view))
+        tolerance = _tolerance(scene.camera, drawn)
+        scene.render = scene.render.replace(samples=SAMPLES, tolerance=tolerance)
     except SceneError as error:
         raise SceneError(f"{options.scene}: {error}") from None
     marks: dict[str, Any] = {}
@@ -127,6 +131,20 @@ def describe(options: argparse.Namespace) -> str:
         for name, edge in zip("abc", particles.cell.tolist(), strict=True):
             lines.append(f"{'cell ' + name:12}{', '.join(f'{part:g}' for part in edge)}")
     return "\n".join(lines) + "\n"
+
+
+def _tolerance(camera: "Camera", drawn: "Drawn") -> float:
+    """Return how noisy soft light may be on balls of the usual size."""
+    import numpy as np
+
+    spheres = drawn.spheres
+    if not len(spheres.center):
+        return COARSEST
+    middle = spheres.center.mean(axis=0)
+    steps = camera.project(middle + np.median(spheres.radius) * np.eye(3)) - camera.project(middle)
+    # Three steps at right angles are together seen as long as two that are not foreshortened.
+    pixels = np.sqrt(np.square(steps[:, :2]).sum() / 2)
+    return float(np.clip(NO_GRAIN / pixels, FINEST, COARSEST)) if pixels > 0 else COARSEST
 
 
 def _camera(
