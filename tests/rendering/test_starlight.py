@@ -1,6 +1,8 @@
 """Points that shine: their light on the pixels, what hides it, and what else a picture does."""
 
+import copy
 import hashlib
+import pickle
 from pathlib import Path
 from typing import Any
 
@@ -193,6 +195,22 @@ def test_pictures_of_stars() -> None:
     red = image.recolor(0, "red")
     assert red.pixels[4, 8].tolist() == [255, 0, 0]
     assert np.array_equal(red.linear, vtray.render(red.scene, exposure=1).linear)
+
+
+def test_growing_pictures_have_stars() -> None:
+    shapes = [vtray.Sphere((0, 0, 0), 1, (9, 9, 9), 1), Stars([(3, 0, 0), (0, 0, -3)], peak=0.5)]
+    scene = vtray.Scene(CAMERA, [vtray.Light((0, 0, 9))], shapes)
+    seen: list[vtray.Image] = []
+    image = vtray.render(scene, on_update=seen.append, update_seconds=0, exposure=1, tile=2)
+    assert seen
+    assert all(part.pixels[4, 8].min() == 255 for part in seen)
+    assert image.pixels[4, 5].max() < 20
+
+
+def test_stars_are_the_same_after_copying() -> None:
+    stars = Stars([(0, 0, 0), (1, 1, 1)], 2.0, (1, 2, 3), "log", 0.5, 4.0)
+    assert pickle.loads(pickle.dumps(stars)) == stars == copy.deepcopy(stars)
+    assert stars.replace(peak=None) != stars
 
 
 @compiled_only
