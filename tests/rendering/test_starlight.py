@@ -13,10 +13,12 @@ import vtray
 from conftest import compiled_only
 from vtray.base.errors import RenderError, SceneError
 from vtray.figures.projection import project
+from vtray.rendering import starlight
 from vtray.rendering.starlight import Starlight
 from vtray.scene.default_light import lights_of, settings_of
 from vtray.scene.fingerprint import scene_hash
 from vtray.scene.particles.particles import Particles
+from vtray.scene.placing.moved import axes_of
 from vtray.scene.stars import Stars
 
 CAMERA = vtray.Camera.orthographic((0, 0, 10), (0, 0, 0), 8, size=(10, 8))
@@ -127,6 +129,27 @@ def test_what_is_behind_something_is_hidden() -> None:
     assert [float(one.max()) > 0 for one in light] == [False, True, True]
     behind_the_image = Stars([(0, -10, 2.2)], peak=1.0)
     assert light_of(behind_the_image, LOOKING).max() == 0
+
+
+def test_what_hides_is_nearer_along_the_view() -> None:
+    right, down, forward = axes_of(LOOKING)
+    eye = np.array([0, -9, 2.0])
+    pixel = LOOKING.resolution[0] / LOOKING.focus
+    across, below = 11 * pixel, -7 * pixel  # near a corner
+    rows, columns = (np.indices((16, 24)) - [[[8]], [[12]]]) * pixel
+    wall = 5.0 * np.sqrt(1 + rows * rows + columns * columns)  # 5 from the eye along the view
+    for far, is_seen in ((4.99, True), (5.01, False)):
+        place = eye + far * (np.array(forward) + across * np.array(right) + below * np.array(down))
+        light = light_of(Stars([place], peak=1.0), LOOKING, wall)
+        assert (light[1, 23].max() > 0) == is_seen
+
+
+def test_many_points_are_added_in_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
+    generator = np.random.default_rng(6)
+    stars = Stars(generator.normal(size=(50, 3)), generator.uniform(size=50), peak=4.0)
+    whole = light_of(stars)
+    monkeypatch.setattr(starlight, "PIECE", 7)
+    assert np.allclose(light_of(stars), whole)
 
 
 def test_light_is_the_same_everywhere() -> None:
