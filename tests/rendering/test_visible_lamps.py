@@ -10,7 +10,7 @@ import vtray
 from conftest import JIT, compiled_only
 from vtray import RectangleLight, SphereLight, render
 
-SIZE = (48, 36) if JIT else (16, 12)
+SIZE = (48, 36) if JIT else (12, 9)
 Point = tuple[float, float, float]
 
 
