@@ -246,12 +246,12 @@ class _Render:
     def look(self, columns: Array, rows: Array) -> Seen:
         """Return what is seen."""
         starts, rays = self.rays(columns, rows)
-        depth, hit = self.nearest(starts, rays)
+        depth, hit, faces = self.nearest(starts, rays)
         linear = np.zeros((*hit.shape, 3), self.dtype)
         normals, shadows = np.zeros_like(linear), np.zeros((*hit.shape, len(self.lights)), bool)
         parts = np.zeros(hit.shape, int)
         met = hit >= 0
-        surfaces = self.surfaces(hit[met], starts[met], rays[met], depth[met])
+        surfaces = self.surfaces(hit[met], faces[met], starts[met], rays[met], depth[met])
         normals[met], parts[met] = surfaces.normals, surfaces.parts
         linear[met], shadows[met] = self.shade(surfaces)
         depth = depth + (self.eye_distance - self.focus)
@@ -267,20 +267,21 @@ class _Render:
         ray = np.broadcast_to(self.forward, aside.shape) if self.parallel else ray
         return self.eye + beside, ray / np.sqrt(dot(ray, ray))[..., None]
 
-    def nearest(self, starts: Array, rays: Array) -> tuple[Array, Array]:
-        """Return the distance and the number of the nearest object for each ray."""
+    def nearest(self, starts: Array, rays: Array) -> tuple[Array, Array, Array]:
+        """Return the distance, the number and the face of the nearest object for each ray."""
         best = np.full(rays.shape[:-1], np.inf, self.dtype)
-        hit = np.full(rays.shape[:-1], -1)
+        hit, faces = np.full(rays.shape[:-1], -1), np.zeros(rays.shape[:-1], int)
         forward = dot(rays, self.forward)
         for k, item in enumerate(self.objects):
+            face = np.zeros_like(faces)
             if item["type"] in AXIAL:
-                distance = self.meet_cylinder(k, starts, rays)[0]
+                distance, face = self.meet_cylinder(k, starts, rays)
             else:
                 find = self.meet_sphere if item["type"] == "sphere" else self.meet_plane
                 distance = find(item, starts, rays, forward)
             nearer = distance < best
-            best[nearer], hit[nearer] = distance[nearer], k
-        return best, hit
+            best[nearer], hit[nearer], faces[nearer] = distance[nearer], k, face[nearer]
+        return best, hit, faces
 
     def meet_sphere(self, item: Scene, starts: Array, rays: Array, forward: Array) -> Array:
         radius = self.dtype(item["radius"])
@@ -323,17 +324,17 @@ class _Render:
         return at.astype(self.dtype).reshape(shape), face.reshape(shape)
 
     def surface_of_cylinder(
-        self, k: int, starts: Array, rays: Array, distance: Array
+        self, k: int, face: Array, points: Array, distance: Array
     ) -> tuple[Array, Array]:
-        """Return the normals at points, and which part of a cylinder is met there."""
+        """Return the normals at points of faces, and which part of a cylinder is met there."""
         cylinder = self.cylinders[k]
-        face = self.meet_cylinder(k, starts, rays)[1]
-        points = starts + distance[:, None] * rays
         magnitude = self.magnitude(self.objects[k]) + (self.extent + self.focus) + distance
         second = cylinder.is_second(points, (1 + self.growth[k]) * ROUNDING * magnitude)
         return cylinder.normal(points, face).astype(self.dtype), face + 3 * second
 
-    def surfaces(self, hit: Array, starts: Array, rays: Array, distance: Array) -> Surfaces:
+    def surfaces(
+        self, hit: Array, faces: Array, starts: Array, rays: Array, distance: Array
+    ) -> Surfaces:
         """Return what rays meet that meet something, object by object."""
         points = starts + distance[:, None] * rays
         normals, colors = np.zeros_like(points), np.zeros_like(points)
@@ -343,7 +344,9 @@ class _Render:
             item, mine = self.objects[k], hit == k
             color = self.color(item)
             if item["type"] in AXIAL:
-                normal, part = self.surface_of_cylinder(k, starts[mine], rays[mine], distance[mine])
+                normal, part = self.surface_of_cylinder(
+                    k, faces[mine], points[mine], distance[mine]
+                )
                 color = np.where((part >= 3)[:, None], self.color(item, "color_end"), color)
                 parts[mine] = part
             elif item["type"] == "sphere":

@@ -147,10 +147,10 @@ class SoftOracle:
             render = self.plain
             start, ray = render.rays(np.array([float(column)]), np.array([float(row)]))
             start = np.broadcast_to(start, ray.shape)
-            distance, found = render.nearest(start, ray)
+            distance, found, face = render.nearest(start, ray)
             if found[0] < 0:
                 return None
-            met = render.surfaces(found, start, ray, distance)
+            met = render.surfaces(found, face, start, ray, distance)
         item = render.objects[found[0]]
         return Hit(item, met.points[0], met.normals[0], float(met.errors[0]))
 
