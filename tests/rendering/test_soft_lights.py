@@ -18,8 +18,8 @@ from vtray.rendering.pack import pack
 from vtray.transport.integrators import reference
 from vtray.transport.sampling.fans import fans_of_middles
 
-SIZE = (40, 30) if JIT else (8, 6)
-STEP = 5 if JIT else 2
+SIZE = (28, 21) if JIT else (8, 6)
+STEP = 4 if JIT else 2
 SMALL = (16, 16) if JIT else (4, 4)
 TOLERANCE = 0.008 if JIT else 0.05  # a few fans from each point, not all
 

@@ -108,9 +108,11 @@ def rows_and_columns(height: int) -> tuple[np.ndarray, np.ndarray]:
 
 def irradiance(pixels: np.ndarray, normal: Point = UP) -> np.ndarray:
     """Return what a picture gives to a surface, by a sum over fine cells, (3,)."""
-    fine = -(-800 // len(pixels))
     height, width, _ = pixels.shape
-    down, across = (np.arange(fine * n) / fine + 0.5 / fine for n in (height, width))
+    down, across = (
+        (np.arange(n * fine) + 0.5) / fine
+        for n, fine in ((height, -(-800 // height)), (width, -(-1600 // width)))
+    )
     row = np.clip(down - 0.5, 0, height - 1)
     above = np.minimum(row.astype(int), max(height - 2, 0))
     column = (across - 0.5) % width
