@@ -94,8 +94,8 @@ def test_change_in_any_source_is_noticed(tmp_path: Path) -> None:
 
 
 def test_picture_is_the_same_on_a_processor_without_wide_vectors(tmp_path: Path) -> None:
-    scene = Path(__file__).parents[2] / "scenes" / "inside.json"
-    command = [Path(sys.executable).with_name("vtray"), "--size", "200x150", scene]
+    scene = Path(__file__).parents[2] / "scenes" / "room.json"
+    command = [Path(sys.executable).with_name("vtray"), "--size", "120x90", scene]
     plain = {"NUMBA_CPU_NAME": "generic", "VTRAY_CACHE_DIR": str(tmp_path / "cache")}
     subprocess.run([*command, tmp_path / "this.png"], check=True)
     subprocess.run([*command, tmp_path / "plain.png"], env={**os.environ, **plain}, check=True)

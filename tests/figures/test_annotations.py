@@ -72,6 +72,7 @@ def image() -> vtray.Image:
     small = vtray.Sphere((0, 0, 0), 0.5)
     scene.objects.append(vtray.Copies([small], [TARGET + 2 * axes_seen()[0]]))
     scene.add_plane((0, 0, -3), (0, 0, 1))
+    scene.add_light((5, -9, 9))
     scene.camera = camera()
     return vtray.render(scene)
 

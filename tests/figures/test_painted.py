@@ -280,6 +280,7 @@ def test_picture_is_saved_with_how_it_was_made(
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     scene = vtray.Scene()
     scene.add_spheres([(0, 0, 0)], radius=1)
+    scene.add_light((5, -9, 9))
     scene.camera = vtray.Camera.fit(scene, size=(60, 40))
     image = vtray.render(scene)
     before = image.pixels.copy()

@@ -52,6 +52,29 @@ class Seen(NamedTuple):
     parts: Array
 
 
+class Surfaces(NamedTuple):
+    """What rays meet, (n, ...).
+
+    Attributes
+    ----------
+    points, normals
+        Where, and the unit normals there on the ray's side, (n, 3).
+    colors, lamberts
+        Of the surface, (n, 3) and (n,).
+    errors
+        What rounding errors of the points are relative to, (n,).
+    parts
+        As in `Seen`, (n,).
+    """
+
+    points: Array
+    normals: Array
+    colors: Array
+    lamberts: Array
+    errors: Array
+    parts: Array
+
+
 def render(scene: Scene, dtype: type = np.float64) -> Array:
     """Return the linear light of a scene, (height, width, 3)."""
     return look(scene, dtype=dtype).linear
@@ -221,17 +244,16 @@ class _Render:
         return normal / np.sqrt(dot(normal, normal))
 
     def look(self, columns: Array, rows: Array) -> Seen:
-        """Return what is seen, object by object and light by light."""
+        """Return what is seen."""
         starts, rays = self.rays(columns, rows)
-        depth, hit = self.nearest(starts, rays)
+        depth, hit, faces = self.nearest(starts, rays)
         linear = np.zeros((*hit.shape, 3), self.dtype)
         normals, shadows = np.zeros_like(linear), np.zeros((*hit.shape, len(self.lights)), bool)
         parts = np.zeros(hit.shape, int)
-        for k in range(len(self.objects)):
-            mine = hit == k
-            if mine.any():
-                shaded = self.shade(k, starts[mine], rays[mine], depth[mine])
-                linear[mine], normals[mine], shadows[mine], parts[mine] = shaded
+        met = hit >= 0
+        surfaces = self.surfaces(hit[met], faces[met], starts[met], rays[met], depth[met])
+        normals[met], parts[met] = surfaces.normals, surfaces.parts
+        linear[met], shadows[met] = self.shade(surfaces)
         depth = depth + (self.eye_distance - self.focus)
         return Seen(linear, depth, normals, np.array([*self.order, -1])[hit], shadows, parts)
 
@@ -245,20 +267,21 @@ class _Render:
         ray = np.broadcast_to(self.forward, aside.shape) if self.parallel else ray
         return self.eye + beside, ray / np.sqrt(dot(ray, ray))[..., None]
 
-    def nearest(self, starts: Array, rays: Array) -> tuple[Array, Array]:
-        """Return the distance and the number of the nearest object for each ray."""
+    def nearest(self, starts: Array, rays: Array) -> tuple[Array, Array, Array]:
+        """Return the distance, the number and the face of the nearest object for each ray."""
         best = np.full(rays.shape[:-1], np.inf, self.dtype)
-        hit = np.full(rays.shape[:-1], -1)
+        hit, faces = np.full(rays.shape[:-1], -1), np.zeros(rays.shape[:-1], int)
         forward = dot(rays, self.forward)
         for k, item in enumerate(self.objects):
+            face = np.zeros_like(faces)
             if item["type"] in AXIAL:
-                distance = self.meet_cylinder(k, starts, rays)[0]
+                distance, face = self.meet_cylinder(k, starts, rays)
             else:
                 find = self.meet_sphere if item["type"] == "sphere" else self.meet_plane
                 distance = find(item, starts, rays, forward)
             nearer = distance < best
-            best[nearer], hit[nearer] = distance[nearer], k
-        return best, hit
+            best[nearer], hit[nearer], faces[nearer] = distance[nearer], k, face[nearer]
+        return best, hit, faces
 
     def meet_sphere(self, item: Scene, starts: Array, rays: Array, forward: Array) -> Array:
         radius = self.dtype(item["radius"])
@@ -301,48 +324,59 @@ class _Render:
         return at.astype(self.dtype).reshape(shape), face.reshape(shape)
 
     def surface_of_cylinder(
-        self, k: int, starts: Array, rays: Array, distance: Array
+        self, k: int, face: Array, points: Array, distance: Array
     ) -> tuple[Array, Array]:
-        """Return the normals at points, and which part of a cylinder is met there."""
+        """Return the normals at points of faces, and which part of a cylinder is met there."""
         cylinder = self.cylinders[k]
-        face = self.meet_cylinder(k, starts, rays)[1]
-        points = starts + distance[:, None] * rays
         magnitude = self.magnitude(self.objects[k]) + (self.extent + self.focus) + distance
         second = cylinder.is_second(points, (1 + self.growth[k]) * ROUNDING * magnitude)
         return cylinder.normal(points, face).astype(self.dtype), face + 3 * second
 
-    def shade(
-        self, number: int, starts: Array, rays: Array, distance: Array
-    ) -> tuple[Array, Array, Array, Array]:
-        """Return light, normals, shadows and parts of points on one object, (n, ...)."""
-        item = self.objects[number]
+    def surfaces(
+        self, hit: Array, faces: Array, starts: Array, rays: Array, distance: Array
+    ) -> Surfaces:
+        """Return what rays meet that meet something, object by object."""
         points = starts + distance[:, None] * rays
+        normals, colors = np.zeros_like(points), np.zeros_like(points)
+        lamberts, magnitudes = np.zeros_like(distance), np.zeros_like(distance)
         parts = np.zeros(len(points), int)
-        color = self.color(item)
-        if item["type"] in AXIAL:
-            normal, parts = self.surface_of_cylinder(number, starts, rays, distance)
-            color = np.where((parts >= 3)[:, None], self.color(item, "color_end"), color)
-        elif item["type"] == "sphere":
-            normal = points - self.place(item["center"])
-            length = np.sqrt(dot(normal, normal))[:, None]
-            normal = np.where(length > 0, normal / length, -rays)
-        else:
-            normal = np.broadcast_to(self.normal(item), points.shape)
-        normal = np.where((dot(normal, rays) > 0)[:, None], -normal, normal)
-        error = self.magnitude(item) + (self.extent + self.focus) + distance
-        total = np.zeros(points.shape, self.dtype)
-        shadows = np.zeros((len(points), len(self.lights)), bool)
+        for k in np.unique(hit):
+            item, mine = self.objects[k], hit == k
+            color = self.color(item)
+            if item["type"] in AXIAL:
+                normal, part = self.surface_of_cylinder(
+                    k, faces[mine], points[mine], distance[mine]
+                )
+                color = np.where((part >= 3)[:, None], self.color(item, "color_end"), color)
+                parts[mine] = part
+            elif item["type"] == "sphere":
+                normal = points[mine] - self.place(item["center"])
+                length = np.sqrt(dot(normal, normal))[:, None]
+                normal = np.where(length > 0, normal / length, -rays[mine])
+            else:
+                normal = self.normal(item)
+            normals[mine], colors[mine] = normal, color
+            lamberts[mine], magnitudes[mine] = item["lambert"], self.magnitude(item)
+        normals = np.where((dot(normals, rays) > 0)[:, None], -normals, normals)
+        errors = magnitudes + (self.extent + self.focus) + distance
+        return Surfaces(points, normals, colors, lamberts, errors, parts)
+
+    def shade(self, found: Surfaces) -> tuple[Array, Array]:
+        """Return light and shadows of points, (n, ...), light by light."""
+        total = np.zeros(found.points.shape, self.dtype)
+        shadows = np.zeros((len(total), len(self.lights)), bool)
         for k, light in enumerate(self.lights):
             place = self.place(light["location"])
-            way = place - points
-            height = dot(normal, way)
+            way = place - found.points
+            height = dot(found.normals, way)
             cosine = height / np.sqrt(dot(way, way))
-            cosine[~(height > self.light_reach(place, error))] = 0
-            shadows[:, k] = (cosine > 0) & self.blocked(points, error, place)
+            cosine[~(height > self.light_reach(place, found.errors))] = 0
+            lit = cosine > 0
+            shadows[lit, k] = self.blocked(found.points[lit], found.errors[lit], place)
             cosine[shadows[:, k]] = 0
-            strength = cosine * self.dtype(item["lambert"]) * self.dtype(light["intensity"])
-            total = total + strength[:, None] * color * self.light_color(light)
-        return total, normal, shadows, parts
+            strength = cosine * found.lamberts * self.dtype(light["intensity"])
+            total = total + strength[:, None] * found.colors * self.light_color(light)
+        return total, shadows
 
     def blocked(self, points: Array, error: Array, light: Array) -> Array:
         """Tell which points any object hides from a light."""

@@ -68,13 +68,11 @@ class Cone(Cylinder):
             lengths.append(np.hypot(away - r - share * (s - r), z - h - share * (k - h)))
         return np.where(bound > 0, np.maximum(np.min(lengths, axis=0), bound), bound)
 
-    def cross(self, starts: Array, ways: Array, reach: Any, larger: Any = 0) -> Crossings:
-        """Return where lines cross the surface; see `Cylinder.cross`."""
-        starts, ways = starts.astype(np.longdouble), ways.astype(np.longdouble)
-        count = len(starts)
+    def cross_near(
+        self, starts: Array, ways: Array, shift: Array, reach: Array, larger: Array
+    ) -> Crossings:
+        """Return where lines cross the surface; see `Cylinder.cross_near`."""
         length = np.sqrt((ways * ways).sum(axis=-1))
-        middle = self.start + self.frame[2] * (self.length / 2)
-        shift = ((middle - starts) * ways).sum(axis=-1) / (length * length)
         x, y, z = np.moveaxis(self.in_frame(starts + shift[:, None] * ways - self.start), -1, 0)
         u, v, w = np.moveaxis(self.in_frame(ways), -1, 0)
 
@@ -85,7 +83,7 @@ class Cone(Cylinder):
         def bound(t: Array) -> Array:
             return beyond(t).max(axis=0)
 
-        half = np.broadcast_to((self.length + 2 * self.radius + 4 * np.abs(larger)) / length, count)
+        half = (self.length + 2 * self.radius + 4 * np.abs(larger)) / length
         low, high = -half, half
         for _ in range(80):
             one, other = high - SHARE * (high - low), low + SHARE * (high - low)

@@ -55,6 +55,7 @@ class Cylinder:
         one = _cross(along, beside)
         one = one / np.sqrt((one * one).sum())
         self.frame = np.stack([one, _cross(along, one), along])
+        self.middle = self.start + along * (self.length / 2)
 
     def inside_out(self, vectors: Array) -> Array:
         """Return vectors given in the frame, (n, 3), as they are outside of it."""
@@ -85,9 +86,24 @@ class Cylinder:
         larger
             By how much the cylinder is larger on all sides, (n,).
         """
-        ways = ways.astype(np.longdouble)
-        middle = self.start + self.frame[2] * (self.length / 2)
-        shift = ((middle - starts) * ways).sum(axis=-1) / (ways * ways).sum(axis=-1)
+        starts, ways = starts.astype(np.longdouble), ways.astype(np.longdouble)
+        reach, larger = (np.broadcast_to(bound, len(starts)) for bound in (reach, larger))
+        shift = ((self.middle - starts) * ways).sum(axis=-1) / (ways * ways).sum(axis=-1)
+        beside = starts + shift[:, None] * ways - self.middle
+        # Most lines pass by a ball around it, at a distance that no rounding makes up for.
+        ball = 1.01 * (self.length / 2 + self.radius + np.abs(larger)) + reach
+        near = (beside * beside).sum(axis=-1) <= ball * ball
+        found = self.cross_near(starts[near], ways[near], shift[near], reach[near], larger[near])
+        shape = 2, len(starts)
+        at, steepness = np.full(shape, np.nan, np.longdouble), np.ones(shape, np.longdouble)
+        face = np.zeros(shape, int)
+        at[:, near], face[:, near], steepness[:, near] = found
+        return Crossings(at, face, steepness)
+
+    def cross_near(
+        self, starts: Array, ways: Array, shift: Array, reach: Array, larger: Array
+    ) -> Crossings:
+        """Return where lines cross the surface that are beside its middle after `shift` ways."""
         x, y, z = np.moveaxis(self.in_frame(starts + shift[:, None] * ways - self.start), -1, 0)
         u, v, w = np.moveaxis(self.in_frame(ways), -1, 0)
         length = np.sqrt((ways * ways).sum(axis=-1))

@@ -146,13 +146,12 @@ class SoftOracle:
             render = self.plain
             start, ray = render.rays(np.array([float(column)]), np.array([float(row)]))
             start = np.broadcast_to(start, ray.shape)
-            distance, found = render.nearest(start, ray)
+            distance, found, face = render.nearest(start, ray)
             if found[0] < 0:
                 return None
-            item = render.objects[found[0]]
-            normal = render.shade(found[0], start, ray, distance)[1]
-            error = render.magnitude(item) + (render.extent + render.focus) + distance[0]
-        return Hit(item, (start + distance[:, None] * ray)[0], normal[0], float(error))
+            met = render.surfaces(found, face, start, ray, distance)
+        item = render.objects[found[0]]
+        return Hit(item, met.points[0], met.normals[0], float(met.errors[0]))
 
     def fan(self, hit: Hit, light: int, column: int, row: int, seed: int, rays: int) -> Fan:
         """Return the rays from a hit to one of the soft lights.

@@ -44,9 +44,10 @@ def covered_share(document: dict, filter_name: str, grid: int) -> np.ndarray:
     weights = np.array([formula(x) for x in offsets])
     weights /= weights.sum()
     share = np.zeros((height, width))
-    for across, w in zip(offsets, weights, strict=True):
-        for below, v in zip(offsets, weights, strict=True):
-            share += w * v * (oracle.look(document, columns + across, rows + below).ids >= 0)
+    below = rows + offsets[:, None, None]
+    for across, weight in zip(offsets, weights, strict=True):
+        covered = oracle.look(document, columns + across, below).ids >= 0
+        share += weight * (weights[:, None, None] * covered).sum(axis=0)
     return share
 
 

@@ -6,15 +6,17 @@ import numpy as np
 import pytest
 
 import vtray
+from conftest import JIT
 from vtray import render
 
+SIZE = (32, 24) if JIT else (12, 9)
 WHITE = [255, 255, 255]
 
 
 def balls() -> vtray.Scene:
     scene = vtray.Scene()
     scene.add_spheres([(0, 0, 0), (1.5, 0, 0), (0, 1.4, 0.3)], 0.6, color="#3a6ea5")
-    scene.camera = vtray.Camera.fit(scene, size=(32, 24))
+    scene.camera = vtray.Camera.fit(scene, size=SIZE)
     return scene
 
 
@@ -80,11 +82,11 @@ def test_files_keep_the_light_that_was_seen(tmp_path: Path) -> None:
 def test_it_goes_with_the_camera() -> None:
     scene = balls()
     first = render(scene).scene.lights
-    scene.camera = vtray.Camera.fit(scene, direction=(1, 0, 0), size=(32, 24))
+    scene.camera = vtray.Camera.fit(scene, direction=(1, 0, 0), size=SIZE)
     assert render(scene).scene.lights != first
 
 
 def test_single_rays_see_the_same() -> None:
     scene = balls()
     image = render(scene)
-    assert vtray.trace_pixel(scene, 16, 12).scene.lights == image.scene.lights
+    assert vtray.trace_pixel(scene, SIZE[0] // 2, SIZE[1] // 2).scene.lights == image.scene.lights

@@ -20,7 +20,8 @@ from vtray.rendering.pack import pack
 from vtray.transport.integrators import reference
 from vtray.transport.sampling.fans import fans_of_middles
 
-SIZE = (40, 30) if JIT else (10, 8)
+SIZE = (28, 21) if JIT else (10, 8)
+STEP = 2 if JIT else 3
 MANY = 150 if JIT else 14
 
 
@@ -94,8 +95,8 @@ def test_shared_fans_tell_what_each_ray_alone_would(lights: Any) -> None:
     stack, cosines, blockers = new_stack(), np.zeros(points), np.full(points, NOTHING)
     shared, on_ways = new_shared(len(soft.kind)), np.full(fans.rays, NOTHING)
     most = hits = 0
-    for y in range(0, SIZE[1], 3):
-        for x in range(0, SIZE[0], 3):
+    for y in range(0, SIZE[1], STEP):
+        for x in range(0, SIZE[0], STEP):
             traced = reference.trace_pixel(arrays, x, y, stack, cosines, blockers)
             value = traced.value
             if traced.primitive != NOTHING:

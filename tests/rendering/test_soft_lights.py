@@ -18,8 +18,9 @@ from vtray.rendering.pack import pack
 from vtray.transport.integrators import reference
 from vtray.transport.sampling.fans import fans_of_middles
 
-SIZE = (40, 30) if JIT else (8, 6)
-STEP = 5 if JIT else 2
+SIZE = (28, 21) if JIT else (8, 6)
+STEP = 4 if JIT else 2
+SMALL = (16, 16) if JIT else (4, 4)
 TOLERANCE = 0.008 if JIT else 0.05  # a few fans from each point, not all
 
 
@@ -64,7 +65,7 @@ def scene_of(kind: str) -> vtray.Scene:
 
 @pytest.mark.parametrize("kind", ["few", "many", "bonds", "copies"])
 def test_bundles_tell_what_each_ray_alone_would(kind: str) -> None:
-    if kind in ("many", "bonds") and not JIT:
+    if kind != "few" and not JIT:
         pytest.skip("takes minutes without the compiler")
     scene = scene_of(kind)
     image = render(scene, seed=5, tolerance=TOLERANCE)
@@ -122,7 +123,7 @@ def floor(light: Any, *walls: tuple[float, float, float]) -> vtray.Scene:
     scene.add_plane((0, 0, 0), normal=(0, 0, 1))
     for normal in walls:
         scene.add_plane((0, 0, 0), normal=normal)
-    scene.camera = vtray.Camera((1, 1, 1e3), (0, 0, -1), 1.0, (16, 16), (1e-7, 1e-7), up=(0, 1, 0))
+    scene.camera = vtray.Camera((1, 1, 1e3), (0, 0, -1), 1.0, SMALL, (1e-7, 1e-7), up=(0, 1, 0))
     scene.lights = [light]
     return scene
 
@@ -141,12 +142,14 @@ def test_nothing_near_leaves_all_the_light(light: Any) -> None:
     assert share(scene) == 1.0
 
 
+@compiled_only
 @pytest.mark.parametrize("light", [vtray.Sky(), vtray.Ambient(), vtray.Ambient(distance=1e6)])
 def test_each_wall_of_a_corner_takes_half_of_the_light(light: Any) -> None:
     assert share(floor(light, (1, 0, 0))) == pytest.approx(0.5, abs=2e-3)
     assert share(floor(light, (1, 0, 0), (0, 1, 0))) == pytest.approx(0.25, abs=2e-3)
 
 
+@compiled_only
 def test_ambient_light_under_a_sphere() -> None:
     scene = floor(vtray.Ambient())
     scene.add_sphere((1, 0, 0.8), 0.8)
@@ -255,7 +258,7 @@ def test_odd_lights_give_finite_light(light: Any) -> None:
 def test_a_ball_with_a_lamp_of_its_own_size_shines(place: tuple[float, float, float]) -> None:
     scene = vtray.Scene()
     scene.add_sphere(place, 0.5)
-    scene.camera = vtray.Camera.fit(scene, direction=(0.3, 1, -0.6), size=(40, 30))
+    scene.camera = vtray.Camera.fit(scene, direction=(0.3, 1, -0.6), size=SIZE)
     scene.lights = [vtray.SphereLight(place, 0.5)]
     image = render(scene, exposure=1.0)
     np.testing.assert_array_equal(image.linear[image.ids[..., 0] == 0], 255.0)

@@ -238,7 +238,7 @@ def test_is_the_same_for_any_threads_and_tiles(
     assert image.stats["rays"] == expected.stats["rays"]
 
 
-@pytest.mark.parametrize("samples", [2, 3, 5, 7, 33])
+@pytest.mark.parametrize("samples", [2, 3, 5, 7, 33] if JIT else [3])
 @pytest.mark.parametrize("filter_name", FILTERS)
 def test_few_samples_of_each_filter(scattered: dict, filter_name: str, samples: int) -> None:
     camera = {"size": [24, 18], "resolution": [0.2, 0.2]}

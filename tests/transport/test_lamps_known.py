@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 
 import vtray
-from conftest import JIT
+from conftest import compiled_only
 from vtray import RectangleLight, SphereLight, render
 
-SIDE = 32 if JIT else 8
-NEAR = 1e-3 if JIT else 8e-3
+pytestmark = compiled_only  # means over many rays
+
+SIDE = 32
+NEAR = 1e-3
 """How near means over so many pixels come to integrals."""
 
 Point = tuple[float, float, float]

@@ -8,13 +8,15 @@ import numpy as np
 import pytest
 
 import vtray
-from conftest import JIT
+from conftest import compiled_only
 from vtray import render
 
-SIDE = 32 if JIT else 8
-SEEDS = 200 if JIT else 20
+pytestmark = compiled_only  # means over many rays
 
-NEAR = 1e-3 if JIT else 8e-3
+SIDE = 32
+SEEDS = 200
+
+NEAR = 1e-3
 """How near means over so many pixels come to integrals."""
 
 Point = tuple[float, float, float]

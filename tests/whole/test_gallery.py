@@ -102,7 +102,10 @@ def test_notebook_runs_from_start_to_end(name: str, least: int, tmp_path: Path) 
     page = ROOT / "docs" / f"{name.replace('_', '-')}.md"
     smaller = pages.smaller_of(page) if page.exists() else {}
     for cell in notebook.cells:
-        cell.source = pages.made_smaller(cell.source, smaller)
+        if smaller:
+            cell.source = pages.made_smaller(cell.source, smaller)
+        else:  # sizes and places in pictures, the numbers of three digits
+            cell.source = re.sub(r"\b\d{3}\b", lambda found: str(int(found[0]) // 2), cell.source)
     # Its files are written into a folder beside `scenes`, as `examples` is.
     (tmp_path / "scenes").symlink_to(ROOT / "scenes")
     (tmp_path / "examples").mkdir()
