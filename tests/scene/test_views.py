@@ -199,3 +199,8 @@ def test_targets_of_other_kinds_are_told() -> None:
     with pytest.raises(SceneError, match="^Camera.orbit: about: expected"):
         Camera.look_at((0, 0, 9), (0, 0, 0)).orbit(3, about="here")  # type: ignore[arg-type]
     assert Camera.look_at((0, 0, 9), (0, 0, 0)).orbit(0, about=Vector(0, 0, 0)).center.z > 8.9
+
+
+def test_particles_are_fitted_as_their_positions() -> None:
+    particles = vtray.Particles(np.random.default_rng(1).normal(size=(9, 3)))
+    assert Camera.fit(particles, view="iso") == Camera.fit(particles.positions, view="iso")

@@ -175,7 +175,8 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         Parameters
         ----------
         subject
-            A scene, `Spheres`, `Cylinders`, `Cones`, `Copies`, or points of shape (n, 3).
+            A scene, `Spheres`, `Cylinders`, `Cones`, `Copies`, or points of shape (n, 3); for the
+            centres alone also `Particles`, and atoms of ASE or MDAnalysis.
         direction
             Where the camera looks, in world space.
         up

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
 from vtray.scene.arrays import Arrays
+from vtray.scene.checks.given_array import positions_in
 from vtray.scene.copies import Copies
 from vtray.scene.objects import Object, Plane
 from vtray.scene.placing.directions import Vec, dot, unit
@@ -55,6 +56,8 @@ class Balls(NamedTuple):
 def balls_of(subject: object, place: str) -> list[Balls]:
     """Return what a scene, arrays of objects, or points, which have radius 0, are the hulls of.
 
+    Particles, and atoms of ASE and MDAnalysis, are points.
+
     Raises
     ------
     SceneError
@@ -67,7 +70,8 @@ def balls_of(subject: object, place: str) -> list[Balls]:
     else:
         zeros = {"radius": 0, "color": (0, 0, 0), "lambert": 0}
         called = {"center": "positions"}
-        points = Spheres.from_arrays({"center": subject, **zeros}, f"{place}: ", called)
+        given = {"center": positions_in(subject), **zeros}
+        points = Spheres.from_arrays(given, f"{place}: ", called)
         found = [Balls(points.center, 0.0)]
     found = [balls for balls in found if len(balls.center) and (balls.at is None or len(balls.at))]
     if not found:

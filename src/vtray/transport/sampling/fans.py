@@ -48,7 +48,7 @@ WHOLE_FAN = 64
 LEAST_FAN = 16
 """Rays of each of many samples of a pixel."""
 
-COARSE = 0.012
+COARSE = 0.016
 """From this tolerance on, the fans of samples have half as many rays. How much the samples of a
 pixel differ says what that does; where there is but one, thin bars would make errors larger than
 they are estimated to be.
