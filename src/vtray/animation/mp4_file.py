@@ -5,14 +5,17 @@ References
 https://trac.ffmpeg.org/wiki/Encode/H.264
 """
 
+import contextlib
 import subprocess
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from vtray.animation.feed import Feed
 from vtray.base.errors import OutputError
 from vtray.base.extras import need
+from vtray.base.signals import LastStep
 
 if TYPE_CHECKING:
     import numpy as np
@@ -25,6 +28,9 @@ QUALITY = 17
 
 COLORS = "bt709"
 """The colours that players take H.264 of any size for, where they are told."""
+
+TOLD = f"setparams=colorspace={COLORS}:color_primaries={COLORS}:color_trc=iec61966-2-1:range=tv"
+"""What the file says of its colours: primaries and brightness are those of sRGB."""
 
 
 def find_ffmpeg(output: Path) -> str:
@@ -55,9 +61,8 @@ def write_mp4(path: Path, feed: Feed, fps: float) -> None:
         find_ffmpeg(path),
         *("-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24"),
         *("-s", f"{width}x{height}", "-r", f"{fps:.15g}", "-i", "pipe:0", "-an"),
-        *("-vf", f"scale=out_color_matrix={COLORS}:out_range=tv,format=yuv420p"),
+        *("-vf", f"scale=out_color_matrix={COLORS}:out_range=tv,format=yuv420p,{TOLD}"),
         *("-c:v", "libx264", "-preset", "medium", "-crf", str(QUALITY)),
-        *("-colorspace", COLORS, "-color_primaries", COLORS, "-color_trc", "iec61966-2-1"),
         *("-movflags", "+faststart", "-f", "mp4", str(path)),
     ]
     with tempfile.TemporaryFile() as said:
@@ -69,25 +74,30 @@ def write_mp4(path: Path, feed: Feed, fps: float) -> None:
             stderr=said,
             start_new_session=True,
         )
-        try:
-            assert process.stdin is not None  # noqa: S101
+        with LastStep(process.kill):
             try:
-                process.stdin.write(_even(first).tobytes())
-                for pixels in pictures:
-                    process.stdin.write(_even(pixels).tobytes())
-                process.stdin.close()
-            except BrokenPipeError:
-                pass  # it says why
-            if process.wait():
-                said.seek(0)
-                lines = said.read().decode(errors="replace").strip().splitlines()
-                reason = lines[-1][:200] if lines else f"status {process.returncode}"
-                message = f"{path}: ffmpeg cannot write it: {reason}"
-                raise OutputError(message)
-        finally:
-            if process.poll() is None:
-                process.kill()
-                process.wait()
+                _feed(process, first, pictures)
+            finally:
+                if process.poll() is None:
+                    process.kill()
+                    process.wait()
+        if process.returncode:
+            said.seek(0)
+            lines = said.read().decode(errors="replace").strip().splitlines()
+            reason = lines[-1][:200] if lines else f"status {process.returncode}"
+            message = f"{path}: ffmpeg cannot write it: {reason}"
+            raise OutputError(message)
+
+
+def _feed(process: "subprocess.Popen[bytes]", first: "Pixels", others: "Iterator[Pixels]") -> None:
+    """Give all pictures to ffmpeg, and wait until it has written them."""
+    assert process.stdin is not None  # noqa: S101 - it is a pipe
+    with contextlib.suppress(BrokenPipeError):  # it says why
+        process.stdin.write(_even(first).tobytes())
+        for pixels in others:
+            process.stdin.write(_even(pixels).tobytes())
+        process.stdin.close()
+    process.wait()
 
 
 def _even(pixels: "Pixels") -> "Pixels":
