@@ -110,7 +110,7 @@ class Done:
         """Say how another run goes on; "" if there is nothing."""
         return f"{self.output.path}: {self.told()} done; {GO_ON}" if self.count else ""
 
-    def check_last(self, scene: Scene, settings: RenderSettings) -> None:
+    def check_last(self, scene: Scene, settings: RenderSettings, *, holds: bool) -> None:
         """Raise OutputError if the last of them is not the picture of a scene.
 
         Parameters
@@ -119,13 +119,15 @@ class Done:
             The scene, with the camera and the lights of the picture.
         settings
             How it is rendered.
+        holds
+            Whether it has the exposure of the first picture.
         """
         last = self.output.name(self.count - 1)
         try:
             told = read_provenance(last)
         except ProvenanceError as error:
             raise OutputError(f"{error}; remove it to go on") from None
-        for name, (was, is_now) in _pairs(told, scene, settings).items():
+        for name, (was, is_now) in _pairs(told, scene, settings, holds).items():
             if was != is_now:
                 raise self._other(f"were made with {name} {_shown(was)}, not {_shown(is_now)}")
         whole = Scene(scene.camera, lights_of(scene), scene.objects, scene.render)
@@ -185,13 +187,16 @@ class Done:
         write_whole(self.output.record, lambda file: file.write(content))
 
 
-def _pairs(told: Provenance, scene: Scene, settings: RenderSettings) -> dict[str, tuple[Any, Any]]:
+def _pairs(
+    told: Provenance, scene: Scene, settings: RenderSettings, holds: bool
+) -> dict[str, tuple[Any, Any]]:
     """Return how a picture was made, and how it would be now, by the names of settings."""
     now = msgspec.structs.asdict(settings)
     now["size"] = tuple(map(int, settings.size or scene.camera.size))
-    if told.lock is not None:  # the exposure is that of the first picture
-        now["exposure"] = told.exposure
-    return {name: (getattr(told, name), value) for name, value in now.items()}
+    found = {name: (getattr(told, name), value) for name, value in now.items()}
+    if told.lock is not None and not holds:
+        found["exposure"] = "that of the first", now["exposure"]
+    return found
 
 
 def _shown(value: object) -> str:

@@ -100,6 +100,10 @@ class Film:
     warn: Warn | None = None
     done: Done | None = None
 
+    def holds(self, scene: Scene) -> bool:
+        """Tell whether pictures have the exposure of the first: unless it is said otherwise."""
+        return "exposure" not in self.settings and settings_of(scene).exposure == "max"
+
 
 def shoot(film: Film, shots: Callable[[int], Iterator[Shot]], first: Shot, total: int) -> None:
     """Make a movie.
@@ -139,7 +143,8 @@ def shoot(film: Film, shots: Callable[[int], Iterator[Shot]], first: Shot, total
             if last is None:
                 raise OutputError(f"{film.output.path}: more pictures are done than there are")
             scene = stage.set(last)
-            done.check_last(scene, overridden(settings_of(scene), film.settings))
+            settings = overridden(settings_of(scene), film.settings)
+            done.check_last(scene, settings, holds=film.holds(scene))
         written: Future[None] | None = None
         following = reader.submit(next, coming, None)
         k = done.count
@@ -187,7 +192,7 @@ class _Stage:
         """Return the picture, in the exposure that all have."""
         film, scene = self._film, self.set(shot)
         assert film.done is not None  # noqa: S101 - made before any picture
-        holds = "exposure" not in film.settings and settings_of(scene).exposure == "max"
+        holds = film.holds(scene)
         white = film.done.white if holds else None
         lock = None if white is None else Exposed(white)
         image = render(scene, film.threads, lock=lock, warn=self._warn, **film.settings)
