@@ -91,7 +91,7 @@ WRONG = [
     ({}, "holds 3 pictures that an earlier run has done; --resume "),
     ({"resume": True, "samples": 4}, "its 3 pictures were made with samples 1, not 4; do the same"),
     ({"resume": True, "size": (4, 3)}, "were made with size 12x9, not 4x3; do the same again, or"),
-    ({"resume": True, "exposure": 2.0}, "were made with exposure max, not 2.0"),
+    ({"resume": True, "exposure": 2.0}, "were made with exposure that of the first, not 2.0"),
     ({"resume": True, "annotate": {"title": "a"}}, "its 3 pictures have other annotations"),
     ({"resume": True, "frames": range(1, 7)}, "its 3 pictures are of other scenes, as 000002.png"),
     ({"resume": True, "frames": 2}, "more pictures are done than there are"),
