@@ -78,7 +78,7 @@ def views(chosen: list[str]) -> Iterator[tuple[str, vtray.Camera, dict[str, Any]
                 options = parse(shlex.split(line)[1:])
                 name = Path(options.output).stem
                 if name in chosen:
-                    yield name, load_data(options).camera, {}
+                    yield name, load_data(options)[0].camera, {}
         elif block.kind == "python":
             made = [name for name in chosen if f'"{name}.' in block.text and name not in FILES]
             # Rendering can be left out: the camera is what is wanted.

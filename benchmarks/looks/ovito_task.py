@@ -68,10 +68,14 @@ def main() -> None:
     pipeline.add_to_scene()
     is_flat = bool(view["is_orthographic"])
     kind = Viewport.Type.Ortho if is_flat else Viewport.Type.Perspective
+    eye = view["eye"]
+    if task == "rutile":
+        # OVITO's copies stand at all sides of the cell.
+        eye = eye - pipeline.source.compute().cell[:, :3].sum(axis=1)
     viewport = Viewport(
         type=kind,
         fov=float(view["height"]) / 2 if is_flat else float(view["fov"]),
-        camera_pos=tuple(view["eye"]),
+        camera_pos=tuple(eye),
         camera_dir=tuple(view["forward"]),
         camera_up=tuple(view["up"]),
     )

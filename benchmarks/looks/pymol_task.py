@@ -20,11 +20,16 @@ def spheres(cmd: Any) -> None:  # noqa: ANN401
 
 
 def ball_and_stick(cmd: Any) -> None:  # noqa: ANN401
-    """Show the inhibitor by PyMOL's own preset."""
+    """Show balls and sticks by PyMOL's own preset."""
     from pymol import preset
 
-    cmd.remove("not resn XK2")
     preset.ball_and_stick("all", _self=cmd)
+
+
+def inhibitor(cmd: Any) -> None:  # noqa: ANN401
+    """Show what binds to the protein."""
+    cmd.remove("not resn XK2")
+    ball_and_stick(cmd)
 
 
 def flaps(cmd: Any) -> None:  # noqa: ANN401
@@ -35,7 +40,7 @@ def flaps(cmd: Any) -> None:  # noqa: ANN401
     cmd.color("orange", "chain B and resi 43-58")
 
 
-TASKS = {"c60": spheres, "protein": spheres, "inhibitor": ball_and_stick, "flaps": flaps}
+TASKS = {"c60": ball_and_stick, "protein": spheres, "inhibitor": inhibitor, "flaps": flaps}
 
 
 def main() -> None:

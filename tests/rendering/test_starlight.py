@@ -1,6 +1,8 @@
 """Points that shine: their light on the pixels, what hides it, and what else a picture does."""
 
+import copy
 import hashlib
+import pickle
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +13,12 @@ import vtray
 from conftest import compiled_only
 from vtray.base.errors import RenderError, SceneError
 from vtray.figures.projection import project
+from vtray.rendering import starlight
 from vtray.rendering.starlight import Starlight
 from vtray.scene.default_light import lights_of, settings_of
 from vtray.scene.fingerprint import scene_hash
 from vtray.scene.particles.particles import Particles
+from vtray.scene.placing.moved import axes_of
 from vtray.scene.stars import Stars
 
 CAMERA = vtray.Camera.orthographic((0, 0, 10), (0, 0, 0), 8, size=(10, 8))
@@ -127,6 +131,27 @@ def test_what_is_behind_something_is_hidden() -> None:
     assert light_of(behind_the_image, LOOKING).max() == 0
 
 
+def test_what_hides_is_nearer_along_the_view() -> None:
+    right, down, forward = axes_of(LOOKING)
+    eye = np.array([0, -9, 2.0])
+    pixel = LOOKING.resolution[0] / LOOKING.focus
+    across, below = 11 * pixel, -7 * pixel  # near a corner
+    rows, columns = (np.indices((16, 24)) - [[[8]], [[12]]]) * pixel
+    wall = 5.0 * np.sqrt(1 + rows * rows + columns * columns)  # 5 from the eye along the view
+    for far, is_seen in ((4.99, True), (5.01, False)):
+        place = eye + far * (np.array(forward) + across * np.array(right) + below * np.array(down))
+        light = light_of(Stars([place], peak=1.0), LOOKING, wall)
+        assert (light[1, 23].max() > 0) == is_seen
+
+
+def test_many_points_are_added_in_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
+    generator = np.random.default_rng(6)
+    stars = Stars(generator.normal(size=(50, 3)), generator.uniform(size=50), peak=4.0)
+    whole = light_of(stars)
+    monkeypatch.setattr(starlight, "PIECE", 7)
+    assert np.allclose(light_of(stars), whole)
+
+
 def test_light_is_the_same_everywhere() -> None:
     points = (np.arange(300).reshape(100, 3) * 37 % 101 - 50) / 16
     colors = np.arange(300).reshape(100, 3) * 53 % 256
@@ -193,6 +218,22 @@ def test_pictures_of_stars() -> None:
     red = image.recolor(0, "red")
     assert red.pixels[4, 8].tolist() == [255, 0, 0]
     assert np.array_equal(red.linear, vtray.render(red.scene, exposure=1).linear)
+
+
+def test_growing_pictures_have_stars() -> None:
+    shapes = [vtray.Sphere((0, 0, 0), 1, (9, 9, 9), 1), Stars([(3, 0, 0), (0, 0, -3)], peak=0.5)]
+    scene = vtray.Scene(CAMERA, [vtray.Light((0, 0, 9))], shapes)
+    seen: list[vtray.Image] = []
+    image = vtray.render(scene, on_update=seen.append, update_seconds=0, exposure=1, tile=2)
+    assert seen
+    assert all(part.pixels[4, 8].min() == 255 for part in seen)
+    assert image.pixels[4, 5].max() < 20
+
+
+def test_stars_are_the_same_after_copying() -> None:
+    stars = Stars([(0, 0, 0), (1, 1, 1)], 2.0, (1, 2, 3), "log", 0.5, 4.0)
+    assert pickle.loads(pickle.dumps(stars)) == stars == copy.deepcopy(stars)
+    assert stars.replace(peak=None) != stars
 
 
 @compiled_only

@@ -204,6 +204,7 @@ def test_cell_is_drawn_where_there_is_one() -> None:
         ({"color": [1.0, 2.0]}, "add_particles: color"),
         ({"emission": "chrage"}, "emission: expected a number or the name of a column, got"),
         ({"emission": 1.0, "style": "licorice"}, 'style: expected "points" with emission'),
+        ({"emission": 1.0, "cmap": "magma"}, "cmap: is for the column that color names"),
         ({"emission": 1.0, "radii": 2.0}, "radii: points that shine have none; leave out"),
         ({"emission": [1.0, 2.0]}, "add_particles: emission: expected a number or an array of"),
         ({"emission": 1.0, "stretch": "root"}, "add_particles: stretch: expected"),

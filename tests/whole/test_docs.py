@@ -17,15 +17,13 @@ from conftest import compiled_only
 
 PUBLIC = {name for name in vtray.__all__ if not name.startswith("_")}
 SITE_PAGES = sorted(pages.DOCS.glob("*.md"))
-NEEDED = {"eight-figures": ("MDAnalysisTests",)}
-"""Packages that pages need, and without which they are not run."""
 REFERENCE = (pages.DOCS / "reference.md").read_text(encoding="utf-8")
 
 
 @compiled_only
 @pytest.mark.parametrize("page", pages.PAGES, ids=lambda page: page.stem)
 def test_code_of_the_page_runs(page: Path, tmp_path: Path) -> None:
-    for module in NEEDED.get(page.stem, ()):
+    for module in pages.NEEDED.get(page.stem, ()):
         pytest.importorskip(module)
     (tmp_path / "scenes").symlink_to(pages.ROOT / "scenes")
     smaller = pages.smaller_of(page)
@@ -114,6 +112,25 @@ not printed
     )
     assert (scene.kind, scene.title, scene.printed) == ("json", "scene.json", None)
     assert other.kind == "text"
+
+
+def test_words_of_a_page_are_made_smaller(tmp_path: Path) -> None:
+    page = tmp_path / "page.md"
+    page.write_text("<!-- smaller in tests: 1_000 -> 10;\n--size 9x9 -> --size 1x1 -->\n")
+    smaller = pages.smaller_of(page)
+    assert smaller == {"1_000": "10", "--size 9x9": "--size 1x1"}
+    assert pages.made_smaller("x(1_000, 1_000)", smaller) == "x(10, 10)"
+    page.write_text("Words.")
+    assert pages.smaller_of(page) == {}
+
+
+def test_each_word_that_is_made_smaller_is_there() -> None:
+    for page in pages.PAGES:
+        text = page.read_text(encoding="utf-8")
+        notebook = pages.ROOT / "examples" / f"{page.stem.replace('-', '_')}.ipynb"
+        text += notebook.read_text(encoding="utf-8") if notebook.exists() else ""
+        for words in pages.smaller_of(page):
+            assert text.count(words) > 1, f"{page.name}: {words}"
 
 
 def test_comment_may_stand_before_what_is_printed() -> None:

@@ -125,13 +125,19 @@ def _is_within(image: Subject, row: int, column: int, point: Floats) -> bool:
         return False
     hull = item.hull()
     start, end = (_row(hull[k][0], index) for k in (0, -1))
-    radius = max(float(np.broadcast_to(radius, index + 1)[index]) for _, radius, _ in hull)
+    radius = max(_number(radius, index) for _, radius, _ in hull)
     x, y, z = point.tolist()
     axis = (end[0] - start[0], end[1] - start[1], end[2] - start[2])
     arm = (x - start[0], y - start[1], z - start[2])
     square = dot(axis, axis)
     share = min(max(dot(arm, axis) / square, 0.0), 1.0) if square > 0.0 else 0.0
     return hypotenuse(*along(arm, -share, axis)) <= radius
+
+
+def _number(values: Any, index: int) -> float:  # noqa: ANN401
+    """Return one of some numbers, (n,), or the one that there is for all."""
+    each = np.atleast_1d(values)
+    return float(each[index if len(each) > 1 else 0])
 
 
 def _row(points: Any, index: int) -> Vec:  # noqa: ANN401

@@ -12,6 +12,7 @@ from vtray.base.memory import (
     BYTES_PER_PIXEL_AND_MORE,
     BYTES_PER_PIXEL_DENOISED,
     BYTES_PER_PIXEL_SHOWN,
+    BYTES_PER_PIXEL_STARRY,
     check_memory,
 )
 from vtray.base.pool import Progress as StepProgress
@@ -29,7 +30,7 @@ from vtray.rendering.pack import pack
 from vtray.rendering.passes import Tracer, compile_kernels
 from vtray.rendering.relighting import Relighting
 from vtray.rendering.seen_sky import SeenSky, check_sky
-from vtray.rendering.starlight import Starlight, check_stars
+from vtray.rendering.starlight import Starlight, check_stars, has_stars
 from vtray.rendering.surfaces import Look
 from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.default_light import lights_of, settings_of
@@ -165,7 +166,7 @@ def render(
     problem = _darkness(shown, keep_lights=keep_lights)
     if problem:
         (warn or _warn)(problem)
-    _check_memory(shown.camera, settings, is_shown=on_update is not None)
+    _check_memory(shown, settings, is_shown=on_update is not None)
     check_brightness(shown.lights)
     _check_background(shown, settings)
     clock = Stopwatch()
@@ -263,12 +264,13 @@ def _camera(scene: Scene, settings: RenderSettings) -> Camera:
     return scene.camera.resized((int(size[0]), int(size[1])))
 
 
-def _check_memory(camera: Camera, settings: RenderSettings, *, is_shown: bool) -> None:
+def _check_memory(scene: Scene, settings: RenderSettings, *, is_shown: bool) -> None:
     """Raise RenderError if the picture cannot be held in memory."""
-    width, height = camera.size
+    width, height = scene.camera.size
     behind = 0 if settings.background == "black" else BYTES_PER_PIXEL_AND_MORE
     more = BYTES_PER_PIXEL_SHOWN if is_shown else 0
     more += BYTES_PER_PIXEL_DENOISED if settings.denoise else 0
+    more += BYTES_PER_PIXEL_STARRY if has_stars(scene) else 0
     check_memory(int(width), int(height), int(settings.samples), behind, more)
 
 

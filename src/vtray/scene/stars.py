@@ -34,7 +34,8 @@ class Stars(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="sta
     pixels, and moves smoothly. What adds up in a pixel becomes its brightness by a stretch, and its
     colour is the mean of the colours of the light there. This is added to what else the picture
     shows. A point is seen where nothing is nearer in its pixel; it lights nothing, and no ray meets
-    it: it has no ids, normals, depth or shadow, and is in no scene file.
+    it: it has no ids, normals, depth or shadow, `Image.flat` does not show it, and it is in no
+    scene file.
 
     Attributes
     ----------

@@ -119,8 +119,8 @@ class AddingParticles:
             ``(2.2, 150)``.
         emission
             Let points shine, as `Stars`: each adds so much light to the picture, a column, a
-            number, or an array (n,), ≥ 0. Their colours are white unless `color` or `cmap` is
-            given, the background is black unless it is set, and there are neither balls nor radii.
+            number, or an array (n,), ≥ 0. Their colours are white unless `color` is given, the
+            background is black unless it is set, and there are neither balls nor radii.
         stretch, softening, peak
             How the light that adds up becomes brightness: ``"linear"``, ``"asinh"`` or ``"log"``;
             from which part of the brightest on it counts by its logarithm; and the light of a

@@ -42,7 +42,9 @@ def check_shining(
             raise SceneError(f"{name}: points that shine have none; leave out it or emission")
     if coloring["color"] is not None:
         return coloring
-    # A colour map is for values, and the one that there is tells how bright points are.
+    if coloring["cmap"] is not None:
+        words = "is for the column that color names, as that of emission says how bright points are"
+        raise SceneError(f"cmap: {words}; give color, or leave it out")
     return {**coloring, "color": "white"}
 
 
