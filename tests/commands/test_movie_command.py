@@ -54,7 +54,9 @@ def test_frames_of_a_file(run: Path, capfd: pytest.CaptureFixture[str]) -> None:
     for limits in ("0,1.5", "0,9"):
         again = run.with_name(limits) / "%d.png"
         assert cli.run([*size, "--frames", "1:5:2", f"--clim={limits}", str(run), str(again)]) == 0
-        same = [(a == b).all() for a, b in zip(pictures(again.parent), (first, second), strict=True)]
+        same = [
+            (a == b).all() for a, b in zip(pictures(again.parent), (first, second), strict=True)
+        ]
         assert all(same) == (limits == "0,1.5")
     movie = run.with_name("a.webp")
     assert cli.run([*size, "--frames", "1:5:2", "--fps", "4", str(run), str(movie)]) == 0
