@@ -10,6 +10,7 @@ image.save("scene.png")
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from vtray import colors, lights
+    from vtray.animation.animate import animate, turntable
     from vtray.base.errors import OutputError, ProvenanceError, RenderError, SceneError, VtrayError
     from vtray.base.version import __version__
     from vtray.figures.comparison import compare
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from vtray.scene.files.scene_file import load, loads
     from vtray.scene.particles.from_objects import from_ase, from_mdanalysis
     from vtray.scene.particles.particles import Particles
-    from vtray.scene.readers.read import read
+    from vtray.scene.readers.read import read, read_frames
     from vtray.scene.scene import (
         Ambient,
         Camera,
@@ -81,6 +82,7 @@ __all__ = [
     "Vector",
     "VtrayError",
     "__version__",
+    "animate",
     "colors",
     "compare",
     "from_ase",
@@ -90,9 +92,11 @@ __all__ = [
     "load_dict",
     "loads",
     "read",
+    "read_frames",
     "read_provenance",
     "render",
     "trace_pixel",
+    "turntable",
 ]
 
 # Nothing is loaded before it is first needed: neither NumPy nor the compiler, and for the command
@@ -130,6 +134,7 @@ _MODULES = {
     "Vector": "scene.vectors",
     "VtrayError": "base.errors",
     "__version__": "base.version",
+    "animate": "animation.animate",
     "colors": "colors",
     "compare": "figures.comparison",
     "from_ase": "scene.particles.from_objects",
@@ -139,9 +144,11 @@ _MODULES = {
     "load_dict": "scene.files.scene_dict",
     "loads": "scene.files.scene_file",
     "read": "scene.readers.read",
+    "read_frames": "scene.readers.read",
     "read_provenance": "image.provenance",
     "render": "rendering.renderer",
     "trace_pixel": "rendering.pixel_rays",
+    "turntable": "animation.animate",
 }
 """The module that each public name comes from."""
 

@@ -12,6 +12,7 @@ PACKAGES = {
     "diff": ("flip-evaluator",),
     "figure": ("matplotlib",),
     "formats": ("OpenEXR", "tifffile"),
+    "movies": ("imageio-ffmpeg",),
     "points": ("laspy", "lazrs", "plyfile"),
     "sky": ("OpenImageIO",),
     "tables": ("pyarrow",),

@@ -62,7 +62,12 @@ def add_annotations(parser: Parser) -> None:
     """Add what is painted onto the picture."""
     group = parser.add_argument_group("on the picture")
     group.add_argument("--title", metavar="TEXT", help="write a title at the top")
-    group.add_argument("--time", metavar="TEXT", help='write "t = TEXT" below it, such as "2 ps"')
+    group.add_argument(
+        "--time",
+        metavar="TEXT",
+        help='write "t = TEXT" below it, such as "2 ps"; of movies, {time} and {frame} in both '
+        "texts are those of the frame",
+    )
     group.add_argument(
         "--axes", action="store_const", const=True, help="show how x, y and z lie, in a corner"
     )

@@ -14,6 +14,7 @@ from vtray.commands import data_options
 from vtray.commands.annotation_options import annotations_of
 from vtray.commands.command import SUCCESS, print_note, print_result, run_command
 from vtray.commands.growing import Growing, check_preview, check_preview_of
+from vtray.commands.movie_options import makes_movie
 from vtray.commands.options import parse, settings_of
 
 if TYPE_CHECKING:
@@ -44,6 +45,9 @@ def _run(options: argparse.Namespace) -> int:
 
         print_result(describe(options))
         return SUCCESS
+    if makes_movie(options, is_data):
+        _make_movie(options, is_data)
+        return SUCCESS
     told = _take_over(options)
     if options.pixel is None:
         _check_output(options)
@@ -73,6 +77,18 @@ def _run(options: argparse.Namespace) -> int:
     if options.stats:
         _print_stats(clock, image)
     return SUCCESS
+
+
+def _make_movie(options: argparse.Namespace, is_data: bool) -> None:
+    """Make a movie in place of a picture."""
+    from vtray.base.compiler.compiled import before_compiling
+    from vtray.commands.movie import make_movie
+
+    check_memory_of_start()
+    is_told = not options.quiet and sys.stderr.isatty()
+    before_compiling(_announce_compiling if is_told else None)
+    load = None if is_data else lambda: _load(options)
+    make_movie(options, load, lambda text: _warn(f"{options.scene}: {text}", options))
 
 
 def _take_over(options: argparse.Namespace) -> "Provenance | None":

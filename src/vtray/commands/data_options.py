@@ -163,7 +163,7 @@ SAME = {"radii": ("--radius",)}
 
 _FLAGS = {f"--{name}" for name in NAMES} | {"--no-bonds", "--no-cell"}
 _FLAGS |= {flag for flags in SAME.values() for flag in flags}
-_MAY_BE_NEGATIVE = ("--view", "--clim", "--label")
+_MAY_BE_NEGATIVE = ("--view", "--clim", "--label", "--frames")
 
 
 def are_used(arguments: Sequence[str]) -> bool:

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 from vtray.base.errors import SceneError
 from vtray.commands import data_options
 from vtray.commands.annotation_options import PointLabel, labels_of
-from vtray.commands.data_options import VIEW
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -15,26 +14,11 @@ if TYPE_CHECKING:
     from vtray.scene.particles.particles import Particles
     from vtray.scene.scene import Camera, Scene
 
-SIZE = (1024, 1024)
-"""Width and height of a picture of data, unless they are given."""
-
-SAMPLES = 4
-"""Rays for each pixel that needs them: pictures of data are figures, whose edges are smooth."""
-
-FINEST, COARSEST = 0.012, 0.03
-"""How noisy soft light may be: grain is seen on large balls, and lost among small ones."""
-
-NO_GRAIN = 0.15
-"""The tolerance for a ball with a radius of a pixel, and for larger ones a part of that."""
-
 MOST_LABELS = 2000
 """How many particles may have a label: more can neither be read nor placed in time."""
 
 UNDRAWN = ("frame", "columns", "legend")
 """Options that `add_particles` need not know."""
-
-USUAL = (-65.0, 20.0)
-"""Azimuth and elevation of the view of a cell: three faces are seen, that in front most."""
 
 
 def load_data(options: argparse.Namespace) -> "tuple[Scene, dict[str, Any]]":
@@ -47,27 +31,60 @@ def load_data(options: argparse.Namespace) -> "tuple[Scene, dict[str, Any]]":
     SceneError
         The file cannot be read, or what is asked for is not in it.
     """
+    scene, _, marks = draw_data(options, read_particles(options))
+    return scene, marks
+
+
+def draw_data(
+    options: argparse.Namespace,
+    particles: "Particles",
+    camera: "Camera | None" = None,
+    clim: tuple[float, float] | None = None,
+) -> "tuple[Scene, Drawn, dict[str, Any]]":
+    """Return a scene of particles as the options say, what is in it, and what is painted on it.
+
+    Parameters
+    ----------
+    options
+        The options.
+    particles
+        The particles.
+    camera
+        The camera; None for one that shows all of them.
+    clim
+        The values of the first and last colour, where the options do not say them.
+    """
+    from vtray.scene.particles.view import SIZE, VIEW, camera_of, taken
     from vtray.scene.scene import Scene
 
     given = data_options.given(options)
-    particles = read_particles(options)
     view = {name: given.pop(name) for name in VIEW if name in given}
     drawing = {name: value for name, value in given.items() if name not in UNDRAWN}
     if "cutoff" in drawing:
         drawing["bonds"] = drawing.pop("cutoff")
     scene = Scene()
-    size = options.size or SIZE
+    if clim is not None:
+        drawing.setdefault("clim", clim)
+    size, has_cell = options.size or SIZE, particles.cell is not None
     try:
-        if drawing.get("style") == "points":
-            scene.camera = _camera(particles.positions, particles, size, dict(view))
+        if camera is not None:
+            scene.camera = camera
+        elif drawing.get("style") == "points":
+            scene.camera = camera_of(particles.positions, has_cell, size, **view)
         if options.background is not None and not isinstance(options.background, str):
             drawing["background"] = options.background
         drawn = scene.add_particles(particles, **drawing)
-        scene.camera = _camera(scene, particles, size, dict(view))
-        tolerance = _tolerance(scene.camera, drawn)
-        scene.render = scene.render.replace(samples=SAMPLES, tolerance=tolerance)
+        if camera is None:
+            scene.camera = camera_of(scene, has_cell, size, **view)
+        settings = taken(scene.camera, drawn.spheres, is_alone=camera is None)
+        scene.render = scene.render.replace(**settings)
     except SceneError as error:
         raise SceneError(f"{options.scene}: {error}") from None
+    return scene, drawn, _marks(options, drawn, particles)
+
+
+def _marks(options: argparse.Namespace, drawn: "Drawn", particles: "Particles") -> dict[str, Any]:
+    """Return what is painted on a picture of particles: a legend, and labels."""
     marks: dict[str, Any] = {}
     if data_options.given(options).get("legend"):
         if not drawn.legend:
@@ -81,7 +98,7 @@ def load_data(options: argparse.Namespace) -> "tuple[Scene, dict[str, Any]]":
         ]
         # Of atoms behind others, too, would be too many.
         marks["hide_labels"] = True
-    return scene, marks
+    return marks
 
 
 def _labels(drawn: "Drawn", particles: "Particles", name: str, file: "Path") -> list[PointLabel]:
@@ -131,32 +148,3 @@ def describe(options: argparse.Namespace) -> str:
         for name, edge in zip("abc", particles.cell.tolist(), strict=True):
             lines.append(f"{'cell ' + name:12}{', '.join(f'{part:g}' for part in edge)}")
     return "\n".join(lines) + "\n"
-
-
-def _tolerance(camera: "Camera", drawn: "Drawn") -> float:
-    """Return how noisy soft light may be on balls of the usual size."""
-    import numpy as np
-
-    spheres = drawn.spheres
-    if not len(spheres.center):
-        return COARSEST
-    middle = spheres.center.mean(axis=0)
-    steps = camera.project(middle + np.median(spheres.radius) * np.eye(3)) - camera.project(middle)
-    # Three steps at right angles are together seen as long as two that are not foreshortened.
-    pixels = np.sqrt(np.square(steps[:, :2]).sum() / 2)
-    return float(np.clip(NO_GRAIN / pixels, FINEST, COARSEST)) if pixels > 0 else COARSEST
-
-
-def _camera(
-    subject: Any,  # noqa: ANN401
-    particles: "Particles",
-    size: tuple[int, int],
-    view: dict[str, Any],
-) -> "Camera":
-    """Return the camera that shows everything."""
-    from vtray.scene.scene import Camera
-
-    # A box is known by its faces, and what has none by its shape.
-    view.setdefault("view", "auto" if particles.cell is None else USUAL)
-    projection: Any = "orthographic" if view.pop("orthographic", False) else "perspective"
-    return Camera.fit(subject, projection=projection, size=size, **view)

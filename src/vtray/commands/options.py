@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from vtray.commands import data_options
+from vtray.commands import data_options, movie_options
 from vtray.commands.annotation_options import add_annotations, with_values
 from vtray.commands.command import Parser
 from vtray.commands.setting_options import add_settings, wrong
@@ -44,7 +44,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         type=_or_stream("/dev/stdout"),
         nargs="?",
         help="the image to write: .png, .tif, .jpg, .webp, .exr or .npz; - for a PNG on standard "
-        "output",
+        "output; or a movie: .mp4, .gif, .webp, or numbered pictures such as frames/%%04d.png",
     )
     parser.add_argument(
         "-t",
@@ -58,6 +58,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("-V", "--version", action="version", version=f"vtray {__version__}")
     if data_options.are_used(arguments):
         data_options.add_data_options(parser)
+    if movie_options.are_used(arguments):
+        movie_options.add_movie_options(parser)
     _add_settings(parser)
     _add_output(parser)
     add_annotations(parser)

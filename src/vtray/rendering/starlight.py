@@ -81,14 +81,64 @@ class Starlight:
         return light
 
 
+def peak_of(stars: Stars, camera: Camera) -> float | None:
+    """Return the peak that points have in a picture where none is said, with nothing before them.
+
+    None if none of them is seen.
+    """
+    if not len(stars) or not float(np.max(stars.emission)):
+        return None
+    inner, unit, _ = _collected(stars, camera, None)
+    usual = _usual(inner[0])
+    return None if usual is None else float(np.ldexp(max(usual, LEAST_PEAK), -unit))
+
+
 def _light_of(stars: Stars, camera: Camera, hidden_behind: Floats | None) -> Floats:
     """Return the light of points, (height, width, 3), from 0 to 255."""
     width, height = map(int, camera.size)
     most = float(np.max(stars.emission))
     if most == 0.0:
         return np.zeros((height, width, 3))
+    inner, unit, color = _collected(stars, camera, hidden_behind)
+    total = inner[0]
+    usual = _usual(total)
+    if usual is None:
+        return np.zeros((height, width, 3))
+    peak = float(usual if stars.peak is None else np.ldexp(stars.peak, unit))
+    with np.errstate(over="ignore"):
+        bright = _stretched(np.minimum(total / max(peak, LEAST_PEAK), 1.0), stars)
+    if len(inner) == 1:
+        return bright[..., None] * color.astype(np.float64)
+    share = bright / np.where(total > 0.0, total, 1.0)
+    return np.stack([np.minimum(share * channel, 255.0) for channel in inner[1:]], axis=2)
+
+
+def _usual(total: Floats) -> float | None:
+    """Return the light that most pixels with light do not exceed; None if there is no light."""
+    lit = total[total > 0.0]
+    if not len(lit):
+        return None
+    rank = (len(lit) * USUAL[0] - 1) // USUAL[1]
+    return float(np.partition(lit, rank)[rank])
+
+
+def _collected(
+    stars: Stars, camera: Camera, hidden_behind: Floats | None
+) -> tuple[Floats, int, NDArray[np.uint8]]:
+    """Return the light that adds up in each pixel.
+
+    Returns
+    -------
+    light
+        (1, height, width), or (4, height, width) with that of each channel where colours differ.
+    unit
+        It is in units of this power of two, turned over.
+    color
+        The colour of the first point.
+    """
+    width, height = map(int, camera.size)
     # In units of a power of two, so that no sum overflows.
-    unit = -int(np.frexp(most)[1])
+    unit = -int(np.frexp(float(np.max(stars.emission)))[1])
     color = stars.color if stars.color.ndim == 1 else stars.color[0]
     many = any(bool((stars.color[..., k] != color[k]).any()) for k in range(3))
     film = np.zeros((4 if many else 1, (height + 2 * RIM) * (width + 2 * RIM)))
@@ -100,19 +150,7 @@ def _light_of(stars: Stars, camera: Camera, hidden_behind: Floats | None) -> Flo
             places = project(camera, np.asarray(stars.center[rows], np.float64))
         _add(film, places, emission, stars.color[rows] if many else None, camera, hidden_behind)
     inner = film.reshape(-1, height + 2 * RIM, width + 2 * RIM)[:, RIM:-RIM, RIM:-RIM]
-    total = inner[0]
-    lit = total[total > 0.0]
-    if not len(lit):
-        return np.zeros((height, width, 3))
-    rank = (len(lit) * USUAL[0] - 1) // USUAL[1]
-    usual = np.partition(lit, rank)[rank]
-    peak = float(usual if stars.peak is None else np.ldexp(stars.peak, unit))
-    with np.errstate(over="ignore"):
-        bright = _stretched(np.minimum(total / max(peak, LEAST_PEAK), 1.0), stars)
-    if not many:
-        return bright[..., None] * color.astype(np.float64)
-    share = bright / np.where(total > 0.0, total, 1.0)
-    return np.stack([np.minimum(share * channel, 255.0) for channel in inner[1:]], axis=2)
+    return inner, unit, color
 
 
 def _add(

@@ -72,11 +72,11 @@ def orbiting(camera: HasView, degrees: object, elevation: object, about: object)
     offset = (eye[0] - target[0], eye[1] - target[1], eye[2] - target[2])
     right = axes_of(camera)[0]
     away = cross(right, up)
-    lifted = [_turned(vector, right, -rise) for vector in (offset, forward)]
+    lifted = [turned_about(vector, right, -rise) for vector in (offset, forward)]
     if not dot(lifted[1], away) < 0:
         words = "an elevation that leaves the camera on its side of what is up"
         raise SceneError(f"{call}: elevation: expected {words}, got {show(elevation)}")
-    offset, forward = (_turned(vector, up, turn) for vector in lifted)
+    offset, forward = (turned_about(vector, up, turn) for vector in lifted)
     forward = unit(Direction(*forward))
     eye = (target[0] + offset[0], target[1] + offset[1], target[2] + offset[2])
     return {
@@ -159,7 +159,7 @@ def _target(camera: HasView, about: object, call: str) -> Vec:
     return _vec(argument(call, "about", about, Vector))
 
 
-def _turned(vector: Vec, axis: Vec, degrees: float) -> Vec:
+def turned_about(vector: Vec, axis: Vec, degrees: float) -> Vec:
     """Return a vector turned about a unit axis: seen against it, counterclockwise.
 
     References

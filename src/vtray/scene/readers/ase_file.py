@@ -8,13 +8,14 @@ https://wiki.fysik.dtu.dk/ase/ase/io/io.html
 from collections import deque
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from vtray.base.errors import SceneError
 from vtray.base.extras import need
 from vtray.scene.particles.from_objects import from_ase
 from vtray.scene.particles.particles import Particles
-from vtray.scene.readers.frames import frame_number
+from vtray.scene.readers.frames import Steps, frame_number
 from vtray.scene.readers.libraries import check_room, told
 from vtray.scene.readers.reader_table import READERS, Given
 
@@ -52,25 +53,43 @@ def read(given: Given) -> Particles:
     ExtraError
         ASE is not installed.
     """
+    # Of the frames that were met, only those that may be asked for are kept.
+    met: deque[Any] = deque(maxlen=max(-given.frame, 1))
+    count = 0
+    for step in steps(given):
+        met.append(step)
+        count += 1
+        if count == given.frame + 1:
+            break
+    if not count:
+        raise SceneError(f"holds no frame; expected {READERS[given.format].what}")
+    frame_number(given.frame, count)
+    found: Particles = met[0 if given.frame < 0 else -1]()
+    return found
+
+
+def steps(given: Given) -> Steps:
+    """Give what makes particles of each frame, one after the other."""
     what = READERS[given.format].what
     io: Any = need("ase.io", "atoms", f"reading {what}")
     check_room(given.file, _TIMES)
     name = _NAMES.get(given.format, given.format)
-    # Of the frames that were met, only those that may be asked for are kept.
-    met: deque[Any] = deque(maxlen=max(-given.frame, 1))
-    count = 0
     with told("ASE", what):
-        for atoms in (
-            _crystals(given) if name == "cif" else io.iread(given.path, ":", name, **_WHOLE)
-        ):
-            met.append(atoms)
-            count += 1
-            if count == given.frame + 1:
-                break
-    if not count:
-        raise SceneError(f"holds no frame; expected {what}")
-    number = frame_number(given.frame, count)
-    return replace(from_ase(met[0 if given.frame < 0 else -1]), frame=number)
+        all_atoms = _crystals(given) if name == "cif" else io.iread(given.path, ":", name, **_WHOLE)
+    number = 0
+    while True:
+        with told("ASE", what):
+            atoms = next(all_atoms, None)
+        if atoms is None:
+            return
+        yield partial(_particles_of, atoms, number, what)
+        number += 1
+
+
+def _particles_of(atoms: Any, number: int, what: str) -> Particles:  # noqa: ANN401
+    """Return atoms of ASE as particles."""
+    with told("ASE", what):
+        return replace(from_ase(atoms), frame=number)
 
 
 def _crystals(given: Given) -> Iterator[Any]:

@@ -9,6 +9,7 @@ import gc
 import sys
 import warnings
 from collections.abc import Callable
+from functools import partial
 from typing import Any, TypeVar
 
 from vtray.base.errors import SceneError, why_unreadable
@@ -16,7 +17,7 @@ from vtray.base.extras import need
 from vtray.base.input_file import open_input
 from vtray.scene.particles.from_objects import from_mdanalysis
 from vtray.scene.particles.particles import Particles
-from vtray.scene.readers.frames import frame_number
+from vtray.scene.readers.frames import Steps, frame_number
 from vtray.scene.readers.libraries import check_room, told
 from vtray.scene.readers.reader_table import READERS, Given
 
@@ -42,6 +43,20 @@ def read(given: Given) -> Particles:
     ExtraError
         MDAnalysis is not installed.
     """
+    universe, expected = _open(given)
+    number = frame_number(given.frame, len(universe.trajectory))
+    return _read_frame(universe, expected, number)
+
+
+def steps(given: Given) -> Steps:
+    """Give what reads each frame, one after the other."""
+    universe, expected = _open(given)
+    for number in range(len(universe.trajectory)):
+        yield partial(_read_frame, universe, expected, number)
+
+
+def _open(given: Given) -> tuple[Any, str]:
+    """Return what MDAnalysis makes of files, and what they were expected to be."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         library: Any = need("MDAnalysis", "atoms", "reading topologies and trajectories")
@@ -57,16 +72,21 @@ def read(given: Given) -> Particles:
         with told("MDAnalysis", expected):
             return library.Universe(given.path, *second, to_guess=_GUESSED)
 
+    universe = _quietly(open_both)
+    if not hasattr(universe, "trajectory"):
+        remedy = 'name the file that has some, as in trajectory="run.xtc"'
+        raise SceneError(f"has no places; {remedy}")
+    return universe, expected
+
+
+def _read_frame(universe: Any, expected: str, number: int) -> Particles:  # noqa: ANN401
+    """Read a frame of what MDAnalysis has opened."""
+
     def take() -> Particles:
         with told("MDAnalysis", f"frame {number} of {expected}"):
             universe.trajectory[number]
             return from_mdanalysis(universe)
 
-    universe = _quietly(open_both)
-    if not hasattr(universe, "trajectory"):
-        remedy = 'name the file that has some, as in trajectory="run.xtc"'
-        raise SceneError(f"has no places; {remedy}")
-    number = frame_number(given.frame, len(universe.trajectory))
     return _quietly(take)
 
 

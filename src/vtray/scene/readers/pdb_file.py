@@ -7,6 +7,7 @@ https://www.wwpdb.org/documentation/file-format-content/format33/sect9.html
 
 import math
 import re
+from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,7 +17,7 @@ from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.elements import symbol_of
 from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.particles import Particles
-from vtray.scene.readers.frames import frame_number
+from vtray.scene.readers.frames import Steps, frame_number
 from vtray.scene.readers.libraries import check_room
 from vtray.scene.readers.reader_table import Given
 from vtray.scene.readers.rows import check_places
@@ -67,14 +68,25 @@ def read(given: Given) -> Particles:
     SceneError
         The file has no such model, or it is not right. The message names the line.
     """
-    import numpy as np
+    found = [*steps(given)]
+    if not found:
+        raise SceneError("expected lines that begin with ATOM or HETATM; there are none")
+    return found[frame_number(given.frame, len(found))]()
 
+
+def steps(given: Given) -> Steps:
+    """Give what reads each model, one after the other."""
     check_room(given.file, _TIMES)
     models, cell, conects = _models_of(given.file.read())
-    if not models:
-        raise SceneError("expected lines that begin with ATOM or HETATM; there are none")
-    number = frame_number(given.frame, len(models))
-    atoms, numbers = models[number]
+    for number, model in enumerate(models):
+        yield partial(_read_model, model, cell, conects, number)
+
+
+def _read_model(model: _Model, cell: "Cell | None", conects: list[bytes], number: int) -> Particles:
+    """Return what the lines of a model say."""
+    import numpy as np
+
+    atoms, numbers = model
     lines = np.array([line[:_WIDTH].ljust(_WIDTH) for line in atoms], f"S{_WIDTH}")
     table = lines.view("S1").reshape(len(atoms), _WIDTH)
     places = [_numbers(table, start, start + 8, numbers, "xyz"[i]) for i, start in _PLACES]

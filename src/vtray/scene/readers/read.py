@@ -1,12 +1,13 @@
-"""Reads files of data: `vtray.read`."""
+"""Reads files of data: `vtray.read`, and frame by frame `vtray.read_frames`."""
 
+import contextlib
 import operator
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, SupportsIndex
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from vtray.base.errors import SceneError, why_unreadable
 from vtray.base.input_file import open_input
@@ -15,10 +16,14 @@ from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.particles.from_columns import renamed
 from vtray.scene.particles.particles import POSITION, Particles
+from vtray.scene.readers.frames import Steps, no_such_frame
 from vtray.scene.readers.reader_table import Given, reader_of
 from vtray.scene.readers.unpacked import unpacked
+from vtray.scene.readers.which_frames import which_frames
 
 if TYPE_CHECKING:
+    from vtray.scene.readers.which_frames import Frames
+
     AnyPath = str | os.PathLike[str]
 
 _BY_NAME = ("table_file", "ply_file")
@@ -71,23 +76,130 @@ def read(
     >>> last = vtray.read("run.xyz", frame=-1)  # doctest: +SKIP
     """
     name = os.fsdecode(path)
+    with _explained(name), _opened(path, format, columns, trajectory) as (module, given):
+        found: Particles = module.read(given._replace(frame=_whole(frame)))
+        return _finished(found, given, path)
+
+
+@explain_unknown
+def read_frames(
+    path: "AnyPath",
+    frames: "Frames" = None,
+    *,
+    format: str | None = None,  # noqa: A002
+    columns: Mapping[str, str] | None = None,
+    trajectory: "AnyPath | None" = None,
+) -> Iterator[Particles]:
+    """Read frames of a file, one after the other: each when it is asked for.
+
+    The file is gone through once, however many frames there are, and one frame is in memory.
+
+    Parameters
+    ----------
+    path, format, columns, trajectory
+        As for `read`.
+    frames
+        Which ones: ``"0:500:5"``, a slice or a range for those that there are among them, as Python
+        takes slices; or their numbers, in a list. All by default. Those before another are found by
+        going through the file again.
+
+    Yields
+    ------
+    Particles
+        As `read` returns them.
+
+    Raises
+    ------
+    SceneError
+        As `read` does; the first frame that cannot be read ends it.
+
+    Examples
+    --------
+    >>> import vtray
+    >>> for particles in vtray.read_frames("run.xyz", "::10"):  # doctest: +SKIP
+    ...     print(particles.frame, len(particles))
+    """
+    name = os.fsdecode(path)
+    wanted = iter(numbers_of(path, frames, format=format, columns=columns, trajectory=trajectory))
+    number = next(wanted, None)
+    while number is not None:
+        with _explained(name), _opened(path, format, columns, trajectory) as (module, given):
+            last = at = -1
+            for at, step in enumerate(_steps(module, given)):
+                if number is None or number <= last:
+                    break
+                if at == number:
+                    found = _finished(step(), given, path)
+                    yield found
+                    last, number = number, next(wanted, None)
+            else:
+                if number is not None and number > last:
+                    raise no_such_frame(number, at + 1)
+
+
+def numbers_of(
+    path: "AnyPath",
+    frames: "Frames" = None,
+    *,
+    format: str | None = None,  # noqa: A002
+    columns: Mapping[str, str] | None = None,
+    trajectory: "AnyPath | None" = None,
+) -> Sequence[int]:
+    """Return the numbers of frames of a file, from 0; the arguments are those of `read_frames`."""
+
+    def count() -> int:
+        with _opened(path, format, columns, trajectory) as (module, given):
+            return sum(1 for _ in _steps(module, given))
+
+    with _explained(os.fsdecode(path)):
+        return which_frames(frames, count)
+
+
+def _steps(module: Any, given: Given) -> Steps:  # noqa: ANN401
+    """Give what reads each frame of a file; most formats have one."""
+    if hasattr(module, "steps"):
+        found: Steps = module.steps(given)
+        return found
+    return iter([lambda: module.read(given)])
+
+
+@contextlib.contextmanager
+def _opened(
+    path: "AnyPath",
+    format: str | None,  # noqa: A002
+    columns: Mapping[str, str] | None,
+    trajectory: "AnyPath | None",
+) -> "Iterator[tuple[Any, Given]]":
+    """Give the module that reads a file, and what it is given, for its first frame."""
+    name = os.fsdecode(path)
+    kind, reader = reader_of(name, format if trajectory is None else "mdanalysis")
+    module = import_module(f"vtray.scene.readers.{reader.module}")
+    second = None if trajectory is None else os.fsdecode(trajectory)
+    with open_input(path) as file:
+        named = Given(file, name, kind, 0, columns or {}, second)
+        with unpacked(named, reader.module, reader.what) as given:
+            yield module, given
+
+
+@contextlib.contextmanager
+def _explained(name: str) -> Iterator[None]:
+    """Turn what goes wrong with a file into a SceneError that begins with its name."""
     try:
-        kind, reader = reader_of(name, format if trajectory is None else "mdanalysis")
-        module = import_module(f"vtray.scene.readers.{reader.module}")
-        second = None if trajectory is None else os.fsdecode(trajectory)
-        with open_input(path) as file:
-            named = Given(file, name, kind, _whole(frame), columns or {}, second)
-            with unpacked(named, reader.module, reader.what) as given:
-                found: Particles = module.read(given)
-        if columns and reader.module not in _BY_NAME:
-            found = _with_names(found, columns)
+        yield
     except SceneError as error:
         raise SceneError(f"{name}: {error}") from None
     except MemoryError as error:
         raise SceneError(f"{name}: {_too_large(error)}") from None
     except (OSError, ValueError) as error:  # a path with a null byte is a ValueError
         raise SceneError(f"{name}: {why_unreadable(error, 'file of data')}") from None
-    return replace(found, source=Path(name))
+
+
+def _finished(found: Particles, given: Given, path: "AnyPath") -> Particles:
+    """Return what was read with the names that were asked for, and where it comes from."""
+    _, reader = reader_of(given.path, given.format)
+    if given.columns and reader.module not in _BY_NAME:
+        found = _with_names(found, given.columns)
+    return replace(found, source=Path(os.fsdecode(path)))
 
 
 def _whole(frame: SupportsIndex) -> int:

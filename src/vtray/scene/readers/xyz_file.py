@@ -12,7 +12,7 @@ from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.column_names import canonical, name_columns
 from vtray.scene.particles.particles import Particles
-from vtray.scene.readers.frames import find_frame
+from vtray.scene.readers.frames import Steps, find_frame, steps_of
 from vtray.scene.readers.lines import Lines
 from vtray.scene.readers.reader_table import Given
 from vtray.scene.readers.rows import check_places, kind_of, read_rows
@@ -62,7 +62,16 @@ def read(given: Given) -> Particles:
         The file has no such frame, or it is not right. The message names the line.
     """
     lines = Lines(given.file)
-    number, head = find_frame(lines, given.frame, _read_head, "the number of atoms")
+    return _read_frame(lines, *find_frame(lines, given.frame, _read_head, "the number of atoms"))
+
+
+def steps(given: Given) -> Steps:
+    """Give what reads each frame, one after the other."""
+    return steps_of(Lines(given.file), _read_head, _read_frame)
+
+
+def _read_frame(lines: Lines, number: int, head: _Head) -> Particles:
+    """Read the rows of a frame, which come next."""
     said = {key.lower(): value.strip("\"'{}[]") for key, value in _PAIR.findall(head.comment)}
     properties = said.get("properties", "")
     if properties:

@@ -1,0 +1,1 @@
+"""Many pictures: movies, turntables, numbered pictures."""

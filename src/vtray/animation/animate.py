@@ -1,0 +1,422 @@
+"""Movies: `vtray.animate` and `vtray.turntable`."""
+
+import os
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from vtray.animation.keyframes import Keyframes, check_keyframes
+from vtray.animation.output import Output
+from vtray.animation.particle_scenes import ParticleScenes, drawing, looked_at
+from vtray.animation.shooting import Film, Progress, Shot, Warn, shoot
+from vtray.animation.sources import READING, Source, first_of, source_of
+from vtray.animation.swept import fit_around
+from vtray.animation.turned_lights import turned_light
+from vtray.base.errors import SceneError
+from vtray.scene.camera import Camera
+from vtray.scene.checks.scene_words import show
+from vtray.scene.default_light import has_default_light
+from vtray.scene.particles.view import USUAL
+from vtray.scene.placing.bounds import balls_of, middle_of
+from vtray.scene.placing.directions import Vec, unit
+from vtray.scene.placing.moved import axes_of
+from vtray.scene.scene import Scene
+from vtray.scene.settings import RenderSettings
+from vtray.scene.vectors import Vector
+
+if TYPE_CHECKING:
+    from vtray.scene.readers.which_frames import Frames
+
+AnyCamera = Camera | Mapping[float, Camera] | Callable[[int], Camera]
+
+SETTINGS = RenderSettings.__struct_fields__
+
+LONGEST = 1_000_000
+"""Pictures of a turntable at the most."""
+
+
+def animate(
+    scenes: "Scene | Iterable[Any] | Callable[[Any], Any] | str | os.PathLike[str]",
+    path: str | os.PathLike[str],
+    *,
+    frames: "Frames | int" = None,
+    fps: float = 30.0,
+    camera: AnyCamera | None = None,
+    annotate: Mapping[str, Any] | None = None,
+    resume: bool = False,
+    threads: int | None = None,
+    progress: Progress | bool | None = None,
+    bits: int | None = None,
+    aov: Collection[str] = (),
+    warn: Warn | None = None,
+    **options: Any,  # noqa: ANN401
+) -> Path:
+    """Render scenes to a movie.
+
+    All pictures have one exposure, that of the first; seeds stay, so that nothing flickers that
+    does not change. While a picture is traced, the next scene is made, and the last picture is
+    written: one of each is in memory, however many there are.
+
+    Parameters
+    ----------
+    scenes
+        Scenes or particles, as a list or one by one; a function that makes one of each of `frames`;
+        one scene, for a `camera` that moves; or the name of a trajectory, as `read` takes it.
+        Particles are what `read` returns, or atoms of ASE or MDAnalysis.
+    path
+        The movie: ``.mp4`` (which needs ``pip install imageio-ffmpeg``), ``.gif`` or ``.webp``; or
+        numbered pictures such as ``frames/%04d.png``, in any format of `Image.save`.
+    frames
+        Which frames of a trajectory or a list: ``"0:500:5"``, a slice, a range, or numbers. What a
+        function is called with, such as ``range(100)``, or 100 for the same. How many pictures
+        there are of one scene; with keyframes, as far as the last by default.
+    fps
+        Pictures in a second.
+    camera
+        Of all pictures, a `Camera`, a function that gives one by the number of the picture, from 0;
+        or keyframes, cameras by such numbers, between which it turns and moves smoothly. By default
+        that of each scene; of scenes without one, the one that fits the first. Of particles, the
+        one that shows eight frames, spread over all.
+    annotate
+        What is painted on each picture, as keywords of `Image.annotated`. In the texts ``title``
+        and ``time``, ``{frame}`` and ``{time}`` stand for those of the frame.
+    resume
+        Whether to go on where an earlier run has ended. Until the movie is whole, its pictures are
+        in a folder beside it, ``movie.mp4.frames``; those that are done stay there whatever
+        happens.
+    threads, warn
+        As for `render`; each warning is given once.
+    progress
+        Called with ``"frames"``, how many pictures are done, and how many there are, 0 if that is
+        not known. True shows a bar.
+    bits, aov
+        What numbered pictures hold, as for `Image.save`.
+    options
+        Settings of the render, such as ``samples=16``, as for `render`. With `exposure`, that is
+        the exposure of each picture. Of particles, also the keywords of `Scene.add_particles`, and
+        ``view``, ``zoom`` and ``orthographic``: see `Camera.fit`. Of a trajectory, also those of
+        `read`. Colours by values have one scale, that of eight frames, spread over all, unless
+        ``clim`` is given.
+
+    Returns
+    -------
+    Path
+        The movie.
+
+    Raises
+    ------
+    SceneError
+        A scene, a camera, a frame or a setting is not right.
+    OutputError
+        The movie cannot be written, or pictures that are done are of another movie.
+    RenderError
+        A picture cannot be rendered; see `render`.
+    ExtraError
+        A package is needed that is not installed.
+    KeyboardInterrupt
+        After Ctrl-C. Pictures that are done stay.
+
+    Examples
+    --------
+    >>> import vtray
+    >>> vtray.animate("run.xyz", "run.mp4", frames="::5", bonds=True)  # doctest: +SKIP
+    """
+    settings = {name: options.pop(name) for name in SETTINGS if options.get(name) is not None}
+    reading = {name: options.pop(name) for name in READING if name in options}
+    film = _film(path, fps, settings, annotate, resume, threads, progress, bits, aov, warn)
+    usual = None
+    if isinstance(camera, Mapping):
+        usual = int(check_keyframes(camera)[-1]) + 1
+    is_file = isinstance(scenes, (str, os.PathLike))
+    if reading and not is_file:
+        message = f"{next(iter(reading))}: expected the name of a trajectory beside it"
+        raise SceneError(message)
+    source = source_of(scenes, frames, reading, usual)
+    first, source = first_of(source)
+    if isinstance(first, Scene):
+        if options:
+            name = next(iter(options))
+            message = f"animate() argument {name!r} is for particles, or unknown"
+            raise TypeError(message)
+        make = _scene_shots(first)
+    else:
+        draw, fit = drawing(options, settings.get("size"), settings.get("background"))
+        make = ParticleScenes(draw, fit, looked_at(source, first))
+    run(film, source, _with_camera(make, camera, first), first)
+    return film.output.path
+
+
+def turntable(
+    scene: Scene,
+    path: str | os.PathLike[str],
+    *,
+    seconds: float = 6.0,
+    fps: float = 30.0,
+    degrees: float = 360.0,
+    lights: Literal["turn", "still"] = "turn",
+    annotate: Mapping[str, Any] | None = None,
+    resume: bool = False,
+    threads: int | None = None,
+    progress: Progress | bool | None = None,
+    bits: int | None = None,
+    aov: Collection[str] = (),
+    warn: Warn | None = None,
+    **settings: Any,  # noqa: ANN401
+) -> Path:
+    """Render a movie for which the camera goes around a scene.
+
+    It goes about the middle of all objects, around the camera's `up`, to its right. After a whole
+    turn, the movie goes on with its first picture.
+
+    Parameters
+    ----------
+    scene
+        The scene. If it has no camera, one is made that shows it from all sides; a camera that it
+        has stays as far away, with the same field of view.
+    path, fps, annotate, resume, threads, progress, bits, aov, warn
+        As for `animate`.
+    seconds
+        How long it takes.
+    degrees
+        How far the camera goes; below 0 the other way.
+    lights
+        ``"turn"``: the lights go with the camera, as if the scene turned before it. ``"still"``:
+        they stay, but for those of a scene whose lights were never set.
+    settings
+        Settings of the render, as for `render`.
+
+    Returns
+    -------
+    Path
+        The movie.
+
+    Raises
+    ------
+    SceneError, OutputError, RenderError, ExtraError, KeyboardInterrupt
+        As for `animate`.
+
+    Examples
+    --------
+    >>> import vtray
+    >>> vtray.turntable(scene, "turn.mp4", seconds=6)  # doctest: +SKIP
+    """
+    unknown = [name for name in settings if name not in SETTINGS]
+    if unknown:
+        message = f"turntable() argument {unknown[0]!r} is unknown"
+        raise TypeError(message)
+    settings = {name: value for name, value in settings.items() if value is not None}
+    film = _film(path, fps, settings, annotate, resume, threads, progress, bits, aov, warn)
+    camera, about = camera_around(scene)
+    go_around(film, scene, camera, about, seconds, degrees, lights)
+    return film.output.path
+
+
+def camera_around(scene: Scene) -> tuple[Camera, Vector]:
+    """Return the camera of a scene, or one that shows it from all sides, and what it goes about."""
+    if _is_none(scene.camera):
+        return fit_around(scene, Camera.fit(scene, view=USUAL))
+    x, y, z = map(float, middle_of(balls_of(scene, "turntable")))
+    return scene.camera, Vector(x, y, z)
+
+
+def go_around(
+    film: Film,
+    scene: Scene,
+    camera: Camera,
+    about: Vector,
+    seconds: float,
+    degrees: float = 360.0,
+    lights: str = "turn",
+    shot: Shot | None = None,
+) -> None:
+    """Make a movie of a scene as a camera goes around it; see `turntable`.
+
+    `shot` says what is painted on each picture.
+    """
+    length, angle = _number("seconds", seconds), _number("degrees", degrees, positive=False)
+    count = max(round(length * film.fps), 1)
+    if count > LONGEST:
+        words = f"expected at most {LONGEST} pictures, got {count}"
+        raise SceneError(f"seconds: {words}")
+    if lights not in ("turn", "still"):
+        raise SceneError(f"lights: expected 'turn' or 'still', got {show(lights)}")
+    _, down, _ = axes_of(camera)
+    axis = (-down[0], -down[1], -down[2]) if camera.up is None else unit(camera.up)
+    middle = (about.x, about.y, about.z)
+    turns = lights == "turn" and not has_default_light(scene)
+    usual = shot or Shot(scene, camera)
+
+    def at(_: object, k: int) -> Shot:
+        turn = angle * k / count
+        turned = [turned_light(light, turn, middle, axis) for light in scene.lights]
+        return usual._replace(
+            scene=scene,
+            camera=camera.orbit(turn, about=about),
+            lights=turned if turns else None,
+        )
+
+    run(film, source_of(scene, count), at, scene)
+
+
+def run(
+    film: Film,
+    source: Source,
+    shot_of: Callable[[Any, int], Shot],
+    first: Any,  # noqa: ANN401
+) -> None:
+    """Make a movie of what a source gives; say of errors how another run goes on.
+
+    Parameters
+    ----------
+    film
+        How.
+    source
+        What there is for each picture.
+    shot_of
+        Makes what a picture is taken of, by the number of the picture.
+    first
+        What there is for the first picture.
+    """
+
+    def numbered(item: Any, k: int) -> Shot:  # noqa: ANN401
+        found = shot_of(item, k)
+        return found._replace(frame=source.number(k)) if found.frame is None else found
+
+    def shots(start: int) -> Iterator[Shot]:
+        for k, item in enumerate(source.start(start), start):
+            yield numbered(item, k)
+
+    try:
+        shoot(film, shots, numbered(first, 0), source.count or 0)
+    except BaseException as error:
+        if film.done is not None and film.done.how_to_go_on():
+            error.add_note(film.done.how_to_go_on())
+        raise
+    finally:
+        if isinstance(film.progress, _Bar):
+            film.progress.close()
+
+
+def _film(
+    path: str | os.PathLike[str],
+    fps: float,
+    settings: Mapping[str, Any],
+    annotate: Mapping[str, Any] | None,
+    resume: bool,
+    threads: int | None,
+    progress: Progress | bool | None,
+    bits: int | None,
+    aov: Collection[str],
+    warn: Warn | None,
+) -> Film:
+    """Return how a movie is made, checked as far as can be without a scene."""
+    RenderSettings(**settings)
+    output = Output(Path(path))
+    rate = _number("fps", fps)
+    output.check(rate, bits, aov)
+    return Film(
+        output,
+        rate,
+        settings,
+        dict(annotate or {}),
+        bits,
+        tuple(aov),
+        threads,
+        resume,
+        _Bar() if progress is True else progress or None,
+        warn or _warn,
+    )
+
+
+def _scene_shots(first: Scene) -> Callable[[Any, int], Shot]:
+    """Return what makes shots of scenes, of which those without a camera get that of the first."""
+    fitted = first.camera if not _is_none(first.camera) else Camera.fit(first, view=USUAL)
+
+    def shot(scene: Any, k: int) -> Shot:  # noqa: ANN401
+        if not isinstance(scene, Scene):
+            raise SceneError(f"scenes: expected a Scene for picture {k}, got {show(scene)}")
+        return Shot(scene, fitted if _is_none(scene.camera) else scene.camera)
+
+    return shot
+
+
+def _with_camera(
+    make: Callable[[Any, int], Shot],
+    camera: AnyCamera | None,
+    first: Any,  # noqa: ANN401
+) -> Callable[[Any, int], Shot]:
+    """Return what makes shots with the camera that is asked for."""
+    if camera is None:
+        return make
+    if isinstance(camera, Camera):
+        return lambda item, k: make(item, k)._replace(camera=camera)
+    if isinstance(camera, Mapping):
+        of_picture: Callable[[int], Any] = Keyframes(camera, _pivot(make(first, 0).scene))
+    elif callable(camera):
+        of_picture = camera
+    else:
+        raise _no_camera(camera)
+
+    def shot(item: Any, k: int) -> Shot:  # noqa: ANN401
+        found = of_picture(k)
+        if not isinstance(found, Camera):
+            raise SceneError(f"camera: expected a Camera for picture {k}, got {show(found)}")
+        return make(item, k)._replace(camera=found)
+
+    return shot
+
+
+def _no_camera(given: object) -> SceneError:
+    """Give the error for what is no camera."""
+    words = "expected a Camera, cameras by the numbers of pictures, or a function of these"
+    return SceneError(f"camera: {words}, got {show(given)}")
+
+
+def _pivot(scene: Scene) -> Vec:
+    """Return the middle of a scene; the origin if nothing has one."""
+    try:
+        x, y, z = map(float, middle_of(balls_of(scene, "")))
+    except SceneError:
+        return 0.0, 0.0, 0.0
+    return x, y, z
+
+
+def _number(name: str, value: object, *, positive: bool = True) -> float:
+    """Return an argument that must be a finite number, > 0 unless said otherwise."""
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if is_number:
+        number = float(value)  # type: ignore[arg-type]
+        if abs(number) < float("inf") and (number > 0 or not positive):
+            return number
+    words = "a number > 0" if positive else "a number"
+    raise SceneError(f"{name}: expected {words}, got {show(value)}")
+
+
+class _Bar:
+    """A progress bar on stderr."""
+
+    def __init__(self) -> None:
+        self._bar: Any = None
+
+    def __call__(self, step: str, done: int, total: int) -> None:
+        if self._bar is None:
+            from tqdm import tqdm
+
+            self._bar = tqdm(desc=step, total=total or None, initial=done, unit="frame")
+        self._bar.update(done - self._bar.n)
+
+    def close(self) -> None:
+        """Leave it as it is."""
+        if self._bar is not None:
+            self._bar.close()
+
+
+def _warn(message: str) -> None:
+    """Warn in the name of vtray: the code that called is some calls away."""
+    import warnings
+
+    warnings.warn(message, stacklevel=2)
+
+
+def _is_none(value: object) -> bool:
+    return value is None

@@ -1,0 +1,61 @@
+"""What is painted on each picture of a movie: the same, but for the frame and its time."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from vtray.base.errors import OutputError
+
+VARYING = ("title", "time")
+"""Texts that may name the frame and its time."""
+
+
+def annotated(
+    given: Mapping[str, Any], frame: int | None, time: float | None, marks: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return the keywords of `vtray.Image.annotated` for a picture.
+
+    Parameters
+    ----------
+    given
+        Those for all pictures. In ``title`` and ``time``, ``{frame}`` and ``{time}`` are replaced,
+        formatted as by Python's ``str.format``; ``time=True`` and ``frame=True`` show just that.
+    frame, time
+        Which frame it is, and its time; None where there is none.
+    marks
+        Those for this picture alone; labels are added.
+
+    Raises
+    ------
+    OutputError
+        A text names something else, or what is not known.
+    """
+    found = {**given, **marks}
+    if "labels" in given and "labels" in marks:
+        found["labels"] = [*given["labels"], *marks["labels"]]
+    known = {"frame": frame, "time": time}
+    for name, value in known.items():
+        if found.get(name) is True:
+            found[name] = _known(name, value)
+    for name in VARYING:
+        if isinstance(found.get(name), str) and "{" in found[name]:
+            found[name] = _formatted(name, found[name], known)
+    return found
+
+
+def _formatted(name: str, text: str, known: Mapping[str, Any]) -> str:
+    """Return a text with what is known put in."""
+    for key, value in known.items():
+        if f"{{{key}" in text:
+            _known(key, value)
+    try:
+        return text.format(**known)
+    except (KeyError, IndexError, ValueError, AttributeError, TypeError):
+        words = "expected {frame} and {time} alone in braces, such as {time:.1f} ps"
+        raise OutputError(f"{name}: {words}, got {text}") from None
+
+
+def _known(name: str, value: Any) -> Any:  # noqa: ANN401
+    """Return the frame or the time; raise OutputError if it is not known."""
+    if value is None:
+        raise OutputError(f"{name}: the data do not say the {name} of a picture; leave it out")
+    return value

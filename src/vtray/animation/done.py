@@ -1,0 +1,204 @@
+"""Pictures of a movie that are done: they stay until it is whole, so that another run can go on.
+
+Beside them stands a record of what cannot be told from the pictures themselves. A run that goes on
+makes the scene of the last of them again, whose hash it must have.
+"""
+
+import contextlib
+import shutil
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from vtray.animation.output import Output
+from vtray.base.atomic_file import write_whole
+from vtray.base.errors import OutputError, ProvenanceError
+from vtray.base.version import __version__
+from vtray.image.provenance import Provenance, read_provenance
+from vtray.scene.default_light import lights_of
+from vtray.scene.fingerprint import scene_hash
+from vtray.scene.scene import Scene
+from vtray.scene.settings import RenderSettings
+
+GO_ON = "--resume (in Python, resume=True) goes on"
+
+PART = "movie.part"
+"""The movie in its folder, before it takes its name."""
+
+
+class Record(msgspec.Struct, forbid_unknown_fields=True):
+    """What is not told by the pictures.
+
+    Attributes
+    ----------
+    version
+        The version of vtray.
+    marks
+        What is painted on all pictures, as text.
+    white
+        The light that becomes white in all pictures, once that is known.
+    """
+
+    version: str
+    marks: str
+    white: float | None = None
+
+
+class Done:
+    """The pictures that are done of a movie.
+
+    Parameters
+    ----------
+    output
+        Where it goes.
+    marks
+        What is painted on all pictures, as text.
+    resume
+        Whether to go on from those that there are.
+
+    Raises
+    ------
+    OutputError
+        There are some, and they are another movie's, or nobody has said to go on from them; or the
+        folder cannot be made.
+
+    Attributes
+    ----------
+    count : int
+        How many there are.
+    """
+
+    def __init__(self, output: Output, marks: str, *, resume: bool) -> None:
+        self.output = output
+        self.count = 0
+        self._record = Record(__version__, marks)
+        kept = self._kept()
+        if kept is not None:
+            while output.name(self.count).is_file():
+                self.count += 1
+        if kept is not None and self.count and not resume:
+            words = f"holds {self.told()} that an earlier run has done"
+            raise OutputError(f"{self._place}: {words}; {GO_ON}, or remove it")
+        if kept is not None and self.count:
+            self._check(kept)
+            self._record = kept
+            return
+        self.count = 0
+        try:
+            output.folder.mkdir(exist_ok=True)
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+            raise OutputError(f"{output.folder}: cannot be made: {reason}") from None
+        self._write()
+
+    @property
+    def white(self) -> float | None:
+        """The light that becomes white in all pictures; None if that is not known yet."""
+        return self._record.white
+
+    @white.setter
+    def white(self, value: float) -> None:
+        self._record.white = value
+        self._write()
+
+    def told(self) -> str:
+        """Say how many there are."""
+        return "1 picture" if self.count == 1 else f"{self.count} pictures"
+
+    def how_to_go_on(self) -> str:
+        """Say how another run goes on; "" if there is nothing."""
+        return f"{self.output.path}: {self.told()} done; {GO_ON}" if self.count else ""
+
+    def check_last(self, scene: Scene, settings: RenderSettings, *, holds: bool) -> None:
+        """Raise OutputError if the last of them is not the picture of a scene.
+
+        Parameters
+        ----------
+        scene
+            The scene, with the camera and the lights of the picture.
+        settings
+            How it is rendered.
+        holds
+            Whether it has the exposure of the first picture.
+        """
+        last = self.output.name(self.count - 1)
+        try:
+            told = read_provenance(last)
+        except ProvenanceError as error:
+            raise OutputError(f"{error}; remove it to go on") from None
+        for name, (was, is_now) in _pairs(told, scene, settings, holds).items():
+            if was != is_now:
+                raise self._other(f"were made with {name} {_shown(was)}, not {_shown(is_now)}")
+        whole = Scene(scene.camera, lights_of(scene), scene.objects, scene.render)
+        if told.scene != scene_hash(whole):
+            raise self._other(f"are of other scenes, as {last.name} is")
+
+    def finish(self, part: Path | None) -> None:
+        """Put the whole movie in its place, and take away what was needed until then."""
+        if part is not None:
+            with part.open("rb") as whole:
+                write_whole(self.output.path, lambda file: shutil.copyfileobj(whole, file))
+            part.unlink()
+            for k in range(self.count):
+                self.output.name(k).unlink(missing_ok=True)
+        self.output.record.unlink(missing_ok=True)
+        if part is not None:
+            with contextlib.suppress(OSError):  # something else is in it, which stays
+                self.output.folder.rmdir()
+
+    @property
+    def _place(self) -> Path:
+        """What is to be removed to begin anew."""
+        return self.output.record if self.output.format is None else self.output.folder
+
+    def _kept(self) -> Record | None:
+        """Return what an earlier run has told; None if there was none."""
+        record = self.output.record
+        try:
+            content = record.read_bytes()
+        except FileNotFoundError:
+            is_other = self.output.format is not None and self.output.folder.exists()
+            if is_other and (not self.output.folder.is_dir() or any(self.output.folder.iterdir())):
+                words = "is in the way: pictures are kept there until the movie is whole"
+                raise OutputError(f"{self.output.folder}: {words}; remove it") from None
+            return None
+        except OSError as error:
+            raise OutputError(f"{record}: cannot be read: {error.strerror or error}") from None
+        try:
+            return msgspec.json.decode(content, type=Record)
+        except msgspec.DecodeError as error:
+            raise OutputError(f"{record}: is not understood: {error}; remove it") from None
+
+    def _check(self, kept: Record) -> None:
+        """Raise OutputError if pictures are those of another movie."""
+        if kept.version != __version__:
+            raise self._other(f"were made by vtray {kept.version}, and this is {__version__}")
+        if kept.marks != self._record.marks:
+            raise self._other("have other annotations")
+
+    def _other(self, words: str) -> OutputError:
+        """Give the error for pictures of another movie."""
+        message = f"{self._place}: its {self.told()} {words}; do the same again, or remove it"
+        return OutputError(message)
+
+    def _write(self) -> None:
+        content = msgspec.json.encode(self._record)
+        write_whole(self.output.record, lambda file: file.write(content))
+
+
+def _pairs(
+    told: Provenance, scene: Scene, settings: RenderSettings, holds: bool
+) -> dict[str, tuple[Any, Any]]:
+    """Return how a picture was made, and how it would be now, by the names of settings."""
+    now = msgspec.structs.asdict(settings)
+    now["size"] = tuple(map(int, settings.size or scene.camera.size))
+    found = {name: (getattr(told, name), value) for name, value in now.items()}
+    if told.lock is not None and not holds:
+        found["exposure"] = "that of the first", now["exposure"]
+    return found
+
+
+def _shown(value: object) -> str:
+    """Return a setting as it is shown in messages."""
+    return "x".join(map(str, value)) if isinstance(value, tuple) else str(value)

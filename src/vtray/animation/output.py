@@ -1,0 +1,163 @@
+"""Where a movie goes: a file, or numbered pictures; and where these are until it is whole."""
+
+import re
+from collections.abc import Callable, Collection, Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import NamedTuple
+
+from vtray.animation.feed import Feed
+from vtray.animation.gif_file import write_gif
+from vtray.animation.mp4_file import find_ffmpeg, write_mp4
+from vtray.animation.webp_file import write_webp
+from vtray.base.atomic_file import check_writable
+from vtray.base.errors import OutputError
+from vtray.image.formats.image_format import check_format
+
+Write = Callable[[Path, Feed, float], None]
+
+
+class MovieFormat(NamedTuple):
+    """A format of movies, and what it can hold.
+
+    Attributes
+    ----------
+    write
+        Writes a movie: called with a file, its pictures, and how many there are in a second.
+    alpha
+        Whether a pixel may be transparent.
+    fps
+        The most pictures in a second that it can tell apart, or that programs show.
+    """
+
+    write: Write
+    alpha: bool
+    fps: float
+
+
+MOVIES: Mapping[str, MovieFormat] = MappingProxyType(
+    {
+        ".mp4": MovieFormat(write_mp4, alpha=False, fps=1000),
+        ".gif": MovieFormat(write_gif, alpha=False, fps=50),
+        ".webp": MovieFormat(write_webp, alpha=True, fps=1000),
+    }
+)
+"""The formats of movies by the endings of files."""
+
+EXPECTED = f"{', '.join(MOVIES)}, or numbered pictures such as frames/%04d.png"
+
+_NUMBER = re.compile(r"%(0[1-9])?d")
+
+
+def is_numbered(path: Path) -> bool:
+    """Tell whether a name is that of numbered pictures."""
+    return _NUMBER.search(path.name) is not None
+
+
+def is_movie(path: Path) -> bool:
+    """Tell whether a name can be that of a movie, or of numbered pictures."""
+    return is_numbered(path) or path.suffix.lower() in MOVIES
+
+
+class Output:
+    """Where a movie goes.
+
+    Parameters
+    ----------
+    path
+        The file, or a name with the place of a number, such as ``frames/%04d.png``.
+
+    Raises
+    ------
+    OutputError
+        It is no name of a movie.
+
+    Attributes
+    ----------
+    path : Path
+        As given.
+    format : MovieFormat or None
+        How the movie is written; None for numbered pictures.
+    folder : Path
+        Where pictures are until the movie is whole, or stay if they are what is wanted.
+    record : Path
+        The file in that folder that says what these pictures are.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        if is_numbered(path):
+            if "%" in _NUMBER.sub("", path.name, count=1):
+                message = f"{path}: expected one number such as %04d in the name, and no other %"
+                raise OutputError(message)
+            self.format = None
+            self.folder = path.parent
+            self.record = path.with_name(f".{_NUMBER.sub('', path.name)}.vtray-movie")
+            return
+        self.format = MOVIES.get(path.suffix.lower())
+        if self.format is None:
+            message = f"{path}: is no movie by its name; expected {EXPECTED}"
+            raise OutputError(message)
+        self.folder = path.with_name(f"{path.name}.frames")
+        self.record = self.folder / "movie.json"
+
+    def name(self, k: int) -> Path:
+        """Return the file of a picture, by its number from 0."""
+        if self.format is None:
+            found = _NUMBER.search(self.path.name)
+            assert found is not None  # noqa: S101 - that is how it is known to be numbered
+            return (
+                self.folder
+                / f"{self.path.name[: found.start()]}{found[0] % k}{self.path.name[found.end() :]}"
+            )
+        return self.folder / f"{k:06d}.png"
+
+    def check(self, fps: float, bits: int | None = None, aov: Collection[str] = ()) -> None:
+        """Raise an error, before any work is done, if the movie cannot be written.
+
+        Parameters
+        ----------
+        fps
+            Pictures in a second.
+        bits, aov
+            What files of pictures hold, as for `vtray.Image.save`.
+        """
+        if self.format is None:
+            check_format(self.name(0), bits, aov)
+            if not self.folder.is_dir():
+                self._make_folder()
+            check_writable(self.name(0))
+            return
+        if bits not in (None, 8) or aov:
+            what = "aov" if aov else f"bits {bits}"
+            message = (
+                f"{self.path}: {what}: movies have 8 bits and colours alone; expected {EXPECTED}"
+            )
+            raise OutputError(message)
+        if fps > self.format.fps:
+            most = self.format.fps
+            message = f"{self.path}: fps: expected at most {most:g} for this format, got {fps:g}"
+            raise OutputError(message)
+        if self.path.suffix.lower() == ".mp4":
+            find_ffmpeg(self.path)
+        check_writable(self.path)
+
+    def check_background(self, background: object) -> None:
+        """Raise OutputError if a background is transparent, and the format cannot hold that."""
+        if self.format is None:
+            check_format(self.name(0), background=background)
+        elif background == "transparent" and not self.format.alpha:
+            message = (
+                f"{self.path}: background: this format cannot be transparent; "
+                ".webp and numbered .png can, or choose a color as the background"
+            )
+            raise OutputError(message)
+
+    def _make_folder(self) -> None:
+        """Make the folder of numbered pictures, if that is all that is missing."""
+        try:
+            self.folder.mkdir()
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+            message = f"{self.path}: the folder {self.folder} cannot be made: {reason}"
+            raise OutputError(message) from None

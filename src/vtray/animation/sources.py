@@ -1,0 +1,152 @@
+"""Where the pictures of a movie come from: a scene, many, a function that makes them, or a file."""
+
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import chain, islice, repeat
+from typing import Any
+
+from vtray.base.errors import SceneError
+from vtray.scene.checks.json_tree import short
+from vtray.scene.readers.read import numbers_of, read_frames
+from vtray.scene.readers.which_frames import which_frames
+from vtray.scene.scene import Scene
+
+READING = ("format", "columns", "trajectory")
+"""What else `vtray.read` may be told of a file."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """What there is for each picture: a scene, or particles.
+
+    Attributes
+    ----------
+    count
+        How many pictures there are; None if that is not known before the last.
+    start
+        Gives what there is for pictures, from one with a number on.
+    some
+        Gives what there is for pictures with some numbers, which come in their order; None where
+        only `start` can, and but once.
+    numbers
+        What is the number of each picture where it comes from; those from 0 if it is None.
+    """
+
+    count: int | None
+    start: Callable[[int], Iterator[Any]]
+    some: Callable[[Sequence[int]], Iterator[Any]] | None
+    numbers: Sequence[int] | None = None
+
+    def number(self, k: int) -> int:
+        """Return what is the number of a picture where it comes from."""
+        return k if self.numbers is None else self.numbers[k]
+
+
+def source_of(
+    scenes: Any,  # noqa: ANN401
+    frames: Any = None,  # noqa: ANN401
+    reading: Mapping[str, Any] | None = None,
+    usual: int | None = None,
+) -> Source:
+    """Return where pictures come from.
+
+    Parameters
+    ----------
+    scenes, frames
+        As for `vtray.animate`.
+    reading
+        What `vtray.read` is told of a file.
+    usual
+        How many pictures of a single scene there are, where that is known otherwise.
+
+    Raises
+    ------
+    SceneError
+        They are nothing that pictures can come from.
+    """
+    if isinstance(scenes, (str, os.PathLike)):
+        return _of_file(os.fsdecode(scenes), frames, reading or {})
+    if isinstance(scenes, Scene):
+        count = _count_of(frames, usual)
+        return Source(
+            count, lambda k: repeat(scenes, count - k), lambda ks: repeat(scenes, len(ks))
+        )
+    if callable(scenes):
+        return _of_function(scenes, frames)
+    if isinstance(scenes, Sequence):
+        numbers = which_frames(frames, lambda: len(scenes)) if len(scenes) else []
+        return _listed(lambda number: scenes[number], numbers)
+    if isinstance(scenes, Iterable):
+        if frames is not None:
+            words = "expected None where scenes come one by one; take some by itertools.islice"
+            raise SceneError(f"frames: {words}, got {short(repr(frames))}")
+        return Source(None, lambda k: islice(scenes, k, None), None)
+    words = "expected scenes, a function that makes them, or the name of a trajectory"
+    raise SceneError(f"scenes: {words}, got {short(repr(scenes))}")
+
+
+def _of_file(path: str, frames: Any, reading: Mapping[str, Any]) -> Source:  # noqa: ANN401
+    """Return what a trajectory gives."""
+    numbers = numbers_of(path, frames, **reading)
+
+    def read(ks: Sequence[int]) -> Iterator[Any]:
+        return read_frames(path, [numbers[k] for k in ks], **reading)
+
+    return Source(len(numbers), lambda k: read(range(k, len(numbers))), read, numbers)
+
+
+def _of_function(make: Callable[[int], Any], frames: Any) -> Source:  # noqa: ANN401
+    """Return what a function makes of numbers."""
+    if isinstance(frames, int) and not isinstance(frames, bool):
+        frames = range(frames)
+    if not isinstance(frames, Iterable) or isinstance(frames, (str, Mapping)):
+        words = "expected how many pictures a function makes, or what to call it with"
+        raise SceneError(f"frames: {words}, such as range(100), got {short(repr(frames))}")
+    return _listed(make, [*frames] if not isinstance(frames, range) else frames)
+
+
+def _listed(make: Callable[[int], Any], numbers: Sequence[int]) -> Source:
+    """Return what can be had for any number."""
+    if not len(numbers):
+        raise SceneError("frames: expected at least one picture, got none")
+    whole = all(isinstance(number, int) for number in numbers)
+    return Source(
+        len(numbers),
+        lambda k: (make(numbers[i]) for i in range(k, len(numbers))),
+        lambda ks: (make(numbers[k]) for k in ks),
+        numbers if whole else None,
+    )
+
+
+def _count_of(frames: Any, usual: int | None) -> int:  # noqa: ANN401
+    """Return how many pictures of a single scene there are."""
+    if frames is None and usual is not None:
+        return usual
+    if isinstance(frames, int) and not isinstance(frames, bool) and frames > 0:
+        return frames
+    words = "expected how many pictures of the scene there are, such as 100"
+    raise SceneError(f"frames: {words}, got {short(repr(frames))}")
+
+
+def first_of(source: Source) -> tuple[Any, Source]:
+    """Return what there is for the first picture, and a source that still has it.
+
+    Raises
+    ------
+    SceneError
+        There is no picture.
+    """
+    nothing = object()
+    items = source.start(0)
+    first = next(items, nothing)
+    if first is nothing:
+        raise SceneError("scenes: expected at least one picture, got none")
+
+    def start(k: int) -> Iterator[Any]:
+        # Functions are called once for each picture, and what comes one by one comes but once.
+        if k == 0 or source.some is None:
+            return islice(chain([first], items), k, None)
+        return source.start(k)
+
+    return first, replace(source, start=start)

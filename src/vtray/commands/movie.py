@@ -1,0 +1,114 @@
+"""Movies by the command: of the frames of a file, or of a scene that is gone around."""
+
+import argparse
+import sys
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from vtray.animation.animate import camera_around, go_around, run
+from vtray.animation.output import Output
+from vtray.animation.particle_scenes import Objects, ParticleScenes, looked_at
+from vtray.animation.shooting import Film, Shot
+from vtray.animation.sources import first_of, source_of
+from vtray.animation.swept import fit_around
+from vtray.base.errors import printable
+from vtray.base.signals import LastStep
+from vtray.commands import data_options
+from vtray.commands.annotation_options import annotations_of
+from vtray.commands.command import print_note
+from vtray.commands.data_scene import draw_data, read_particles
+from vtray.commands.movie_options import FPS
+from vtray.commands.options import settings_of
+from vtray.scene.camera import Camera
+from vtray.scene.particles.particles import Particles
+from vtray.scene.particles.view import SIZE, VIEW, camera_of
+
+if TYPE_CHECKING:
+    from vtray.scene.scene import Scene
+
+
+def make_movie(
+    options: argparse.Namespace,
+    load: "Callable[[], Scene] | None",
+    warn: Callable[[str], None],
+) -> None:
+    """Make the movie that options ask for.
+
+    Parameters
+    ----------
+    options
+        The options.
+    load
+        Reads the scene; None for a file of data.
+    warn
+        Called with a line about something that is noticed.
+    """
+    output = Output(options.output)
+    fps = getattr(options, "fps", None) or FPS
+    output.check(fps, options.bits, options.aov or ())
+    painted = argparse.Namespace(**{**vars(options), "output": output.name(0)})
+    film = Film(
+        output,
+        fps,
+        settings_of(options),
+        annotations_of(painted),
+        options.bits,
+        tuple(options.aov or ()),
+        options.threads,
+        bool(getattr(options, "resume", False)),
+        warn=warn,
+    )
+    progress: Any = None
+    if not options.quiet and sys.stderr.isatty():
+        from vtray.commands.progress import ProgressBar
+
+        film.progress = progress = ProgressBar()
+
+    def tell() -> None:
+        """Say how another run goes on, where this one ends."""
+        if progress is not None:
+            progress.close()
+        if film.done is not None and film.done.how_to_go_on() and not options.quiet:
+            print_note(printable(f"vtray: {film.done.how_to_go_on()}"))
+
+    with LastStep(tell):
+        try:
+            _make(options, film, load)
+        except BaseException:
+            tell()
+            raise
+    if progress is not None:
+        progress.close()
+
+
+def _make(options: argparse.Namespace, film: Film, load: "Callable[[], Scene] | None") -> None:
+    """Make the movie."""
+    seconds = getattr(options, "turntable", None)
+    if seconds is None:
+        _go_through(options, film)
+    elif load is not None:
+        scene = load()
+        go_around(film, scene, *camera_around(scene), seconds)
+    else:
+        particles = read_particles(options)
+        scene, _, marks = draw_data(options, particles)
+        zoom = data_options.given(options).get("zoom", 1.0)
+        camera, about = fit_around(scene, scene.camera, zoom)
+        shot = Shot(scene, camera, None, particles.frame, particles.time, marks)
+        go_around(film, scene, camera, about, seconds, shot=shot)
+
+
+def _go_through(options: argparse.Namespace, film: Film) -> None:
+    """Make a movie of the frames of a file."""
+    source = source_of(options.scene, getattr(options, "frames", None))
+    first, source = first_of(source)
+    given = data_options.given(options)
+    view = {name: given[name] for name in VIEW if name in given}
+
+    def draw(particles: Particles, camera: Camera | None, clim: tuple[float, float] | None) -> Any:  # noqa: ANN401
+        return draw_data(options, particles, camera, clim)
+
+    def fit(subject: Objects, has_cell: bool) -> Camera:
+        return camera_of(subject, has_cell, options.size or SIZE, **view)
+
+    run(film, source, ParticleScenes(draw, fit, looked_at(source, first)), first)

@@ -1,0 +1,286 @@
+"""What `vtray.animate` takes, what stays the same in all pictures, and what ends in an error."""
+
+import gc
+import weakref
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import vtray
+from conftest import compiled_only
+from vtray.animation import output as outputs
+from vtray.base.errors import OutputError, RenderError, SceneError
+from vtray.base.extras import ExtraError
+
+SIZE = (12, 9)
+
+
+def ball(x: float = 0.0, **more: Any) -> vtray.Scene:
+    scene = vtray.Scene()
+    scene.add_spheres([(x, 0, 0)], 1.0, **{"color": "white", **more})
+    scene.camera = vtray.Camera.look_at((0, -6, 0), (0, 0, 0), up=(0, 0, 1), size=SIZE)
+    return scene
+
+
+def pixels(folder: Path) -> list[np.ndarray]:
+    return [np.asarray(Image.open(path)) for path in sorted(folder.glob("*.png"))]
+
+
+@compiled_only
+def test_what_pictures_are_made_of(tmp_path: Path) -> None:
+    called = []
+
+    def make(name: str) -> vtray.Scene:
+        called.append(name)
+        return ball(0.5 * len(name))
+
+    ways = {
+        "list": ([ball(0), ball(0.5), ball(1)], {}),
+        "one-by-one": ((ball(0.5 * k) for k in range(3)), {}),
+        "function": (make, {"frames": ["", "a", "bb"]}),
+        "some": ([ball(0), ball(7), ball(0.5), ball(7), ball(1)], {"frames": "::2"}),
+        "picked": ([ball(1), ball(0), ball(0.5)], {"frames": [1, 2, 0]}),
+    }
+    for name, (scenes, more) in ways.items():
+        vtray.animate(scenes, tmp_path / name / "%d.png", **more)
+    first, *others = [pixels(tmp_path / name) for name in ways]
+    assert len(first) == 3
+    for found in others:
+        assert all((a == b).all() for a, b in zip(first, found, strict=True))
+    assert called == ["", "a", "bb"]  # once each
+
+
+@compiled_only
+def test_exposure_is_that_of_the_first(tmp_path: Path) -> None:
+    def make(k: int) -> vtray.Scene:
+        scene = ball()
+        scene.lights = [vtray.Light((0, -9, 0), 1 / (1 + k))]
+        return scene
+
+    vtray.animate(make, tmp_path / "a" / "%d.png", frames=2)
+    bright, dark = (int(picture.max()) for picture in pixels(tmp_path / "a"))
+    assert (bright, dark) == (255, 127)
+    vtray.animate(make, tmp_path / "b" / "%d.png", frames=2, exposure="max")
+    assert [int(picture.max()) for picture in pixels(tmp_path / "b")] == [255, 255]
+
+
+@compiled_only
+def test_black_pictures_decide_no_exposure(tmp_path: Path) -> None:
+    def make(k: int) -> vtray.Scene:
+        scene = ball(50 if k == 0 else 0)
+        scene.lights = [vtray.Light((0, -9, 0))]
+        return scene
+
+    vtray.animate(make, tmp_path / "%d.png", frames=3)
+    assert [int(picture.max()) for picture in pixels(tmp_path)] == [0, 255, 255]
+
+
+@compiled_only
+def test_points_that_shine_keep_their_brightness(tmp_path: Path) -> None:
+    points = np.random.default_rng(1).normal(size=(40, 3))
+
+    def make(k: int) -> vtray.Scene:
+        scene = vtray.Scene()
+        scene.add_particles(points, emission=1.0 / (1 + k), stretch="linear")
+        scene.camera = vtray.Camera.look_at((0, -6, 0), (0, 0, 0), up=(0, 0, 1), size=SIZE)
+        return scene
+
+    vtray.animate(make, tmp_path / "%d.png", frames=2)
+    one, other = pixels(tmp_path)
+    assert one.max() == 255
+    assert 120 <= other.max() < 255
+
+
+@compiled_only
+def test_camera(tmp_path: Path) -> None:
+    scene, camera = ball(1), ball().camera
+    middle, away = camera.orbit(20, about=scene), camera.orbit(40, about=scene)
+    keys = {0: camera, 2: away}
+    vtray.animate(scene, tmp_path / "keys" / "%d.png", camera=keys)
+    found = pixels(tmp_path / "keys")
+    assert len(found) == 3
+    for picture, there in zip(found, (camera, middle, away), strict=True):
+        scene.camera = there
+        assert np.abs(vtray.render(scene).pixels.astype(int) - picture).max() <= 1
+    vtray.animate([scene], tmp_path / "one" / "%d.png", camera=camera)
+    vtray.animate(scene, tmp_path / "by" / "%d.png", camera=lambda k: camera, frames=1)
+    assert (pixels(tmp_path / "one")[0] == found[0]).all()
+    assert (pixels(tmp_path / "by")[0] == found[0]).all()
+    assert scene.camera == away  # it is not changed
+
+
+@compiled_only
+def test_particles_have_one_camera_and_one_scale(tmp_path: Path) -> None:
+    def frame(k: int) -> vtray.Particles:
+        return vtray.Particles([(3.0 * k, 0, 0), (0, 0, 1)], {"energy": [k, 0.5]}, time=k / 2)
+
+    how = {"color": "energy", "view": "front", "size": SIZE, "radii": 0.4}
+    frames = [frame(k) for k in range(3)]
+    vtray.animate(frames, tmp_path / "%d.png", **how)
+    scene = vtray.Scene()
+    scene.add_particles(frames[1], color="energy", clim=(0, 2), radii=0.4)
+    both = vtray.Scene()
+    for one in frames:
+        both.add_particles(one, radii=0.4)
+    scene.camera = vtray.Camera.fit(both, view="front", size=SIZE)
+    made = vtray.render(scene, samples=4, tolerance=0.02)
+    assert (pixels(tmp_path)[1] == made.pixels).all()
+
+
+@compiled_only
+def test_annotations(tmp_path: Path) -> None:
+    frames = [vtray.Particles([(0, 0, 0)], time=0.25 * k) for k in range(2)]
+    texts = {"title": "{frame}: {time:.2f}", "fontsize": 8}
+    how = {"size": (90, 40), "view": "front"}
+    vtray.animate(frames, tmp_path / "%d.png", annotate=texts, **how)
+    one, other = pixels(tmp_path)
+    assert (one != other).any()
+    with pytest.raises(OutputError, match=r"title: expected \{frame\} and \{time\} alone"):
+        vtray.animate(frames, tmp_path / "b%d.png", annotate={"title": "{x}"}, **how)
+    with pytest.raises(OutputError, match="time: the data do not say the time of a picture"):
+        vtray.animate([ball()], tmp_path / "c%d.png", annotate={"time": True})
+
+
+@compiled_only
+def test_memory_does_not_grow(tmp_path: Path) -> None:
+    alive: weakref.WeakSet[Any] = weakref.WeakSet()
+    most = []
+
+    class Marker:
+        """What can be watched."""
+
+    def scenes() -> Iterator[vtray.Scene]:
+        for k in range(300):
+            scene = ball(k / 300)
+            scene.__dict__["marker"] = marker = Marker()
+            alive.add(marker)
+            del marker
+            gc.collect()  # fast, as what was there before is left out
+            most.append(len(alive))
+            yield scene
+
+    gc.freeze()
+    try:
+        vtray.animate(scenes(), tmp_path / "a.gif", size=(4, 3), threads=1)
+    finally:
+        gc.unfreeze()
+    assert len(most) == 300
+    assert max(most) <= 5
+    assert most[-1] <= most[20]
+
+
+ERRORS = [
+    ({"path": "a.avi"}, OutputError, r"a.avi: is no movie by its name; expected .mp4, .gif, .webp"),
+    ({"path": "no/a.gif"}, OutputError, r"no/a.gif: there is no folder"),
+    ({"path": "%d-%d.png"}, OutputError, "expected one number such as %04d in the name"),
+    ({"path": "%d.bmp"}, OutputError, 'cannot write ".bmp" files; the formats are'),
+    ({"path": "no/no/%d.png"}, OutputError, "the folder no/no cannot be made: no such file"),
+    ({"fps": 0}, SceneError, "fps: expected a number > 0, got 0"),
+    ({"fps": "fast"}, SceneError, "fps: expected a number > 0, got 'fast'"),
+    ({"fps": 60}, OutputError, "a.gif: fps: expected at most 50 for this format, got 60"),
+    ({"bits": 16}, OutputError, "a.gif: bits 16: movies have 8 bits and colours alone"),
+    ({"aov": ["depth"]}, OutputError, "a.gif: aov: movies have 8 bits and colours alone"),
+    ({"background": "transparent"}, OutputError, "a.gif: background: this format cannot be trans"),
+    ({"samples": 0}, SceneError, "samples: "),
+    ({"color": "x"}, TypeError, r"animate\(\) argument 'color' is for particles, or unknown"),
+    ({"trajectory": "x"}, SceneError, "trajectory: expected the name of a trajectory beside it"),
+    ({"scenes": []}, SceneError, "frames: expected at least one picture, got none"),
+    ({"scenes": iter([])}, SceneError, "scenes: expected at least one picture, got none"),
+    ({"scenes": 7}, SceneError, "scenes: expected scenes, a function that makes them, or the name"),
+    ({"scenes": ball}, SceneError, "frames: expected how many pictures a function makes"),
+    ({"scenes": ball()}, SceneError, "frames: expected how many pictures of the scene there are"),
+    ({"scenes": iter([ball()]), "frames": "::2"}, SceneError, "expected None where scenes come on"),
+    ({"frames": "a:b"}, SceneError, "frames: expected START:STOP:STEP such as 0:500:5"),
+    ({"frames": "5:"}, SceneError, "frames 5:: there are 2 frames, none of which is among these"),
+    ({"camera": 7}, SceneError, "camera: expected a Camera, cameras by the numbers of pictures"),
+    ({"camera": {}}, SceneError, "camera: expected cameras by the numbers of pictures, got none"),
+    ({"camera": {-1: ball().camera}}, SceneError, "expected numbers of pictures from 0, got -1"),
+    ({"camera": {0: 1}}, SceneError, r"camera\[0\]: expected a Camera, got 1"),
+    ({"camera": lambda k: k}, SceneError, "camera: expected a Camera for picture 0, got 0"),
+    ({"scenes": "no.xyz"}, SceneError, "no.xyz: no such file; expected a file of data"),
+    ({"scenes": [ball(), 3]}, SceneError, "scenes: expected a Scene for picture 1, got 3"),
+]
+
+
+@compiled_only
+@pytest.mark.parametrize(("wrong", "kind", "message"), ERRORS)
+def test_errors(
+    wrong: dict[str, Any],
+    kind: type[Exception],
+    message: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    given: dict[str, Any] = {"scenes": [ball(), ball(1)], "path": "a.gif", **wrong}
+    with pytest.raises(kind, match=message) as error:
+        vtray.animate(given.pop("scenes"), given.pop("path"), **given)
+    assert "\n" not in str(error.value)
+
+
+@compiled_only
+def test_pictures_of_one_size(tmp_path: Path) -> None:
+    other = ball()
+    other.camera = other.camera.resized((6, 9))
+    words = "expected pictures of 12 x 9 pixels as the first, got 6 x 9; give a size for all"
+    with pytest.raises(OutputError, match=words) as error:
+        vtray.animate([ball(), other], tmp_path / "a.gif")
+    assert "a.gif: 1 picture done" in error.value.__notes__[0]
+    vtray.animate([ball(), other], tmp_path / "b.gif", size=(8, 6))
+    vtray.animate([ball(), other], tmp_path / "%d.png")  # where sizes may differ
+
+
+def test_without_ffmpeg(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(__import__("sys").modules, "imageio_ffmpeg", None)
+    with pytest.raises(ExtraError, match=r"a.mp4: writing .mp4 needs imageio_ffmpeg, which is "):
+        vtray.animate([ball()], tmp_path / "a.mp4")
+    assert not [*tmp_path.iterdir()]
+
+
+@compiled_only
+def test_ffmpeg_that_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("imageio_ffmpeg")
+    monkeypatch.setattr("vtray.animation.mp4_file.QUALITY", "bad")
+    with pytest.raises(OutputError, match="ffmpeg cannot write it: "):
+        vtray.animate([ball(), ball()], tmp_path / "a.mp4")
+    assert not (tmp_path / "a.mp4").exists()
+
+
+@compiled_only
+def test_render_errors_are_passed_on(tmp_path: Path) -> None:
+    dark = ball()
+    dark.lights = [vtray.Light((0, 0, 9), 1e306)]
+    with pytest.raises(RenderError, match="the intensities add up to"):
+        vtray.animate([ball(), dark], tmp_path / "a.gif")
+
+
+@compiled_only
+def test_progress_and_warnings(tmp_path: Path) -> None:
+    seen, warned = [], []
+    dark = ball()
+    dark.lights = []
+    vtray.animate(
+        [dark] * 3,
+        tmp_path / "a.gif",
+        progress=lambda *step: seen.append(step),
+        warn=warned.append,
+    )
+    assert seen == [("frames", k, 3) for k in range(4)]
+    assert len(warned) == 1
+
+
+@compiled_only
+def test_progress_bar(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    vtray.animate([ball()], tmp_path / "a.gif", progress=True)
+    assert "frames: 100%" in capfd.readouterr().err
+
+
+def test_kinds_of_names() -> None:
+    assert outputs.is_movie(Path("a.MP4"))
+    assert outputs.is_movie(Path("%04d.tif"))
+    assert not outputs.is_movie(Path("%04d/a.png"))
+    assert outputs.Output(Path("f/a%03d.png")).name(7) == Path("f/a007.png")
