@@ -44,7 +44,6 @@ def test_pictures_are_those_of_a_camera_that_orbits(tmp_path: Path) -> None:
         assert (vtray.render(scene, samples=2).pixels == picture).all()
 
 
-@compiled_only
 @pytest.mark.parametrize("lights", ["turn", "still"])
 def test_lights_go_with_the_camera(lights: str, tmp_path: Path) -> None:
     scene = vtray.Scene()
@@ -129,7 +128,7 @@ def test_cameras_go_around_what_is_upright() -> None:
     leaning = vtray.Camera.look_at((0, -9, 2), (0, 0, 0), up=(1, 0, 3))
     assert axis(leaning) == (1, 0, 3)
     turned = vtray.Camera.fit(scene, direction=(1, 1, -1), up=(1, 2, 4))
-    assert axis(turned) == pytest.approx(np.array([1, 2, 4]) / 21**0.5)
+    assert axis(turned) == (1, 2, 4)
     tilted = vtray.Camera.fit(scene, direction=(3, 4, 0), up=(-4, 3, 5), size=(8, 6))
     assert axis(tilted) == pytest.approx(np.array([-4, 3, 5]) / 50**0.5)
     lower = (-4 / 50**0.5 - 0.6) / 2**0.5
