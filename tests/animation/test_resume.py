@@ -79,6 +79,15 @@ def test_numbered_pictures_go_on_too(tmp_path: Path) -> None:
     vtray.animate(make, path, frames=2, resume=True)  # nothing is left to go on from
 
 
+def test_pictures_of_a_run_before_do_not_count(tmp_path: Path) -> None:
+    path = tmp_path / "made" / "%d.png"
+    vtray.animate(lambda k: make(k, dark=True), path, frames=COUNT)
+    with pytest.raises(ZeroDivisionError):
+        vtray.animate(failing, path, frames=COUNT)
+    vtray.animate(make, path, frames=COUNT, resume=True)
+    assert contents(path.parent) == in_one_go(tmp_path / "whole", "%d.png")
+
+
 def test_nothing_to_go_on_from(tmp_path: Path) -> None:
     vtray.animate(make, tmp_path / "movie.gif", frames=COUNT, resume=True)
     assert contents(tmp_path) == in_one_go(tmp_path / "whole", "movie.gif")

@@ -248,7 +248,7 @@ def _write(film: Film, feed: Feed, image: Image, shot: Shot, k: int) -> None:
         image.annotated(**keywords).save(path)
     else:
         image.save(path, bits=film.bits, aov=film.aov)
-    film.done.count = k + 1
+    film.done.add()
     feed.add(path)
 
 
