@@ -63,7 +63,7 @@ def make_movie(
     if not options.quiet and sys.stderr.isatty():
         from vtray.commands.progress import ProgressBar
 
-        film.progress = progress = ProgressBar()
+        film.progress = progress = ProgressBar("frame")
 
     def tell() -> None:
         """Say how another run goes on, where this one ends."""
