@@ -56,7 +56,6 @@ def in_one_go(folder: Path, name: str) -> dict[str, bytes]:
     return contents(folder)
 
 
-@compiled_only
 def test_goes_on_to_the_same_bytes(ended: Path) -> None:
     made = []
 
@@ -69,7 +68,6 @@ def test_goes_on_to_the_same_bytes(ended: Path) -> None:
     assert contents(ended.parent) == in_one_go(ended.parent / "whole", "movie.gif")
 
 
-@compiled_only
 def test_numbered_pictures_go_on_too(tmp_path: Path) -> None:
     path = tmp_path / "made" / "%d.png"
     with pytest.raises(ZeroDivisionError):
@@ -81,7 +79,15 @@ def test_numbered_pictures_go_on_too(tmp_path: Path) -> None:
     vtray.animate(make, path, frames=2, resume=True)  # nothing is left to go on from
 
 
-@compiled_only
+def test_pictures_of_a_run_before_do_not_count(tmp_path: Path) -> None:
+    path = tmp_path / "made" / "%d.png"
+    vtray.animate(lambda k: make(k, dark=True), path, frames=COUNT)
+    with pytest.raises(ZeroDivisionError):
+        vtray.animate(failing, path, frames=COUNT)
+    vtray.animate(make, path, frames=COUNT, resume=True)
+    assert contents(path.parent) == in_one_go(tmp_path / "whole", "%d.png")
+
+
 def test_nothing_to_go_on_from(tmp_path: Path) -> None:
     vtray.animate(make, tmp_path / "movie.gif", frames=COUNT, resume=True)
     assert contents(tmp_path) == in_one_go(tmp_path / "whole", "movie.gif")
@@ -98,7 +104,6 @@ WRONG = [
 ]
 
 
-@compiled_only
 @pytest.mark.parametrize(("more", "message"), WRONG)
 def test_other_movies(more: dict[str, object], message: str, ended: Path) -> None:
     before = contents(ended.parent / ENDED)
@@ -110,7 +115,6 @@ def test_other_movies(more: dict[str, object], message: str, ended: Path) -> Non
     assert after == before
 
 
-@compiled_only
 def test_folders_that_are_not_ours(ended: Path) -> None:
     record = ended.parent / ENDED / "movie.json"
     told = json.loads(record.read_text())
@@ -127,21 +131,18 @@ def test_folders_that_are_not_ours(ended: Path) -> None:
     vtray.animate(make, ended, frames=COUNT)
 
 
-@compiled_only
 def test_damaged_picture(ended: Path) -> None:
     (ended.parent / ENDED / "000002.png").write_bytes(b"")
     with pytest.raises(OutputError, match=r"000002.png: .*; remove it to go on"):
         vtray.animate(make, ended, frames=COUNT, resume=True)
 
 
-@compiled_only
 def test_what_else_is_in_the_folder_stays(ended: Path) -> None:
     (ended.parent / ENDED / "notes.txt").write_text("mine")
     vtray.animate(make, ended, frames=COUNT, resume=True)
     assert contents(ended.parent / ENDED) == {"notes.txt": b"mine"}
 
 
-@compiled_only
 def test_ctrl_c_in_python(tmp_path: Path) -> None:
     def scenes() -> Iterator[vtray.Scene]:
         yield make(0)
@@ -159,8 +160,8 @@ def test_ctrl_c_in_python(tmp_path: Path) -> None:
 FRAME = "2\n\nC {} 0 0\nO 1 {} 2\n"
 
 
-@compiled_only
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
+@compiled_only
 def test_ctrl_c_of_the_command(tmp_path: Path) -> None:
     pytest.importorskip("imageio_ffmpeg")
     count = 60

@@ -81,7 +81,7 @@ def test_wrong_usage(
     ("output", "message"),
     [
         ("scene.json", 'cannot write ".json" files; the formats are .png'),
-        ("picture.gif", 'cannot write ".gif" files; the formats are .png'),
+        ("picture.bmp", 'cannot write ".bmp" files; the formats are .png'),
         ("missing/picture.png", "there is no folder"),
         (".", "is a folder; give the name of a file"),
     ],

@@ -10,7 +10,7 @@ from vtray.animation.output import Output
 from vtray.animation.particle_scenes import ParticleScenes, drawing, looked_at
 from vtray.animation.shooting import Film, Progress, Shot, Warn, shoot
 from vtray.animation.sources import READING, Source, first_of, source_of
-from vtray.animation.swept import fit_around
+from vtray.animation.swept import fit_around, upright
 from vtray.animation.turned_lights import turned_light
 from vtray.base.errors import SceneError
 from vtray.scene.camera import Camera
@@ -165,8 +165,9 @@ def turntable(
 ) -> Path:
     """Render a movie for which the camera goes around a scene.
 
-    It goes about the middle of all objects, around the camera's `up`, to its right. After a whole
-    turn, the movie goes on with its first picture.
+    It goes about the middle of all objects, to its right, around the axis of the world that is
+    upright in the picture, or around the camera's `up`. After a whole turn, the movie goes on with
+    its first picture.
 
     Parameters
     ----------
@@ -216,7 +217,7 @@ def camera_around(scene: Scene) -> tuple[Camera, Vector]:
     if _is_none(scene.camera):
         return fit_around(scene, Camera.fit(scene, view=USUAL))
     x, y, z = map(float, middle_of(balls_of(scene, "turntable")))
-    return scene.camera, Vector(x, y, z)
+    return upright(scene.camera), Vector(x, y, z)
 
 
 def go_around(

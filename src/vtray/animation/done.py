@@ -6,6 +6,7 @@ makes the scene of the last of them again, whose hash it must have.
 
 import contextlib
 import shutil
+import threading
 from pathlib import Path
 from typing import Any
 
@@ -36,12 +37,15 @@ class Record(msgspec.Struct, forbid_unknown_fields=True):
         The version of vtray.
     marks
         What is painted on all pictures, as text.
+    count
+        How many are done: further numbered pictures may be those of a run before.
     white
         The light that becomes white in all pictures, once that is known.
     """
 
     version: str
     marks: str
+    count: int = 0
     white: float | None = None
 
 
@@ -73,9 +77,10 @@ class Done:
         self.output = output
         self.count = 0
         self._record = Record(__version__, marks)
+        self._lock = threading.Lock()
         kept = self._kept()
         if kept is not None:
-            while output.name(self.count).is_file():
+            while self.count < kept.count and output.name(self.count).is_file():
                 self.count += 1
         if kept is not None and self.count and not resume:
             words = f"holds {self.told()} that an earlier run has done"
@@ -99,8 +104,16 @@ class Done:
 
     @white.setter
     def white(self, value: float) -> None:
-        self._record.white = value
-        self._write()
+        with self._lock:
+            self._record.white = value
+            self._write()
+
+    def add(self) -> None:
+        """Say that one more is done."""
+        with self._lock:
+            self.count += 1
+            self._record.count = self.count
+            self._write()
 
     def told(self) -> str:
         """Say how many there are."""

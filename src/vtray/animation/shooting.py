@@ -197,7 +197,7 @@ class _Stage:
         lock = None if white is None else Exposed(white)
         image = render(scene, film.threads, lock=lock, warn=self._warn, **film.settings)
         if holds and lock is None and image.white > 0:
-            film.done.white = image.white
+            film.done.white = float(image.white)
         self._check_size(image)
         return image
 
@@ -248,7 +248,7 @@ def _write(film: Film, feed: Feed, image: Image, shot: Shot, k: int) -> None:
         image.annotated(**keywords).save(path)
     else:
         image.save(path, bits=film.bits, aov=film.aov)
-    film.done.count = k + 1
+    film.done.add()
     feed.add(path)
 
 

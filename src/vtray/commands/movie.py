@@ -10,7 +10,7 @@ from vtray.animation.output import Output
 from vtray.animation.particle_scenes import Objects, ParticleScenes, looked_at
 from vtray.animation.shooting import Film, Shot
 from vtray.animation.sources import first_of, source_of
-from vtray.animation.swept import fit_around
+from vtray.animation.swept import fit_around, upright
 from vtray.base.errors import printable
 from vtray.base.signals import LastStep
 from vtray.commands import data_options
@@ -22,6 +22,7 @@ from vtray.commands.options import settings_of
 from vtray.scene.camera import Camera
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.view import SIZE, VIEW, camera_of
+from vtray.scene.placing.views import TILT
 
 if TYPE_CHECKING:
     from vtray.scene.scene import Scene
@@ -62,7 +63,7 @@ def make_movie(
     if not options.quiet and sys.stderr.isatty():
         from vtray.commands.progress import ProgressBar
 
-        film.progress = progress = ProgressBar()
+        film.progress = progress = ProgressBar("frame")
 
     def tell() -> None:
         """Say how another run goes on, where this one ends."""
@@ -93,7 +94,7 @@ def _make(options: argparse.Namespace, film: Film, load: "Callable[[], Scene] | 
         particles = read_particles(options)
         scene, _, marks = draw_data(options, particles)
         zoom = data_options.given(options).get("zoom", 1.0)
-        camera, about = fit_around(scene, scene.camera, zoom)
+        camera, about = fit_around(scene, upright(scene.camera, TILT), zoom)
         shot = Shot(scene, camera, None, particles.frame, particles.time, marks)
         go_around(film, scene, camera, about, seconds, shot=shot)
 

@@ -13,9 +13,16 @@ DELAY_SECONDS = 1.0
 
 
 class ProgressBar:
-    """Shows on stderr what is being done; call it as `vtray.render` calls its `progress`."""
+    """Shows on stderr what is being done; call it as `vtray.render` calls its `progress`.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    unit
+        What is counted.
+    """
+
+    def __init__(self, unit: str = "task") -> None:
+        self._unit = unit
         self._start = time.perf_counter()
         self._step = ""
         self._bar: Any = None
@@ -29,7 +36,7 @@ class ProgressBar:
             from tqdm import tqdm
 
             self._bar = tqdm(
-                desc=step, total=total, initial=done, unit="task", file=sys.stderr, leave=False
+                desc=step, total=total, initial=done, unit=self._unit, file=sys.stderr, leave=False
             )
         if self._bar is not None:
             self._bar.update(done - self._bar.n)
