@@ -345,8 +345,9 @@ def test_atoms_have_positions() -> None:
         (Atoms(), "give its attribute positions"),
         (type("Molecule", (), {"get_positions": 1})(), "give what its get_positions() returns"),
     ):
-        with pytest.raises(SceneError, match=f"positions: .*; {re.escape(remedy)}$"):
-            vtray.Camera.fit(things)
+        with pytest.raises(SceneError, match=f"center: .*; {re.escape(remedy)}$"):
+            vtray.Spheres(things, 1, (0, 0, 0), 1)
+    assert vtray.Camera.fit(Atoms()) == vtray.Camera.fit(Atoms.positions)
 
 
 def test_names_that_pillow_has_looked_up() -> None:

@@ -1,5 +1,6 @@
 """How a picture of particles is taken, unless it is said otherwise."""
 
+import math
 from typing import TYPE_CHECKING, Any
 
 from vtray.scene.camera import Camera
@@ -82,8 +83,9 @@ def _tolerance(camera: Camera, spheres: "Spheres") -> float:
 
     if not len(spheres.center):
         return COARSEST
-    middle = spheres.center.mean(axis=0)
-    steps = camera.project(middle + np.median(spheres.radius) * np.eye(3)) - camera.project(middle)
+    middle = 0.5 * (spheres.center.min(axis=0) + spheres.center.max(axis=0))
+    radius = np.sort(np.atleast_1d(spheres.radius))[np.size(spheres.radius) // 2]
+    steps = camera.project(middle + radius * np.eye(3)) - camera.project(middle)
     # Three steps at right angles are together seen as long as two that are not foreshortened.
-    pixels = np.sqrt(np.square(steps[:, :2]).sum() / 2)
-    return float(np.clip(NO_GRAIN / pixels, FINEST, COARSEST)) if pixels > 0 else COARSEST
+    pixels = math.sqrt(sum(part * part for part in steps[:, :2].ravel().tolist()) / 2)
+    return min(max(NO_GRAIN / pixels, FINEST), COARSEST) if pixels > 0 else COARSEST
