@@ -199,11 +199,15 @@ def _one(color: str, particles: "Particles") -> Rgb:
     try:
         return to_rgb(color, "color")
     except SceneError:
-        known = [*POSITION, *particles.columns]
-        close = nearest(color, known, cutoff=0.6)
-        hint = f"; did you mean {close}?" if close else f"; the columns are {', '.join(known)}"
         words = f"expected a colour or the name of a column, got {show(color)}"
-        raise SceneError(f"color: {words}{hint}") from None
+        raise SceneError(f"color: {words}; {columns_like(color, particles)}") from None
+
+
+def columns_like(name: str, particles: "Particles") -> str:
+    """Say which column may be meant by a name that none has, or which there are."""
+    known = [*POSITION, *particles.columns]
+    close = nearest(name, known, cutoff=0.6)
+    return f"did you mean {close}?" if close else f"the columns are {', '.join(known)}"
 
 
 def _rgb(row: Bytes) -> Rgb:

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
-from vtray.scene.checks.scene_words import nearest, show
-from vtray.scene.particles.coloring import Coloring
+from vtray.scene.checks.scene_words import show
+from vtray.scene.particles.coloring import Coloring, columns_like
 from vtray.scene.particles.particles import POSITION
 from vtray.scene.stars import Stars
 
@@ -84,11 +84,8 @@ def shining(
     given = emission
     if isinstance(emission, str):
         if emission not in particles.columns and emission not in POSITION:
-            known = [*POSITION, *particles.columns]
-            close = nearest(emission, known, cutoff=0.6)
-            hint = f"; did you mean {close}?" if close else f"; the columns are {', '.join(known)}"
             words = f"expected a number or the name of a column, got {show(emission)}"
-            raise SceneError(f"emission: {words}{hint}")
+            raise SceneError(f"emission: {words}; {columns_like(emission, particles)}")
         given = particles[emission]
     # All are checked, so that a message has the number of the particle.
     values = {"center": particles.positions, "emission": given, "color": (0, 0, 0), **stretched}
