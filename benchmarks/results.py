@@ -7,6 +7,7 @@ from pathlib import Path
 import msgspec
 
 from measures.from_arrays import ArraysRow
+from measures.movies import MovieRow
 from measures.own_scenes import ByThreads
 from measures.rendering import Row
 from measures.soft_light import SoftLight
@@ -45,6 +46,8 @@ class Results:
         For a ball-and-stick model without and with bonds, vtray's times for numbers of threads.
     copies
         As `bonds`, for spheres at one place and at many.
+    movies
+        For each movie, what a frame takes.
     """
 
     machine: dict[str, str]
@@ -60,6 +63,7 @@ class Results:
     arrays: dict[str, list[ArraysRow]] = field(default_factory=dict)
     bonds: dict[str, ByThreads] = field(default_factory=dict)
     copies: dict[str, ByThreads] = field(default_factory=dict)
+    movies: dict[str, list[MovieRow]] = field(default_factory=dict)
 
 
 def save_results(results: Results, path: Path) -> None:

@@ -21,6 +21,7 @@ from measures.bonds import time_bonds
 from measures.copies import time_copies
 from measures.from_arrays import time_arrays
 from measures.machine import cores, machine
+from measures.movies import time_movies
 from measures.rendering import THREADS, time_cube, time_scene, time_threads
 from measures.soft_light import FULL, QUICK, measure_soft_light
 from peers.programs import CUBE_PEERS
@@ -39,13 +40,15 @@ WRITTEN = {ROOT / "docs" / "benchmarks.md": full_report, ROOT / "README.md": rea
 """The pages with tables, and what writes them."""
 PARTS = (
     *("startup", *SCENES, "threads", "cube", "samples"),
-    *("soft-light", "bonds", "copies", "arrays", "scaling"),
+    *("soft-light", "bonds", "copies", "movies", "arrays", "scaling"),
 )
 REPEATS, QUICK_REPEATS = 5, 2
 QUICK_SIDE = 256
 CUBE, QUICK_CUBE = 1_000_000, 10_000
 ATOMS, QUICK_ATOMS = 100_000, 1_000
 COPIED, QUICK_COPIED = 100_000, 1_000
+MOVING, QUICK_MOVING = 100_000, 1_000
+FRAMES, QUICK_FRAMES = 200, 8
 COUNTS, QUICK_COUNTS = (10_000, 100_000, 1_000_000, 10_000_000), (1_000, 10_000)
 SCALING_REPEATS = SOFT_REPEATS = 3
 
@@ -116,6 +119,7 @@ def measure(folder: Path, parts: list[str], *, quick: bool) -> Results:
         sizes = QUICK if quick else FULL
         results.soft_light = measure_soft_light(sizes, THREADS, folder, times)
     _measure_own_scenes(results, folder, parts, quick=quick)
+    _measure_movies(results, folder, parts, quick=quick)
     if "arrays" in parts:
         title = f"{spheres:,} spheres in a cube, 1 light, {side} x {side}"
         _say(f"from arrays: {title}")
@@ -139,6 +143,19 @@ def _measure_own_scenes(results: Results, folder: Path, parts: list[str], *, qui
         _say("copies")
         copied = QUICK_COPIED if quick else COPIED
         results.copies = time_copies(copied, THREADS, folder, results.repeats)
+
+
+def _measure_movies(results: Results, folder: Path, parts: list[str], *, quick: bool) -> None:
+    """Measure movies, if they are among the parts."""
+    if "movies" not in parts:
+        return
+    balls, frames, side = (
+        (QUICK_MOVING, QUICK_FRAMES, QUICK_SIDE) if quick else (MOVING, FRAMES, SIDE)
+    )
+    title = f"{balls:,} balls that move, {side} x {side}"
+    _say(f"a movie: {title}")
+    times = min(results.repeats, SCALING_REPEATS)
+    results.movies[title] = time_movies(balls, frames, side, folder, times)
 
 
 def _time_threads(scene: Path, repeats: int) -> dict[int, Timing]:

@@ -20,12 +20,13 @@ settings.register_profile(
     "vtray",
     derandomize=True,
     deadline=None,
-    max_examples=300 if JIT else 40,
+    max_examples=150 if JIT else 30,
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("vtray")
 
 compiled_only = pytest.mark.skipif(not JIT, reason="needs the compiler")
+once = pytest.mark.skipif(not JIT, reason="finds and reaches nothing more without the compiler")
 x86_only = pytest.mark.skipif(
     platform.machine() not in {"x86_64", "AMD64"}, reason="looks for instructions of x86-64"
 )

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from measures.from_arrays import ArraysRow
 from measures.rendering import THREADS, Row
 from peers.programs import CUBE_PEERS, PEERS
-from report import arrays_tables, samples_tables
+from report import arrays_tables, movies_tables, samples_tables
 from report.arrays_tables import arrays_table
 from report.cube_tables import (
     cube_table,
@@ -14,6 +14,7 @@ from report.cube_tables import (
     own_timing,
     programs_table,
 )
+from report.movies_tables import movies_table
 from report.own_scenes_tables import BONDS_NOTE, COPIES_NOTE, own_scenes_table
 from report.samples_tables import samples_table
 from report.soft_light_tables import soft_light_parts
@@ -45,6 +46,8 @@ def full_report(results: Results) -> str:
     if results.cube:
         parts += ["## A cube of many spheres", cube_table(results.cube), _cube_conditions()]
     parts += _own_scenes(results)
+    if results.movies:
+        parts += ["## Movies", movies_table(results.movies), movies_tables.NOTE]
     if results.arrays:
         parts += ["## From arrays to a PNG", arrays_table(results.arrays), arrays_tables.NOTE]
     if results.scaling:

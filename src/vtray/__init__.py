@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from vtray.image.provenance import Provenance, read_provenance
     from vtray.rendering.pixel_rays import trace_pixel
     from vtray.rendering.renderer import render
+    from vtray.scene.clip import ClipPlane, Slice
     from vtray.scene.colors.color_scale import ColorScale
     from vtray.scene.cones import Cones
     from vtray.scene.copies import Copies
@@ -48,10 +49,12 @@ if TYPE_CHECKING:
     from vtray.scene.settings import RenderSettings
     from vtray.scene.spheres import Spheres
     from vtray.scene.stars import Stars
+    from vtray.scene.style import EyeDome, Fog, Outline, Style
 
 __all__ = [
     "Ambient",
     "Camera",
+    "ClipPlane",
     "Color",
     "ColorScale",
     "Cone",
@@ -60,9 +63,12 @@ __all__ = [
     "Cylinder",
     "Cylinders",
     "Direction",
+    "EyeDome",
+    "Fog",
     "Gradient",
     "Image",
     "Light",
+    "Outline",
     "OutputError",
     "Particles",
     "Plane",
@@ -74,10 +80,12 @@ __all__ = [
     "Scene",
     "SceneError",
     "Sky",
+    "Slice",
     "Sphere",
     "SphereLight",
     "Spheres",
     "Stars",
+    "Style",
     "Sun",
     "Vector",
     "VtrayError",
@@ -104,6 +112,7 @@ __all__ = [
 _MODULES = {
     "Ambient": "scene.light_types",
     "Camera": "scene.camera",
+    "ClipPlane": "scene.clip",
     "Color": "scene.vectors",
     "ColorScale": "scene.colors.color_scale",
     "Cone": "scene.objects",
@@ -112,9 +121,12 @@ _MODULES = {
     "Cylinder": "scene.objects",
     "Cylinders": "scene.cylinders",
     "Direction": "scene.vectors",
+    "EyeDome": "scene.style",
+    "Fog": "scene.style",
     "Gradient": "scene.sky_types",
     "Image": "image.image",
     "Light": "scene.light_types",
+    "Outline": "scene.style",
     "OutputError": "base.errors",
     "Particles": "scene.particles.particles",
     "Plane": "scene.objects",
@@ -126,10 +138,12 @@ _MODULES = {
     "Scene": "scene.scene",
     "SceneError": "base.errors",
     "Sky": "scene.light_types",
+    "Slice": "scene.clip",
     "Sphere": "scene.objects",
     "SphereLight": "scene.light_types",
     "Spheres": "scene.spheres",
     "Stars": "scene.stars",
+    "Style": "scene.style",
     "Sun": "scene.light_types",
     "Vector": "scene.vectors",
     "VtrayError": "base.errors",

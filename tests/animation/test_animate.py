@@ -13,6 +13,8 @@ from PIL import Image
 import vtray
 from conftest import compiled_only
 from vtray.animation import output as outputs
+from vtray.animation.particle_scenes import Drawing, ParticleScenes, looked_at
+from vtray.animation.sources import source_of
 from vtray.base.errors import OutputError, RenderError, SceneError
 from vtray.base.extras import ExtraError
 
@@ -275,3 +277,34 @@ def test_kinds_of_names() -> None:
     assert outputs.is_movie(Path("%04d.tif"))
     assert not outputs.is_movie(Path("%04d/a.png"))
     assert outputs.Output(Path("f/a%03d.png")).name(7) == Path("f/a007.png")
+
+
+def test_categories_keep_their_colors() -> None:
+    kinds = [[1, 2], *[[4, 2]] * 6, [5, 4], *[[4, 4]] * 12]
+    frames = [vtray.Particles([(0, 0, 0), (1, 0, 0)], {"type": types}) for types in kinds]
+    drawing = Drawing({}, (8, 6), None)
+    scenes = ParticleScenes(drawing.draw, drawing.fit, looked_at(source_of(frames), frames[0]))
+    assert scenes.fixed == {"categories": [1, 2, 4]}  # 5 is in none of those that are looked at
+    colors = [scenes(frame, 0).scene.objects[0].color.tolist() for frame in frames]
+    assert colors[0] == [[0, 114, 178], [230, 159, 0]]
+    assert colors[1] == [[0, 158, 115], [230, 159, 0]]
+    assert colors[7][1] == colors[-1][0] == [0, 158, 115]
+    assert colors[7][0] not in (*colors[0], *colors[1])
+
+
+def test_slow_files_are_read_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    ase = pytest.importorskip("ase")
+    path = tmp_path / "run.traj"
+    pytest.importorskip("ase.io").write(path, [ase.Atoms("C", [(k, 0, 0)]) for k in range(5)])
+    made = []
+    monkeypatch.setattr(
+        "vtray.scene.readers.ase_file.from_ase",
+        lambda atoms: made.append(atoms) or vtray.from_ase(atoms),
+    )
+    vtray.animate(path, tmp_path / "%d.png", size=(8, 6), samples=1, exposure=1)
+    assert len(made) == 5
+    assert len([*tmp_path.glob("*.png")]) == 5
+    with pytest.raises(SceneError, match=r"run.traj: frame 9: there are 5 frames"):
+        vtray.animate(path, tmp_path / "a%d.png", frames=[0, 9])
+    with pytest.raises(SceneError, match=r"^.*run.traj: frames 7:: there are 5 frames, none of"):
+        vtray.animate(path, tmp_path / "b%d.png", frames="7:")

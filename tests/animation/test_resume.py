@@ -68,6 +68,22 @@ def test_goes_on_to_the_same_bytes(ended: Path) -> None:
     assert contents(ended.parent) == in_one_go(ended.parent / "whole", "movie.gif")
 
 
+def test_later_pictures_that_are_done_stay(ended: Path) -> None:
+    whole = in_one_go(ended.parent / "whole", "%d.png")
+    folder = ended.parent / ENDED
+    folder.joinpath("000004.png").write_bytes(whole["4.png"])
+    record = folder / "movie.json"
+    record.write_text(json.dumps({**json.loads(record.read_text()), "further": [4, 5]}))
+    with pytest.raises(OutputError, match="holds 4 pictures that an earlier run has done"):
+        vtray.animate(make, ended, frames=COUNT)
+    told = []
+    vtray.animate(
+        make, ended, frames=COUNT, resume=True, progress=lambda _, done, total: told.append(done)
+    )
+    assert told == [4, 5, 6]
+    assert ended.read_bytes() == in_one_go(ended.parent / "again", "movie.gif")["movie.gif"]
+
+
 def test_numbered_pictures_go_on_too(tmp_path: Path) -> None:
     path = tmp_path / "made" / "%d.png"
     with pytest.raises(ZeroDivisionError):
@@ -164,7 +180,7 @@ FRAME = "2\n\nC {} 0 0\nO 1 {} 2\n"
 @compiled_only
 def test_ctrl_c_of_the_command(tmp_path: Path) -> None:
     pytest.importorskip("imageio_ffmpeg")
-    count = 60
+    count = 30
     data = tmp_path / "run.xyz"
     data.write_text("".join(FRAME.format(k / count, k / count) for k in range(count)))
     vtray_command = Path(sys.executable).with_name("vtray")

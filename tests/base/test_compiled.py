@@ -11,28 +11,36 @@ import threading
 from pathlib import Path
 
 import pytest
-from examples import one_sphere
 
 from conftest import compiled_only
 from vtray.base.compiler import compiled, kernel_folder
 
 pytestmark = compiled_only
 
-# Of all kernels that call others of several modules, this one compiles the fastest.
-SCRIPT = """
-import vtray
+# The kernel that compiles the fastest.
+EXPOSE = """
+import numpy as np
 from vtray.base.compiler.compiled import loading_seconds
-tree = vtray.trace_pixel(vtray.loads({document!r}), 32, 24)
-assert tree.light[0] > 0
+from vtray.image.exposure import develop
+pixels = develop(np.full((2, 3, 3), 0.5), 1.0, "black", lambda: None)
+assert (pixels == 127).all()
+print(loading_seconds())
+"""
+
+# One that calls functions of other modules.
+MEASURE = """
+import numpy as np
+from vtray.base.compiler.compiled import loading_seconds
+from vtray.geometry.bvh.nodes import find_extent
+assert find_extent(np.ones((6, 2)), 2).low == (1, 1, 1)
 print(loading_seconds())
 """
 
 
-def start(package: Path | None, **environment: str) -> "subprocess.Popen[str]":
-    """Start a process that traces a lit pixel and prints the seconds of compiling."""
-    import json
-
-    script = SCRIPT.format(document=json.dumps(one_sphere()))
+def start(
+    package: Path | None, script: str = EXPOSE, **environment: str
+) -> "subprocess.Popen[str]":
+    """Start a process that uses a kernel and prints the seconds of compiling."""
     extra = {"PYTHONPATH": str(package)} if package else {}
     return subprocess.Popen(
         [sys.executable, "-c", script],
@@ -80,17 +88,18 @@ def test_change_in_any_source_is_noticed(tmp_path: Path) -> None:
     shutil.copytree(sources, package / "vtray", ignore=shutil.ignore_patterns(no_bytecode))
     # Python itself would not notice an edit that leaves length and time as they were.
     cache = {"VTRAY_CACHE_DIR": str(tmp_path / "cache"), "PYTHONDONTWRITEBYTECODE": "1"}
-    finish(start(package, **cache))
-    shading = package / "vtray" / "transport" / "materials" / "lambert.py"
-    times = shading.stat()
+    finish(start(package, MEASURE, **cache))
+    vectors = package / "vtray" / "geometry" / "vector.py"
+    times = vectors.stat()
     # The kernel calls this from another module; length and time stay as they were.
-    text = shading.read_text()
-    assert "to_light) > error_bound)" in text
-    shading.write_text(text.replace("to_light) > error_bound)", "to_light) > 1.000000e99)"))
-    os.utime(shading, ns=(times.st_atime_ns, times.st_mtime_ns))
-    changed = start(package, **cache)
+    text = vectors.read_text()
+    lower = "min(a[0], b[0]), min(a[1], b[1]), min(a[2], b[2])"
+    assert lower in text
+    vectors.write_text(text.replace(lower, lower.replace("min", "max")))
+    os.utime(vectors, ns=(times.st_atime_ns, times.st_mtime_ns))
+    changed = start(package, MEASURE, **cache)
     _, err = changed.communicate(timeout=300)
-    assert "AssertionError" in err  # the pixel is black now
+    assert "AssertionError" in err  # nothing is larger than infinity
 
 
 def test_picture_is_the_same_on_a_processor_without_wide_vectors(tmp_path: Path) -> None:

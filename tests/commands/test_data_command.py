@@ -1,8 +1,6 @@
 """The command with files of data in place of scenes."""
 
-from collections.abc import Callable
 from pathlib import Path
-from subprocess import CompletedProcess
 
 import pytest
 from PIL import Image
@@ -177,10 +175,11 @@ def test_columns_are_listed(water: Path, capfd: pytest.CaptureFixture[str]) -> N
 
 
 @compiled_only
-def test_picture_of_data(water: Path, vtray_command: Callable[..., CompletedProcess[str]]) -> None:
+def test_picture_of_data(water: Path, capfd: pytest.CaptureFixture[str]) -> None:
     picture = water.with_name("water.png")
-    done = vtray_command("--bonds", "--size", "40x30", "--samples", 1, water, picture)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    options = ["--bonds", "--size", "40x30", "--samples", "1"]
+    assert cli.run([*options, str(water), str(picture)]) == 0
+    assert capfd.readouterr() == ("", "")
     with Image.open(picture) as made:
         assert made.size == (40, 30)
         assert made.getpixel((0, 0)) == (255, 255, 255)

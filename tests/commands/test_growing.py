@@ -6,7 +6,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +21,15 @@ from vtray.commands import cli, growing
 from vtray.image.formats import image_file
 from vtray.rendering import growth
 
-VTRAY = Path(sys.executable).with_name("vtray")
+VTRAY = [str(Path(sys.executable).with_name("vtray"))]
+SOON = """
+from vtray.commands import growing
+from vtray.__main__ import main
+growing.PREVIEW_SECONDS = 0.2
+main()
+"""
+HASTY = [sys.executable, "-c", SOON]
+"""The same, but that previews come ten times as soon."""
 
 
 @pytest.fixture
@@ -38,7 +46,7 @@ def small(tmp_path: Path) -> Path:
 def heavy(tmp_path: Path) -> Path:
     """Return a scene file that takes many seconds, in a folder of its own."""
     spheres = [sphere((k % 50 - 25, k // 50 - 25, 40), 0.6) for k in range(2500)]
-    lights = [light(k / 20 - 50, -50, 0, intensity=0.001) for k in range(2000)]
+    lights = [light(k / 6 - 50, -50, 0, intensity=0.003) for k in range(600)]
     world = scene([*spheres, plane((0, 0, 60), (0, 0, -1))], lights, size=[1600, 1600])
     path = tmp_path / "heavy" / "scene.json"
     path.parent.mkdir()
@@ -46,8 +54,8 @@ def heavy(tmp_path: Path) -> Path:
     return path
 
 
-def start(*arguments: object) -> "subprocess.Popen[str]":
-    command = [str(VTRAY), "-t2", *map(str, arguments)]
+def start(*arguments: object, by: Sequence[str] = HASTY) -> "subprocess.Popen[str]":
+    command = [*by, "-t2", *map(str, arguments)]
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
@@ -223,7 +231,7 @@ def test_interrupt_without_keeping(heavy: Path) -> None:
 @compiled_only
 def test_interrupt_before_there_is_anything(heavy: Path) -> None:
     output = heavy.with_name("picture.png")
-    process = start("--keep-partial", heavy, output)
+    process = start("--keep-partial", heavy, output, by=VTRAY)
     time.sleep(0.05)  # while Python starts
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=30)
@@ -243,7 +251,7 @@ def test_two_previews_at_once(heavy: Path) -> None:
     seen = set()
     for _ in range(40):
         seen.add(vtray.read_provenance(preview).seed)  # whole whenever one looks
-        time.sleep(0.05)
+        time.sleep(0.01)
     for process in processes:
         process.send_signal(signal.SIGINT)
     for process in processes:

@@ -5,6 +5,7 @@ import json
 import sys
 from pathlib import Path
 
+import msgspec
 import numpy as np
 import pytest
 from examples import one_sphere
@@ -213,6 +214,7 @@ def test_settings_of_the_picture_reach_the_render(
             "exposure": 2.0,
             "background": vtray.Color(1, 2, 3),
             "denoise": False,
+            **msgspec.structs.asdict(vtray.Style()),
         }
     ]
     warning = "was made from another scene, or this one has changed since: the picture will differ"

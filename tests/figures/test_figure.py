@@ -13,7 +13,7 @@ import pytest
 from PIL import Image as PillowImage
 
 import vtray
-from conftest import JIT
+from conftest import JIT, once
 from vtray.figures.oklab import srgb_to_oklab
 from vtray.figures.scale_bar import depth_along_view, length_text, pixel_width, round_length
 from vtray.figures.sheet import FigureError, picture_zoom
@@ -294,6 +294,7 @@ def test_depth_is_measured_along_the_view() -> None:
     assert pixel_width(camera, 12) == 3
 
 
+@once
 def test_background_and_more_samples() -> None:
     scene = helix()
     scene.render = vtray.RenderSettings(samples=8, background="orange")
@@ -307,6 +308,7 @@ def test_background_and_more_samples() -> None:
     np.testing.assert_array_equal(shown[~empty], clear.pixels[~empty][:, :3])
 
 
+@once
 def test_pictures_of_another_size() -> None:
     image, large = (vtray.render(helix(), size=size) for size in (SIZE, (2 * SIZE[0], SIZE[1] * 2)))
     lengths = []

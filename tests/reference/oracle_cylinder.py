@@ -125,10 +125,11 @@ class Cylinder:
         at = np.array([t for t, _, _ in candidates])
         # Two of them are crossings: a line may pass an edge so near that more or fewer seem to be.
         order = np.argsort(at, axis=0)[:2]
-        count = (~np.isnan(at)).sum(axis=0)
+        crosses = (~np.isnan(at)).sum(axis=0) >= 2
         near_and_far = np.take_along_axis(at, order, axis=0) + shift
-        middle = starts + near_and_far.mean(axis=0)[:, None] * ways
-        crosses = (count >= 2) & (self.outside(middle, larger) < -reach)
+        between = near_and_far[:, crosses].mean(axis=0)[:, None]
+        middle = starts[crosses] + between * ways[crosses]
+        crosses[crosses] = self.outside(middle, larger[crosses]) < -reach[crosses]
         near_and_far[:, ~crosses | self.is_nothing] = np.nan
         steepness = np.array([np.broadcast_to(s, shift.shape) for _, _, s in candidates])
         faces = np.array([face for _, face, _ in candidates])

@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.world import NO_TREE
@@ -24,4 +25,4 @@ def trace_pixel(
     groups = world.groups._replace(root=np.full_like(world.groups.root, NO_TREE))
     places = world.places and world.places._replace(root=NO_TREE)
     plain = scene._replace(world=world._replace(groups=groups, places=places))
-    return reference.trace_pixel(plain, column, row, new_stack(), cosines, blockers)
+    return reference.trace_pixel(plain, column, row, new_stack(), cosines, blockers, new_walk(0))

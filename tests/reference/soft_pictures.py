@@ -19,6 +19,7 @@ from vtray.geometry.packets.fan import (
     WEIGHT,
     new_fan,
 )
+from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.queries import NOTHING
 from vtray.rendering.hierarchy import accelerate
@@ -68,7 +69,7 @@ def compare_fans(
     rays = arrive = doubtful = 0
     for column, row in pixels:
         hit = by_rules.hit(column, row)
-        traced = reference.trace_pixel(arrays, column, row, stack, cosines, blockers)
+        traced = reference.trace_pixel(arrays, column, row, stack, cosines, blockers, new_walk(0))
         if hit is None or traced.primitive == NOTHING:
             continue
         point = np.array(traced.interaction.point) * unit
@@ -78,7 +79,19 @@ def compare_fans(
         shares = []
         for light in range(len(by_rules.lights)):
             found, _ = reference.trace_fan(
-                arrays, soft, traced, column, row, light, fans, 0, seed, stack, fan, stopped
+                arrays,
+                soft,
+                traced,
+                column,
+                row,
+                light,
+                fans,
+                0,
+                seed,
+                stack,
+                fan,
+                stopped,
+                new_walk(0),
             )
             expected = by_rules.fan(hit, light, column, row, seed, fans.rays)
             share = np.array(found[: expected.weights.shape[1]])
@@ -96,7 +109,7 @@ def compare_fans(
             arrive += int(expected.arrives.sum())
             doubtful += int(expected.doubt.sum())
         if image is not None:
-            light_of_all = _light_of(hit, traced.interaction.is_second, shares, by_rules.lights)
+            light_of_all = _light_of(hit, traced.interaction.half & 1 != 0, shares, by_rules.lights)
             total = traced.value + light_of_all
             np.testing.assert_allclose(image.linear[row, column], total, rtol=1e-12, atol=1e-12)
     return Compared(rays, arrive, doubtful)

@@ -15,7 +15,7 @@ from pictures import read_exr
 from strategies import may_be_dark, scenes
 
 import vtray
-from conftest import JIT
+from conftest import JIT, once
 
 BALLS = [sphere((0, 0, 5), 1), sphere((0.9, 0.4, 4), 0.5, lambert=0.5)]
 SIZE = [40, 30] if JIT else [10, 8]
@@ -110,6 +110,7 @@ def test_empty_pixels_have_exactly_the_background(samples: int, exposure: object
     np.testing.assert_array_equal(transparent.pixels[full][:, :3], black.pixels[full])
 
 
+@once
 @may_be_dark
 @settings(max_examples=60 if JIT else 15)
 @given(
@@ -141,6 +142,7 @@ def test_exposure_of_1_shows_the_color_of_what_is_lit_squarely() -> None:
     assert (render(document, exposure=1).develop(16) == np.array((200, 100, 7)) * 257).all()
 
 
+@once
 @may_be_dark
 @settings(max_examples=60 if JIT else 15)
 @given(scenes(), st.floats(1e-3, 1e3))

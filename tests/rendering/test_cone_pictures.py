@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from cylinder_pictures import assert_near_oracle, load
-from examples import cone, light, plane, scene, sphere
+from examples import cone, cylinder, light, plane, scene, sphere
 from hierarchies import ALWAYS, NEVER, render
 
 import vtray
@@ -67,7 +67,9 @@ def test_unusual_cones_are_near_the_oracle(item: Scene) -> None:
 @compiled_only
 def test_pixels_on_edges_have_samples_and_others_have_not() -> None:
     view = {"size": [40, 30], "resolution": [0.05, 0.05]}
-    document = scene([cone((-1, 1, 5), (1.2, -1, 6), 1, 0.2)], [light(5, -5, -9)], **view)
+    # With a cylinder, out of sight: kernels for both are compiled for other tests as well.
+    solids = [cone((-1, 1, 5), (1.2, -1, 6), 1, 0.2), cylinder((9, 9, 5), (9, 9, 6), 0.1)]
+    document = scene(solids, [light(5, -5, -9)], **view)
     few, many = (
         render(load(document), which, samples=2, keep_lights=True) for which in (NEVER, ALWAYS)
     )

@@ -15,6 +15,7 @@ from written_out import write_out
 
 import vtray
 from conftest import JIT, compiled_only
+from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.world import NO_TREE
 from vtray.rendering import hierarchy
@@ -186,7 +187,9 @@ def test_rays_one_by_one_meet_the_same_as_all_shapes_tested() -> None:
         for x in range(0, 60, 3):
             found = trace_plainly(arrays, x, y, cosines, blockers)
             plain = cosines.copy(), blockers.copy()
-            traced = reference.trace_pixel(arrays, x, y, new_stack(), cosines, blockers)
+            traced = reference.trace_pixel(
+                arrays, x, y, new_stack(), cosines, blockers, new_walk(0)
+            )
             assert traced == found
             np.testing.assert_array_equal(plain, (cosines, blockers))
             if traced.primitive != NOTHING:

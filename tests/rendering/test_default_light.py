@@ -1,5 +1,7 @@
 """A scene whose lights were never set looks as in a studio."""
 
+import copy
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -32,6 +34,17 @@ def test_it_has_the_studio_its_own_colors_and_white_behind() -> None:
     color = np.array([0x3A, 0x6E, 0xA5])
     assert image.linear[seen].max(axis=0) == pytest.approx(1.1 * color, rel=0.05)
     assert (image.linear[seen].min(axis=0) > 0.1 * color).all()
+
+
+def test_copies_and_pickles_have_it_too() -> None:
+    scene = balls()
+    render(scene)
+    for copied in (copy.copy(scene), copy.deepcopy(scene), pickle.loads(pickle.dumps(scene))):
+        assert copied == scene
+        assert not copied.lights
+        assert render(copied).settings.exposure == 1.0
+    scene.lights = []
+    assert render(pickle.loads(pickle.dumps(scene)), warn=print).settings.exposure == "max"
 
 
 def test_what_is_asked_for_is_done() -> None:

@@ -11,6 +11,7 @@ from conftest import JIT, compiled_only
 from vtray import render
 from vtray.geometry.packets.cone import new_touching
 from vtray.geometry.packets.fan import new_fan
+from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.packets.workspace import new_shared
 from vtray.geometry.queries import NOTHING
@@ -97,7 +98,7 @@ def test_shared_fans_tell_what_each_ray_alone_would(lights: Any) -> None:
     most = hits = 0
     for y in range(0, SIZE[1], STEP):
         for x in range(0, SIZE[0], STEP):
-            traced = reference.trace_pixel(arrays, x, y, stack, cosines, blockers)
+            traced = reference.trace_pixel(arrays, x, y, stack, cosines, blockers, new_walk(0))
             value = traced.value
             if traced.primitive != NOTHING:
                 found = reference.trace_crowd(
@@ -114,6 +115,7 @@ def test_shared_fans_tell_what_each_ray_alone_would(lights: Any) -> None:
                     on_ways,
                     shared,
                     touching,
+                    new_walk(0),
                 )
                 value, most, hits = found.value, max(most, found.fans), hits + 1
             assert tuple(image.linear[y, x]) == value

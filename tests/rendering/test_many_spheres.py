@@ -17,6 +17,7 @@ from strategies import crowd, may_be_dark, scenes
 import vtray
 from conftest import JIT, compiled_only
 from vtray.commands.explain import explain_pixel
+from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.stack import new_stack
 from vtray.rendering import hierarchy as acceleration
 from vtray.rendering.hierarchy import accelerate
@@ -232,7 +233,10 @@ def test_equals_the_plain_path(name: str, few: Callable[[int], None]) -> None:
         assert tuple(image.linear[row, column]) == traced.value
         assert (traced.primitive == NOTHING) == np.isinf(traced.distance)
         stack, kept = new_stack(), (cosines.copy(), blockers.copy())
-        assert reference.trace_pixel(arrays, column, row, stack, cosines, blockers) == traced
+        assert (
+            reference.trace_pixel(arrays, column, row, stack, cosines, blockers, new_walk(0))
+            == traced
+        )
         np.testing.assert_array_equal((cosines, blockers), kept)
 
 

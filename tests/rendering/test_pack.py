@@ -51,7 +51,7 @@ def test_places_are_relative_to_the_image_plane_in_units_of_a_power_of_two() -> 
         )
     )
     assert packed.unit == 16 / 2**200
-    camera, world, lights, materials = packed.arrays
+    camera, world, lights, materials, _ = packed.arrays
     plane = load_plane(world.planes, 0, place_of(PLANE, world))
     sphere = load_sphere(world.spheres, 0, place_of(SPHERE, world))
 

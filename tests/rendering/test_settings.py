@@ -16,6 +16,7 @@ from vtray.commands.setting_options import add_settings
 from vtray.scene import settings
 from vtray.scene.checks.limits import NonNegative, Positive
 from vtray.scene.settings import Option, RenderSettings, Settings, kinds_of, overridden
+from vtray.scene.style import PICTURE
 
 NAMES = RenderSettings.__struct_fields__
 
@@ -24,8 +25,8 @@ def test_render_takes_all_settings() -> None:
     parameters = inspect.signature(vtray.render).parameters
     others = ("scene", "threads", "progress", "lock", "keep_lights", "tile", "warn")
     others += ("on_update", "update_seconds")
-    assert tuple(name for name in parameters if name not in others) == NAMES
-    for name in NAMES:
+    assert tuple(name for name in parameters if name not in others) == PICTURE
+    for name in PICTURE:
         assert parameters[name].kind is inspect.Parameter.KEYWORD_ONLY
         assert parameters[name].default is None
         assert f"\n{name}\n    " in inspect.getdoc(vtray.render)

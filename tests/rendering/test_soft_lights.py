@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray import render
 from vtray.geometry.packets.fan import new_fan
+from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.queries import NOTHING
 from vtray.rendering.hierarchy import accelerate
@@ -78,12 +79,24 @@ def test_bundles_tell_what_each_ray_alone_would(kind: str) -> None:
     hits = most = 0
     for y in range(1, SIZE[1], STEP):
         for x in range(1, SIZE[0], STEP):
-            traced = reference.trace_pixel(arrays, x, y, stack, cosines, blockers)
+            traced = reference.trace_pixel(arrays, x, y, stack, cosines, blockers, new_walk(0))
             if traced.primitive != NOTHING:
                 hits, spent = hits + 1, 0.0
                 for light in range(len(soft.kind)):
                     lamp = reference.trace_lamp(
-                        arrays, soft, traced, x, y, light, fans, spent, 5, stack, fan, on_ways
+                        arrays,
+                        soft,
+                        traced,
+                        x,
+                        y,
+                        light,
+                        fans,
+                        spent,
+                        5,
+                        stack,
+                        fan,
+                        on_ways,
+                        new_walk(0),
                     )
                     traced, spent = traced._replace(value=lamp.value), spent + lamp.counted
                     most = max(most, lamp.fans)
@@ -106,7 +119,7 @@ def test_threads_and_tiles_change_nothing(samples: int) -> None:
 @pytest.mark.parametrize("samples", [1, 4])
 def test_relit_and_recolored_pictures_are_those_rendered_anew(samples: int) -> None:
     options: dict[str, Any] = {"samples": samples, "keep_lights": True}
-    image = render(scene_of("copies"), **options)
+    image = render(scene_of("copies" if samples == 1 else "bonds"), **options)
     relit = image.relight([0.1, 0.9, 0.0, 2.0, 0.3, 5.0, 0.0, 0.5, 0.7, 0.1, 0.2])
     np.testing.assert_array_equal(relit.linear, render(relit.scene, **options).linear)
     assert not np.array_equal(relit.linear, image.linear)
@@ -228,6 +241,7 @@ ODD_PANELS: list[tuple[str, Any, Any]] = [
 ]
 
 
+@once
 @pytest.mark.parametrize(
     "light",
     [

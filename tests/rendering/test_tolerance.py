@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray import render
 
 SIZE = (48, 36) if JIT else (6, 5)
@@ -76,6 +76,7 @@ def test_a_smaller_tolerance_takes_more_rays_and_is_nearer() -> None:
     assert off[2] < 0.5 * off[0]
 
 
+@once
 def test_tolerance_is_meant_of_what_becomes_white() -> None:
     scene = scene_of(LIGHTS["ambient"])
     image = render(scene, tolerance=0.02)

@@ -17,7 +17,7 @@ from strategies import may_be_dark, scenes
 from test_documents import ROOT, blocks
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray.commands.explain import explain_pixel
 from vtray.figures.ray_tree import RayTree, ShadowFan
 
@@ -95,6 +95,7 @@ def test_a_sphere_of_an_array_has_an_index(dtype: type) -> None:
     assert str(hit.surface) == "objects[1], sphere 1"
 
 
+@once
 @may_be_dark
 @settings(max_examples=60)
 @given(scenes(), st.data())
@@ -280,6 +281,7 @@ def softly_lit(*lights: Any) -> vtray.Scene:
     return world
 
 
+@once
 @pytest.mark.parametrize(
     "lights",
     [
@@ -528,6 +530,7 @@ def test_text_of_pictures_with_settings() -> None:
     assert str(tree).splitlines()[-1] == f"value        {tuple(map(int, many.pixels[*edges[0]]))}"
 
 
+@once
 def test_picture_of_another_size() -> None:
     image = vtray.render(lit_floor(), size=(128, 96))
     tree = vtray.trace_pixel(image, 100, 80)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray import RectangleLight, SphereLight, render
 
 SIZE = (48, 36) if JIT else (12, 9)
@@ -37,6 +37,7 @@ PANEL = RectangleLight((1.01, 0.013, 3), ((1, 0, 0), (0, 1.5, 0)), radiance=2, v
 BALL = SphereLight((0.2, 0.5, 4), 0.6, 3, (255, 0, 51), visible=True)
 
 
+@once
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 def test_as_large_as_they_are(projection: Any) -> None:
     scene = looking_down(PANEL, projection=projection)
@@ -72,6 +73,7 @@ def test_the_nearest_is_seen() -> None:
     assert seen(looking_down(PANEL.replace(location=(-1, 0, 1.5))), 2, 2, 2).any()
 
 
+@once
 def test_nothing_behind_the_image_plane_is_seen() -> None:
     assert not seen(looking_down(PANEL.replace(location=(1, 0, 10.5))), 2, 2, 2).any()
     assert not seen(looking_down(PANEL.replace(location=(1, 0, 10))), 2, 2, 2).any()
@@ -93,6 +95,7 @@ def test_a_panel_in_a_wall_is_before_it(shift: float) -> None:
     assert seen(scene, 1, 1, 1).all()
 
 
+@once
 def test_edge_on_a_panel_is_not_seen() -> None:
     upright = RectangleLight((0, 0, 3), ((1, 0, 0), (0, 0, 1)), visible=True)
     assert seen(looking_down(upright, projection="orthographic"), 1, 1, 1).sum() == 0

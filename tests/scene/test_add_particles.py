@@ -154,6 +154,23 @@ def test_some_are_drawn_and_some_highlighted() -> None:
     assert pale.spheres.color.tolist() == [[80] * 3, [0] * 3, [80] * 3]
 
 
+def test_categories_in_their_order() -> None:
+    kinds = Particles(np.zeros((3, 3)), {"kind": ["b", "c", "b"], "number": [7, 70, 7]})
+    found = drawn(kinds, color="kind", categories=["c", "a", "b"])
+    assert [name for name, _ in found.legend] == ["c", "a", "b"]
+    assert found.spheres.color[1].tolist() == [0, 114, 178]
+    assert found.spheres.color[0].tolist() == [0, 158, 115]
+    # What is not among them has a colour of its own, wherever it is met.
+    other = drawn(kinds, color="kind", categories=["a"])
+    alone = drawn(kinds.select([1]), color="kind", categories=["a"])
+    assert other.legend[0] == ("a", (0, 114, 178))
+    assert other.spheres.color[1].tolist() == alone.spheres.color[0].tolist() != [0, 114, 178]
+    assert [name for name, _ in other.legend] == ["a", "b", "c"]
+    assert drawn(kinds, color="number", categories=[70, 7]).categories == [70, 7]
+    assert drawn(kinds, color="number", categories=range(9)).color_scale is None
+    assert drawn(kinds, color="number", categories=[7], cmap="viridis").color_scale.high == 70
+
+
 def test_objects_remember_particles_until_they_are_saved() -> None:
     scene = vtray.Scene()
     found = scene.add_particles(WATER, bonds=True, select="x >= 0")

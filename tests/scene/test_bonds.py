@@ -7,6 +7,7 @@ import pytest
 from ase import Atoms
 from ase.neighborlist import neighbor_list
 
+from conftest import once
 from vtray.base.errors import SceneError
 from vtray.scene.particles import bonds as module
 from vtray.scene.particles import elements
@@ -29,6 +30,7 @@ def both_ways(pairs: Any, shifts: Any) -> set[tuple[int, ...]]:
     return both
 
 
+@once
 @pytest.mark.parametrize(
     ("cell", "periodic", "count", "cutoff", "spread"),
     [

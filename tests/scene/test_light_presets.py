@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import vtray
+from conftest import once
 from vtray import Camera, Scene, SceneError, lights
 
 NAMES = ["rembrandt", "loop", "split", "butterfly", "ring", "cloudy", "lightbox"]
@@ -269,6 +270,7 @@ def test_ring_is_around_the_lens() -> None:
     assert lamp.radius / np.linalg.norm(away) == pytest.approx(off_axis)
 
 
+@once
 def test_an_overcast_sky() -> None:
     scene = scene_of(up=(0, 0, 1))
     (sky,) = lights.cloudy(scene, 3)

@@ -1,5 +1,7 @@
 """Particles of objects that other libraries make, and of files that are no data."""
 
+import copy
+import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -155,3 +157,14 @@ def test_reading_text_imports_nothing_slow(tmp_path: Path) -> None:
         [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False
     )
     assert (done.stdout, done.stderr) == ("[]\n", "")
+
+
+def test_pickle_and_copies() -> None:
+    given = {"element": np.array(["C", "O"]), "force": np.eye(2, 3)}
+    positions = np.eye(2, 3, dtype=np.float32)
+    made = vtray.Particles(positions, given, bonds=[(0, 1)], frame=3, time=0.5)
+    for copied in (pickle.loads(pickle.dumps(made)), copy.deepcopy(made)):
+        assert repr(copied) == repr(made)
+        assert copied.positions.dtype == np.float32
+        assert (copied["force"] == made["force"]).all()
+        assert (copied.frame, copied.time, copied.periodic) == (3, 0.5, (False,) * 3)

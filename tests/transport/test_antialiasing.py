@@ -15,7 +15,7 @@ from sample_places import mean, sample_places
 from strategies import crowd, may_be_dark, scenes
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray.rendering import hierarchy as acceleration
 from vtray.scene.settings import FILTERS
 from vtray.transport.sampling.filters import FILTERS as FILTERS_BY_NAME
@@ -65,6 +65,7 @@ def assert_sampled(
     return marks
 
 
+@once
 @may_be_dark
 @settings(max_examples=100 if JIT else 15)
 @given(
@@ -284,6 +285,7 @@ def test_seed_chooses_the_places(scattered: dict) -> None:
     assert difference.mean() < 0.05 * one.white
 
 
+@once
 @may_be_dark
 @settings(max_examples=30)
 @given(scenes(), st.sampled_from(FILTERS), st.integers(0, 2**32 - 1))

@@ -11,7 +11,7 @@ from soft_scenes import KINDS, soft_scene
 import vtray
 from conftest import JIT
 
-PIXELS = 5 if JIT else 1
+PIXELS = 3 if JIT else 1
 SEEDS = range(2 if JIT else 1)
 
 VIEWS = [

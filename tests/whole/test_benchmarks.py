@@ -16,7 +16,7 @@ import pytest
 from PIL import Image
 
 import vtray
-from conftest import compiled_only
+from conftest import compiled_only, once
 
 BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
 FEW, SMALL = 60, 64
@@ -491,6 +491,7 @@ def rendered() -> Any:
     return vtray.render(vtray.loads(text))
 
 
+@once
 @pytest.mark.parametrize("index", range(8))
 def test_peer_that_is_installed_shows_what_vtray_shows(
     index: int, rendered: Any, tmp_path: Path
@@ -565,6 +566,23 @@ def test_own_scenes_are_timed(
         assert all(0 < each.inner.median < each.whole.median for each in by_threads.values())
 
 
+@compiled_only
+def test_movies_are_timed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("imageio_ffmpeg")
+    pytest.importorskip("distributed")
+    measure = module("measures.movies")
+    monkeypatch.setattr(measure, "PROCESSES", 1)
+    monkeypatch.setattr(measure, "is_installed", lambda _: False)
+    found = results()
+    found.movies["balls"] = rows = measure.time_movies(FEW, 2, SMALL, tmp_path, 1)
+    assert [row.program for row in rows] == ["vtray", "vtray, 1 processes of a Dask cluster"]
+    assert all(row.seconds.median > 0 and row.of_cores.median > 0 for row in rows)
+    report = module("report.pages").full_report(found)
+    assert "\n## Movies\n\n| movie | program | frames |" in report
+    assert "\n| balls | vtray | 2 | " in report
+
+
+@once
 def test_copied_cubes_are_seen_as_those_written_out() -> None:
     cube = module("scenes.copied_cube")
     copied, written = (cube.make_scene(FEW, 2, SMALL, written_out=out) for out in (False, True))
@@ -634,6 +652,7 @@ def test_difference_is_told_from_noise() -> None:
     assert found.mean == pytest.approx(-0.05 * 4 / 192, abs=4 * found.mean_error)
 
 
+@once
 def test_lamps_are_given_to_mitsuba_with_the_rays_of_the_picture(tmp_path: Path) -> None:
     made, soft_scene = module("scenes.lamps"), module("peers.mitsuba.soft_scene")
     name, lamp = next(iter(made.lamps().items()))
@@ -717,6 +736,7 @@ def test_report_has_the_times_from_arrays() -> None:
     assert sentence in module("report.pages").readme_table(found)
 
 
+@once
 @pytest.mark.parametrize("index", range(4))
 def test_script_makes_the_picture_from_arrays(index: int, tmp_path: Path) -> None:
     arrays, cube = module("measures.from_arrays"), module("scenes.cube").make_cube(FEW)

@@ -57,6 +57,7 @@ def test_machine_code_of_all_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
     scene.lights = [vtray.Sun((1, 2, -3 - k)) for k in range(150)]  # so many share their rays
     vtray.render(scene)
     vtray.trace_pixel(scene, 4, 3)
+    draw_all_ways()
     seen: set[Path | None] = set()  # most parts are called by several kernels
     for item in kernels():
         files = [file for types in item._native if (file := item._file(types))]
@@ -89,6 +90,21 @@ def render_all_ways(scene: vtray.Scene) -> None:
     scene.add_rectangle_light((2, 3, 9), [(2, 0, 0), (0, 2, 0)], visible=True)
     vtray.render(scene, threads=2, samples=2, background="sky")
     vtray.trace_pixel(scene, 4, 3)
+
+
+def draw_all_ways() -> None:
+    """Use all kernels of styles, and of what lets light through."""
+    scene = vtray.Scene()
+    scene.add_spheres(np.random.default_rng(2).uniform(-1, 1, (200, 3)), 0.2, opacity=0.5)
+    scene.add_spheres(np.random.default_rng(3).uniform(-1, 1, (200, 3)), 0.1)
+    scene.add_copies(vtray.Sphere((0, 0, 0), 0.3), [(1, 0, 0), (-1, 0, 0)])
+    scene.camera = vtray.Camera.fit(scene, size=(8, 6))
+    scene.lights = [vtray.Light((2, 3, 4), 1)]
+    vtray.render(scene)
+    for column in range(8):
+        vtray.trace_pixel(scene, column, 3)
+    scene.objects[0] = scene.objects[0].replace(opacity=1.0)
+    vtray.render(scene, clip=(1, 1, 1), cap=True, outline=True, eye_dome=True, fog=True)
 
 
 MULTIPLY_ADD = "declare double @llvm.fma.f64(double, double, double)\n" + (

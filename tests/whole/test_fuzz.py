@@ -1,6 +1,7 @@
 """Each finder finds nothing in a few attempts, and finds what is broken on purpose."""
 
 import json
+from collections.abc import Iterable
 from pathlib import Path
 from random import Random
 
@@ -13,20 +14,22 @@ from fuzz.finders import FINDERS, try_once
 
 pytestmark = compiled_only
 
-ATTEMPTS = {
-    "scenes": 40,
-    "arguments": 60,
-    "arrays": 40,
-    "pictures": 60,
-    "kernels": 60,
-    "faults": 6,
-    "truth": 24,
+ATTEMPTS: dict[str, Iterable[int]] = {
+    "scenes": range(40),
+    "arguments": range(60),
+    "arrays": range(40),
+    "pictures": range(60),
+    "kernels": range(60),
+    "faults": range(6),
+    # Each kind of scene needs kernels of its own, which take four seconds to compile: so of the
+    # first hundreds these are chosen, most of whose kernels other tests need as well.
+    "truth": [*range(1, 6), 7, 8, 10, 11, *range(13, 19), *range(20, 24), 28, 29, 64, 76, 149],
 }
 
 
 @pytest.mark.parametrize("name", FINDERS)
 def test_nothing_is_found(name: str, tmp_path: Path) -> None:
-    failed = [k for k in range(ATTEMPTS.get(name, 10)) if not try_once(name, 1, k, tmp_path)]
+    failed = [k for k in ATTEMPTS.get(name, range(10)) if not try_once(name, 1, k, tmp_path)]
     why = [(tmp_path / f"{name}-1-{k}" / "why.txt").read_text() for k in failed]
     assert not failed, "\n\n".join(why)
     assert list(tmp_path.iterdir()) == []

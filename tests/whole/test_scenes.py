@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 import vtray
-from conftest import compiled_only
+from conftest import compiled_only, once
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = ROOT / "scenes"
@@ -45,6 +45,7 @@ def test_each_scene_has_a_maker_and_each_maker_a_scene(make_scenes: ModuleType) 
     assert sorted(maker.__name__ for maker in make_scenes.MAKERS) == NAMES
 
 
+@once
 @pytest.mark.parametrize("name", NAMES)
 def test_scene_file_is_current(make_scenes: ModuleType, name: str) -> None:
     written = (SCENES / f"{name}.json").read_text(encoding="utf-8")

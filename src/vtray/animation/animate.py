@@ -1,15 +1,20 @@
 """Movies: `vtray.animate` and `vtray.turntable`."""
 
 import os
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from vtray.animation.cluster import check_client
+from vtray.animation.film import Film, Progress
 from vtray.animation.keyframes import Keyframes, check_keyframes
 from vtray.animation.output import Output
-from vtray.animation.particle_scenes import ParticleScenes, drawing, looked_at
-from vtray.animation.shooting import Film, Progress, Shot, Warn, shoot
-from vtray.animation.sources import READING, Source, first_of, source_of
+from vtray.animation.particle_scenes import Drawing, ParticleScenes, looked_at
+from vtray.animation.script import Make, Script
+from vtray.animation.shooting import shoot
+from vtray.animation.sources import READING, first_of, source_of
+from vtray.animation.stage import Look, Shot, Warn
 from vtray.animation.swept import fit_around, upright
 from vtray.animation.turned_lights import turned_light
 from vtray.base.errors import SceneError
@@ -21,15 +26,15 @@ from vtray.scene.placing.bounds import balls_of, middle_of
 from vtray.scene.placing.directions import Vec, unit
 from vtray.scene.placing.moved import axes_of
 from vtray.scene.scene import Scene
-from vtray.scene.settings import RenderSettings
+from vtray.scene.style import PICTURE, check_picture
 from vtray.scene.vectors import Vector
 
 if TYPE_CHECKING:
+    from distributed import Client
+
     from vtray.scene.readers.which_frames import Frames
 
 AnyCamera = Camera | Mapping[float, Camera] | Callable[[int], Camera]
-
-SETTINGS = RenderSettings.__struct_fields__
 
 LONGEST = 1_000_000
 """Pictures of a turntable at the most."""
@@ -45,6 +50,7 @@ def animate(
     annotate: Mapping[str, Any] | None = None,
     resume: bool = False,
     threads: int | None = None,
+    client: "Client | None" = None,
     progress: Progress | bool | None = None,
     bits: int | None = None,
     aov: Collection[str] = (),
@@ -86,17 +92,21 @@ def animate(
         happens.
     threads, warn
         As for `render`; each warning is given once.
+    client
+        A ``distributed.Client`` of a Dask cluster, whose workers then take the pictures, each with
+        as many threads as it has; they are the same. What a worker had that dies is done by
+        another.
     progress
         Called with ``"frames"``, how many pictures are done, and how many there are, 0 if that is
         not known. True shows a bar.
     bits, aov
         What numbered pictures hold, as for `Image.save`.
     options
-        Settings of the render, such as ``samples=16``, as for `render`. With `exposure`, that is
-        the exposure of each picture. Of particles, also the keywords of `Scene.add_particles`, and
-        ``view``, ``zoom`` and ``orthographic``: see `Camera.fit`. Of a trajectory, also those of
-        `read`. Colours by values have one scale, that of eight frames, spread over all, unless
-        ``clim`` is given.
+        Settings of the render and parts of the style, such as ``samples=16`` or ``fog=True``, as
+        for `render`. With `exposure`, that is the exposure of each picture. Of particles, also the
+        keywords of `Scene.add_particles`, and ``view``, ``zoom`` and ``orthographic``: see
+        `Camera.fit`. Of a trajectory, also those of `read`. Colours by values have one scale, that
+        of eight frames, spread over all, unless ``clim`` is given.
 
     Returns
     -------
@@ -110,7 +120,7 @@ def animate(
     OutputError
         The movie cannot be written, or pictures that are done are of another movie.
     RenderError
-        A picture cannot be rendered; see `render`.
+        A picture cannot be rendered, see `render`; or the cluster cannot be used.
     ExtraError
         A package is needed that is not installed.
     KeyboardInterrupt
@@ -121,9 +131,10 @@ def animate(
     >>> import vtray
     >>> vtray.animate("run.xyz", "run.mp4", frames="::5", bonds=True)  # doctest: +SKIP
     """
-    settings = {name: options.pop(name) for name in SETTINGS if options.get(name) is not None}
+    settings = {name: options.pop(name) for name in PICTURE if options.get(name) is not None}
     reading = {name: options.pop(name) for name in READING if name in options}
-    film = _film(path, fps, settings, annotate, resume, threads, progress, bits, aov, warn)
+    look = Look(settings, dict(annotate or {}), bits, tuple(aov), threads)
+    film = _film(path, fps, look, resume, client, progress, warn)
     usual = None
     if isinstance(camera, Mapping):
         usual = int(check_keyframes(camera)[-1]) + 1
@@ -138,11 +149,11 @@ def animate(
             name = next(iter(options))
             message = f"animate() argument {name!r} is for particles, or unknown"
             raise TypeError(message)
-        make = _scene_shots(first)
+        make: Make = SceneShots(first)
     else:
-        draw, fit = drawing(options, settings.get("size"), settings.get("background"))
-        make = ParticleScenes(draw, fit, looked_at(source, first))
-    run(film, source, _with_camera(make, camera, first), first)
+        drawing = Drawing(options, settings.get("size"), settings.get("background"))
+        make = ParticleScenes(drawing.draw, drawing.fit, looked_at(source, first))
+    run(film, Script(source, first, make, _camera_of_pictures(camera, make, first)))
     return film.output.path
 
 
@@ -157,6 +168,7 @@ def turntable(
     annotate: Mapping[str, Any] | None = None,
     resume: bool = False,
     threads: int | None = None,
+    client: "Client | None" = None,
     progress: Progress | bool | None = None,
     bits: int | None = None,
     aov: Collection[str] = (),
@@ -174,7 +186,7 @@ def turntable(
     scene
         The scene. If it has no camera, one is made that shows it from all sides; a camera that it
         has stays as far away, with the same field of view.
-    path, fps, annotate, resume, threads, progress, bits, aov, warn
+    path, fps, annotate, resume, threads, client, progress, bits, aov, warn
         As for `animate`.
     seconds
         How long it takes.
@@ -201,12 +213,13 @@ def turntable(
     >>> import vtray
     >>> vtray.turntable(scene, "turn.mp4", seconds=6)  # doctest: +SKIP
     """
-    unknown = [name for name in settings if name not in SETTINGS]
+    unknown = [name for name in settings if name not in PICTURE]
     if unknown:
         message = f"turntable() argument {unknown[0]!r} is unknown"
         raise TypeError(message)
     settings = {name: value for name, value in settings.items() if value is not None}
-    film = _film(path, fps, settings, annotate, resume, threads, progress, bits, aov, warn)
+    look = Look(settings, dict(annotate or {}), bits, tuple(aov), threads)
+    film = _film(path, fps, look, resume, client, progress, warn)
     camera, about = camera_around(scene)
     go_around(film, scene, camera, about, seconds, degrees, lights)
     return film.output.path
@@ -243,52 +256,51 @@ def go_around(
         raise SceneError(f"lights: expected 'turn' or 'still', got {show(lights)}")
     _, down, _ = axes_of(camera)
     axis = (-down[0], -down[1], -down[2]) if camera.up is None else unit(camera.up)
-    middle = (about.x, about.y, about.z)
     turns = lights == "turn" and not has_default_light(scene)
-    usual = shot or Shot(scene, camera)
-
-    def at(_: object, k: int) -> Shot:
-        turn = angle * k / count
-        turned = [turned_light(light, turn, middle, axis) for light in scene.lights]
-        return usual._replace(
-            scene=scene,
-            camera=camera.orbit(turn, about=about),
-            lights=turned if turns else None,
-        )
-
-    run(film, source_of(scene, count), at, scene)
+    shots = TurnedShots(shot or Shot(Scene(), camera), camera, about, axis, angle, count, turns)
+    run(film, Script(source_of(scene, count), scene, shots))
 
 
-def run(
-    film: Film,
-    source: Source,
-    shot_of: Callable[[Any, int], Shot],
-    first: Any,  # noqa: ANN401
-) -> None:
-    """Make a movie of what a source gives; say of errors how another run goes on.
+@dataclass(frozen=True)
+class TurnedShots:
+    """Makes shots of a scene that a camera goes around.
 
-    Parameters
+    Attributes
     ----------
-    film
-        How.
-    source
-        What there is for each picture.
-    shot_of
-        Makes what a picture is taken of, by the number of the picture.
-    first
-        What there is for the first picture.
+    usual
+        What is painted on each picture.
+    camera, about, axis
+        The first camera, and the point and the unit axis that it goes about.
+    degrees, count
+        How far it goes, and in how many pictures.
+    turns_lights
+        Whether the lights of the scene go with it.
     """
 
-    def numbered(item: Any, k: int) -> Shot:  # noqa: ANN401
-        found = shot_of(item, k)
-        return found._replace(frame=source.number(k)) if found.frame is None else found
+    usual: Shot
+    camera: Camera
+    about: Vector
+    axis: Vec
+    degrees: float
+    count: int
+    turns_lights: bool
 
-    def shots(start: int) -> Iterator[Shot]:
-        for k, item in enumerate(source.start(start), start):
-            yield numbered(item, k)
+    def __call__(self, scene: Scene, k: int) -> Shot:
+        """Return what a picture is taken of."""
+        turn = self.degrees * k / self.count
+        middle = (self.about.x, self.about.y, self.about.z)
+        lights = [turned_light(light, turn, middle, self.axis) for light in scene.lights]
+        return self.usual._replace(
+            scene=scene,
+            camera=self.camera.orbit(turn, about=self.about),
+            lights=lights if self.turns_lights else None,
+        )
 
+
+def run(film: Film, script: Script) -> None:
+    """Make a movie; say of errors how another run goes on."""
     try:
-        shoot(film, shots, numbered(first, 0), source.count or 0)
+        shoot(film, script)
     except BaseException as error:
         if film.done is not None and film.done.how_to_go_on():
             error.add_note(film.done.how_to_go_on())
@@ -301,76 +313,50 @@ def run(
 def _film(
     path: str | os.PathLike[str],
     fps: float,
-    settings: Mapping[str, Any],
-    annotate: Mapping[str, Any] | None,
+    look: Look,
     resume: bool,
-    threads: int | None,
+    client: "Client | None",
     progress: Progress | bool | None,
-    bits: int | None,
-    aov: Collection[str],
     warn: Warn | None,
 ) -> Film:
     """Return how a movie is made, checked as far as can be without a scene."""
-    RenderSettings(**settings)
+    check_picture(look.settings)
     output = Output(Path(path))
     rate = _number("fps", fps)
-    output.check(rate, bits, aov)
-    return Film(
-        output,
-        rate,
-        settings,
-        dict(annotate or {}),
-        bits,
-        tuple(aov),
-        threads,
-        resume,
-        _Bar() if progress is True else progress or None,
-        warn or _warn,
-    )
+    output.check(rate, look.bits, look.aov)
+    if client is not None:
+        check_client(client)
+    bar = _Bar() if progress is True else progress or None
+    return Film(output, rate, look, resume, bar, warn or _warn, client)
 
 
-def _scene_shots(first: Scene) -> Callable[[Any, int], Shot]:
-    """Return what makes shots of scenes, of which those without a camera get that of the first."""
-    fitted = first.camera if not _is_none(first.camera) else Camera.fit(first, view=USUAL)
+class SceneShots:
+    """Makes shots of scenes, of which those without a camera get that of the first."""
 
-    def shot(scene: Any, k: int) -> Shot:  # noqa: ANN401
+    def __init__(self, first: Scene) -> None:
+        self._fitted = first.camera if not _is_none(first.camera) else Camera.fit(first, view=USUAL)
+
+    def __call__(self, scene: Any, k: int) -> Shot:  # noqa: ANN401
+        """Return what a picture is taken of."""
         if not isinstance(scene, Scene):
             raise SceneError(f"scenes: expected a Scene for picture {k}, got {show(scene)}")
-        return Shot(scene, fitted if _is_none(scene.camera) else scene.camera)
-
-    return shot
+        return Shot(scene, self._fitted if _is_none(scene.camera) else scene.camera)
 
 
-def _with_camera(
-    make: Callable[[Any, int], Shot],
-    camera: AnyCamera | None,
+def _camera_of_pictures(
+    camera: object,
+    make: Make,
     first: Any,  # noqa: ANN401
-) -> Callable[[Any, int], Shot]:
-    """Return what makes shots with the camera that is asked for."""
-    if camera is None:
-        return make
+) -> Callable[[int], Any] | None:
+    """Return what gives the cameras that are asked for, by the numbers of pictures."""
+    if camera is None or callable(camera):
+        return camera
     if isinstance(camera, Camera):
-        return lambda item, k: make(item, k)._replace(camera=camera)
+        return lambda _: camera
     if isinstance(camera, Mapping):
-        of_picture: Callable[[int], Any] = Keyframes(camera, _pivot(make(first, 0).scene))
-    elif callable(camera):
-        of_picture = camera
-    else:
-        raise _no_camera(camera)
-
-    def shot(item: Any, k: int) -> Shot:  # noqa: ANN401
-        found = of_picture(k)
-        if not isinstance(found, Camera):
-            raise SceneError(f"camera: expected a Camera for picture {k}, got {show(found)}")
-        return make(item, k)._replace(camera=found)
-
-    return shot
-
-
-def _no_camera(given: object) -> SceneError:
-    """Give the error for what is no camera."""
+        return Keyframes(camera, _pivot(make(first, 0).scene))
     words = "expected a Camera, cameras by the numbers of pictures, or a function of these"
-    return SceneError(f"camera: {words}, got {show(given)}")
+    raise SceneError(f"camera: {words}, got {show(camera)}")
 
 
 def _pivot(scene: Scene) -> Vec:

@@ -28,6 +28,11 @@ class Feed:
         self._is_given_up = False
         self._changed = threading.Condition()
 
+    @property
+    def count(self) -> int:
+        """How many pictures there are so far."""
+        return len(self._paths)
+
     def add(self, path: Path) -> None:
         """Let the next picture be that of a file."""
         with self._changed:

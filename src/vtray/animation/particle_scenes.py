@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from vtray.animation.feed import spread
-from vtray.animation.shooting import Shot
 from vtray.animation.sources import Source
+from vtray.animation.stage import Shot
 from vtray.scene.camera import Camera
+from vtray.scene.colors.color_scale import ColorScale
 from vtray.scene.objects import Object
 from vtray.scene.particles.drawing import Drawn
 from vtray.scene.particles.from_objects import as_particles
@@ -22,11 +23,12 @@ from vtray.scene.settings import RenderSettings
 LOOKED_AT = 8
 """Frames that are looked at before, the first and the last among them."""
 
-Limits = tuple[float, float]
+Fixed = Mapping[str, Any]
+"""What colours mean in all pictures, as keywords of `Scene.add_particles`."""
 
-Draw = Callable[[Particles, Camera | None, Limits | None], tuple[Scene, Drawn, Mapping[str, Any]]]
-"""Makes a scene of particles, with a camera and limits of the scale of colours where these are
-given, and says what is in it, and what is painted on its picture."""
+Draw = Callable[[Particles, Camera | None, Fixed], tuple[Scene, Drawn, Mapping[str, Any]]]
+"""Makes a scene of particles, with a camera where one is given, and with what colours mean, and
+says what is in it, and what is painted on its picture."""
 
 Fit = Callable[["Objects", bool], Camera]
 """Gives the camera that shows objects, by whether there is a cell."""
@@ -55,31 +57,39 @@ class ParticleScenes:
     ----------
     camera : Camera
         The camera.
-    clim : tuple of float or None
-        The values of the first and the last colour; None where colours are not those of values.
+    fixed : dict
+        The values of the first and the last colour, ``clim``, or the ``categories`` that have a
+        colour each; nothing where colours stand for neither.
     """
 
     def __init__(self, draw: Draw, fit: Fit, looked_at: Iterable[Any]) -> None:
         self._draw = draw
         seen = Objects([])
-        limits: list[Limits] = []
+        scales: list[ColorScale] = []
+        categories: dict[Any, None] = {}
         has_cell = False
         for given in looked_at:
             particles = as_particles(given)
-            scene, drawn, _ = draw(particles, None, None)
+            scene, drawn, _ = draw(particles, None, {})
             seen.objects += scene.objects
             has_cell |= particles.cell is not None
             if drawn.color_scale is not None:
-                limits.append((drawn.color_scale.low, drawn.color_scale.high))
+                scales.append(drawn.color_scale)
+            categories.update(dict.fromkeys(drawn.categories or ()))
         self.camera = fit(seen, has_cell)
-        self.clim = (
-            (min(low for low, _ in limits), max(high for _, high in limits)) if limits else None
-        )
+        self.fixed: dict[str, Any] = {}
+        if scales:
+            low, high = min(scale.low for scale in scales), max(scale.high for scale in scales)
+            self.fixed["clim"] = low, high
+        elif categories:
+            # Names come after numbers, which they cannot be compared with.
+            in_order = sorted(categories, key=lambda kind: (isinstance(kind, str), kind))
+            self.fixed["categories"] = in_order
 
     def __call__(self, given: Any, _: int) -> Shot:  # noqa: ANN401
         """Return what a picture is taken of."""
         particles = as_particles(given)
-        scene, _drawn, marks = self._draw(particles, self.camera, self.clim)
+        scene, _drawn, marks = self._draw(particles, self.camera, self.fixed)
         frame = None if particles.source is None else particles.frame
         return Shot(scene, self.camera, None, frame, particles.time, marks)
 
@@ -91,10 +101,8 @@ def looked_at(source: Source, first: Any) -> Iterable[Any]:  # noqa: ANN401
     return source.some(spread(source.count, LOOKED_AT))
 
 
-def drawing(
-    given: Mapping[str, Any], size: tuple[int, int] | None, background: object
-) -> tuple[Draw, Fit]:
-    """Return what makes scenes, and their camera, by keywords.
+class Drawing:
+    """Makes scenes of particles, and their camera, by keywords.
 
     Parameters
     ----------
@@ -103,24 +111,28 @@ def drawing(
     size, background
         Those of the picture, if they are given.
     """
-    view = {name: given[name] for name in VIEW if name in given}
-    drawn = {name: value for name, value in given.items() if name not in VIEW}
-    if background is not None and background not in ("transparent", "sky"):
-        drawn.setdefault("background", background)
+
+    def __init__(
+        self, given: Mapping[str, Any], size: tuple[int, int] | None, background: object
+    ) -> None:
+        self._size = size or SIZE
+        self._view = {name: given[name] for name in VIEW if name in given}
+        self._drawn = {name: value for name, value in given.items() if name not in VIEW}
+        if background is not None and background not in ("transparent", "sky"):
+            self._drawn.setdefault("background", background)
 
     def draw(
-        particles: Particles, camera: Camera | None, clim: Limits | None
+        self, particles: Particles, camera: Camera | None, fixed: Fixed
     ) -> tuple[Scene, Drawn, Mapping[str, Any]]:
+        """Make a scene; see `Draw`."""
         scene = Scene(render=RenderSettings(samples=SAMPLES, tolerance=MOVING))
         if camera is not None:
             scene.camera = camera
-        elif drawn.get("style") == "points":
-            scene.camera = fit(particles.positions, particles.cell is not None)
-        limits = {} if clim is None or drawn.get("clim") is not None else {"clim": clim}
-        keywords: dict[str, Any] = {**drawn, **limits}
-        return scene, scene.add_particles(particles, **keywords), {}
+        elif self._drawn.get("style") == "points":
+            scene.camera = self.fit(particles.positions, particles.cell is not None)
+        drawn = {name: value for name, value in self._drawn.items() if value is not None}
+        return scene, scene.add_particles(particles, **{**fixed, **drawn}), {}
 
-    def fit(subject: Any, has_cell: bool) -> Camera:  # noqa: ANN401
-        return camera_of(subject, has_cell, size or SIZE, **view)
-
-    return draw, fit
+    def fit(self, subject: Any, has_cell: bool) -> Camera:  # noqa: ANN401
+        """Return the camera that shows objects, or places; see `Fit`."""
+        return camera_of(subject, has_cell, self._size, **self._view)

@@ -6,9 +6,11 @@ from dataclasses import dataclass, replace
 from itertools import chain, islice, repeat
 from typing import Any
 
+from vtray.animation.spool import Spool
+from vtray.animation.stored import Stored
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
-from vtray.scene.readers.read import numbers_of, read_frames
+from vtray.scene.readers.read import is_slow, numbers_of, read_frames
 from vtray.scene.readers.which_frames import which_frames
 from vtray.scene.scene import Scene
 
@@ -31,12 +33,18 @@ class Source:
         only `start` can, and but once.
     numbers
         What is the number of each picture where it comes from; those from 0 if it is None.
+    stored
+        The file that others may read frames from; None if there is none.
+    repeats
+        Whether there is the same scene for each picture.
     """
 
     count: int | None
     start: Callable[[int], Iterator[Any]]
     some: Callable[[Sequence[int]], Iterator[Any]] | None
     numbers: Sequence[int] | None = None
+    stored: Stored | None = None
+    repeats: bool = False
 
     def number(self, k: int) -> int:
         """Return what is the number of a picture where it comes from."""
@@ -70,7 +78,10 @@ def source_of(
     if isinstance(scenes, Scene):
         count = _count_of(frames, usual)
         return Source(
-            count, lambda k: repeat(scenes, count - k), lambda ks: repeat(scenes, len(ks))
+            count,
+            lambda k: repeat(scenes, count - k),
+            lambda ks: repeat(scenes, len(ks)),
+            repeats=True,
         )
     if callable(scenes):
         return _of_function(scenes, frames)
@@ -88,12 +99,22 @@ def source_of(
 
 def _of_file(path: str, frames: Any, reading: Mapping[str, Any]) -> Source:  # noqa: ANN401
     """Return what a trajectory gives."""
+    if is_slow(path, **reading):
+        spool = Spool(path, read_frames(path, **reading))
+        try:
+            found = which_frames(frames, spool.count)
+        except SceneError as error:
+            # What is wrong with the file names it.
+            name = "" if str(error).startswith(path) else f"{path}: "
+            raise SceneError(f"{name}{error}") from None
+        return _listed(spool.read, found)
     numbers = numbers_of(path, frames, **reading)
 
     def read(ks: Sequence[int]) -> Iterator[Any]:
         return read_frames(path, [numbers[k] for k in ks], **reading)
 
-    return Source(len(numbers), lambda k: read(range(k, len(numbers))), read, numbers)
+    stored = Stored(path, reading)
+    return Source(len(numbers), lambda k: read(range(k, len(numbers))), read, numbers, stored)
 
 
 def _of_function(make: Callable[[int], Any], frames: Any) -> Source:  # noqa: ANN401

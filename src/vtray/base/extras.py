@@ -8,6 +8,7 @@ from vtray.base.errors import VtrayError
 
 PACKAGES = {
     "atoms": ("ase", "gsd", "MDAnalysis"),
+    "dask": ("distributed",),
     "denoise": ("pyoidn",),
     "diff": ("flip-evaluator",),
     "figure": ("matplotlib",),

@@ -166,7 +166,8 @@ def _is_data(options: argparse.Namespace) -> bool:
         is_data = is_called_data(str(options.scene))
     if is_data or given or options.label:
         data_options.check_kind(options, is_data=is_data)
-    if options.threads is None and not is_data:
+    # Workers of a cluster have as many threads as they were started with.
+    if options.threads is None and not is_data and not getattr(options, "dask", None):
         options.threads = 1
     return is_data
 

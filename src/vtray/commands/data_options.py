@@ -132,6 +132,11 @@ HOW: dict[str, dict[str, Any]] = {
         "help": "the light of a pixel that is as bright as can be",
     },
     "highlight": {"metavar": "EXPR", "help": "let the colours of all others fade"},
+    "opacity": {
+        "metavar": "NUMBER|COLUMN",
+        "type": _radii,
+        "help": "share of light that all take on its way through; with --highlight, all others",
+    },
     "legend": {**FLAG, "help": "show what the colours are called: elements, or names in a column"},
 }
 """What they look like."""

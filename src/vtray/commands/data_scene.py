@@ -1,6 +1,7 @@
 """A file of data as a scene: what the options of data say."""
 
 import argparse
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
@@ -8,6 +9,7 @@ from vtray.commands import data_options
 from vtray.commands.annotation_options import PointLabel, labels_of
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from pathlib import Path
 
     from vtray.scene.particles.drawing import Drawn
@@ -39,7 +41,7 @@ def draw_data(
     options: argparse.Namespace,
     particles: "Particles",
     camera: "Camera | None" = None,
-    clim: tuple[float, float] | None = None,
+    fixed: "Mapping[str, Any]" = MappingProxyType({}),
 ) -> "tuple[Scene, Drawn, dict[str, Any]]":
     """Return a scene of particles as the options say, what is in it, and what is painted on it.
 
@@ -51,20 +53,18 @@ def draw_data(
         The particles.
     camera
         The camera; None for one that shows all of them.
-    clim
-        The values of the first and last colour, where the options do not say them.
+    fixed
+        What else `Scene.add_particles` is given, where the options do not say it.
     """
     from vtray.scene.particles.view import SIZE, VIEW, camera_of, taken
     from vtray.scene.scene import Scene
 
     given = data_options.given(options)
     view = {name: given.pop(name) for name in VIEW if name in given}
-    drawing = {name: value for name, value in given.items() if name not in UNDRAWN}
+    drawing = {**fixed, **{name: given[name] for name in given if name not in UNDRAWN}}
     if "cutoff" in drawing:
         drawing["bonds"] = drawing.pop("cutoff")
     scene = Scene()
-    if clim is not None:
-        drawing.setdefault("clim", clim)
     size, has_cell = options.size or SIZE, particles.cell is not None
     try:
         if camera is not None:

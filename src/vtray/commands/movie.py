@@ -1,15 +1,21 @@
 """Movies by the command: of the frames of a file, or of a scene that is gone around."""
 
 import argparse
+import contextlib
+import logging
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from vtray.animation.animate import camera_around, go_around, run
+from vtray.animation.cluster import check_client, connect
+from vtray.animation.film import Film
 from vtray.animation.output import Output
 from vtray.animation.particle_scenes import Objects, ParticleScenes, looked_at
-from vtray.animation.shooting import Film, Shot
+from vtray.animation.script import Script
 from vtray.animation.sources import first_of, source_of
+from vtray.animation.stage import Look, Shot
 from vtray.animation.swept import fit_around, upright
 from vtray.base.errors import printable
 from vtray.base.signals import LastStep
@@ -20,7 +26,6 @@ from vtray.commands.data_scene import draw_data, read_particles
 from vtray.commands.movie_options import FPS
 from vtray.commands.options import settings_of
 from vtray.scene.camera import Camera
-from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.view import SIZE, VIEW, camera_of
 from vtray.scene.placing.views import TILT
 
@@ -48,17 +53,14 @@ def make_movie(
     fps = getattr(options, "fps", None) or FPS
     output.check(fps, options.bits, options.aov or ())
     painted = argparse.Namespace(**{**vars(options), "output": output.name(0)})
-    film = Film(
-        output,
-        fps,
+    look = Look(
         settings_of(options),
         annotations_of(painted),
         options.bits,
         tuple(options.aov or ()),
         options.threads,
-        bool(getattr(options, "resume", False)),
-        warn=warn,
     )
+    film = Film(output, fps, look, bool(getattr(options, "resume", False)), on_warning=warn)
     progress: Any = None
     if not options.quiet and sys.stderr.isatty():
         from vtray.commands.progress import ProgressBar
@@ -71,8 +73,10 @@ def make_movie(
             progress.close()
         if film.done is not None and film.done.how_to_go_on() and not options.quiet:
             print_note(printable(f"vtray: {film.done.how_to_go_on()}"))
+        if film.done is not None:
+            film.done.release()
 
-    with LastStep(tell):
+    with LastStep(tell), _cluster_of(options) as film.client:
         try:
             _make(options, film, load)
         except BaseException:
@@ -80,6 +84,22 @@ def make_movie(
             raise
     if progress is not None:
         progress.close()
+
+
+@contextlib.contextmanager
+def _cluster_of(options: argparse.Namespace) -> Iterator[Any]:
+    """Give a client of the cluster that is asked for; None if none is."""
+    address = getattr(options, "dask", None)
+    if address is None:
+        yield None
+        return
+    logging.disable(logging.CRITICAL)  # what is wrong is said once, and in one line
+    try:
+        with connect(address) as client:
+            check_client(client)
+            yield client
+    finally:
+        logging.disable(logging.NOTSET)
 
 
 def _make(options: argparse.Namespace, film: Film, load: "Callable[[], Scene] | None") -> None:
@@ -106,10 +126,8 @@ def _go_through(options: argparse.Namespace, film: Film) -> None:
     given = data_options.given(options)
     view = {name: given[name] for name in VIEW if name in given}
 
-    def draw(particles: Particles, camera: Camera | None, clim: tuple[float, float] | None) -> Any:  # noqa: ANN401
-        return draw_data(options, particles, camera, clim)
-
     def fit(subject: Objects, has_cell: bool) -> Camera:
         return camera_of(subject, has_cell, options.size or SIZE, **view)
 
-    run(film, source, ParticleScenes(draw, fit, looked_at(source, first)), first)
+    make = ParticleScenes(partial(draw_data, options), fit, looked_at(source, first))
+    run(film, Script(source, first, make))

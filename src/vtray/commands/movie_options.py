@@ -10,7 +10,7 @@ from vtray.base.errors import SceneError, UsageError
 from vtray.commands.command import Parser
 from vtray.commands.setting_options import wrong
 
-FLAGS = ("--frames", "--fps", "--turntable", "--resume")
+FLAGS = ("--frames", "--fps", "--turntable", "--resume", "--dask")
 
 FPS = 30.0
 """Pictures in a second, unless they are given."""
@@ -49,6 +49,12 @@ def add_movie_options(parser: Parser) -> None:
         "--fps", metavar="N", type=_positive, help=f"pictures in a second ({FPS:g} unless given)"
     )
     group.add_argument("--resume", action="store_true", help="go on where an earlier run has ended")
+    group.add_argument(
+        "--dask",
+        metavar="ADDRESS",
+        help="let the workers of a Dask cluster take the pictures: tcp://HOST:PORT of its "
+        "scheduler, or its scheduler file (.json)",
+    )
 
 
 def makes_movie(options: argparse.Namespace, is_data: bool) -> bool:

@@ -9,14 +9,12 @@ from typing import Any
 from vtray.commands import data_options, movie_options
 from vtray.commands.annotation_options import add_annotations, with_values
 from vtray.commands.command import Parser
-from vtray.commands.setting_options import add_settings, wrong
+from vtray.commands.setting_options import add_settings, with_parts, wrong
 from vtray.image.aovs import AOVS
 from vtray.scene.settings import RenderSettings
+from vtray.scene.style import PICTURE, Style
 
 HINT = "usage: vtray [-t THREADS] SCENE OUTPUT (more: vtray --help)"
-
-SETTINGS = RenderSettings.__struct_fields__
-"""The options that a render takes; None for what the scene says."""
 
 
 def parse(arguments: Sequence[str]) -> argparse.Namespace:
@@ -66,7 +64,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     _add_growing(parser)
     _add_reports(parser)
     # SCENE and OUTPUT may stand apart.
-    options = parser.parse_intermixed_args(data_options.joined(with_values(arguments)))
+    joined = data_options.joined(with_values(with_parts(arguments, Style)))
+    options = parser.parse_intermixed_args(joined)
     options.columns = getattr(options, "columns", None)
     if options.output is None and options.pixel is None and not options.columns:
         parser.error("OUTPUT is missing")
@@ -82,8 +81,8 @@ def _or_stream(stream: str) -> Callable[[str], Path]:
 
 
 def settings_of(options: argparse.Namespace) -> dict[str, Any]:
-    """Return the settings that the options give, to render with."""
-    given = {name: getattr(options, name) for name in (*SETTINGS, "lock")}
+    """Return the settings and parts of a style that the options give, to render with."""
+    given = {name: getattr(options, name) for name in (*PICTURE, "lock")}
     return {name: value for name, value in given.items() if value is not None}
 
 
@@ -91,6 +90,7 @@ def _add_settings(parser: Parser) -> None:
     """Add how the picture is taken, which is as the scene says unless said otherwise."""
     group = parser.add_argument_group("the picture (otherwise as the scene says)")
     add_settings(group, RenderSettings)
+    add_settings(group, Style)
     group.add_argument(
         "--replay",
         metavar="PICTURE",

@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from vtray.base.version import __version__
-from vtray.commands.options import SETTINGS
 from vtray.image.formats.image_format import find_format
 from vtray.image.provenance import Provenance, read_provenance
 from vtray.scene.scene import Scene
+from vtray.scene.style import PICTURE
 
 
 class Exposed(NamedTuple):
@@ -28,10 +28,10 @@ def take_over(options: argparse.Namespace) -> Provenance:
     told = read_provenance(options.replay)
     if told.lock is not None and options.exposure is None:
         options.lock = Exposed(told.lock)
-    for name in SETTINGS:
+    for name in PICTURE:
         decided = name == "exposure" and options.lock is not None
         if getattr(options, name) is None and not decided:
-            setattr(options, name, getattr(told, name))
+            setattr(options, name, told.told(name))
     if options.output is not None:
         # Another format than that of the picture may have other bits.
         if options.bits is None and told.bits in find_format(options.output).bits:

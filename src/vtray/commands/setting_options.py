@@ -3,7 +3,7 @@
 import argparse
 import re
 import typing
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, Literal
 
 import msgspec
@@ -11,14 +11,15 @@ import msgspec
 from vtray.base.errors import SceneError
 from vtray.scene.checks.limits import alternatives, limits_alone
 from vtray.scene.colors.names import to_rgb
-from vtray.scene.settings import Settings, kinds_of
+from vtray.scene.settings import kinds_of
+from vtray.scene.style import taken
 from vtray.scene.vectors import Color
 
 _INTEGER = r"-?[0-9]{1,20}"
 _NUMBER = r"-?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 
 
-def add_settings(group: argparse._ArgumentGroup, settings: type[Settings]) -> None:
+def add_settings(group: argparse._ArgumentGroup, settings: type[msgspec.Struct]) -> None:
     """Add an option for each setting, and those that stand for one of its values.
 
     Parameters
@@ -30,11 +31,13 @@ def add_settings(group: argparse._ArgumentGroup, settings: type[Settings]) -> No
     """
     for name, (kind, option) in kinds_of(settings).items():
         place = group.add_mutually_exclusive_group() if option.flags else group
-        flag = f"--{name.replace('_', '-')}"
+        flag = _flag(name)
         read = _reader(kind, option.words)
+        if option.of is not None:
+            read = _reader_of_part(settings, name)
         reading: dict[str, Any] = {"type": read}
         (*others, last) = alternatives(kind)
-        if last is bool:
+        if last is bool and not others:
             place.add_argument(flag, help=option.help, action=argparse.BooleanOptionalAction)
             continue
         if not others and typing.get_origin(last) is Literal:
@@ -48,6 +51,55 @@ def add_settings(group: argparse._ArgumentGroup, settings: type[Settings]) -> No
                 const=read(value),
                 help=f"the same as {flag} {value}",
             )
+
+
+def with_parts(arguments: Sequence[str], settings: type[msgspec.Struct]) -> list[str]:
+    """Return arguments in which what follows an option of a part is its value, if it can be one.
+
+    Parameters
+    ----------
+    arguments
+        The arguments, such as ``--fog 5,20 scene.json`` or ``--fog scene.json``.
+    settings
+        The definition of the parts.
+    """
+    names = {_flag(name): name for name, (_, option) in kinds_of(settings).items() if option.of}
+    end = arguments.index("--") if "--" in arguments else len(arguments)
+    found: list[str] = []
+    for k, argument in enumerate(arguments):
+        name = names.get(found[-1][:-1]) if found and found[-1].endswith("=") else None
+        if name and k < end and _can_be(settings, name, argument):
+            found[-1] += argument
+        else:
+            found.append(f"{argument}=" if argument in names and k < end else argument)
+    return found
+
+
+def _can_be(settings: type[msgspec.Struct], name: str, argument: str) -> bool:
+    """Tell whether an argument can be the value of a part, right or wrong."""
+    if re.fullmatch(rf"[+-]?[0-9.]+|{_NUMBER}|[+-]?[.0-9][^/]*,[^/]*", argument):
+        return True
+    try:
+        taken(settings, name, argument, name)
+    except SceneError:
+        return False
+    return True
+
+
+def _flag(name: str) -> str:
+    return f"--{name.replace('_', '-')}"
+
+
+def _reader_of_part(settings: type[msgspec.Struct], name: str) -> Callable[[str], Any]:
+    """Return what reads the value of an option as a part."""
+
+    def read(text: str) -> Any:  # noqa: ANN401
+        try:
+            return taken(settings, name, text, name)
+        except SceneError as error:
+            raise argparse.ArgumentTypeError(str(error).partition(": ")[2]) from None
+
+    return read
 
 
 def wrong(expected: str, text: str) -> argparse.ArgumentTypeError:

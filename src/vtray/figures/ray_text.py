@@ -3,7 +3,16 @@
 from collections.abc import Sequence
 from typing import Any
 
-from vtray.figures.traced_rays import Exposed, Hit, ShadowFan, Surface, TracedRays, WayToLight
+from vtray.figures.traced_rays import (
+    Exposed,
+    Hit,
+    Layer,
+    ShadowFan,
+    Surface,
+    TracedRays,
+    Veil,
+    WayToLight,
+)
 from vtray.scene.light_types import AnyLight, measure_of, strength_of
 from vtray.scene.scene import Scene
 
@@ -17,22 +26,45 @@ def describe(tree: TracedRays) -> str:
         f"pixel        column {column}, row {row} of {width} x {height}",
         f"ray          from {_vector(tree.origin)} towards {_vector(tree.direction)}",
     ]
+    for layer in tree.layers:
+        lines += _describe_layer(layer, tree.scene)
+    if tree.layers:
+        lines.append(f"behind       {100 * tree.share:.4g} % of the light passes all layers")
     if tree.lamp is not None:
         lines.append(_describe_lamp(tree.scene.lights[tree.lamp], tree.lamp))
     elif tree.hit is None:
         lines.append("hit          nothing in front of the image plane")
     else:
         lines += _describe_hit(tree.hit, tree.scene)
-        told = [way for way in tree.lights if not _is_idle(way)]
-        for way in told:
-            lines += _describe_light(way, tree.hit)
-        if len(told) < len(tree.lights):
-            lines.append(_describe_others(len(tree.lights) - len(told), bool(told)))
+        lines += _describe_lights(tree.lights, tree.hit, tree.share)
     of = "the sum over all lights" if tree.lamp is None else "that of the lamp"
+    of = "the sum over all layers and lights" if tree.layers else of
     lines.append(f"light        {_vector(tree.light)}, {of}")
+    if tree.veil is not None:
+        lines.append(_describe_veil(tree.veil))
     if tree.exposed is not None:
         lines += _describe_exposure(tree.exposed, tree)
     return "\n".join(lines)
+
+
+def _describe_layer(layer: Layer, scene: Scene) -> list[str]:
+    """Return the lines on a layer."""
+    first, *others = _describe_hit(layer.hit, scene)
+    return [
+        first.replace("hit  ", "layer", 1),
+        *others,
+        f"  seen       {100 * layer.share:.4g} % of its light",
+        *_describe_lights(layer.lights, layer.hit, layer.share),
+    ]
+
+
+def _describe_lights(ways: Sequence[WayToLight], hit: Hit, share: float) -> list[str]:
+    """Return the lines on all lights at a hit, of whose light a share is seen."""
+    told = [way for way in ways if not _is_idle(way)]
+    lines = [line for way in told for line in _describe_light(way, hit, share)]
+    if len(told) < len(ways):
+        lines.append(_describe_others(len(ways) - len(told), bool(told)))
+    return lines
 
 
 def _describe_lamp(light: AnyLight, number: int) -> str:
@@ -61,7 +93,7 @@ def _describe_copy(surface: Surface, scene: Scene) -> list[str]:
     )
 
 
-def _describe_light(way: WayToLight, hit: Hit) -> list[str]:
+def _describe_light(way: WayToLight, hit: Hit, share: float) -> list[str]:
     """Return the lines on a light: its direction, what blocks it or what it adds."""
     name = f"lights[{way.light}]"
     if isinstance(way, ShadowFan):
@@ -79,7 +111,15 @@ def _describe_light(way: WayToLight, hit: Hit) -> list[str]:
     factors += f" x {strength} {way.intensity:g} x color"
     if way.color != WHITE:
         factors += f" x {_vector([channel / 255 for channel in way.color])} of the light"
+    if share < 1.0:
+        factors += f" x {share:.6g} that is seen"
     return [first, f"  adds       {_vector(way.adds)} = {factors}"]
+
+
+def _describe_veil(veil: Veil) -> str:
+    """Return the line on fog."""
+    share = f"{100 * veil.share:.4g} % of what is seen {veil.distance:.10g} away"
+    return f"fog          {share}, which leaves {_vector(veil.light)}"
 
 
 def _is_idle(way: WayToLight) -> bool:
@@ -110,16 +150,20 @@ def _describe_exposure(exposed: Exposed, tree: TracedRays) -> list[str]:
     """Return the lines on the value before and after exposure."""
     lines, share = [], f"{100 * exposed.background:.3g}"
     shine = exposed.stars or (0.0, 0.0, 0.0)
-    if exposed.light != tuple(one + two for one, two in zip(tree.light, shine, strict=True)):
+    left = tree.light if tree.veil is None else tree.veil.light
+    if exposed.light != tuple(one + two for one, two in zip(left, shine, strict=True)):
         traced = [one - two for one, two in zip(exposed.light, shine, strict=True)]
         lines.append(f"samples      {_vector(traced)}, the mean of all rays of the pixel")
     if exposed.stars is not None:
         lines.append(f"stars        {_vector(shine)}, added to that")
+    if exposed.drawn is not None:
+        lines.append(f"drawn        {_vector(exposed.drawn)}, what lines and shade leave of it")
     if exposed.sky is not None:
         lines.append(f"sky          {_vector(exposed.sky)}, seen in {share} % of the pixel")
     what = "the brightest channel of the picture" if exposed.brightest else "what becomes 255"
     white = f"{exposed.white:.10g}"
-    formula = f"floor(255 x light / {white}), {white} is {what}"
+    more = "".join(f" + {_vector(overlay)}" for overlay in exposed.overlays)
+    formula = f"floor(255 x light / {white}{more}), {white} is {what}"
     lines.append(f"exposure     {formula if exposed.white > 0.0 else 'the whole picture is black'}")
     is_color = exposed.background and exposed.sky is None
     behind = f", {share} % of it background" if is_color else ""

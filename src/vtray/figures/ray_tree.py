@@ -7,17 +7,30 @@ from vtray.figures.traced_rays import (
     Exposed,
     FanRay,
     Hit,
+    Layer,
     ShadowFan,
     ShadowRay,
     Surface,
     TracedRays,
+    Veil,
     View,
 )
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["Exposed", "FanRay", "Hit", "RayTree", "ShadowFan", "ShadowRay", "Surface", "View"]
+__all__ = [
+    "Exposed",
+    "FanRay",
+    "Hit",
+    "Layer",
+    "RayTree",
+    "ShadowFan",
+    "ShadowRay",
+    "Surface",
+    "Veil",
+    "View",
+]
 
 
 @dataclass(frozen=True)
@@ -49,6 +62,12 @@ class RayTree(TracedRays):
         The place in ``scene.lights`` of the lamp that is seen, or None.
     scene
         The scene as it was traced.
+    layers
+        The layers of faded bodies before the hit, the nearest first.
+    share
+        How much of the light of the hit passes all of them.
+    veil
+        What fog does to that light; None if there is none, or nothing is met.
     """
 
     def __str__(self) -> str:

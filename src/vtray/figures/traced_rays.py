@@ -107,7 +107,8 @@ class ShadowRay:
     distance
         From the hit to the light, in scene units.
     cosine
-        Of the angle between the normal and the direction; 0 if the light is behind the surface.
+        Of the angle between the normal and the direction, times what passes faded bodies on the
+        way; 0 if the light is behind the surface.
     blocker
         A surface between the hit and the light, or None.
     adds
@@ -248,6 +249,29 @@ WayToLight: TypeAlias = ShadowRay | ShadowFan
 
 
 @dataclass(frozen=True)
+class Layer:
+    """Where the ray of a pixel passes a body that takes a share of the light.
+
+    Attributes
+    ----------
+    hit
+        Where it comes to the body, or leaves it if it starts inside.
+    share
+        How much of the light from there is seen: the opacity of the body times what passes all
+        layers before it, and what fog leaves of that.
+    lights
+        The ways to all lights, as those of `RayTree`.
+    light
+        The red, green and blue that the layer adds to the pixel.
+    """
+
+    hit: Hit
+    share: float
+    lights: tuple[WayToLight, ...]
+    light: Vec
+
+
+@dataclass(frozen=True)
 class View:
     """The camera in world space.
 
@@ -295,6 +319,11 @@ class Exposed:
         The red, green and blue that the sky adds where it is the background, else None.
     value
         The pixel's channels in the picture, from 0 to 255.
+    overlays
+        The red, green and blue of the value, from 0 to 255, that fog of its own colour and outlines
+        add.
+    drawn
+        What outlines and eye-dome lighting leave of the light; None if that is all of it.
     """
 
     light: Vec
@@ -304,6 +333,27 @@ class Exposed:
     background: float
     sky: Vec | None
     value: tuple[int, ...]
+    overlays: tuple[Vec, ...] = ()
+    drawn: Vec | None = None
+
+
+@dataclass(frozen=True)
+class Veil:
+    """What fog does to the light along a ray.
+
+    Attributes
+    ----------
+    distance
+        How far the ray goes through it, from the eye, in scene units.
+    share
+        How much of what is seen is fog, from 0 to 1.
+    light
+        What is left of the light: linear red, green and blue.
+    """
+
+    distance: float
+    share: float
+    light: Vec
 
 
 @dataclass(frozen=True)
@@ -320,3 +370,6 @@ class TracedRays:
     exposed: Exposed | None
     lamp: int | None
     scene: Scene = field(repr=False, compare=False)
+    layers: tuple[Layer, ...] = ()
+    share: float = 1.0
+    veil: Veil | None = None

@@ -9,7 +9,7 @@ from typing import Any
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.boxes import fetch_node
 from vtray.geometry.bvh.tree import WIDTH
-from vtray.geometry.dispatch import Shape, Verbs, with_any
+from vtray.geometry.dispatch import with_any
 from vtray.geometry.packets.beam import (
     Beam,
     children_met,
@@ -22,6 +22,7 @@ from vtray.geometry.packets.stack import Stack
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.ray import Segment
 from vtray.geometry.rounding import MARGIN
+from vtray.geometry.shapes.verbs import Shape, Verbs
 from vtray.geometry.vector import add, scale, sub
 from vtray.geometry.world import (
     Group,

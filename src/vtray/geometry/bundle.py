@@ -66,6 +66,23 @@ class Crossing(NamedTuple):
     far: float
 
 
+class Passage(NamedTuple):
+    """From where to where the rays of a bundle enter a solid, and where they leave it.
+
+    Attributes
+    ----------
+    enters, leaves
+        Where they do.
+    covers
+        Whether all of them meet it; if not, the far end of `enters` and the near one of `leaves`
+        say nothing.
+    """
+
+    enters: Crossing
+    leaves: Crossing
+    covers: bool
+
+
 @device
 def image_plane_range(ray: Ray, footprint: Footprint) -> tuple[float, float]:
     """Return from where to where the rays of a pixel pass through the image plane."""
@@ -138,18 +155,9 @@ def is_looked_at(sight: Vec | None) -> bool:
 
 
 @device
-def first_crossing(enters: Crossing, leaves: Crossing, covers: bool, bundle: Bundle) -> Crossing:
-    """Return where the rays of a bundle first meet a solid, of all that counts.
-
-    Parameters
-    ----------
-    enters, leaves
-        From where to where they enter and leave it.
-    covers
-        Whether all of them do.
-    bundle
-        The rays.
-    """
+def first_crossing(passage: Passage, bundle: Bundle) -> Crossing:
+    """Return where the rays of a bundle first meet a solid, of all that counts."""
+    enters, leaves, covers = passage
     is_before = covers & (enters.near > bundle.last)
     is_within = covers & (enters.far < bundle.first) & (leaves.near > bundle.last)
     is_behind = leaves.far <= bundle.first

@@ -3,33 +3,66 @@
 What is done with a shape, an action, is a device function that is given the shape and what shapes
 of its kind can do. It is compiled once for each kind, so the loops in it are as fast as if there
 were no other. Nothing is compiled for cylinders and cones where there are none: their columns are
-None then.
+None then; nor for clip planes where there are none.
 """
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.bundle import Bundle, Crossing
-from vtray.geometry.ray import Ray, Segment
-from vtray.geometry.shapes.columns import Columns
+from vtray.geometry.shapes.columns import Columns, Place
 from vtray.geometry.shapes.cone import (
+    cone_chord,
     cone_crossing,
     cone_distance,
     cone_hides,
     cone_is_aside,
     cone_is_outside,
+    cone_outside,
+    cone_passage,
+    cone_power,
     cone_sides,
+    cone_stay,
     cone_surface,
     load_cone,
 )
+from vtray.geometry.shapes.cut import (
+    Solid,
+    cut_crossing,
+    cut_distance,
+    cut_hides,
+    cut_is_aside,
+    cut_is_outside,
+    cut_power,
+    cut_shape,
+    cut_sides,
+    cut_stay,
+    cut_surface,
+)
+from vtray.geometry.shapes.cut_plane import (
+    cut_plane,
+    cut_plane_crossing,
+    cut_plane_distance,
+    cut_plane_hides,
+    cut_plane_is_aside,
+    cut_plane_is_outside,
+    cut_plane_power,
+    cut_plane_sides,
+    cut_plane_stay,
+    cut_plane_surface,
+)
 from vtray.geometry.shapes.cylinder import (
+    cylinder_chord,
     cylinder_crossing,
     cylinder_distance,
     cylinder_hides,
     cylinder_is_aside,
     cylinder_is_outside,
+    cylinder_outside,
+    cylinder_passage,
+    cylinder_power,
     cylinder_sides,
+    cylinder_stay,
     cylinder_surface,
     load_cylinder,
 )
@@ -41,58 +74,28 @@ from vtray.geometry.shapes.plane import (
     plane_is_aside,
     plane_is_outside,
     plane_sides,
+    plane_stay,
     plane_surface,
 )
-from vtray.geometry.shapes.sides import Sides
+from vtray.geometry.shapes.room import ACROSS, load_room, relation_to
 from vtray.geometry.shapes.sphere import (
     load_sphere,
+    sphere_chord,
     sphere_crossing,
     sphere_distance,
     sphere_hides,
     sphere_is_aside,
     sphere_is_outside,
+    sphere_outside,
+    sphere_passage,
+    sphere_power,
     sphere_sides,
+    sphere_stay,
     sphere_surface,
 )
-from vtray.geometry.shapes.surface import Surface
-from vtray.geometry.vector import Vec
-from vtray.geometry.world import CONE, CYLINDER, PLANE, Group, World
-
-Shape = Any
-"""The numbers of a shape in the kernels' space. Each kind has a type of its own; all have an
-``error_scale``, and bounded ones ``center`` and ``radius`` of a ball around them."""
-
-
-class Verbs(NamedTuple):
-    """What shapes of a kind can do: the functions of its module.
-
-    Attributes
-    ----------
-    distance_to
-        Returns the distance at which a ray first meets a shape, or infinity.
-    is_aside
-        Tells whether a ray is sure to miss a shape, at less cost: worth asking one ray at a time.
-    hides
-        Tells whether a shape stands between two points.
-    sides
-        Returns half-spaces in which a shape lies as it is seen from a point.
-    is_outside
-        Tells whether a point of the surface is looked at from outside, given the normal there.
-    crossing
-        Returns from where to where the rays of a bundle first meet a shape.
-    surface
-        Returns the surface at a point, whose rounding error is relative to a number beside the
-        shape.
-    """
-
-    distance_to: Callable[[Shape, Ray], float]
-    is_aside: Callable[[Shape, Ray], bool]
-    hides: Callable[[Shape, Segment], bool]
-    sides: Callable[[Shape, Vec, float], Sides]
-    is_outside: Callable[[Shape, Vec, Vec], bool]
-    crossing: Callable[[Shape, Bundle], Crossing]
-    surface: Callable[[Shape, Vec, float], Surface]
-
+from vtray.geometry.shapes.surface import no_power
+from vtray.geometry.shapes.verbs import Shape, Verbs
+from vtray.geometry.world import CONE, CUT, CYLINDER, PLANE, Clip, Group, World
 
 Action = Callable[[Shape, Verbs, int, Any], Any]
 """What is done with a shape: given the shape, its verbs, its number, and arguments of its own."""
@@ -111,6 +114,8 @@ def with_any(world: World, group: Group, slot: int, action: Action, arguments: A
             plane_is_outside,
             plane_crossing,
             plane_surface,
+            no_power,
+            plane_stay,
         )
         return action(plane, verbs, group.number + world.planes.number[slot], arguments)
     return with_bounded(world, group, slot, action, arguments)
@@ -118,8 +123,9 @@ def with_any(world: World, group: Group, slot: int, action: Action, arguments: A
 
 @device
 def with_bounded(world: World, group: Group, slot: int, action: Action, arguments: Any) -> Any:  # noqa: ANN401
-    """Return what an action returns for a shape of a group that is none of planes."""
-    return _with_one_of(world.spheres, world.cylinders, world.cones, group, slot, action, arguments)
+    """Return what an action returns for a shape of a group that is none of whole planes."""
+    spheres, cylinders, cones = world.spheres, world.cylinders, world.cones
+    return _with_one_of(spheres, cylinders, cones, world.clip, group, slot, action, arguments)
 
 
 @device
@@ -127,40 +133,111 @@ def _with_one_of(
     spheres: Columns,
     cylinders: Columns | None,
     cones: Columns | None,
+    clip: Clip | None,
     group: Group,
     slot: int,
     action: Action,
     arguments: Any,  # noqa: ANN401
 ) -> Any:  # noqa: ANN401
     # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if clip is not None:  # noqa: SIM102
+        if group.kind >= CUT:
+            return _with_cut(
+                spheres, cylinders, cones, clip, clip.flat, group, slot, action, arguments
+            )
     if cylinders is not None:  # noqa: SIM102
         if group.kind == CYLINDER:
             cylinder = load_cylinder(cylinders, slot, group.place)
-            verbs = Verbs(
-                cylinder_distance,
-                cylinder_is_aside,
-                cylinder_hides,
-                cylinder_sides,
-                cylinder_is_outside,
-                cylinder_crossing,
-                cylinder_surface,
-            )
-            return action(cylinder, verbs, group.number + cylinders.number[slot], arguments)
+            number = group.number + cylinders.number[slot]
+            return action(cylinder, _verbs_of_cylinders(), number, arguments)
     if cones is not None:  # noqa: SIM102
         if group.kind == CONE:
             cone = load_cone(cones, slot, group.place)
-            verbs_of_cones = Verbs(
-                cone_distance,
-                cone_is_aside,
-                cone_hides,
-                cone_sides,
-                cone_is_outside,
-                cone_crossing,
-                cone_surface,
-            )
-            return action(cone, verbs_of_cones, group.number + cones.number[slot], arguments)
+            return action(cone, _verbs_of_cones(), group.number + cones.number[slot], arguments)
     sphere = load_sphere(spheres, slot, group.place)
-    verbs_of_spheres = Verbs(
+    return action(sphere, _verbs_of_spheres(), group.number + spheres.number[slot], arguments)
+
+
+@device
+def _with_cut(
+    spheres: Columns,
+    cylinders: Columns | None,
+    cones: Columns | None,
+    clip: Clip,
+    flat: Columns | None,
+    group: Group,
+    slot: int,
+    action: Action,
+    arguments: Any,  # noqa: ANN401
+) -> Any:  # noqa: ANN401
+    """Return what an action returns for a shape of a group that clip planes may cut."""
+    place, (shift, size, _) = group.place, group.place
+    # The relation to the planes is found in world space, where no camera has a say.
+    here, there = Place((0.0, 0.0, 0.0), size, place.origin), (0.0, 0.0, 0.0)
+    rows = clip.room.shape[0]
+    row, is_placed = clip.room[group.row % rows], group.row >= rows
+    begin, end = clip.begin[row], clip.begin[row + 1]
+    planes, still = clip.planes, Place(there, size, there)
+    room = load_room(planes, begin, end, here)
+    moved = Place(shift, size, there)
+    if flat is not None:  # noqa: SIM102
+        if group.kind == CUT + PLANE:
+            plane = cut_plane(load_plane(flat, slot, place), room)
+            number = group.number + flat.number[slot]
+            return action(plane, _verbs_of_cut_planes(), number, arguments)
+    if cylinders is not None:  # noqa: SIM102
+        if group.kind == CUT + CYLINDER:
+            cylinder = cut_shape(
+                load_cylinder(cylinders, slot, place),
+                _verbs_of_cylinders(),
+                Solid(cylinder_chord, cylinder_outside, cylinder_power, cylinder_passage, False),
+                room,
+                _relation_of(
+                    load_cylinder(cylinders, slot, moved), is_placed, planes, begin, end, still
+                ),
+                clip.is_capped,
+            )
+            number = group.number + cylinders.number[slot]
+            return action(cylinder, _verbs_of_cut_shapes(), number, arguments)
+    if cones is not None:  # noqa: SIM102
+        if group.kind == CUT + CONE:
+            cone = cut_shape(
+                load_cone(cones, slot, place),
+                _verbs_of_cones(),
+                Solid(cone_chord, cone_outside, cone_power, cone_passage, False),
+                room,
+                _relation_of(load_cone(cones, slot, moved), is_placed, planes, begin, end, still),
+                clip.is_capped,
+            )
+            number = group.number + cones.number[slot]
+            return action(cone, _verbs_of_cut_shapes(), number, arguments)
+    sphere = cut_shape(
+        load_sphere(spheres, slot, place),
+        _verbs_of_spheres(),
+        Solid(sphere_chord, sphere_outside, sphere_power, sphere_passage, True),
+        room,
+        _relation_of(load_sphere(spheres, slot, moved), is_placed, planes, begin, end, still),
+        clip.is_capped,
+    )
+    return action(sphere, _verbs_of_cut_shapes(), group.number + spheres.number[slot], arguments)
+
+
+@device
+def _relation_of(
+    shape: Shape, is_placed: bool, planes: Columns, begin: int, end: int, place: Place
+) -> int:
+    """Return how a shape lies to a room, both in world space.
+
+    Of those that stand where they are given, only the ones that planes cut are in such groups.
+    """
+    if is_placed:
+        return relation_to(planes, begin, end, place, shape.center, shape.radius)
+    return ACROSS
+
+
+@device
+def _verbs_of_spheres() -> Verbs:
+    return Verbs(
         sphere_distance,
         sphere_is_aside,
         sphere_hides,
@@ -168,5 +245,66 @@ def _with_one_of(
         sphere_is_outside,
         sphere_crossing,
         sphere_surface,
+        no_power,
+        sphere_stay,
     )
-    return action(sphere, verbs_of_spheres, group.number + spheres.number[slot], arguments)
+
+
+@device
+def _verbs_of_cylinders() -> Verbs:
+    return Verbs(
+        cylinder_distance,
+        cylinder_is_aside,
+        cylinder_hides,
+        cylinder_sides,
+        cylinder_is_outside,
+        cylinder_crossing,
+        cylinder_surface,
+        no_power,
+        cylinder_stay,
+    )
+
+
+@device
+def _verbs_of_cones() -> Verbs:
+    return Verbs(
+        cone_distance,
+        cone_is_aside,
+        cone_hides,
+        cone_sides,
+        cone_is_outside,
+        cone_crossing,
+        cone_surface,
+        no_power,
+        cone_stay,
+    )
+
+
+@device
+def _verbs_of_cut_shapes() -> Verbs:
+    return Verbs(
+        cut_distance,
+        cut_is_aside,
+        cut_hides,
+        cut_sides,
+        cut_is_outside,
+        cut_crossing,
+        cut_surface,
+        cut_power,
+        cut_stay,
+    )
+
+
+@device
+def _verbs_of_cut_planes() -> Verbs:
+    return Verbs(
+        cut_plane_distance,
+        cut_plane_is_aside,
+        cut_plane_hides,
+        cut_plane_sides,
+        cut_plane_is_outside,
+        cut_plane_crossing,
+        cut_plane_surface,
+        cut_plane_power,
+        cut_plane_stay,
+    )

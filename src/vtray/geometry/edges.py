@@ -10,10 +10,11 @@ from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bundle import Bundle
-from vtray.geometry.dispatch import Shape, Verbs, with_any
+from vtray.geometry.dispatch import with_any
 from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_margin, upper_limit
 from vtray.geometry.packets.stack import Stack, push_met
 from vtray.geometry.rounding import MARGIN
+from vtray.geometry.shapes.verbs import Shape, Verbs
 from vtray.geometry.vector import Vec, add, scale, sub
 from vtray.geometry.world import (
     Group,

@@ -8,11 +8,12 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.dispatch import Shape, Verbs, with_any
+from vtray.geometry.dispatch import with_any
 from vtray.geometry.packets.beam import Beam, lower_limit, ray_beam, shape_margin, upper_limit
 from vtray.geometry.packets.stack import Stack, push_met
-from vtray.geometry.ray import Ray
+from vtray.geometry.ray import Ray, ray_point
 from vtray.geometry.rounding import MARGIN
+from vtray.geometry.shapes.verbs import Shape, Verbs
 from vtray.geometry.vector import add, scale
 from vtray.geometry.world import (
     Group,
@@ -39,6 +40,8 @@ class Hit(NamedTuple):
     ----------
     distance
         Along the ray, infinite for nothing.
+    power_at
+        That of the point, as in `Verbs`.
     primitive
         Its number, or ``NOTHING``.
     group, slot
@@ -46,6 +49,7 @@ class Hit(NamedTuple):
     """
 
     distance: float
+    power_at: float
     primitive: int
     group: int
     slot: int
@@ -54,7 +58,7 @@ class Hit(NamedTuple):
 @device
 def nearest_hit(world: World, ray: Ray, stack: Stack) -> Hit:
     """Return what a ray meets first."""
-    hit = Hit(math.inf, NOTHING, 0, 0)
+    hit = Hit(math.inf, 0.0, NOTHING, 0, 0)
     for row in range(group_count(world)):
         hit = _nearest_of_group(world, load_group(world, row), ray, hit, stack, 0)
     return _nearest_placed(world, world.places, ray, hit, stack)
@@ -123,8 +127,12 @@ def _nearer(shape: Shape, verbs: Verbs, number: int, arguments: tuple[Ray, Hit, 
     if verbs.is_aside(shape, ray):
         return hit
     distance = verbs.distance_to(shape, ray)
-    if distance < hit.distance or (distance == hit.distance and number < hit.primitive):
-        return Hit(distance, number, row, slot)
+    if distance > hit.distance:
+        return hit
+    power = verbs.power_at(shape, ray_point(ray, distance))
+    is_first = power < hit.power_at or (power == hit.power_at and number < hit.primitive)
+    if distance < hit.distance or (distance == hit.distance and is_first):
+        return Hit(distance, power, number, row, slot)
     return hit
 
 
@@ -152,7 +160,7 @@ def _nearest_in_tree(
         What is asked for each leaf, and what it is given, beside the range that the leaf names.
     """
     ratio = hierarchy.to_boxes.ratio
-    beam = _ray_beam(hierarchy.to_boxes, ray)
+    beam = beam_of_ray(hierarchy.to_boxes, ray)
     start = lower_limit(beam, max(-ray.plane_depth, 0.0) * ratio * (1.0 - MARGIN))
     stack.node[base] = hierarchy.root
     stack.enter[base] = start
@@ -177,7 +185,7 @@ two, as the compiler takes what calls itself for recursion, whatever it is given
 
 
 @device
-def _ray_beam(to_boxes: ToBoxes, ray: Ray) -> Beam:
+def beam_of_ray(to_boxes: ToBoxes, ray: Ray) -> Beam:
     """Return a ray as a beam in the boxes' space."""
     ratio, offset = to_boxes.ratio, to_boxes.offset
     start = add(scale(ratio, ray.origin), offset)

@@ -7,7 +7,7 @@ the image plane exists: what a ray meets at a plane depth of 0 or less is not th
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.vector import Vec, add, scale
+from vtray.geometry.vector import Vec, add, scale, sub
 
 CORNER = 1.5
 """How far beyond its edges a shape reaches that is larger by 1 to all sides: more than √2."""
@@ -82,6 +82,42 @@ class Footprint(NamedTuple):
 def ray_point(ray: Ray, distance: float) -> Vec:
     """Return the point of a ray at a distance from its start."""
     return add(ray.origin, scale(distance, ray.direction))
+
+
+class Way(NamedTuple):
+    """The part of the way between two points that lies in front of the image plane.
+
+    Attributes
+    ----------
+    way, end
+        From its start to its end, and where that is.
+    end_bound
+        How far rounding may have moved the end.
+    """
+
+    way: Vec
+    end: Vec
+    end_bound: float
+
+
+@device
+def way_in_front(segment: Segment, error_bound: float, end_bound: float) -> Way:
+    """Return the way from a point up to where it passes through the image plane, if it does.
+
+    Parameters
+    ----------
+    segment
+        The way to where light comes from.
+    error_bound, end_bound
+        How far rounding may have moved its start and its end.
+    """
+    way, end = sub(segment.end, segment.start), segment.end
+    if segment.end_plane_depth < 0.0:
+        share = segment.start_plane_depth / (segment.start_plane_depth - segment.end_plane_depth)
+        way = scale(share, way)
+        end = add(segment.start, way)
+        end_bound = error_bound + share * end_bound
+    return Way(way, end, end_bound)
 
 
 @device

@@ -14,7 +14,7 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.between import is_occluded_below, is_occluded_by_placed
 from vtray.geometry.bits import lowest_bit
 from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh, leaf_range
-from vtray.geometry.dispatch import Shape, Verbs, with_any, with_bounded
+from vtray.geometry.dispatch import with_any, with_bounded
 from vtray.geometry.packets.beam import ray_beam, shape_margin
 from vtray.geometry.packets.cone import Touching
 from vtray.geometry.packets.fan import (
@@ -43,16 +43,23 @@ from vtray.geometry.packets.fan_rays import (
 )
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.rounding import MARGIN, ROUNDING
+from vtray.geometry.shapes.axis_line import ON_SIDE
+from vtray.geometry.shapes.plane import plane_side
+from vtray.geometry.shapes.room import room_wall
+from vtray.geometry.shapes.verbs import Shape, Verbs
 from vtray.geometry.vector import Vec, add, dot, magnitude, scale, sub
 from vtray.geometry.world import (
+    CUT,
     NO_TREE,
     PLANE,
     SPHERE,
+    Clip,
     Group,
     Places,
     World,
     group_count,
     load_group,
+    room_of,
 )
 
 FEW = 8
@@ -118,12 +125,29 @@ def stop_by_all(bundle: Bundle, world: World, stack: Stack) -> None:
     narrow_directions(bundle.fan, bundle.rays)
     for row in range(group_count(world)):
         group = load_group(world, row)
+        if group.kind >= CUT and _leads_out(world, world.clip, group, bundle):
+            continue
         if group.root == NO_TREE:
             for slot in range(group.begin, group.end):
                 with_any(world, group, slot, _stop_by_shape, (bundle, group.kind))
         else:
             _stop_by_tree(bundle, world, group, stack)
     _stop_by_placed(bundle, world, world.places, stack)
+
+
+@device
+def _leads_out(world: World, clip: Clip | None, group: Group, bundle: Bundle) -> bool:
+    """Tell whether rays start on a cap and lead out of what clip planes leave of a group."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if clip is not None:  # noqa: SIM102
+        if clip.is_capped:
+            start, room = bundle.start, room_of(world, clip, group)
+            wall = room_wall(room, start.point)
+            bound = ROUNDING * (wall.error_scale + start.error_scale)
+            is_on = plane_side(wall, start.point) >= -ON_SIDE * bound
+            normal, out = bundle.normal, wall.normal
+            return is_on & (normal[0] == out[0]) & (normal[1] == out[1]) & (normal[2] == out[2])
+    return False
 
 
 @device
@@ -172,11 +196,11 @@ def _stop_by_tree(bundle: Bundle, world: World, group: Group, stack: Stack) -> N
                     fan[BLOCKED + ray] = 1.0
                     unstopped &= ~(ONE << np.uint64(ray))
         else:
-            waiting = _push_near(bundle, world.bvh, node, view, rays, stack, waiting)
+            waiting = push_near(bundle, world.bvh, node, view, rays, stack, waiting)
 
 
 @device
-def _push_near(
+def push_near(
     bundle: Bundle,
     bvh: Bvh,
     node: int,
@@ -224,7 +248,7 @@ def _stop_by_leaf(
     for slot in range(begin, end):
         stack.slot[count] = slot
         arguments = bundle, group.kind, group.to_boxes.ratio, balls, count
-        count += with_bounded(world, group, slot, _see_ball, arguments) if is_worth_it else 1
+        count += with_bounded(world, group, slot, see_ball, arguments) if is_worth_it else 1
     for k in range(count):
         near = rays & ~stopped
         if is_worth_it:
@@ -238,7 +262,7 @@ def _stop_by_leaf(
 
 
 @device
-def _see_ball(
+def see_ball(
     shape: Shape,
     verbs: Verbs,  # noqa: ARG001
     number: int,  # noqa: ARG001

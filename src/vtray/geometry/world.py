@@ -15,10 +15,14 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import EMPTY, Bvh, leaf_range
 from vtray.geometry.shapes.columns import Columns, Place
+from vtray.geometry.shapes.room import Room, load_room
 from vtray.geometry.vector import Vec, magnitude, scale, sub
 
 PLANE, SPHERE, CYLINDER, CONE = 0, 1, 2, 3
 """The kinds of shape."""
+
+CUT = 4
+"""What is added to the kind of those that clip planes may cut."""
 
 NO_TREE = EMPTY
 """In place of the root of a group's hierarchy: it has none, as planes and few shapes do not."""
@@ -27,8 +31,8 @@ NO_TREE = EMPTY
 class Groups(NamedTuple):
     """Groups of shapes of one kind, all (n,) but for the last.
 
-    First come those of planes, then the others that stand where they are given, and last those that
-    are placed, as `Places` says.
+    First come those of planes, then the others that stand where they are given, those of faded
+    shapes last, and then those that are placed, as `Places` says.
 
     Attributes
     ----------
@@ -40,6 +44,8 @@ class Groups(NamedTuple):
         The root of their hierarchy, or ``NO_TREE``.
     number
         What their numbers in the columns are counted from.
+    each
+        For groups that are placed, how many numbers one copy takes.
     frame
         What leads from the kernels' space to that of their boxes where they are given: ratio and
         offset, as in `ToBoxes`, (n, 4).
@@ -50,6 +56,7 @@ class Groups(NamedTuple):
     end: NDArray[np.int64]
     root: NDArray[np.int64]
     number: NDArray[np.int64]
+    each: NDArray[np.int64]
     frame: NDArray[np.float64]
 
 
@@ -89,6 +96,8 @@ class Places(NamedTuple):
         The root of the hierarchy over the places, or ``NO_TREE``.
     to_boxes
         What leads to the space of its boxes.
+    end
+        How many places there are, without those of faded shapes, which follow.
     """
 
     shift: NDArray[np.float64]
@@ -97,6 +106,80 @@ class Places(NamedTuple):
     rows: NDArray[np.int64]
     root: int
     to_boxes: ToBoxes
+    end: int
+
+
+class Bodies(NamedTuple):
+    """How opaque faded primitives are, and which of them are one body, by ranges of their numbers.
+
+    The body of the k-th primitive of a range stands in row ``row + k * step``, as in `Materials`.
+
+    Attributes
+    ----------
+    first
+        The number of the first primitive of each range, from 0 on, (ranges,).
+    each
+        How many primitives one copy has, or more than there are in the range, (ranges,).
+    row, step
+        The rows of their bodies, (ranges,).
+    body
+        Numbers of bodies, (rows,).
+    opacity
+        The share of light that a body takes, between 0 and 1, (bodies,).
+    """
+
+    first: NDArray[np.int64]
+    each: NDArray[np.int64]
+    row: NDArray[np.int64]
+    step: NDArray[np.int64]
+    body: NDArray[np.int32]
+    opacity: NDArray[np.float64]
+
+
+class Faded(NamedTuple):
+    """The shapes that light passes in part: rows of `Groups`, and places of `Places`.
+
+    Attributes
+    ----------
+    begin, end
+        The rows of those groups that stand where they are given, from the first to before the last.
+    places
+        The hierarchy over the places of those that are placed; without places if there are none.
+    bodies
+        What they make up.
+    least
+        Depth, numbers and normals are those of the first surface that is more opaque than that.
+    """
+
+    begin: int
+    end: int
+    places: "Hierarchy"
+    bodies: Bodies
+    least: float
+
+
+class Clip(NamedTuple):
+    """What clip planes leave of groups of shapes.
+
+    Attributes
+    ----------
+    planes
+        The planes of all rooms, as in `Room`.
+    begin
+        The first plane of each room, and after all of them the end, (rooms + 1,).
+    room
+        Which room the group of each row is cut by; without meaning for those that are not, (rows,).
+    is_capped
+        Whether what is cut is closed.
+    flat
+        The columns of planes that are cut; None where there are none.
+    """
+
+    planes: Columns
+    begin: NDArray[np.int64]
+    room: NDArray[np.int64]
+    is_capped: bool
+    flat: Columns | None
 
 
 class World(NamedTuple):
@@ -117,8 +200,14 @@ class World(NamedTuple):
         The nodes of all hierarchies.
     places
         Where those groups stand that are placed; None where there are none, likewise.
+    given
+        How many groups stand where they are given: the first ones, without faded shapes.
+    faded
+        The faded shapes; None where there are none, likewise.
     scale, origin
         What leads from world space to the kernels', as in `Place`.
+    clip
+        What clip planes leave; None where there are none, likewise.
     """
 
     groups: Groups
@@ -128,8 +217,11 @@ class World(NamedTuple):
     cones: Columns | None
     bvh: Bvh
     places: Places | None
+    given: int
+    faded: Faded | None
     scale: float
     origin: Vec
+    clip: Clip | None = None
 
 
 class Group(NamedTuple):
@@ -189,7 +281,7 @@ def _load_group(world: World, places: Places | None, row: int) -> Group:
         if row >= groups.kind.shape[0]:
             own, at = row % groups.kind.shape[0], row // groups.kind.shape[0] - 1
             shift = load_shift(places, at)
-            number = places.copy[at] * (groups.end[own] - groups.begin[own])
+            number = places.copy[at] * groups.each[own]
     ratio = groups.frame[own, 0]
     offset = groups.frame[own, 1], groups.frame[own, 2], groups.frame[own, 3]
     if places is not None:
@@ -216,7 +308,7 @@ def hierarchy_of(group: Group) -> Hierarchy:
 @device
 def hierarchy_of_places(places: Places) -> Hierarchy:
     """Return what leads to the places."""
-    return Hierarchy(places.root, 0, places.item.shape[0], places.to_boxes)
+    return Hierarchy(places.root, 0, places.end, places.to_boxes)
 
 
 @device
@@ -242,17 +334,17 @@ def placed_row(world: World, at: int, row: int) -> int:
 
 
 @device
-def group_count(world: World) -> int:
-    """Return how many groups stand where they are given: the first ones."""
-    return _group_count(world.groups, world.places)
+def room_of(world: World, clip: Clip, group: Group) -> Room:
+    """Return the room that clip planes leave to a group that they cut, in the kernels' space."""
+    row = clip.room[group.row % clip.room.shape[0]]
+    place = Place((0.0, 0.0, 0.0), world.scale, world.origin)
+    return load_room(clip.planes, clip.begin[row], clip.begin[row + 1], place)
 
 
 @device
-def _group_count(groups: Groups, places: Places | None) -> int:
-    count: int = groups.kind.shape[0]
-    if places is not None:
-        count = places.rows[0]
-    return count
+def group_count(world: World) -> int:
+    """Return how many groups stand where they are given: the first ones, without faded shapes."""
+    return world.given
 
 
 @device
@@ -260,3 +352,21 @@ def has_trees(world: World) -> bool:
     """Tell whether any shapes have a hierarchy."""
     nodes: int = world.bvh.child.shape[0]
     return nodes > 0
+
+
+@device
+def load_body(bodies: Bodies, primitive: int) -> int:
+    """Return the body that a faded primitive belongs to."""
+    k = bodies.first.shape[0] - 1
+    while primitive < bodies.first[k]:
+        k -= 1
+    place = primitive - bodies.first[k]
+    if place >= bodies.each[k]:
+        place %= bodies.each[k]
+    body: int = bodies.body[bodies.row[k] + place * bodies.step[k]]
+    return body
+
+
+def body_count(world: World) -> int:
+    """Return how many bodies faded shapes make up."""
+    return 0 if world.faded is None else len(world.faded.bodies.opacity)

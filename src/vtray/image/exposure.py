@@ -4,7 +4,7 @@ import math
 import reprlib
 import sys
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,43 @@ from vtray.scene.vectors import Color
 
 BRIGHTEST = sys.float_info.max / 2.0**17
 """The largest sum of intensities: times a colour of 255 and the 255 of exposure it is a double."""
+
+
+class Overlay(NamedTuple):
+    """A colour of its own that is a part of pixels: that of fog, or of lines.
+
+    Attributes
+    ----------
+    share
+        How much of each pixel it is, from 0 to 1, (height, width).
+    color
+        The colour, which exposure does not change.
+    """
+
+    share: NDArray[np.float64]
+    color: Color
+
+
+class Drawn(NamedTuple):
+    """What a style draws onto light: (0, 0) arrays for what there is not.
+
+    Attributes
+    ----------
+    shade
+        How much of its light each pixel keeps, (height, width).
+    lines
+        How much of each pixel lines hide, (height, width).
+    fog
+        How much of it, beside lines, fog of its own colour is, (height, width).
+    line_color, fog_color
+        Red, green and blue, from 0 to 255.
+    """
+
+    shade: NDArray[np.float32]
+    lines: NDArray[np.float32]
+    fog: NDArray[np.float64]
+    line_color: tuple[float, float, float]
+    fog_color: tuple[float, float, float]
 
 
 def check_brightness(lights: Sequence[AnyLight]) -> None:
@@ -36,6 +73,7 @@ def develop(
     alpha: Callable[[], NDArray[np.float64]],
     threads: int = 1,
     bits: int = 8,
+    overlays: Sequence[Overlay] = (),
 ) -> NDArray[Any]:
     """Expose the light of an image: a channel v becomes ``floor(maximum * v / white)``.
 
@@ -53,6 +91,8 @@ def develop(
         How many threads to use at the most.
     bits
         8 or 16, of each channel; the maximum is 255 or 65535.
+    overlays
+        What has colours of its own.
 
     Returns
     -------
@@ -63,7 +103,7 @@ def develop(
     is_light = background in ("black", "sky")
     if bits != 8:
         cover = np.ones(linear.shape[:2]) if is_light else alpha()
-        exposed = put_on_background(linear, white, background, cover, 2**bits - 1)
+        exposed = put_on_background(linear, white, background, cover, 2**bits - 1, overlays)
         return exposed.astype(np.uint16)
     pixels = np.empty(linear.shape, np.uint8)
 
@@ -73,9 +113,28 @@ def develop(
         _expose(light.reshape(light.size), float(white), bytes_.reshape(bytes_.size))
 
     run_tasks(range(0, len(linear), TILE), lambda: develop_rows, threads)
-    if is_light:
-        return pixels
-    return put_on_background(linear, white, background, alpha(), 255).astype(np.uint8)
+    if not is_light:
+        return put_on_background(linear, white, background, alpha(), 255, overlays).astype(np.uint8)
+    if overlays:
+        covered = np.any([overlay.share > 0.0 for overlay in overlays], axis=0)
+        # One column of pixels, as any picture.
+        some = [Overlay(share[covered][:, None], color) for share, color in overlays]
+        light, cover = linear[covered][:, None], np.ones((np.count_nonzero(covered), 1))
+        pixels[covered] = put_on_background(light, white, background, cover, 255, some)[:, 0]
+    return pixels
+
+
+def develop_drawn(
+    linear: NDArray[np.float64], white: float, drawn: Drawn, threads: int = 1
+) -> NDArray[np.uint8]:
+    """Expose light as `develop` does for a black background, with what is drawn onto it."""
+    pixels = np.empty(linear.shape, np.uint8)
+
+    def develop_rows(top: int) -> None:
+        _expose_drawn(linear, float(white), drawn, top, min(top + TILE, len(linear)), pixels)
+
+    run_tasks(range(0, len(linear), TILE), lambda: develop_rows, threads)
+    return pixels
 
 
 def put_on_background(
@@ -84,12 +143,13 @@ def put_on_background(
     background: Background,
     alpha: NDArray[np.float64],
     maximum: int,
+    overlays: Sequence[Overlay] = (),
 ) -> NDArray[np.float64]:
     """Expose the light of an image, up to a maximum, over or without a background.
 
     What is covered in part is blended with the background after exposure, so that the background
-    has exactly its colour. For a transparent one, colours are those of what covers the pixel, and
-    its share is the fourth channel.
+    has exactly its colour; so are overlays. For a transparent one, colours are those of what
+    covers the pixel, and its share is the fourth channel.
     """
     cover = alpha.clip(0.0, 1.0)[..., None]
     light = np.zeros_like(linear)
@@ -101,6 +161,12 @@ def put_on_background(
         if background == "transparent":
             light = np.where(cover > 0.0, light / cover, 0.0)
     light[linear == white] = maximum if white > 0.0 else 0.0
+    for overlay in overlays:
+        own = np.array([overlay.color.r, overlay.color.g, overlay.color.b]) * (maximum / 255)
+        share = overlay.share[..., None]
+        if background == "transparent":
+            share = np.divide(share, cover, out=np.zeros_like(share), where=cover > 0.0)
+        light = light + share * own
     if background == "transparent":
         return np.concatenate([np.floor(light).clip(0, maximum), np.rint(maximum * cover)], axis=2)
     if isinstance(background, Color):
@@ -123,6 +189,29 @@ def _expose(linear: NDArray[np.float64], white: float, bytes_: NDArray[np.uint8]
         # For one peak in seven, 255 * peak / peak rounds to just below 255.
         exposed = 255.0 if linear[k] == white > 0.0 else exposed
         bytes_[k] = np.uint8(exposed)
+
+
+@kernel
+def _expose_drawn(
+    linear: NDArray[np.float64],
+    white: float,
+    drawn: Drawn,
+    top: int,
+    bottom: int,
+    bytes_: NDArray[np.uint8],
+) -> None:
+    """Expose some rows of a picture with what is drawn onto it, all (height, width, 3)."""
+    for row in range(top, bottom):
+        for column in range(linear.shape[1]):
+            shade = float(drawn.shade[row, column]) if drawn.shade.size > 0 else 1.0
+            line = float(drawn.lines[row, column]) if drawn.lines.size > 0 else 0.0
+            fog = drawn.fog[row, column] if drawn.fog.size > 0 else 0.0
+            for k in range(3):
+                light = linear[row, column, k] * shade * (1.0 - line)
+                share = (255.0 * light) / white if white > 0.0 else 0.0
+                share = 255.0 if light == white > 0.0 else share
+                own = fog * (1.0 - line) * drawn.fog_color[k] + line * drawn.line_color[k]
+                bytes_[row, column, k] = np.uint8(math.floor(min(max(share + own, 0.0), 255.0)))
 
 
 def locked_white(lock: object, exposure: object = None) -> float:

@@ -46,6 +46,8 @@ class Image(Rendered):
         The scene as it was rendered. (Arrays that its spheres share are shared still.)
     settings
         How it was rendered.
+    style
+        How it is drawn, beside its light.
     locked
         Whether its exposure is that of another picture.
     partial

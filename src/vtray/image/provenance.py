@@ -1,7 +1,7 @@
 """How a picture was made, as its file tells it: enough to make it again from the same scene."""
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import msgspec
 from msgspec import Meta
@@ -14,6 +14,7 @@ from vtray.image.formats.image_format import FORMATS, find_format, needs_package
 from vtray.image.formats.picture import How, Picture
 from vtray.scene.checks.limits import END, Fraction, NonNegative
 from vtray.scene.settings import RenderSettings, Settings
+from vtray.scene.style import Style
 
 
 class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -31,6 +32,8 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
         As in the settings of the render, those that were left out too.
     size : tuple of int or None
         Width and height of the picture in pixels; None for those of the camera.
+    style : Style
+        How it is drawn, beside its light.
     lock : float or None
         The light that became white, where another picture decided that.
     bits : int
@@ -43,6 +46,7 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
 
     version: str
     scene: Annotated[str, Meta(pattern=f"^[0-9a-f]{{16,64}}{END}")]
+    style: Style = Style()
     lock: NonNegative | None = None
     bits: Literal[8, 16, 32] = 8
     aov: tuple[AovName, ...] = ()
@@ -53,6 +57,10 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
         """The settings of the render."""
         return RenderSettings(**{name: getattr(self, name) for name in Settings.__struct_fields__})
 
+    def told(self, name: str) -> Any:  # noqa: ANN401
+        """Return a setting of the render, or a part of its style."""
+        return getattr(self.style if name in Style.__struct_fields__ else self, name)
+
     def to_text(self) -> str:
         """Return the JSON that stands in files, all of it ASCII."""
         told = {"version": self.version, "scene": self.scene, **msgspec.structs.asdict(self)}
@@ -62,7 +70,7 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
         return msgspec.json.encode(told).decode("ascii")
 
 
-_SELDOM = ("denoise", "partial")
+_SELDOM = ("denoise", "style", "partial")
 """What is told only where it is not as usual: older versions refuse what they do not know."""
 
 _USUAL = Provenance(version="", scene="0" * 16)
@@ -76,6 +84,7 @@ def describe(picture: Picture, how: How) -> Provenance:
         "version": __version__,
         "scene": picture.scene_hash,
         "size": (width, height),
+        "style": picture.style,
         "lock": float(picture.white) if picture.locked else None,
         "bits": how.bits,
         "aov": tuple(how.aov),

@@ -9,13 +9,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import RenderError
-from vtray.image.exposure import check_brightness, develop, white_of
+from vtray.image.exposure import Drawn, Overlay, check_brightness, develop, develop_drawn, white_of
 from vtray.image.surfaces import Surfaces
 from vtray.scene.fingerprint import scene_hash
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
+from vtray.scene.style import Fog, Outline, Style
+from vtray.scene.vectors import Color
 
 Floats = NDArray[np.float64]
+Shares = NDArray[np.float32]
+
+PLAIN = Style()
+BLACK = Color(0, 0, 0)
 
 
 class Rendered:
@@ -31,6 +37,12 @@ class Rendered:
         Gives what the middle rays meet; called once, when it is first asked for.
     alpha
         How much of each pixel is covered, if that is known; None for what `look` says.
+    fog
+        How much of each pixel fog is, if there is any.
+    lines
+        How much of each pixel outlines hide, if there are any.
+    shade
+        How much of its light each pixel keeps in eye-dome lighting, if there is any.
     error
         The standard error of light, if it is not 0 everywhere.
     noise
@@ -51,6 +63,8 @@ class Rendered:
     starlight
         Gives the light of the points that shine in a scene, which is a part of `linear` and `raw`;
         None if there are none.
+    style
+        How it is drawn, beside its light.
     """
 
     def __init__(
@@ -64,6 +78,9 @@ class Rendered:
         *,
         look: Callable[[], Surfaces],
         alpha: Floats | None = None,
+        fog: Floats | None = None,
+        lines: Shares | None = None,
+        shade: Shares | None = None,
         error: Floats | None = None,
         noise: Any = None,  # noqa: ANN401
         relighting: Callable[[Scene], Floats] | None = None,
@@ -75,6 +92,7 @@ class Rendered:
         partial: float | None = None,
         sky: Callable[[Scene, Floats], Floats] | None = None,
         starlight: Callable[[Scene], Floats | None] | None = None,
+        style: Style = PLAIN,
     ) -> None:
         self.linear = linear
         self.white = white
@@ -85,6 +103,9 @@ class Rendered:
         self._seen: list[Surfaces] = []  # what it gave; shared with other exposures of the view
         self._pixels = pixels
         self._alpha = alpha
+        self._fog = fog
+        self._lines = lines
+        self._shade = shade
         self._error = error
         self.noise = noise
         self._relighting = relighting
@@ -96,6 +117,7 @@ class Rendered:
         self.partial = partial
         self._sky = sky
         self._starlight = starlight
+        self.style = style
 
     def __repr__(self) -> str:
         height, width = self.linear.shape[:2]
@@ -117,8 +139,17 @@ class Rendered:
         if bits == 8 and self._pixels is not None:
             return self._pixels
         background = self.settings.background
+        if bits == 8 and background == "black" and self._is_drawn_on:
+            self._pixels = develop_drawn(self.linear, self.white, self._drawn, self._threads)
+            return self._pixels
         pixels = develop(
-            self.with_sky, self.white, background, lambda: self.alpha, self._threads, bits
+            self.with_sky,
+            self.white,
+            background,
+            lambda: self.alpha,
+            self._threads,
+            bits,
+            self.overlays,
         )
         if bits == 8:
             self._pixels = pixels
@@ -166,18 +197,86 @@ class Rendered:
 
     @cached_property
     def alpha(self) -> Floats:
-        """How much of each pixel is covered, from 0 to 1, (height, width)."""
-        if self._alpha is not None:
-            return self._alpha
-        return (self.ids[..., 0] >= 0).astype(np.float64)
+        """How much of each pixel is covered, from 0 to 1, (height, width).
+
+        Fog of no colour of its own covers nothing: as much of the background is seen. Lines cover
+        what they are drawn on.
+        """
+        covered = self._alpha
+        if covered is None:
+            covered = (self.ids[..., 0] >= 0).astype(np.float64)
+        if self._fog is not None and self._fog_color is None:
+            covered = np.maximum(covered - self._fog, 0.0)
+        if self._lines is not None:
+            covered = 1.0 - (1.0 - covered) * self._seen_beside_lines
+        return covered
+
+    @property
+    def _fog_color(self) -> Color | None:
+        return self.style.fog.color if isinstance(self.style.fog, Fog) else None
+
+    @property
+    def _seen_beside_lines(self) -> Floats:
+        """How much of each pixel lines leave."""
+        assert self._lines is not None  # noqa: S101
+        return 1.0 - self._lines.astype(np.float64)
+
+    @property
+    def _is_drawn_on(self) -> bool:
+        given = self._shade, self._lines, self._fog_color
+        return any(part is not None for part in given)
+
+    @property
+    def _drawn(self) -> Drawn:
+        """What the style draws."""
+        none, outline = np.zeros((0, 0), np.float32), self.style.outline
+        line, fog = outline.color if isinstance(outline, Outline) else BLACK, self._fog_color
+        return Drawn(
+            none if self._shade is None else self._shade,
+            none if self._lines is None else self._lines,
+            none.astype(np.float64) if self._fog is None or fog is None else self._fog,
+            (float(line.r), float(line.g), float(line.b)),
+            (0.0, 0.0, 0.0) if fog is None else (float(fog.r), float(fog.g), float(fog.b)),
+        )
+
+    @property
+    def overlays(self) -> list[Overlay]:
+        """What has colours that exposure does not change: fog with one of its own, and lines."""
+        found = []
+        outline = self.style.outline
+        if self._fog is not None and self._fog_color is not None:
+            left = self._fog if self._lines is None else self._fog * self._seen_beside_lines
+            found.append(Overlay(left, self._fog_color))
+        if self._lines is not None and isinstance(outline, Outline):
+            found.append(Overlay(self._lines.astype(np.float64), outline.color))
+        return found
+
+    @property
+    def drawn(self) -> Floats:
+        """Light before exposure that lines and eye-dome lighting leave, (height, width, 3)."""
+        light = self.linear
+        if self._shade is not None:
+            light = light * self._shade[..., None]
+        if self._lines is not None:
+            light = light * self._seen_beside_lines[..., None]
+        return light
 
     @cached_property
     def with_sky(self) -> Floats:
-        """Light before exposure with that of the sky, if it is the background, (h, w, 3)."""
+        """Light before exposure, drawn, with that of the sky if it is the background, (h, w, 3)."""
         if self._sky is None or self.settings.background != "sky":
-            return self.linear
+            return self.drawn
         behind = self._sky(self.scene, self.alpha)
-        return self.linear + (1.0 - self.alpha[..., None]) * behind
+        return self.drawn + (1.0 - self.alpha[..., None]) * behind
+
+    @property
+    def with_overlays(self) -> Floats:
+        """Light before exposure of all that is seen, fog and lines too, (height, width, 3)."""
+        light = self.with_sky
+        for share, color in self.overlays:
+            own = np.array([color.r, color.g, color.b]) * (self.white / 255)
+            light = light + share[..., None] * own
+        return light
 
     @property
     def starlight(self) -> Floats | None:
@@ -211,7 +310,8 @@ class Rendered:
             raise RenderError(message)
         check_brightness(scene.lights)
         # The camera may have another size now, and the hash is that of the scene as it was given.
-        given = Scene(self._original.camera, scene.lights, scene.objects, scene.render)
+        camera = self._original.camera
+        given = Scene(camera, scene.lights, scene.objects, scene.render, scene.style)
         unknown = np.full(self.linear.shape[:2], np.nan)
         raw = self._relighting(scene)
         linear = raw if self._denoising is None else self._denoising(scene, raw)

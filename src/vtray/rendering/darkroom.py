@@ -12,9 +12,11 @@ from vtray.image.surfaces import Surfaces
 from vtray.rendering.growth import Part
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
+from vtray.scene.style import Style
 from vtray.transport.sampling.fans import Noise
 
 Floats = NDArray[np.float64]
+Shares = NDArray[np.float32]
 
 
 @dataclass(frozen=True)
@@ -29,6 +31,8 @@ class Darkroom:
         The scene with its camera as it was given.
     settings
         The settings.
+    style
+        How pictures are drawn, beside their light.
     look
         Gives what the middle rays meet.
     sky
@@ -44,6 +48,7 @@ class Darkroom:
     scene: Scene
     original: Scene
     settings: RenderSettings
+    style: Style
     look: Callable[[], Surfaces]
     sky: Callable[[Scene, Floats], Floats]
     starlight: Callable[[Scene], Floats | None]
@@ -53,7 +58,7 @@ class Darkroom:
     def part(self, part: Part) -> Image:
         """Return the picture of what there is so far."""
         peak = max(float(part.linear.max()), 0.0)
-        return self.picture(part.linear, part.coverage, peak, partial=part.done)
+        return self.picture(part.linear, part.coverage, peak, fog=part.fog, partial=part.done)
 
     def picture(
         self,
@@ -61,6 +66,9 @@ class Darkroom:
         coverage: Floats | None,
         peak: float,
         *,
+        fog: Floats | None = None,
+        lines: Shares | None = None,
+        shade: Shares | None = None,
         error: Floats | None = None,
         noise: Noise | None = None,
         relighting: Callable[[Scene], Floats] | None = None,
@@ -73,6 +81,9 @@ class Darkroom:
         ----------
         linear
             Light as it was traced.
+        fog, lines, shade
+            How much of each pixel fog is, and lines hide, and how much light eye-dome lighting
+            leaves, if there are any.
         error, noise, relighting, partial
             What the picture has.
         denoising
@@ -99,6 +110,9 @@ class Darkroom:
             {},
             look=self.look,
             alpha=coverage,
+            fog=fog,
+            lines=lines,
+            shade=shade,
             error=error,
             noise=noise,
             relighting=relighting,
@@ -110,4 +124,5 @@ class Darkroom:
             partial=partial,
             sky=self.sky,
             starlight=None if shine is None else self.starlight,
+            style=self.style,
         )

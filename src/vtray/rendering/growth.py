@@ -25,6 +25,9 @@ STEP = 8
 DRAFT_TILE = 16
 """Side of a tile of the draft, so that there are enough of them for all threads."""
 
+SHARES = ("coverage", "fog")
+"""What a film may hold beside light."""
+
 REST = 9
 """How many times as long as an update takes the next one waits, so that the work goes on."""
 
@@ -38,12 +41,15 @@ class Part(NamedTuple):
         Light, (height, width, 3); that of the draft where nothing else is known yet.
     coverage
         How much of each pixel is covered, (height, width); None if that is not traced.
+    fog
+        How much of it fog is, (height, width); None if there is none.
     done
         The share of the tiles of all passes that are done, from 0 to 1.
     """
 
     linear: NDArray[np.float64]
     coverage: NDArray[np.float64] | None
+    fog: NDArray[np.float64] | None
     done: float
 
 
@@ -66,7 +72,7 @@ class Growth:
         self._next = time.perf_counter() + seconds
         self._film: Film | None = None
         self._linear = np.zeros((0, 0, 3))
-        self._coverage: NDArray[np.float64] | None = None
+        self._shares: dict[str, NDArray[np.float64]] = {}
         self._nearest: tuple[NDArray[np.int64], NDArray[np.int64]] | None = None
         self._has_samples = False
         self._fresh: SimpleQueue[Tile] = SimpleQueue()
@@ -76,9 +82,10 @@ class Growth:
     def begin_draft(self, film: Film, width: int, height: int) -> None:
         """Begin with the draft of a picture of this size."""
         film.linear.fill(0.0)  # so that all of it can be shown, whatever is done
-        if film.coverage is not None:
-            film.coverage.fill(0.0)
-            self._coverage = np.zeros((height, width))
+        for name in SHARES:
+            if getattr(film, name) is not None:
+                getattr(film, name).fill(0.0)
+                self._shares[name] = np.zeros((height, width))
         self._linear = np.zeros((height, width, 3))
         drawn_height, drawn_width = film.linear.shape[:2]
         self._nearest = _nearest(height, drawn_height), _nearest(width, drawn_width)
@@ -142,8 +149,9 @@ class Growth:
     def _show(self) -> None:
         """Tell what there is."""
         self._collect()
-        coverage = None if self._coverage is None else self._coverage.copy()
-        self._tell(Part(self._linear.copy(), coverage, self._share))
+        shares = {name: self._shares.get(name) for name in SHARES}
+        copies = {name: None if rows is None else rows.copy() for name, rows in shares.items()}
+        self._tell(Part(self._linear.copy(), done=self._share, **copies))
 
     def _collect(self) -> None:
         """Take over all tiles that are done."""
@@ -170,9 +178,8 @@ class Growth:
             waits = film.mixed[source]
         keep = np.asarray(waits)[..., None]
         self._linear[target] = np.where(keep, self._linear[target], film.linear[source])
-        if self._coverage is not None:
-            known = film.coverage[source]
-            self._coverage[target] = np.where(waits, self._coverage[target], known)
+        for name, rows in self._shares.items():
+            rows[target] = np.where(waits, rows[target], getattr(film, name)[source])
 
 
 def draft_camera(camera: CameraFrame) -> CameraFrame:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vtray.base.pool import run_tasks
 from vtray.base.tiles import Tile, split_into_tiles
+from vtray.geometry.packets.packet import CAP, SECOND
 from vtray.rendering.engines.engine import Plan, trace
 from vtray.rendering.passes import SURFACES
 from vtray.scene.settings import RenderSettings
@@ -86,7 +87,7 @@ def albedo_of(materials: Materials, primitive: NDArray[Any], half: NDArray[Any])
     materials
         The materials of all primitives.
     primitive, half
-        The numbers of the primitives, and 1 for their second halves, of any shape.
+        The numbers of the primitives, and what stands in field ``HALF`` of a packet, of any shape.
 
     Returns
     -------
@@ -96,12 +97,15 @@ def albedo_of(materials: Materials, primitive: NDArray[Any], half: NDArray[Any])
     k = np.searchsorted(materials.first, primitive, side="right") - 1
     place = (primitive - materials.first[k]) % np.maximum(materials.each[k], 1)
     row = np.where(
-        half == 1,
+        half & SECOND != 0,
         materials.end_row[k] + place * materials.end_step[k],
         materials.color_row[k] + place * materials.color_step[k],
     )
     lambert = materials.lambert[materials.lambert_row[k] + place * materials.lambert_step[k]]
-    shares: Floats = (materials.color[row] / 255.0 * lambert[..., None]).clip(0.0, 1.0)
+    color = materials.color[row].astype(np.float64)
+    if materials.cap is not None and materials.cap[0] >= 0:
+        color[half & CAP != 0] = materials.cap
+    shares: Floats = (color / 255.0 * lambert[..., None]).clip(0.0, 1.0)
     return shares
 
 

@@ -7,7 +7,6 @@ hierarchy, and kept until they change. A new camera, light or plane costs no new
 import operator
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, islice
 from typing import Any
 
 import numpy as np
@@ -25,8 +24,11 @@ from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.vector import Vec, lower, upper
 from vtray.geometry.world import NO_TREE
 from vtray.rendering.acceleration import Acceleration, Shapes
+from vtray.rendering.bodies import BodyCount, FadedBodies, number_bodies
+from vtray.rendering.clipping import clip_shapes
 from vtray.rendering.numbering import Numbering, copied_rows, find_ranges, number_objects
 from vtray.rendering.placed import Placed, place_copies
+from vtray.rendering.rooms import rooms_of
 from vtray.rendering.shape_kinds import KINDS, Kind, Source, collect
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.copies import Copies
@@ -36,6 +38,7 @@ from vtray.scene.light_types import Light
 from vtray.scene.objects import Plane
 from vtray.scene.scene import Scene
 from vtray.scene.stars import Stars
+from vtray.scene.style import Style
 
 FEW = 128
 """Up to so many shapes, no hierarchy is needed: testing each for a whole packet is faster.
@@ -45,14 +48,46 @@ are faster through a hierarchy wherever there can be one.
 """
 
 
-def accelerate(scene: Scene, threads: int = 1, progress: Progress | None = None) -> Acceleration:
+def accelerate(
+    scene: Scene,
+    threads: int = 1,
+    progress: Progress | None = None,
+    style: Style | None = None,
+) -> Acceleration:
     """Return what is kept with a scene, made anew if its bounded shapes have changed.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    threads
+        How many threads to use.
+    progress
+        Called from time to time with the number of tasks done and the number of all.
+    style
+        That of the picture, which may have clip planes; None for the scene's own. The hierarchy of
+        the whole scene stays when these change.
 
     Raises
     ------
     RenderError
         There are more than a hierarchy or the memory can hold.
     """
+    whole = _accelerate_whole(scene, threads, progress)
+    rooms = rooms_of(scene.style if style is None else style, scene)
+    if rooms is None:
+        return whole
+    kept: tuple[Acceleration, Acceleration] | None = scene.__dict__.get(_CLIPPED)
+    if kept and kept[0] is whole and kept[1].rooms == rooms:
+        return kept[1]
+    bounded = [k for k, item in enumerate(scene.objects) if not isinstance(item, (Plane, Stars))]
+    clipped = clip_shapes(whole, rooms, [rooms.room_of(k) for k in bounded] if rooms.of else [])
+    scene.__dict__[_CLIPPED] = whole, clipped
+    return clipped
+
+
+def _accelerate_whole(scene: Scene, threads: int, progress: Progress | None) -> Acceleration:
+    """Return what is kept with a scene as it is without clip planes."""
     items = [item for item in scene.objects if not isinstance(item, (Plane, Stars))]
     few = LEAF if _has_soft_light(scene) else FEW
     fingerprint = _fingerprint(items, threads) + few.to_bytes(8, "little")
@@ -64,7 +99,7 @@ def accelerate(scene: Scene, threads: int = 1, progress: Progress | None = None)
     return made
 
 
-_KEPT = "_acceleration"
+_KEPT, _CLIPPED = "_acceleration", "_clipped"
 
 
 def _has_soft_light(scene: Scene) -> bool:
@@ -87,16 +122,35 @@ class _Part:
         The shapes.
     few
         Up to so many get no hierarchy.
+    first
+        The number of the first; if they are copied, in their first copy.
+    which
+        Those of the source that are meant, (n,); None for all.
+    place
+        The place of the copies among the objects of the scene; -1 for what is not copied.
+    is_placed
+        Whether it stands elsewhere than where it is given.
     """
 
     kind: Kind
     source: Source
     few: int
+    first: int
+    which: NDArray[np.int32] | None
+    place: int
+    is_placed: bool
 
     @property
     def count(self) -> int:
         """How many there are."""
-        return len(self.source.geometry[0])
+        return len(self.source.geometry[0] if self.which is None else self.which)
+
+    @property
+    def geometry(self) -> tuple[NDArray[Any], ...]:
+        """The columns that they are made of, as those of a `Source`."""
+        if self.which is None:
+            return self.source.geometry
+        return tuple(c[self.which] if len(c) > 1 else c for c in self.source.geometry)
 
 
 @dataclass(frozen=True)
@@ -120,37 +174,95 @@ def _make(
 ) -> Acceleration:
     """Give numbers to shapes, build their hierarchies, and join all."""
     numbering = number_objects(items)
-    copies = [item for item in items if isinstance(item, Copies)]
-    given = [_part(kind, items, few) for kind in KINDS]
-    copied = [
-        [part for kind in KINDS if len(item) and (part := _part(kind, item.objects, LEAF)).count]
-        for item in copies
-    ]
-    parts = [*given, *chain.from_iterable(copied)]
-    _check_counts(parts, sum(map(len, copies)), numbering)
+    wholes = _wholes(items, numbering, few)
+    given = [_opaque(part) for part in wholes if part.place < 0]
+    copied = [_opaque(part) for part in wholes if part.place >= 0]
+    faded = [part for whole in wholes if (part := _faded(whole)).count]
+    parts = [*given, *copied, *faded]
+    _check_counts(parts, sum(len(item) for item in items if isinstance(item, Copies)), numbering)
     built = [_build(part, threads, progress) for part in parts]
-    placed, places = _place(copies, copied, threads)
+    placed, places = _place(items, copied, threads)
+    faded_placed, faded_places = _place(items, faded, threads)
     columns, begins = _join_columns(parts, built, numbering)
-    trees = [*(one.tree for one in built), places]
-    bvh, roots = _join_trees(trees, [*begins, 0], threads)
-    firsts = [*_first_of_kinds(numbering), *numbering.first[copied_rows(numbering)].tolist()]
-    shapes = map(_shapes, parts, built, firsts, begins, roots)
+    count = len(placed.shift) if placed else 0
+    trees = [*(one.tree for one in built), places, faded_places]
+    bvh, roots = _join_trees(trees, [*begins, 0, count], threads)
+    shapes = list(map(_shapes, parts, built, begins, roots))
+    after = len(given) + len(copied)
     return Acceleration(
-        tuple(islice(shapes, len(given))),
-        tuple(tuple(islice(shapes, len(of_one))) for of_one in copied),
+        tuple(shapes[: len(given)]),
+        tuple(shapes[len(given) : after]),
+        tuple(shapes[after:]),
         columns,
         bvh,
-        placed and replace(placed, root=roots[-1]),
+        placed and replace(placed, root=roots[-2]),
+        faded_placed and replace(faded_placed, root=roots[-1]),
         find_ranges(numbering),
         int(numbering.size.sum()),
+        _find_bodies(items, wholes) if faded else None,
         items,
         fingerprint,
     )
 
 
-def _part(kind: Kind, items: Sequence[Any], few: int) -> _Part:
-    """Return those shapes of a kind that objects have and that are not copied."""
-    return _Part(kind, collect(kind, kind.items_of(items)), few)
+def _find_bodies(items: Sequence[Any], wholes: Sequence[_Part]) -> FadedBodies:
+    """Return the bodies of all shapes."""
+    count, places = BodyCount(), range(len(items))
+    found = [
+        number_bodies(part.kind, items, places, count)
+        if part.place < 0
+        else number_bodies(
+            part.kind,
+            items[part.place].objects,
+            [part.place] * len(items[part.place].objects),
+            count,
+        )
+        for part in wholes
+    ]
+    return FadedBodies(tuple(found), count.opacity)
+
+
+def _wholes(items: Sequence[Any], numbering: Numbering, few: int) -> list[_Part]:
+    """Return all shapes: those of each kind, and then those of each of the copies that there are.
+
+    They are in the order of ``KINDS`` and in that of `copied_rows`.
+    """
+    firsts = _first_of_kinds(numbering)
+    wholes = [
+        _Part(kind, collect(kind, kind.items_of(items)), few, first, None, -1, False)
+        for kind, first in zip(KINDS, firsts, strict=True)
+    ]
+    for row in copied_rows(numbering).tolist():
+        kind, place = KINDS[numbering.kind[row]], int(numbering.place[row])
+        source = collect(kind, kind.items_of(items[place].objects))
+        first, is_placed = int(numbering.first[row]), _is_placed(items[place])
+        wholes.append(_Part(kind, source, LEAF, first, None, place, is_placed))
+    return wholes
+
+
+def _is_placed(copies: Copies) -> bool:
+    """Tell whether copies stand elsewhere than where they are given."""
+    return len(copies) != 1 or bool(copies.at.any())
+
+
+def _opaque(part: _Part) -> _Part:
+    """Return those shapes of a part through which no light passes."""
+    opacity = part.source.opacity
+    if len(opacity) == 0 or (opacity == 1.0).all():
+        return part
+    return replace(part, which=_where(opacity == 1.0, part.count))
+
+
+def _faded(part: _Part) -> _Part:
+    """Return those shapes of a part through which some of it passes."""
+    opacity = part.source.opacity
+    is_faded = (opacity > 0.0) & (opacity < 1.0)
+    return replace(part, which=_where(is_faded, part.count), few=LEAF)
+
+
+def _where(mask: NDArray[np.bool_], count: int) -> NDArray[np.int32]:
+    """Return the places at which a mask is set, which may be one for all."""
+    return np.flatnonzero(np.broadcast_to(mask, count)).astype(np.int32)
 
 
 def _check_counts(parts: Sequence[_Part], places: int, numbering: Numbering) -> None:
@@ -173,12 +285,13 @@ def _check_counts(parts: Sequence[_Part], places: int, numbering: Numbering) -> 
 
 def _build(part: _Part, threads: int, progress: Progress | None) -> _Built:
     """Build the hierarchy of shapes, if there are enough."""
-    source = part.source
     if part.count <= part.few:
-        return _Built(Columns(_in_order(source), np.arange(part.count, dtype=np.int32)), None)
-    given = part.kind.given(*source.geometry)
+        numbers = np.arange(part.count, dtype=np.int32) if part.which is None else part.which
+        return _Built(Columns(_in_order(part), numbers), None)
+    given = part.kind.given(*part.geometry)
     tree = build(given, threads, progress)
-    return _Built(Columns(given.data, tree.numbers), tree)
+    numbers = tree.numbers if part.which is None else part.which[tree.numbers]
+    return _Built(Columns(given.data, numbers), tree)
 
 
 def _first_of_kinds(numbering: Numbering) -> list[int]:
@@ -186,30 +299,43 @@ def _first_of_kinds(numbering: Numbering) -> list[int]:
     return [int(numbering.size[numbering.kind < k].sum()) for k in range(len(KINDS))]
 
 
-def _shapes(part: _Part, built: _Built, first: int, begin: int, root: int) -> Shapes:
+def _shapes(part: _Part, built: _Built, begin: int, root: int) -> Shapes:
     """Return shapes with what their hierarchy says, if they have one."""
     tree = built.tree
     frame = tree.frame if tree else Frame(1.0, (0.0, 0.0, 0.0))
-    tree_depth, largest = (tree.tree_depth, tree.largest) if tree else (0, _largest(part.source))
+    tree_depth, largest = (tree.tree_depth, tree.largest) if tree else (0, _largest(part))
     return Shapes(
-        part.kind, part.source, first, begin, part.count, root, frame, tree_depth, largest
+        part.kind,
+        part.source,
+        part.first,
+        begin,
+        part.count,
+        part.place,
+        part.is_placed,
+        root,
+        frame,
+        tree_depth,
+        largest,
     )
 
 
 def _place(
-    copies: Sequence[Copies], copied: Sequence[Sequence[_Part]], threads: int
+    items: Sequence[Any], parts: Sequence[_Part], threads: int
 ) -> tuple[Placed | None, Tree | None]:
-    """Return where copies stand, and the hierarchy over them, if there are any."""
-    used = [k for k, parts in enumerate(copied) if parts]
+    """Return where copies of some shapes stand, and the hierarchy over them, if there are any."""
+    used = sorted({part.place for part in parts if part.is_placed and part.count})
     if not used:
         return None, None
-    boxes = [_box_around(copied[k], threads) for k in used]
-    return place_copies([copies[k] for k in used], boxes, threads)
+    boxes = [
+        _box_around([part for part in parts if part.place == place and part.count], threads)
+        for place in used
+    ]
+    return place_copies([items[place] for place in used], boxes, threads)
 
 
 def _box_around(parts: Sequence[_Part], threads: int) -> tuple[Vec, Vec]:
     """Return the corners of a box that holds shapes of several kinds."""
-    boxes = [bounds_of(part.kind.given(*part.source.geometry), threads) for part in parts]
+    boxes = [bounds_of(part.kind.given(*part.geometry), threads) for part in parts]
     low, high = boxes[0]
     for corners in boxes[1:]:
         low, high = uncompiled(lower)(low, corners[0]), uncompiled(upper)(high, corners[1])
@@ -224,8 +350,7 @@ def _join_columns(
     joined = []
     for k, kind in enumerate(KINDS):
         mine = [row for row, part in enumerate(parts) if part.kind is kind]
-        own = [built[row].columns for row in mine]
-        own[0] = own[0]._replace(number=numbering.among_kind(k, own[0].number))
+        own = [_numbered(built[row].columns, parts[row], k, numbering) for row in mine]
         slots = np.cumsum([0] + [len(columns.number) for columns in own])
         for row, slot in zip(mine, slots.tolist(), strict=False):
             begins[row] = slot
@@ -236,6 +361,13 @@ def _join_columns(
             else Columns(*(np.concatenate(arrays) for arrays in zip(*filled, strict=True)))
         )
     return tuple(joined), begins
+
+
+def _numbered(columns: Columns, part: _Part, kind: int, numbering: Numbering) -> Columns:
+    """Return shapes with their numbers among all of their kind, unless they are copied."""
+    if part.place >= 0:
+        return columns
+    return columns._replace(number=numbering.among_kind(kind, columns.number))
 
 
 def _join_trees(
@@ -257,18 +389,17 @@ def _join_trees(
     return bvh, roots
 
 
-def _in_order(source: Source) -> NDArray[np.float64]:
+def _in_order(part: _Part) -> NDArray[np.float64]:
     """Return the columns of shapes in the order of their numbers."""
-    count = len(source.geometry[0])
-    parts = [column if column.ndim > 1 else column[:, np.newaxis] for column in source.geometry]
-    rows = [np.broadcast_to(part, (count, part.shape[1])) for part in parts]
+    columns = [c if c.ndim > 1 else c[:, np.newaxis] for c in part.geometry]
+    rows = [np.broadcast_to(column, (part.count, column.shape[1])) for column in columns]
     return np.concatenate(rows, axis=1, dtype=np.float64).reshape(-1)
 
 
-def _largest(source: Source) -> float:
+def _largest(part: _Part) -> float:
     """Return the largest coordinate or radius, 0 if there is none."""
     return max(
-        (float(max(-column.min(), column.max())) for column in source.geometry if column.size),
+        (float(max(-column.min(), column.max())) for column in part.geometry if column.size),
         default=0.0,
     )
 

@@ -2,26 +2,41 @@
 
 import math
 import sys
-from itertools import chain
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.capacity import MAX_NUMBERS
-from vtray.base.compiler.compiled import input_array
 from vtray.geometry.bvh.tree import Frame, no_bvh
 from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.vector import Vec
-from vtray.geometry.world import NO_TREE, PLANE, Groups, Places, ToBoxes, World
-from vtray.rendering.acceleration import Acceleration, Shapes
+from vtray.geometry.world import (
+    CUT,
+    NO_TREE,
+    PLANE,
+    Clip,
+    Faded,
+    Groups,
+    Hierarchy,
+    Places,
+    ToBoxes,
+    World,
+)
+from vtray.rendering.acceleration import Acceleration, Shapes, used_places
+from vtray.rendering.joined import joined, rows_of
+from vtray.rendering.pack_bodies import pack_bodies
 from vtray.rendering.pack_lights import pack_lights, points_of
 from vtray.rendering.pack_skies import up_of
 from vtray.rendering.placed import Placed
+from vtray.rendering.rooms import Rooms
 from vtray.scene.light_types import Lamp, Light, RectangleLight, SphereLight
+from vtray.scene.objects import Object
 from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.scene import Camera, Plane, Scene
+from vtray.scene.style import Style
 from vtray.transport.camera_rays import CameraFrame
 from vtray.transport.materials.material import Materials
 from vtray.transport.scene_arrays import SceneArrays
@@ -71,38 +86,105 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
     x, y, z = map(float, origin)
     arrays = SceneArrays(
         camera,
-        _pack_world(planes, kept, unit, (x, y, z)),
+        _pack_world(scene.objects, kept, unit, (x, y, z)),
         pack_lights(scene.lights, origin, unit, camera, up_of(scene.camera)),
         _pack_materials(kept, planes),
     )
     return Packed(arrays, unit, scene.camera.focus - start_distance(scene.camera))
 
 
-def _pack_world(planes: list[Plane], kept: Acceleration, unit: float, origin: Vec) -> World:
+def _pack_world(objects: Sequence[Object], kept: Acceleration, unit: float, origin: Vec) -> World:
     """Return what rays can meet."""
-    reach = float(np.abs(kept.placed.shift).max()) if kept.placed else 0.0
-    rows = [_Row(PLANE, 0, len(planes), NO_TREE, kept.count, _IN_KERNELS)]
-    rows += [_pack_group(shapes, origin, unit) for shapes in kept.shapes]
+    (_, whole, solid), *cut = _planes_by_room(objects, kept.rooms)
+    flats, begin = [(PLANE, 0, solid, len(whole.number), -1)], 0
+    for room, flat, opaque in cut:
+        flats.append((CUT + PLANE, begin, begin + opaque, begin + len(flat.number), room))
+        begin += len(flat.number)
+    rows = [_plane_row(kind, first, mid, kept.count, room) for kind, first, mid, _, room in flats]
+    standing = [one for one in (*kept.shapes, *kept.copied) if not one.is_placed]
+    rows += [_pack_group(one, origin, unit) for one in standing]
+    rows += [_pack_group(one, origin, unit, room=room) for room, one in kept.cut]
+    rows = [row for row in rows if row.begin < row.end]
+    given = len(rows)
+    rows += [_plane_row(kind, mid, end, kept.count, room) for kind, _, mid, end, room in flats]
+    rows += [_pack_group(one, origin, unit) for one in kept.faded if not one.is_placed]
+    rows += [_pack_group(one, origin, unit, room=room) for room, one in kept.faded_cut]
     rows = [row for row in rows if row.begin < row.end]
     ends = [len(rows)]
-    for of_one in filter(None, kept.copied):
-        rows += [_pack_group(shapes, origin, unit, reach) for shapes in of_one]
-        ends.append(len(rows))
-    places = _pack_places(kept.placed, ends, origin, unit) if kept.placed else None
+    for placed, shapes in kept.placed_shapes:
+        reach = float(np.abs(placed.shift).max())
+        items = kept.items_of(shapes)
+        plain = [(-1, parts) for parts in items]
+        # The same shapes where clip planes may cut them.
+        cut_items = [(_room_of(kept, parts[0].place), parts) for parts in items]
+        for room, parts in (*plain, *(cut_items if kept.rooms else ())):
+            rows += [_pack_group(one, origin, unit, reach, room) for one in parts]
+            ends.append(len(rows))
     spheres, *others = kept.columns
     cylinders, cones = (columns if columns.number.size else None for columns in others)
-    has_trees = any(row.root != NO_TREE for row in rows) or (places and places.root != NO_TREE)
+    places = _pack_places(kept, ends, origin, unit)
+    faded_places = _faded_places(kept, origin, unit)
+    roots = [row.root for row in rows]
+    roots += [places.root, faded_places.root] if places else []
+    has_trees = any(root != NO_TREE for root in roots)
+    bodies = pack_bodies(kept, [item for item in objects if isinstance(item, Plane)])
     return World(
         _pack_groups(rows),
-        _pack_planes(planes),
+        whole,
         spheres,
         cylinders,
         cones,
         kept.bvh if has_trees else no_bvh(),
         places,
+        given,
+        None if bodies is None else Faded(given, ends[0], faded_places, bodies, Style().solid_from),
         1.0 / unit,
         origin,
+        _pack_clip(kept.rooms, rows, [flat for _, flat, _ in cut]),
     )
+
+
+def _plane_row(kind: int, begin: int, end: int, number: int, room: int) -> "_Row":
+    """Return a group of planes."""
+    return _Row(kind, begin, end, NO_TREE, number, 0, _IN_KERNELS, room)
+
+
+def _room_of(kept: Acceleration, place: int) -> int:
+    """Return the room of the object in a place among those that have shapes."""
+    return kept.room_of[place] if kept.room_of else 0
+
+
+def _planes_by_room(
+    objects: Sequence[Object], rooms: Rooms | None
+) -> list[tuple[int, Columns, int]]:
+    """Return the planes that no clip plane cuts, and then those of each room.
+
+    Those through which some light passes come last; beside the columns is told how many come before
+    them.
+    """
+    found: dict[int, list[tuple[int, Plane]]] = {-1: []}
+    number = 0
+    for place, item in enumerate(objects):
+        if isinstance(item, Plane):
+            room = rooms.room_of(place) if rooms else -1
+            is_cut = rooms is not None and rooms.walls[room]
+            found.setdefault(room if is_cut else -1, []).append((number, item))
+            number += 1
+    made = []
+    for room, numbered in found.items():
+        solid = [pair for pair in numbered if pair[1].opacity == 1.0]
+        faded = [pair for pair in numbered if 0.0 < pair[1].opacity < 1.0]
+        made.append((room, _pack_planes([*solid, *faded]), len(solid)))
+    return made
+
+
+def _pack_clip(rooms: Rooms | None, rows: Sequence["_Row"], flat: Sequence[Columns]) -> Clip | None:
+    """Return what clip planes leave; None if there are none, or if they cut nothing."""
+    if rooms is None or all(row.kind < CUT for row in rows):
+        return None
+    room = np.array([max(row.room, 0) for row in rows], np.int64)
+    columns = Columns(*map(np.concatenate, zip(*flat, strict=True))) if flat else None
+    return Clip(rooms.planes, rooms.begin, room, rooms.is_capped, columns)
 
 
 class _Row(NamedTuple):
@@ -113,36 +195,82 @@ class _Row(NamedTuple):
     end: int
     root: int
     number: int
+    each: int
     frame: ToBoxes
+    room: int = -1
 
 
 _IN_KERNELS = ToBoxes(0.0, (0.0, 0.0, 0.0), 0.0)
 """That of a group without boxes."""
 
 
-def _pack_group(shapes: Shapes, origin: Vec, unit: float, reach: float = 0.0) -> _Row:
-    """Return a group; `reach` is how far its shapes are moved at the most, in world space."""
+def _pack_group(
+    shapes: Shapes, origin: Vec, unit: float, reach: float = 0.0, room: int = -1
+) -> _Row:
+    """Return a group.
+
+    Parameters
+    ----------
+    shapes
+        Its shapes.
+    origin, unit
+        Those of the kernels' space.
+    reach
+        How far they are moved at the most, in world space.
+    room
+        The room that may cut them; -1 if none does.
+    """
     to_boxes = _pack_to_boxes(shapes.frame, origin, unit)
     is_far = reach > LARGEST_SHIFT / shapes.frame.scale
     root = NO_TREE if to_boxes.ratio >= LARGEST_RATIO or is_far else shapes.root
     end = shapes.begin + shapes.count
-    return _Row(shapes.kind.shape, shapes.begin, end, root, shapes.first, to_boxes)
+    each = len(shapes.source.geometry[0])
+    kind = shapes.kind.shape + (CUT if room >= 0 else 0)
+    return _Row(kind, shapes.begin, end, root, shapes.first, each, to_boxes, room)
 
 
 def _pack_groups(rows: list[_Row]) -> Groups:
     """Return groups, a row for each."""
-    columns = np.array([row[:5] for row in rows], np.int64).reshape(-1, 5).T
-    kind, begin, end, root, number = np.ascontiguousarray(columns)
+    columns = np.array([row[:6] for row in rows], np.int64).reshape(-1, 6).T
+    kind, begin, end, root, number, each = np.ascontiguousarray(columns)
     frames = np.array([(row.frame.ratio, *row.frame.offset) for row in rows]).reshape(-1, 4)
-    return Groups(kind, begin, end, root, number, frames)
+    return Groups(kind, begin, end, root, number, each, frames)
 
 
-def _pack_places(placed: Placed, rows: list[int], origin: Vec, unit: float) -> Places:
-    """Return where copies stand, whose groups are in these rows."""
+def _pack_places(kept: Acceleration, rows: list[int], origin: Vec, unit: float) -> Places | None:
+    """Return where copies stand, whose groups are in these rows; None if there are none."""
+    if not kept.all_placed:
+        return None
+    placed = kept.placed
+    end = len(placed.shift) if placed else 0
+    hierarchy = _hierarchy_of(placed, 0, origin, unit)
+    # Groups of faded shapes follow those of the others.
+    items = len(used_places(kept.copied)) * (2 if kept.rooms else 1) if placed else 0
+    item = [one.item + (items if one is not placed else 0) for one in kept.all_placed]
+    return Places(
+        joined([one.shift.reshape(-1) for one in kept.all_placed], np.float64),
+        joined(item, np.int32),
+        joined([one.copy for one in kept.all_placed], np.int32),
+        np.array(rows, np.int64),
+        hierarchy.root,
+        hierarchy.to_boxes,
+        end,
+    )
+
+
+def _faded_places(kept: Acceleration, origin: Vec, unit: float) -> Hierarchy:
+    """Return the hierarchy over the places of faded shapes."""
+    begin = len(kept.placed.shift) if kept.placed else 0
+    return _hierarchy_of(kept.faded_placed, begin, origin, unit)
+
+
+def _hierarchy_of(placed: Placed | None, begin: int, origin: Vec, unit: float) -> Hierarchy:
+    """Return the hierarchy over places that stand from there on, if there are any."""
+    if placed is None:
+        return Hierarchy(NO_TREE, begin, begin, _IN_KERNELS)
     to_boxes = _pack_to_boxes(placed.frame, origin, unit)
     root = NO_TREE if to_boxes.ratio >= LARGEST_RATIO else placed.root
-    shift = placed.shift.reshape(-1)
-    return Places(shift, placed.item, placed.copy, np.array(rows, np.int64), root, to_boxes)
+    return Hierarchy(root, begin, begin + len(placed.shift), to_boxes)
 
 
 def start_distance(camera: Camera) -> float:
@@ -165,6 +293,8 @@ def _unit_length(scene: Scene, planes: list[Plane], kept: Acceleration) -> float
     places += [lamp.location for lamp in lamps]
     places += [edge for lamp in lamps if isinstance(lamp, RectangleLight) for edge in lamp.edges]
     lengths = [lamp.radius for lamp in lamps if isinstance(lamp, SphereLight)]
+    # A plane that cuts nothing may be anywhere.
+    lengths += [kept.rooms.largest] if kept.rooms and (planes or kept.is_cut) else []
     coordinates = max(max(abs(p.x), abs(p.y), abs(p.z), *lengths) for p in places)
     highest = max(_start_exponent(camera), _exponent(coordinates), _exponent(kept.largest))
     # The unit itself and its inverse must be ordinary doubles.
@@ -240,19 +370,19 @@ def _pack_to_boxes(frame: Frame, origin: Vec, unit: float) -> ToBoxes:
 
 def _pack_materials(kept: Acceleration, planes: list[Plane]) -> Materials:
     """Return the materials of all primitives, by ranges of their numbers."""
-    sources = [shapes.source for shapes in (*kept.shapes, *chain.from_iterable(kept.copied))]
+    sources = [shapes.source for shapes in (*kept.shapes, *kept.copied)]
     colors = [source.color for source in sources]
     of_planes = [(plane.color.r, plane.color.g, plane.color.b) for plane in planes]
     colors.append(np.array(of_planes, np.uint8).reshape(-1, 3))
     ends = [source.color_end for source in sources if source.color_end is not None]
     lamberts = [source.lambert for source in sources]
     lamberts.append(np.array([plane.lambert for plane in planes], np.float64))
-    row, step = _rows([*colors, *ends])
+    row, step = rows_of([*colors, *ends])
     color_row, color_step = row[: len(colors)], step[: len(colors)]
     end_row, end_step = color_row.copy(), color_step.copy()
     halved = [k for k, source in enumerate(sources) if source.color_end is not None]
     end_row[halved], end_step[halved] = row[len(colors) :], step[len(colors) :]
-    lambert_row, lambert_step = _rows(lamberts)
+    lambert_row, lambert_step = rows_of(lamberts)
     ranges = kept.ranges
     k = np.where(ranges.copied < 0, ranges.kind, len(kept.shapes) + ranges.copied)
     k, begin = np.append(k, len(sources)), np.append(ranges.begin, 0)
@@ -265,27 +395,24 @@ def _pack_materials(kept: Acceleration, planes: list[Plane]) -> Materials:
         end_step[k],
         lambert_row[k] + begin * lambert_step[k],
         lambert_step[k],
-        _joined([*colors, *ends], np.uint8),
-        _joined(lamberts, np.float64),
+        joined([*colors, *ends], np.uint8),
+        joined(lamberts, np.float64),
+        _cap_color(kept.rooms),
     )
 
 
-def _rows(parts: list[NDArray[Any]]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the first row of each part when they are joined, and the step from row to row."""
-    sizes = np.array([len(part) for part in parts])
-    return np.cumsum(sizes) - sizes, (sizes > 1).astype(np.int64)
+def _cap_color(rooms: Rooms | None) -> Vec | None:
+    """Return the colour of what closes shapes that are cut, as in `Materials`."""
+    if rooms is None:
+        return None
+    color = rooms.color
+    return (float(color.r), float(color.g), float(color.b)) if color else (-1.0, -1.0, -1.0)
 
 
-def _joined(parts: list[NDArray[Any]], dtype: type[np.generic]) -> NDArray[Any]:
-    """Return parts as one array, which is no copy where there is only one."""
-    filled = [part for part in parts if len(part)] or parts[:1]
-    return input_array(filled[0] if len(filled) == 1 else np.concatenate(filled), dtype)
-
-
-def _pack_planes(planes: list[Plane]) -> Columns:
-    """Return the columns of all planes."""
+def _pack_planes(planes: Sequence[tuple[int, Plane]]) -> Columns:
+    """Return the columns of planes with their numbers."""
     data = np.empty((len(planes), 6))
-    for row, plane in zip(data, planes, strict=True):
+    for row, (_, plane) in zip(data, planes, strict=True):
         row[:3] = plane.center.x, plane.center.y, plane.center.z
         row[3:] = unit_vector(plane.normal)
-    return Columns(data.reshape(-1), np.arange(len(planes), dtype=np.int32))
+    return Columns(data.reshape(-1), np.array([number for number, _ in planes], np.int32))

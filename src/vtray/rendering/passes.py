@@ -1,6 +1,7 @@
 """From the arrays of a scene to a film: which rays are cast, tile by tile, in one pass or two."""
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -30,9 +31,6 @@ from vtray.transport.scene_arrays import SceneArrays
 
 SURFACES = ("distance", "normal", "primitive", "half")
 """What is recorded of the surfaces that middle rays hit."""
-
-SAMPLES = ("linear", "error", "coverage", "mixed")
-"""What is wanted of one with samples."""
 
 SPARSE = 8
 """Each so many pixels, both ways, tell about how bright a picture will be."""
@@ -77,6 +75,8 @@ class Tracer:
         Called from time to time with the tiles done and their number.
     growth
         Collects the light as it grows; None where nobody looks, and there is no draft.
+    more
+        What else is wanted of middle rays, of `SURFACES`.
     """
 
     def __init__(
@@ -86,6 +86,7 @@ class Tracer:
         tile: int = TILE,
         progress: Progress | None = None,
         growth: Growth | None = None,
+        more: Sequence[str] = (),
     ) -> None:
         self._scene = scene
         self._size = scene.camera.width, scene.camera.height
@@ -94,6 +95,7 @@ class Tracer:
         self._tile = tile
         self._progress = progress
         self._growth = growth
+        self._more = more
         self._passes = 1
         self._done = 0
 
@@ -116,16 +118,18 @@ class Tracer:
         """
         samples, seed = int(settings.samples), int(settings.seed)
         noise = self.noise(settings, white, keep=keep)
+        # What rays see layer by layer is not kept.
+        keep = keep and self._scene.world.faded is None
         fans = None if noise is None else fans_of_middles(noise)
         if samples == 1:
             rays = middle_rays(fans=fans, seed=seed)
-            found = self._middles(rays, keep, *one_ray(self._scene))
+            found = self._middles(rays, keep, *one_ray(self._scene, self._more))
             return found._replace(film=_covered(found.film), noise=noise)
         self._passes = 2
         footprint = filter_footprint(settings, self._scene.camera)
         thickest = _thickest(self._scene.world)
         middles = middle_rays(footprint, thickest, before_samples=True, fans=fans, seed=seed)
-        found = self._middles(middles, keep, *SAMPLES)
+        found = self._middles(middles, keep, *with_samples(self._scene, self._more))
         film, kept = found.film, found.kept
         marks = film.mixed.copy()  # the film is written anew
         if keep:
@@ -164,7 +168,9 @@ class Tracer:
         has_samples = settings.samples > 1
         fans = fans_of_middles(self._noise_of_light(math.inf, settings))
         rays = middle_rays(before_samples=has_samples, fans=fans, seed=int(settings.seed))
-        film = new_film(*self._size, *(SAMPLES if has_samples else one_ray(self._scene)))
+        film = new_film(
+            *self._size, *(with_samples if has_samples else one_ray)(self._scene, self._more)
+        )
         tiles = split_into_tiles(*self._size, self._tile)
         return self._engine.trace(self._scene, rays._replace(marks=marks), tiles, film, None).peak
 
@@ -203,7 +209,8 @@ class Tracer:
         check_memory_of_lights(count, components)
         first = np.cumsum(marks, dtype=np.int64).reshape(marks.shape)
         first = np.where(marks, (first - 1) * samples, -1)
-        return new_kept_light(first, count, components)
+        has_fog = self._scene.fog is not None
+        return new_kept_light(first, count, components, has_fog=has_fog)
 
     def _trace(self, sampling: Sampling, film: Film) -> Traced:
         """Cast rays, and write to a film."""
@@ -229,14 +236,24 @@ class Tracer:
         return tell
 
 
-def one_ray(scene: SceneArrays) -> tuple[str, ...]:
+def one_ray(scene: SceneArrays, more: Sequence[str] = ()) -> tuple[str, ...]:
     """Return what is wanted of a picture with one ray a pixel."""
-    wanted = ["linear"]
+    wanted = ["linear", *more]
     if scene.lights.soft is not None:
         wanted.append("error")
-    if scene.lights.visible is not None:
+    if scene.world.faded is not None:
+        wanted.append("coverage")
+    elif scene.lights.visible is not None:
         wanted.append("primitive")
+    if scene.fog is not None:
+        wanted.append("fog")
     return tuple(wanted)
+
+
+def with_samples(scene: SceneArrays, more: Sequence[str] = ()) -> tuple[str, ...]:
+    """Return what is wanted of a picture with samples."""
+    fog = () if scene.fog is None else ("fog",)
+    return ("linear", "error", "coverage", "mixed", *fog, *more)
 
 
 def _covered(film: Film) -> Film:
@@ -256,10 +273,10 @@ def _thickest(world: World) -> float:
     return max(float(of_kind.max(initial=0.0)) for of_kind in radii) * world.scale
 
 
-def compile_kernels(scene: SceneArrays, settings: RenderSettings) -> None:
+def compile_kernels(scene: SceneArrays, settings: RenderSettings, more: Sequence[str] = ()) -> None:
     """Compile what is needed to trace a scene, or load it from disk; see `Tracer.light`."""
     has_samples = settings.samples > 1
     soft = scene.lights.soft
-    film = new_film(0, 0, *(SAMPLES if has_samples else one_ray(scene)))
+    film = new_film(0, 0, *(with_samples if has_samples else one_ray)(scene, more))
     fans = None if soft is None else fans_of_middles(Noise(math.inf, by_light=True))
     trace_to(film, scene, middle_rays(before_samples=has_samples, fans=fans), Tile(0, 0, 0, 0))

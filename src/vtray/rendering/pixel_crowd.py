@@ -7,10 +7,12 @@ import numpy as np
 from vtray.figures.traced_rays import FanRay, ShadowFan, WayToLight
 from vtray.geometry.packets.cone import new_touching
 from vtray.geometry.packets.fan import BLOCKED, FAN, WEIGHT, Fan, new_fan
+from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.packets.workspace import UNKNOWN, new_shared
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec
+from vtray.geometry.world import body_count
 from vtray.rendering.pack import Packed
 from vtray.rendering.pack_skies import changes_color
 from vtray.rendering.pixel_lights import Lit, SpreadRay, added, fan_ray, shadow_fan
@@ -44,13 +46,14 @@ def trace_shared(
     fans, fan, stack = fans_of_middles(noise), new_fan(), new_stack()
     shared, blockers = new_shared(len(soft.kind)), np.full(fans.rays, NOTHING)
     given = arrays, soft, crowd, traced, *pixel, fans
-    found = trace_crowd(*given, seed, stack, fan, blockers, shared, new_touching())
+    walk = new_walk(body_count(arrays.world))
+    found = trace_crowd(*given, seed, stack, fan, blockers, shared, new_touching(), walk)
     lights = [
         (k, light) for k, light in enumerate(lit.scene.lights) if not isinstance(light, Light)
     ]
     cast: list[list[_Cast]] = [[] for _ in lights]
     for number in range(found.fans):
-        trace_shared_fan(*given, number, seed, stack, fan, blockers, shared)
+        trace_shared_fan(*given, number, seed, stack, fan, blockers, shared, walk)
         for ray, blocker in enumerate(blockers.tolist()):
             place = int(shared.light[ray])
             spread = SpreadRay(fan, ray, traced.interaction.point, packed.unit, 3)
@@ -76,7 +79,7 @@ def _brought(fan: Fan, ray: int, blocker: int) -> Vec:
 
 def _fan_of(lit: Lit, number: int, light: AnyLight, cast: list[_Cast], rays: int) -> ShadowFan:
     """Return the rays to a light, of so many that all lights have."""
-    full = added(lit.hit, light, (1.0, 1.0, 1.0))
+    full = added(lit, light, (1.0, 1.0, 1.0))
     channels = [0, 1, 2] if changes_color(light) else [full.index(max(full))]
     shares = [0.0 for _ in channels]
     shown = []

@@ -10,9 +10,11 @@ from vtray.base.compiler.compiled import uncompiled
 from vtray.base.exact_math import hypotenuse
 from vtray.figures.traced_rays import FanRay, Hit, ShadowFan, ShadowRay, WayToLight
 from vtray.geometry.packets.fan import DIRECTION, END, FAN, WEIGHT, Fan, new_fan
+from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, scale, sub
+from vtray.geometry.world import body_count
 from vtray.rendering.numbering import Numbering
 from vtray.rendering.pack import Packed
 from vtray.rendering.pixel_surfaces import find_blocker, rgb
@@ -30,7 +32,7 @@ from vtray.scene.placing.directions import unit
 from vtray.scene.scene import Scene
 from vtray.transport.integrators.reference import TracedPixel, trace_fan, trace_lamp
 from vtray.transport.lights.soft_light import component_count
-from vtray.transport.sampling.fans import Noise, fans_of_middles
+from vtray.transport.sampling.fans import Noise, fans_of_middles, fans_of_share
 
 
 class Lit(NamedTuple):
@@ -42,11 +44,14 @@ class Lit(NamedTuple):
         The scene, and the numbers of its primitives.
     hit
         The hit.
+    share
+        How much of its light is seen.
     """
 
     scene: Scene
     numbering: Numbering
     hit: Hit
+    share: float = 1.0
 
 
 def shadow_rays(
@@ -97,16 +102,18 @@ def trace_fans(
     if soft is None:
         return ways, traced.value
     fans, spent = fans_of_middles(noise), 0.0
-    fan, stack, blockers = new_fan(), new_stack(), np.full(fans.rays, NOTHING)
+    own = uncompiled(fans_of_share)(fans, traced.share)
+    fan, stack, blockers = new_fan(), new_stack(), np.full(own.rays, NOTHING)
+    walk = new_walk(body_count(arrays.world))
     start, length = traced.interaction.point, packed.unit
     for k, light in enumerate(lit.scene.lights):
         if not isinstance(light, Light):
             known = arrays, soft, traced, *pixel, len(ways), fans
-            lamp = trace_lamp(*known, spent, seed, stack, fan, blockers)
+            lamp = trace_lamp(*known, spent, seed, stack, fan, blockers, walk)
             components = uncompiled(component_count)(soft, len(ways))
             rays: list[FanRay] = []
             for number in range(lamp.fans):
-                trace_fan(*known, number, seed, stack, fan, blockers)
+                trace_fan(*known, number, seed, stack, fan, blockers, walk)
                 rays += [
                     fan_ray(
                         lit, light, SpreadRay(fan, ray, start, length, components), int(blocker)
@@ -129,7 +136,7 @@ def _shadow_ray(lit: Lit, number: int, light: Light, cosine: float, primitive: i
     is_free = primitive == NOTHING
     blocker = None if is_free else find_blocker(lit.scene, lit.numbering, primitive, point, way)
     arriving = cosine if is_free else 0.0
-    adds = added(lit.hit, light, (arriving, arriving, arriving))
+    adds = added(lit, light, (arriving, arriving, arriving))
     color = rgb(light.color)
     return ShadowRay(number, place, light.intensity, way, distance, cosine, blocker, adds, color)
 
@@ -142,7 +149,7 @@ def shadow_fan(
     share, color = sum(shares) / len(shares), rgb(light.color)
     middle = _middle(lit.hit, light)
     red, green, blue = shares if len(shares) == 3 else 3 * shares
-    adds = added(lit.hit, light, (red, green, blue))
+    adds = added(lit, light, (red, green, blue))
     several = None if len(shares) == 1 else (red, green, blue)
     strength, measure = strength_of(light), measure_of(light)
     return ShadowFan(number, kind, strength, middle, rays, share, adds, color, measure, several)
@@ -207,11 +214,12 @@ def _middle(hit: Hit, light: AnyLight) -> Vec:
     return hit.normal
 
 
-def added(hit: Hit, light: AnyLight, shares: Vec) -> Vec:
+def added(lit: Lit, light: AnyLight, shares: Vec) -> Vec:
     """Return what a light adds to a pixel, of whose red, green and blue so much arrives."""
     # In the order of the kernels, so that the sum has the same bits.
-    strengths = [share * hit.surface.lambert * strength_of(light) for share in shares]
-    red, green, blue = hit.surface.color
+    surface = lit.hit.surface
+    strengths = [share * surface.lambert * strength_of(light) for share in shares]
+    red, green, blue = (lit.share * channel for channel in surface.color)
     tint = rgb(light.color)
     return (
         strengths[0] * red * (tint[0] / 255),

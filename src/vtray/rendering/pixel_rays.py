@@ -8,25 +8,23 @@ import numpy as np
 from vtray.base.compiler.compiled import uncompiled
 from vtray.base.errors import RenderError
 from vtray.base.pool import available_cores
-from vtray.figures.ray_tree import Exposed, Hit, RayTree, View
-from vtray.figures.traced_rays import WayToLight
-from vtray.geometry.packets.stack import new_stack
+from vtray.figures.ray_tree import Exposed, RayTree, Veil, View
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, scale
 from vtray.image.exposure import known_white
+from vtray.rendering.fog import ball_around, fitted
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.numbering import number_objects
 from vtray.rendering.pack import Packed, pack
 from vtray.rendering.passes import Tracer
-from vtray.rendering.pixel_crowd import trace_shared
-from vtray.rendering.pixel_lights import Lit, shadow_rays, trace_fans
-from vtray.rendering.pixel_surfaces import find_surface
+from vtray.rendering.pixel_layers import Pixel, look_through
+from vtray.rendering.styled import styled
 from vtray.scene.default_light import lights_of, settings_of
 from vtray.scene.light_types import Light
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
-from vtray.transport.integrators.reference import trace_pixel as trace_one
-from vtray.transport.lights.light import light_count
+from vtray.transport.fog import fog_share
+from vtray.transport.integrators.reference import TracedPixel
 from vtray.transport.sampling.fans import Noise
 
 if TYPE_CHECKING:
@@ -82,45 +80,45 @@ def trace_rays(
         message = f"{caller}: expected 0,0 to {width - 1},{height - 1}, got {column},{row}"
         raise RenderError(message)
     settings = settings_of(scene) if image is None else image.settings
-    kept = accelerate(scene)  # which the given scene may have already
-    scene = Scene(camera, lights_of(scene), list(scene.objects))
-    packed, numbering = pack(scene, kept), number_objects(scene.objects)
-    points = uncompiled(light_count)(packed.arrays.lights)
-    cosines, blockers = np.zeros(points), np.full(points, NOTHING)
-    traced = trace_one(packed.arrays, column, row, new_stack(), cosines, blockers)
+    style = (
+        fitted(scene.style, camera, lambda: ball_around(scene)) if image is None else image.style
+    )
+    kept = accelerate(scene, style=style)  # which the given scene may have already
+    scene = Scene(camera, lights_of(scene), list(scene.objects), style=style)
+    packed, numbering = styled(pack(scene, kept), style), number_objects(scene.objects)
+    noise = _noise(packed, settings) if image is None else image.noise
+    pixel = Pixel(scene, numbering, packed, (column, row), noise, int(settings.seed))
+    layers, behind, light = look_through(pixel)
+    traced = behind.traced
     start, direction = _world(scene, packed, traced.ray.origin), traced.ray.direction
     eye = uncompiled(add)(start, uncompiled(scale)(-packed.before, direction))
-    hit, light = None, traced.value
-    ways: list[WayToLight] = []
-    if traced.primitive != NOTHING:
-        hit = Hit(
-            find_surface(
-                scene, numbering, traced.primitive, is_second=traced.interaction.is_second
-            ),
-            traced.distance * packed.unit + packed.before,
-            _world(scene, packed, traced.interaction.point),
-            traced.interaction.normal,
-        )
-        lit = Lit(scene, numbering, hit)
-        noise = _noise(packed, settings) if image is None else image.noise
-        known = lit, packed, traced, (column, row)
-        if noise is not None and noise.are_shared:
-            fans, light = trace_shared(*known, noise, int(settings.seed))
-        else:
-            fans, light = trace_fans(*known, noise, int(settings.seed))
-        ways = [*shadow_rays(lit, cosines, blockers), *fans]
     return RayTree(
         (column, row),
         eye,
         direction,
-        hit,
-        tuple(sorted(ways, key=lambda way: way.light)),
+        behind.hit,
+        behind.lights,
         light,
         _view(scene, packed),
         None if image is None else _exposed(image, column, row),
         None if traced.lamp == NOTHING else _place_of(scene, packed, traced.lamp),
         scene,
+        layers,
+        behind.share,
+        _veil(packed, traced, light),
     )
+
+
+def _veil(packed: Packed, traced: TracedPixel, light: Vec) -> Veil | None:
+    """Return what fog does to the light along the ray of a pixel."""
+    fog = packed.arrays.fog
+    # Where there are layers, fog takes its share of each.
+    has_layers = packed.arrays.world.faded is not None
+    if fog is None or has_layers or (traced.primitive == NOTHING and traced.lamp == NOTHING):
+        return None
+    share = uncompiled(fog_share)(fog, traced.distance)
+    distance = traced.distance * packed.unit + packed.before
+    return Veil(distance, share, uncompiled(scale)(1.0 - share, light))
 
 
 def _noise(packed: Packed, settings: RenderSettings) -> Noise | None:
@@ -149,12 +147,20 @@ def _exposed(image: "Image", column: int, row: int) -> Exposed:
     red, green, blue = map(float, image.linear[row, column])
     sky = None
     if image.settings.background == "sky":
-        x, y, z = map(float, image.with_sky[row, column] - image.linear[row, column])
+        x, y, z = map(float, image.with_sky[row, column] - image.drawn[row, column])
         sky = x, y, z
     shine, stars = image.starlight, None
     if shine is not None:
         x, y, z = map(float, shine[row, column])
         stars = x, y, z
+    overlays = []
+    for share, color in image.overlays:
+        part = float(share[row, column])
+        if part > 0.0:
+            overlays.append((part * color.r, part * color.g, part * color.b))
+    own = image.linear[row, column], image.drawn[row, column]
+    x, y, z = map(float, own[1])
+    drawn = None if (own[0] == own[1]).all() else (x, y, z)
     white = float(image.white)
     return Exposed(
         light=(red, green, blue),
@@ -164,6 +170,8 @@ def _exposed(image: "Image", column: int, row: int) -> Exposed:
         background=0.0 if image.settings.background == "black" else 1 - image.alpha[row, column],
         sky=sky,
         value=tuple(int(channel) for channel in image.pixels[row, column]),
+        overlays=tuple(overlays),
+        drawn=drawn,
     )
 
 

@@ -7,7 +7,11 @@ from vtray.base.pool import run_tasks
 from vtray.base.tiles import TILE
 from vtray.rendering.acceleration import Acceleration
 from vtray.rendering.pack import pack
+from vtray.rendering.passes import Tracer
+from vtray.rendering.styled import styled
 from vtray.scene.scene import Scene
+from vtray.scene.settings import RenderSettings
+from vtray.scene.style import Style
 from vtray.transport.light_buffer import KeptLight, add_up_rows
 
 
@@ -52,4 +56,34 @@ class Relighting:
                 add_up_rows(arrays, kept, samples, top, bottom, linear)
 
             run_tasks(range(0, len(linear), TILE), lambda: add_up, self._threads)
+        return linear
+
+
+class Rerendering:
+    """Traces a picture again with other lights or colours, where rays see several layers.
+
+    Parameters
+    ----------
+    kept
+        The shapes of the scene that was traced.
+    settings, style
+        How the picture was taken.
+    threads
+        How many threads to use at the most.
+    """
+
+    def __init__(
+        self, kept: Acceleration, settings: RenderSettings, style: Style, threads: int
+    ) -> None:
+        self._kept = kept
+        self._settings = settings
+        self._style = style
+        self._threads = threads
+
+    def __call__(self, scene: Scene) -> NDArray[np.float64]:
+        """Return the linear light, as `Relighting` does."""
+        packed = pack(scene, self._kept.with_colors_of(scene.objects))
+        arrays = styled(packed, self._style).arrays
+        light = Tracer(arrays, self._threads).light(self._settings, None, keep=True).film.linear
+        linear: NDArray[np.float64] = light
         return linear

@@ -22,15 +22,20 @@ from vtray.base.tiles import TILE
 from vtray.image.denoise import load_library
 from vtray.image.exposure import check_brightness, known_white, locked_white, warm_up
 from vtray.image.image import Image
+from vtray.rendering.acceleration import Acceleration
+from vtray.rendering.clipping import is_nothing_left
 from vtray.rendering.darkroom import Darkroom
 from vtray.rendering.denoising import Denoising
+from vtray.rendering.drawing import Drawing
+from vtray.rendering.fog import ball_around, fitted
 from vtray.rendering.growth import Growth
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
 from vtray.rendering.passes import Tracer, compile_kernels
-from vtray.rendering.relighting import Relighting
+from vtray.rendering.relighting import Relighting, Rerendering
 from vtray.rendering.seen_sky import SeenSky, check_sky
 from vtray.rendering.starlight import Starlight, check_stars, has_stars
+from vtray.rendering.styled import styled
 from vtray.rendering.surfaces import Look
 from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.default_light import lights_of, settings_of
@@ -39,8 +44,14 @@ from vtray.scene.light_types import AnyLight, strength_of
 from vtray.scene.scene import Camera, Scene
 from vtray.scene.settings import RenderSettings, overridden
 from vtray.scene.stars import Stars
+from vtray.scene.style import Style
 
 Progress = Callable[[str, int, int], None]
+
+NOTHING_LEFT = (
+    "style.clip: leaves nothing of the scene; what lies on the side that a normal points to is "
+    "left out, so maybe turn one round"
+)
 
 
 class HasWhite(Protocol):
@@ -65,6 +76,13 @@ def render(
     background: Any = None,  # noqa: ANN401
     tolerance: float | None = None,
     denoise: bool | None = None,
+    outline: Any = None,  # noqa: ANN401 - all that `Style` takes
+    fog: Any = None,  # noqa: ANN401
+    eye_dome: Any = None,  # noqa: ANN401
+    clip: Any = None,  # noqa: ANN401
+    slice: Any = None,  # noqa: A002, ANN401 - as in the scene file
+    cap: Any = None,  # noqa: ANN401
+    solid_from: float | None = None,
     lock: HasWhite | None = None,
     keep_lights: bool = False,
     on_update: Callable[[Image], object] | None = None,
@@ -75,7 +93,8 @@ def render(
     """Render a scene.
 
     The picture depends on the scene and the settings alone: not on threads, tiles or the machine.
-    Settings that are not given are those of ``scene.render``.
+    Settings that are not given are those of ``scene.render``, parts of the style those of
+    ``scene.style``.
 
     Parameters
     ----------
@@ -112,6 +131,29 @@ def render(
     denoise
         Whether the grain of soft light is taken out by Open Image Denoise, once all is traced. The
         picture is then no longer the same on every machine; `Image.raw` is.
+    outline
+        Lines around what is seen: True, their width in pixels, that and a colour, or an `Outline`;
+        False for none.
+    fog
+        Fog, in which things fade with their distance: True for fog that is fitted to the scene, two
+        distances, these and a colour, or a `Fog`; False for none.
+    eye_dome
+        Eye-dome lighting, for points and landscapes: True, its strength, or an `EyeDome`; False for
+        none.
+    clip
+        Planes; nothing exists on the sides that their normals point to, for rays of the camera and
+        for shadow rays alike. One is its normal, through the middle of the scene, or four numbers,
+        that and its distance from the origin along it, or a `ClipPlane`; several are a list of
+        such; ``()`` for none.
+    slice
+        A slab; nothing exists outside of it: its normal, maybe the distance of its middle from the
+        origin, and its thickness, as four or five numbers, or a `Slice`; False for none.
+    cap
+        Whether spheres, cylinders and cones that are cut are closed: True in their own colour, or a
+        colour; False leaves them open, so that light comes in and their inside is seen.
+    solid_from
+        Depth, ids and normals are those of the first surface that is more opaque than that, 0.5 by
+        default.
     lock
         A picture whose exposure is taken, so that a sequence does not flicker; not together with
         `exposure`.
@@ -159,24 +201,23 @@ def render(
         locked_white(lock, exposure)
     scene.check()
     lights = lights_of(scene)
-    settings = overridden(settings_of(scene), locals())
+    settings, style = overridden(settings_of(scene), locals()), overridden(scene.style, locals())
     shown = _snapshot(scene, lights, _camera(scene, settings))
+    style = fitted(style, shown.camera, lambda: ball_around(shown))
     if settings.denoise:
         load_library()  # before any work is done
-    problem = _darkness(shown, keep_lights=keep_lights)
-    if problem:
+    if problem := _darkness(shown, keep_lights=keep_lights):
         (warn or _warn)(problem)
-    _check_memory(shown, settings, is_shown=on_update is not None)
-    check_brightness(shown.lights)
-    _check_background(shown, settings)
-    clock = Stopwatch()
-    loaded = loading_seconds()
-    kept = accelerate(scene, threads, _step_of(progress, "build"))
+    _check(shown, settings, is_shown=on_update is not None)
+    clock, loaded = Stopwatch(), loading_seconds()
+    kept = _accelerate(scene, threads, _step_of(progress, "build"), style, warn or _warn)
     clock.lap("build")
     loading = loading_seconds() - loaded
-    packed = pack(shown, kept)
+    packed = styled(pack(shown, kept), style)
     clock.lap("pack")
-    compile_kernels(packed.arrays, settings)
+    drawing = Drawing(style, shown, packed, has_samples=settings.samples > 1, threads=threads)
+    compile_kernels(packed.arrays, settings, drawing.wanted)
+    drawing.warm_up()
     warm_up()
     sky = SeenSky(packed.arrays.camera, settings, threads)
     sky.warm_up(shown)
@@ -186,14 +227,17 @@ def render(
         shown,
         _snapshot(scene, lights, scene.camera),
         settings,
+        style,
         look,
         sky,
-        Starlight(lambda: look().depth),
+        Starlight(lambda: look().depth, kept.rooms),
         lock,
         threads,
     )
     growth = _growth(darkroom, on_update, update_seconds)
-    tracer = Tracer(packed.arrays, threads, tile, _step_of(progress, "trace"), growth)
+    tracer = Tracer(
+        packed.arrays, threads, tile, _step_of(progress, "trace"), growth, drawing.wanted
+    )
     white = known_white(settings.exposure, lock)
     with growth or nullcontext():
         traced = tracer.light(settings, white, keep=keep_lights)
@@ -204,13 +248,20 @@ def render(
         "depth": kept.tree_depth,
         "memory": kept.memory,
     }
-    relighting = Relighting(kept, traced.kept, int(settings.samples), threads)
+    relighting = (
+        Relighting(kept, traced.kept, int(settings.samples), threads)
+        if packed.arrays.world.faded is None
+        else Rerendering(kept, settings, style, threads)
+    )
     coverage = traced.film.coverage
     denoising = Denoising(kept, settings, coverage, threads)
     image = darkroom.picture(
         traced.film.linear,
         coverage,
         traced.peak,
+        fog=traced.film.fog,
+        lines=drawing.lines(traced.film),
+        shade=drawing.shade(traced.film),
         error=traced.film.error,
         noise=traced.noise,
         relighting=relighting if keep_lights else None,
@@ -225,6 +276,16 @@ def render(
     clock.seconds["compile"] += loading
     image.stats = {**clock.seconds, **stats}
     return image
+
+
+def _accelerate(
+    scene: Scene, threads: int, progress: StepProgress | None, style: Style, warn: Warn
+) -> Acceleration:
+    """Return what is kept with a scene; warn if clip planes leave nothing of it."""
+    kept = accelerate(scene, threads, progress, style)
+    if is_nothing_left(kept):
+        warn(NOTHING_LEFT)
+    return kept
 
 
 def _growth(
@@ -264,6 +325,14 @@ def _camera(scene: Scene, settings: RenderSettings) -> Camera:
     return scene.camera.resized((int(size[0]), int(size[1])))
 
 
+def _check(scene: Scene, settings: RenderSettings, *, is_shown: bool) -> None:
+    """Raise RenderError if there can be no picture."""
+    _check_memory(scene, settings, is_shown=is_shown)
+    check_brightness(scene.lights)
+    check_sky(scene.lights, settings)
+    check_stars(scene, settings)
+
+
 def _check_memory(scene: Scene, settings: RenderSettings, *, is_shown: bool) -> None:
     """Raise RenderError if the picture cannot be held in memory."""
     width, height = scene.camera.size
@@ -274,15 +343,9 @@ def _check_memory(scene: Scene, settings: RenderSettings, *, is_shown: bool) -> 
     check_memory(int(width), int(height), int(settings.samples), behind, more)
 
 
-def _check_background(scene: Scene, settings: RenderSettings) -> None:
-    """Raise RenderError if the background is one that the scene cannot have."""
-    check_sky(scene.lights, settings)
-    check_stars(scene, settings)
-
-
 def _snapshot(scene: Scene, lights: list[AnyLight], camera: Camera) -> Scene:
     """Return the scene as it is now, with a camera."""
-    return Scene(camera, lights, list(scene.objects), scene.render)
+    return Scene(camera, lights, list(scene.objects), scene.render, scene.style)
 
 
 def _step_of(progress: Progress | None, step: str) -> StepProgress | None:

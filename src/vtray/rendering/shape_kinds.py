@@ -39,7 +39,7 @@ class Source(NamedTuple):
         0 to 255, (n, 3), or (1, 3).
     color_end
         Those of second halves, likewise; None if they are as the first.
-    lambert
+    lambert, opacity
         (n,), or (1,).
     """
 
@@ -47,6 +47,7 @@ class Source(NamedTuple):
     color: NDArray[np.uint8]
     color_end: NDArray[np.uint8] | None
     lambert: NDArray[np.float64]
+    opacity: NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -127,7 +128,7 @@ def _from_objects(kind: Kind, items: list[Any]) -> Source:
     )
     color = np.stack([column(f"color.{channel}") for channel in "rgb"], axis=1).astype(np.uint8)
     geometry = (*points, *map(column, kind.radii))
-    return Source(geometry, color, None, column("lambert"))
+    return Source(geometry, color, None, column("lambert"), column("opacity"))
 
 
 def _from_arrays(kind: Kind, item: Any) -> Source:  # noqa: ANN401
@@ -141,6 +142,7 @@ def _from_arrays(kind: Kind, item: Any) -> Source:  # noqa: ANN401
         _row_by_row(np.atleast_2d(item.color)),
         None if end is None else _row_by_row(np.atleast_2d(end)),
         _row_by_row(np.atleast_1d(item.lambert), np.float64),
+        _row_by_row(np.atleast_1d(item.given_for("opacity")), np.float64),
     )
 
 
@@ -161,6 +163,7 @@ def _join(parts: list[Source]) -> Source:
         _in_one([part.color for part in parts], counts, np.uint8),
         None if all(part.color_end is None for part in parts) else _in_one(ends, counts, np.uint8),
         _in_one([part.lambert for part in parts], counts, np.float64),
+        _in_one([part.opacity for part in parts], counts, np.float64),
     )
 
 

@@ -4,7 +4,7 @@ It is an image of projected points, not of rays. Sums have a fixed order and not
 a library of C, so it is the same to the last bit on every machine.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import product
 
 import numpy as np
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from vtray.base.errors import RenderError
 from vtray.base.exact_math import logarithm
 from vtray.figures.projection import Places, project
+from vtray.rendering.rooms import Rooms, Wall
 from vtray.scene.camera import Camera
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
@@ -55,10 +56,13 @@ class Starlight:
     depth
         Gives the distance to what is seen in each pixel, as `Image.depth`; only called where there
         are stars, and something that may hide them.
+    rooms
+        What clip planes leave; None where there are none.
     """
 
-    def __init__(self, depth: Callable[[], Floats]) -> None:
+    def __init__(self, depth: Callable[[], Floats], rooms: Rooms | None = None) -> None:
         self._depth = depth
+        self._rooms = rooms
 
     def __call__(self, scene: Scene) -> Floats | None:
         """Return their light, (height, width, 3); None without any.
@@ -75,10 +79,29 @@ class Starlight:
         hidden_behind = None
         if not all(isinstance(item, Stars) for item in scene.objects):
             hidden_behind = _along_view(scene.camera, self._depth())
-        for item in scene.objects:
-            if isinstance(item, Stars) and len(item):
-                light += _light_of(item, scene.camera, hidden_behind)
+        for place, item in enumerate(scene.objects):
+            if isinstance(item, Stars):
+                left = item if self._rooms is None else _left_of(item, self._rooms.walls_of(place))
+                if len(left):
+                    light += _light_of(left, scene.camera, hidden_behind)
         return light
+
+
+def _left_of(stars: Stars, walls: Sequence[Wall]) -> Stars:
+    """Return those points that no clip plane leaves out."""
+    is_left = np.ones(len(stars), np.bool_)
+    x, y, z = np.asarray(stars.center, np.float64).T
+    for a, b, c, *normal in walls:
+        side = (x - a) * normal[0] + (y - b) * normal[1] + (z - c) * normal[2]
+        is_left &= ~(side > 0.0)
+    if is_left.all():
+        return stars
+    columns = {name: getattr(stars, name) for name in stars.__struct_fields__}
+    each = {"center": 2, "color": 2, "emission": 1}
+    for name, rank in each.items():
+        if getattr(columns[name], "ndim", 0) == rank:
+            columns[name] = columns[name][is_left]
+    return Stars(**columns)
 
 
 def peak_of(stars: Stars, camera: Camera) -> float | None:

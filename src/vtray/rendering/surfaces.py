@@ -4,6 +4,7 @@ import sys
 
 import numpy as np
 
+from vtray.geometry.packets.packet import SECOND
 from vtray.image.surfaces import Surfaces
 from vtray.rendering.numbering import find_all
 from vtray.rendering.pack import Packed
@@ -45,4 +46,4 @@ class Look:
         # What is farther away than a double can say is there all the same.
         np.minimum(depth, sys.float_info.max, out=depth, where=film.primitive >= 0)
         ids, copies = find_all(self._scene.objects, film.primitive)
-        return Surfaces(depth, film.normal, ids, film.half, copies)
+        return Surfaces(depth, film.normal, ids, film.half & SECOND, copies)

@@ -38,6 +38,7 @@ class Adding:
         radius: float,
         color: "AnyColor" = "white",
         lambert: float = 1.0,
+        opacity: float = 1.0,
     ) -> Sphere:
         """Add a sphere to the objects.
 
@@ -51,6 +52,8 @@ class Adding:
             A colour, in any of the ways of `vtray.colors.to_rgb`.
         lambert
             Share of the light that the surface scatters, from 0 to 1.
+        opacity
+            Share of the light that it takes on its way through, from 0 to 1.
 
         Raises
         ------
@@ -58,7 +61,7 @@ class Adding:
             If an argument is not right.
         """
         place = argument("add_sphere", "center", center, Vector)
-        sphere = Sphere(place, radius, Color(*to_rgb(color, "add_sphere: color")), lambert)
+        sphere = Sphere(place, radius, Color(*to_rgb(color, "add_sphere: color")), lambert, opacity)
         self.objects.append(sphere)
         return sphere
 
@@ -73,6 +76,7 @@ class Adding:
         cmap: "ColorMap | None" = None,
         clim: tuple[float, float] | None = None,
         nan_color: "AnyColor" = "gray",
+        opacity: "ArrayLike | None" = None,
     ) -> Spheres:
         """Add many spheres to the objects.
 
@@ -101,6 +105,9 @@ class Adding:
             all finite values.
         nan_color
             The colour of values that are NaN.
+        opacity
+            Share of the light that each takes on its way through, from 0 to 1, (n,), or one for
+            all; 1 by default. Those of one opacity that overlap are one body.
 
         Returns
         -------
@@ -114,7 +121,12 @@ class Adding:
             ``add_spheres: radius[17]``.
         """
         spheres = Spheres.colored(
-            {"center": positions_in(positions), "radius": radius, "lambert": lambert},
+            {
+                "center": positions_in(positions),
+                "radius": radius,
+                "lambert": lambert,
+                "opacity": opacity,
+            },
             {"color": color},
             "add_spheres: ",
             {"center": "positions"},
@@ -133,6 +145,7 @@ class Adding:
         radius: float,
         color: "AnyColor" = "white",
         lambert: float = 1.0,
+        opacity: float = 1.0,
     ) -> Cylinder:
         """Add a solid cylinder with flat caps to the objects.
 
@@ -146,6 +159,8 @@ class Adding:
             A colour, in any of the ways of `vtray.colors.to_rgb`.
         lambert
             Share of the light that the surface scatters, from 0 to 1.
+        opacity
+            Share of the light that it takes on its way through, from 0 to 1.
 
         Raises
         ------
@@ -155,7 +170,7 @@ class Adding:
         one = argument("add_cylinder", "start", start, Vector)
         other = argument("add_cylinder", "end", end, Vector)
         rgb = Color(*to_rgb(color, "add_cylinder: color"))
-        cylinder = Cylinder(one, other, radius, rgb, lambert)
+        cylinder = Cylinder(one, other, radius, rgb, lambert, opacity)
         self.objects.append(cylinder)
         return cylinder
 
@@ -172,6 +187,7 @@ class Adding:
         cmap: "ColorMap | None" = None,
         clim: tuple[float, float] | None = None,
         nan_color: "AnyColor" = "gray",
+        opacity: "ArrayLike | None" = None,
     ) -> Cylinders:
         """Add many solid cylinders with flat caps to the objects: bonds, for instance.
 
@@ -192,6 +208,8 @@ class Adding:
             at `start`. By default, each cylinder has one colour.
         cmap, clim, nan_color
             As for `add_spheres`; `color` and `color_end` are both values, with common limits.
+        opacity
+            As for `add_spheres`.
 
         Returns
         -------
@@ -205,7 +223,7 @@ class Adding:
             ``add_cylinders: end[17, 2]``.
         """
         cylinders = Cylinders.colored(
-            {"start": start, "end": end, "radius": radius, "lambert": lambert},
+            {"start": start, "end": end, "radius": radius, "lambert": lambert, "opacity": opacity},
             {"color": color, "color_end": color_end},
             "add_cylinders: ",
             cmap=cmap,
@@ -224,6 +242,7 @@ class Adding:
         radius_end: float = 0.0,
         color: "AnyColor" = "white",
         lambert: float = 1.0,
+        opacity: float = 1.0,
     ) -> Cone:
         """Add a solid cone with flat caps to the objects.
 
@@ -239,6 +258,8 @@ class Adding:
             A colour, in any of the ways of `vtray.colors.to_rgb`.
         lambert
             Share of the light that the surface scatters, from 0 to 1.
+        opacity
+            Share of the light that it takes on its way through, from 0 to 1.
 
         Raises
         ------
@@ -248,7 +269,7 @@ class Adding:
         one = argument("add_cone", "start", start, Vector)
         other = argument("add_cone", "end", end, Vector)
         rgb = Color(*to_rgb(color, "add_cone: color"))
-        cone = Cone(one, other, radius, radius_end, rgb, lambert)
+        cone = Cone(one, other, radius, radius_end, rgb, lambert, opacity)
         self.objects.append(cone)
         return cone
 
@@ -266,6 +287,7 @@ class Adding:
         cmap: "ColorMap | None" = None,
         clim: tuple[float, float] | None = None,
         nan_color: "AnyColor" = "gray",
+        opacity: "ArrayLike | None" = None,
     ) -> Cones:
         """Add many solid cones with flat caps to the objects.
 
@@ -281,7 +303,7 @@ class Adding:
             The colours, in any of the ways of `add_spheres`.
         lambert
             Share of the light that the surfaces scatter, from 0 to 1, (n,), or one for all.
-        color_end, cmap, clim, nan_color
+        color_end, cmap, clim, nan_color, opacity
             As for `add_cylinders`.
 
         Returns
@@ -297,7 +319,7 @@ class Adding:
         """
         radii = {"radius": radius, "radius_end": radius_end}
         cones = Cones.colored(
-            {"start": start, "end": end, **radii, "lambert": lambert},
+            {"start": start, "end": end, **radii, "lambert": lambert, "opacity": opacity},
             {"color": color, "color_end": color_end},
             "add_cones: ",
             cmap=cmap,
@@ -360,6 +382,7 @@ class Adding:
         normal: "Direction | Vector | Triple",
         color: "AnyColor" = "white",
         lambert: float = 1.0,
+        opacity: float = 1.0,
     ) -> Plane:
         """Add a plane to the objects.
 
@@ -373,6 +396,8 @@ class Adding:
             A colour, in any of the ways of `vtray.colors.to_rgb`.
         lambert
             Share of the light that the surface scatters, from 0 to 1.
+        opacity
+            Share of the light that it takes on its way through, from 0 to 1.
 
         Raises
         ------
@@ -381,6 +406,6 @@ class Adding:
         """
         place = argument("add_plane", "point", point, Vector)
         square = argument("add_plane", "normal", normal, Direction)
-        plane = Plane(place, square, Color(*to_rgb(color, "add_plane: color")), lambert)
+        plane = Plane(place, square, Color(*to_rgb(color, "add_plane: color")), lambert, opacity)
         self.objects.append(plane)
         return plane

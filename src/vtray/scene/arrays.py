@@ -46,6 +46,9 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
     EACH: ClassVar[str]
     """What one of them is called in messages about colours."""
 
+    OPAQUE: ClassVar[float] = 1.0
+    """The opacity of those of which none is said."""
+
     @classmethod
     def from_arrays(
         cls, values: Mapping[str, object], place: str, called: Mapping[str, str] = NO_NAMES
@@ -140,7 +143,11 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
         return len(self) == 0 or all(bool(np.all(one == two)) for one, two in pairs)
 
     def __repr__(self) -> str:
-        shown = [f"{name}={_show(getattr(self, name))}" for name in self.COLUMNS]
+        shown = [
+            f"{name}={_show(getattr(self, name))}"
+            for name, column in self.COLUMNS.items()
+            if getattr(self, name) is not None or column.stand_in in self.COLUMNS
+        ]
         return f"{type(self).__name__}({', '.join(shown)})"
 
     def given_for(self, name: str) -> Any:  # noqa: ANN401

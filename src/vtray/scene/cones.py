@@ -4,7 +4,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from vtray.scene.arrays import Arrays, Bytes, Floats
-from vtray.scene.checks.columns import COLOR, LAMBERT, POINT, RADIUS
+from vtray.scene.checks.columns import COLOR, LAMBERT, OPACITY, POINT, RADIUS
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -35,6 +35,9 @@ class Cones(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="con
         float32 as given.
     color_end : array (n, 3) or (3,), or None
         Colours of the halves at `end`, as `color`; None if each cone has one colour.
+    opacity : array (n,) or float, or None
+        Share of the light that each takes on its way through, from 0 to 1, or one for all; float64
+        or float32 as given. None for 1. Those of one opacity that overlap are one body.
 
     Raises
     ------
@@ -56,6 +59,7 @@ color=<uint8 (3,)>, lambert=1.0, color_end=None)
     color: Bytes
     lambert: Floats | float
     color_end: Bytes | None = None
+    opacity: Floats | float | None = None
 
     COLUMNS = MappingProxyType(
         {
@@ -66,6 +70,7 @@ color=<uint8 (3,)>, lambert=1.0, color_end=None)
             "color": COLOR,
             "lambert": LAMBERT,
             "color_end": COLOR._replace(stand_in="color"),
+            "opacity": OPACITY,
         }
     )
     EACH = "cone"
@@ -86,4 +91,5 @@ color=<uint8 (3,)>, lambert=1.0, color_end=None)
             color: ArrayLike = ...,
             lambert: ArrayLike = 1.0,
             color_end: ArrayLike | None = None,
+            opacity: ArrayLike | None = None,
         ) -> None: ...

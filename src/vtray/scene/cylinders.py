@@ -4,7 +4,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from vtray.scene.arrays import Arrays, Bytes, Floats
-from vtray.scene.checks.columns import COLOR, LAMBERT, POINT, RADIUS
+from vtray.scene.checks.columns import COLOR, LAMBERT, OPACITY, POINT, RADIUS
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -33,6 +33,9 @@ class Cylinders(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag=
         float32 as given.
     color_end : array (n, 3) or (3,), or None
         Colours of the halves at `end`, as `color`; None if each cylinder has one colour.
+    opacity : array (n,) or float, or None
+        Share of the light that each takes on its way through, from 0 to 1, or one for all; float64
+        or float32 as given. None for 1. Those of one opacity that overlap are one body.
 
     Raises
     ------
@@ -53,6 +56,7 @@ lambert=1.0, color_end=<uint8 (3,)>)
     color: Bytes
     lambert: Floats | float
     color_end: Bytes | None = None
+    opacity: Floats | float | None = None
 
     COLUMNS = MappingProxyType(
         {
@@ -62,6 +66,7 @@ lambert=1.0, color_end=<uint8 (3,)>)
             "color": COLOR,
             "lambert": LAMBERT,
             "color_end": COLOR._replace(stand_in="color"),
+            "opacity": OPACITY,
         }
     )
     EACH = "cylinder"
@@ -81,4 +86,5 @@ lambert=1.0, color_end=<uint8 (3,)>)
             color: ArrayLike = ...,
             lambert: ArrayLike = 1.0,
             color_end: ArrayLike | None = None,
+            opacity: ArrayLike | None = None,
         ) -> None: ...

@@ -59,7 +59,7 @@ def recolored(
         changed[index] = _recolored_copies(item, colors, "recolor: ", scale)
     else:
         changed[index] = _recolored(item, colors, "recolor: ", scale)
-    return Scene(scene.camera, scene.lights, changed, scene.render)
+    return Scene(scene.camera, scene.lights, changed, scene.render, scene.style)
 
 
 def _recolored(item: Any, colors: dict[str, Any], place: str, scale: dict[str, Any]) -> Any:  # noqa: ANN401
@@ -149,7 +149,7 @@ def relit(scene: Scene, intensities: Sequence[float]) -> Scene:
             words = str(problem).partition(": ")[2]
             message = f"relight: intensities[{k}]: {words}"
             raise SceneError(message) from None
-    return Scene(scene.camera, changed, scene.objects, scene.render)
+    return Scene(scene.camera, changed, scene.objects, scene.render, scene.style)
 
 
 def _check_index(index: int, count: int) -> None:

@@ -17,6 +17,7 @@ from vtray.scene.copies import Copies
 from vtray.scene.scene import Scene
 from vtray.scene.sky_image import SkyImage
 from vtray.scene.written_lights import as_written
+from vtray.scene.written_objects import object_as_written
 
 PIECE = 1 << 20
 """Bytes, about, that are hashed as one task."""
@@ -95,5 +96,5 @@ def _parts_of(objects: Iterable[object], threads: int) -> list[object]:
         elif isinstance(item, ArrayHolder):
             parts += [item.__struct_config__.tag, hash_arrays(arrays_of(item), threads).hex()]
         else:
-            parts.append(item)
+            parts.append(object_as_written(item) if hasattr(item, "opacity") else item)
     return parts

@@ -15,7 +15,7 @@ from vtray.scene.adding import Adding
 from vtray.scene.adding_lights import AddingLights
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.camera import Camera
-from vtray.scene.checks.checked import Checked
+from vtray.scene.checks.checked import Checked, make_unchecked
 from vtray.scene.checks.unknown_names import unknown_attribute
 from vtray.scene.cones import Cones
 from vtray.scene.copies import Copies
@@ -37,6 +37,7 @@ from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient
 from vtray.scene.spheres import Spheres
 from vtray.scene.stars import Stars, check_in_file
+from vtray.scene.style import Style
 from vtray.scene.vectors import Color, Direction, Vector
 
 __all__ = [
@@ -91,6 +92,8 @@ class Scene(
         The objects; may be empty.
     render : RenderSettings
         How the picture is taken, unless `vtray.render` is told otherwise.
+    style : Style
+        How the picture is drawn beside its light, unless `vtray.render` is told otherwise.
 
     Examples
     --------
@@ -103,6 +106,7 @@ class Scene(
         camera: Camera  # where None is left, `check` raises
         objects: list[Object]
         render: RenderSettings
+        style: Style
 
         def __init__(
             self,
@@ -110,12 +114,14 @@ class Scene(
             lights: Sequence[AnyLight] = (),
             objects: Sequence[Object] = (),
             render: RenderSettings = ...,
+            style: Style = ...,
         ) -> None: ...
     else:
         camera: Camera | None = None
         lights: list[AnyLight] = msgspec.field(default_factory=NeverSet)
         objects: list[Object] = msgspec.field(default_factory=list)
         render: RenderSettings = msgspec.field(default_factory=RenderSettings)
+        style: Style = msgspec.field(default_factory=Style)
 
     def __setattr__(self, name: str, value: object) -> None:
         """Set an attribute of these; a misspelt one would be ignored by everyone."""
@@ -123,16 +129,19 @@ class Scene(
             raise AttributeError(_no_attribute(name))
         super().__setattr__(name, value)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, (self.camera, self.lights, self.objects, self.render, self.style)
+
     def check(self) -> None:
         """Check the scene after changes made in code.
 
         Raises
         ------
         SceneError
-            If the camera is missing, or if it, a light, an object or the settings are not of their
-            type.
+            If the camera is missing, or if it, a light, an object, the settings or the style are
+            not of their type.
         """
-        Scene(self.camera, self.lights, self.objects, self.render)
+        Scene(self.camera, self.lights, self.objects, self.render, self.style)
         if _is_none(self.camera):
             remedy = "set one, for instance vtray.Camera.fit(scene)"
             raise SceneError(f"Scene.camera: there is none; {remedy}")
@@ -191,12 +200,30 @@ class Scene(
         save(self, path)
 
 
+def _again(
+    camera: Camera | None,
+    lights: list[AnyLight],
+    objects: list[Object],
+    render: RenderSettings,
+    style: Style,
+) -> Scene:
+    """Make a scene again after copying or pickling; lights that were never set stay so."""
+    made: Scene = make_unchecked(
+        Scene, camera=camera, lights=lights, objects=objects, render=render, style=style
+    )
+    return made
+
+
 def _no_attribute(name: str) -> str:
     """Say that a scene has no such attribute, and where it belongs."""
-    if name not in RenderSettings.__struct_fields__:
+    if name in RenderSettings.__struct_fields__:
+        what, place = "a setting of the render", "render"
+    elif name in Style.__struct_fields__:
+        what, place = "a part of its style", "style"
+    else:
         return unknown_attribute("Scene", name, Scene.__struct_fields__)
-    ways = f"vtray.render(scene, {name}=...) or scene.render = scene.render.replace({name}=...)"
-    return f"Scene has no attribute {name!r}, which is a setting of the render: {ways}"
+    ways = f"vtray.render(scene, {name}=...) or scene.{place} = scene.{place}.replace({name}=...)"
+    return f"Scene has no attribute {name!r}, which is {what}: {ways}"
 
 
 def _is_none(value: object) -> bool:

@@ -8,9 +8,18 @@ a test compares with it.
 
 import functools
 import typing
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, Self, get_args
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    Literal,
+    NamedTuple,
+    Self,
+    TypeVar,
+    get_args,
+)
 
 import msgspec
 from msgspec import Meta
@@ -57,12 +66,16 @@ class Option(NamedTuple):
         What is expected, where a command line writes it in other words than a scene file.
     flags
         Options without a value that stand for one.
+    of
+        Makes the value of what a command line or code gives, with its place for messages; None
+        where the kind says it all. Such an option may be given without a value.
     """
 
     form: str
     help: str
     words: str = ""
     flags: Mapping[str, str] = MappingProxyType({})
+    of: Callable[[Any, str], Any] | None = None
 
 
 class Settings(msgspec.Struct, frozen=True, gc=False):
@@ -109,7 +122,7 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
 
 
 @functools.cache
-def kinds_of(cls: type[Settings]) -> dict[str, tuple[Any, Option]]:
+def kinds_of(cls: type[msgspec.Struct]) -> dict[str, tuple[Any, Option]]:
     """Return the kind of each setting that a type has, and how a command line writes it."""
     kinds = typing.get_type_hints(cls, include_extras=True)
     return {
@@ -198,13 +211,16 @@ class RenderSettings(
         return type(self)(**{**msgspec.structs.asdict(self), **given})
 
 
-def overridden(settings: RenderSettings, given: Mapping[str, Any]) -> RenderSettings:
+Given = TypeVar("Given", bound=Frozen)
+
+
+def overridden(settings: Given, given: Mapping[str, Any]) -> Given:
     """Return settings with those that are given in place of some.
 
     Parameters
     ----------
     settings
-        The settings.
+        The settings, or the style.
     given
         Values by their names, for instance the arguments of a function. None means as it is, and
         what is no setting is passed over.
@@ -214,4 +230,5 @@ def overridden(settings: RenderSettings, given: Mapping[str, Any]) -> RenderSett
     SceneError
         If a value is not right.
     """
-    return settings.replace(**{name: given.get(name) for name in settings.__struct_fields__})
+    names = settings.__struct_fields__
+    return settings.replace(**{name: given[name] for name in names if given.get(name) is not None})

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 _SURFACE = MappingProxyType({"color": Color(255, 255, 255), "lambert": 1.0})
 
 
-class Sphere(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
+class Sphere(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type", tag="sphere"):
     """A sphere with a matt surface, which can also be seen from inside.
 
     In code, the colour is white and `lambert` 1 unless they are given.
@@ -28,12 +28,15 @@ class Sphere(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
         Colour of the surface.
     lambert : float
         Share of the light that the surface scatters, from 0 to 1.
+    opacity : float
+        Share of the light that it takes on its way through, from 0 to 1; 1 by default.
     """
 
     center: Vector
     radius: NonNegative
     color: Color
     lambert: Fraction
+    opacity: Fraction = 1.0
 
     _in_code = _SURFACE
 
@@ -45,6 +48,7 @@ class Sphere(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
             radius: float,
             color: "Color | Triple" = ...,
             lambert: float = 1.0,
+            opacity: float = 1.0,
         ) -> None: ...
 
     def hull(self) -> list[tuple[Vector, float, Vector | None]]:
@@ -52,7 +56,7 @@ class Sphere(Frozen, frozen=True, gc=False, tag_field="type", tag="sphere"):
         return [(self.center, self.radius, None)]
 
 
-class Cylinder(Frozen, frozen=True, gc=False, tag_field="type", tag="cylinder"):
+class Cylinder(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type", tag="cylinder"):
     """A solid cylinder with flat caps and a matt surface, which can also be seen from inside.
 
     In code, the colour is white and `lambert` 1 unless they are given.
@@ -69,6 +73,8 @@ class Cylinder(Frozen, frozen=True, gc=False, tag_field="type", tag="cylinder"):
         Colour of the surface.
     lambert : float
         Share of the light that the surface scatters, from 0 to 1.
+    opacity : float
+        Share of the light that it takes on its way through, from 0 to 1; 1 by default.
     """
 
     start: Vector
@@ -76,6 +82,7 @@ class Cylinder(Frozen, frozen=True, gc=False, tag_field="type", tag="cylinder"):
     radius: NonNegative
     color: Color
     lambert: Fraction
+    opacity: Fraction = 1.0
 
     _in_code = _SURFACE
 
@@ -88,6 +95,7 @@ class Cylinder(Frozen, frozen=True, gc=False, tag_field="type", tag="cylinder"):
             radius: float,
             color: "Color | Triple" = ...,
             lambert: float = 1.0,
+            opacity: float = 1.0,
         ) -> None: ...
 
     def hull(self) -> list[tuple[Vector, float, Vector | None]]:
@@ -95,7 +103,7 @@ class Cylinder(Frozen, frozen=True, gc=False, tag_field="type", tag="cylinder"):
         return [(self.start, self.radius, self.end), (self.end, self.radius, self.start)]
 
 
-class Cone(Frozen, frozen=True, gc=False, tag_field="type", tag="cone"):
+class Cone(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type", tag="cone"):
     """A solid cone with flat caps and a matt surface, which can also be seen from inside.
 
     In code, it is pointed, the colour is white and `lambert` 1 unless they are given.
@@ -115,6 +123,8 @@ class Cone(Frozen, frozen=True, gc=False, tag_field="type", tag="cone"):
         Colour of the surface.
     lambert : float
         Share of the light that the surface scatters, from 0 to 1.
+    opacity : float
+        Share of the light that it takes on its way through, from 0 to 1; 1 by default.
     """
 
     start: Vector
@@ -123,6 +133,7 @@ class Cone(Frozen, frozen=True, gc=False, tag_field="type", tag="cone"):
     radius_end: NonNegative
     color: Color
     lambert: Fraction
+    opacity: Fraction = 1.0
 
     _in_code = MappingProxyType({"radius_end": 0.0, **_SURFACE})
 
@@ -136,6 +147,7 @@ class Cone(Frozen, frozen=True, gc=False, tag_field="type", tag="cone"):
             radius_end: float = 0.0,
             color: "Color | Triple" = ...,
             lambert: float = 1.0,
+            opacity: float = 1.0,
         ) -> None: ...
 
     def hull(self) -> list[tuple[Vector, float, Vector | None]]:
@@ -143,7 +155,7 @@ class Cone(Frozen, frozen=True, gc=False, tag_field="type", tag="cone"):
         return [(self.start, self.radius, self.end), (self.end, self.radius_end, self.start)]
 
 
-class Plane(Frozen, frozen=True, gc=False, tag_field="type", tag="plane"):
+class Plane(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type", tag="plane"):
     """A plane without edges and with two matt sides.
 
     In code, the colour is white and `lambert` 1 unless they are given.
@@ -158,12 +170,15 @@ class Plane(Frozen, frozen=True, gc=False, tag_field="type", tag="plane"):
         Colour of the surface.
     lambert : float
         Share of the light that the surface scatters, from 0 to 1.
+    opacity : float
+        Share of the light that it takes on its way through, from 0 to 1; 1 by default.
     """
 
     center: Vector
     normal: Direction
     color: Color
     lambert: Fraction
+    opacity: Fraction = 1.0
 
     _in_code = _SURFACE
 
@@ -175,4 +190,5 @@ class Plane(Frozen, frozen=True, gc=False, tag_field="type", tag="plane"):
             normal: "Direction | Vector | Triple",
             color: "Color | Triple" = ...,
             lambert: float = 1.0,
+            opacity: float = 1.0,
         ) -> None: ...

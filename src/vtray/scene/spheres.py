@@ -4,7 +4,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from vtray.scene.arrays import Arrays, Bytes, Floats
-from vtray.scene.checks.columns import COLOR, LAMBERT, POINT, RADIUS
+from vtray.scene.checks.columns import COLOR, LAMBERT, OPACITY, POINT, RADIUS
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -32,6 +32,9 @@ class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="s
     lambert : array (n,) or float
         Share of the light that each surface scatters, from 0 to 1, or one for all; float64 or
         float32 as given.
+    opacity : array (n,) or float, or None
+        Share of the light that each takes on its way through, from 0 to 1, or one for all; float64
+        or float32 as given. None for 1. Those of one opacity that overlap are one body.
 
     Raises
     ------
@@ -49,9 +52,16 @@ class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="s
     radius: Floats | float
     color: Bytes
     lambert: Floats | float
+    opacity: Floats | float | None = None
 
     COLUMNS = MappingProxyType(
-        {"center": POINT, "radius": RADIUS, "color": COLOR, "lambert": LAMBERT}
+        {
+            "center": POINT,
+            "radius": RADIUS,
+            "color": COLOR,
+            "lambert": LAMBERT,
+            "opacity": OPACITY,
+        }
     )
     EACH = "position"
     _in_code = MappingProxyType({"color": (255, 255, 255), "lambert": 1.0})
@@ -68,4 +78,5 @@ class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="s
             radius: ArrayLike,
             color: ArrayLike = ...,
             lambert: ArrayLike = 1.0,
+            opacity: ArrayLike | None = None,
         ) -> None: ...

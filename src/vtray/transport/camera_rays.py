@@ -4,7 +4,18 @@ import math
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.packet import Sheaf, start_apart
+from vtray.geometry.packets.packet import (
+    COLUMN,
+    DIRECTION,
+    FORWARD,
+    ORIGIN,
+    ROW,
+    Packet,
+    Sheaf,
+    load,
+    start_apart,
+    store,
+)
 from vtray.geometry.ray import Ray
 from vtray.geometry.vector import Vec, add, dot, scale
 
@@ -88,3 +99,17 @@ def _enlarged(way: Vec) -> Vec:
     """Return a vector times a power of two, so that its squares do not vanish."""
     largest = max(abs(way[0]), abs(way[1]), abs(way[2]))
     return scale(2.0**900 if largest < 2.0**-400 else 1.0, way)
+
+
+@device
+def cast_rays(packet: Packet, lanes: int, camera: CameraFrame) -> None:
+    """Set each lane's ray."""
+    apart = start_apart(sheaf_of(camera))
+    for lane in range(lanes):
+        ray = camera_ray(camera, packet[COLUMN + lane], packet[ROW + lane])
+        if apart:
+            store(packet, ORIGIN, lane, ray.origin)
+        store(packet, DIRECTION, lane, ray.direction)
+    # A loop of its own: the compiler vectorises both then.
+    for lane in range(lanes):
+        packet[FORWARD + lane] = dot(load(packet, DIRECTION, lane), camera.forward)

@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import (
     BLOCK,
+    COVER,
     DISTANCE,
+    FOGGED,
     HALF,
     LANES,
     LIGHT,
@@ -18,6 +20,7 @@ from vtray.geometry.packets.packet import (
     NOISE,
     NORMAL,
     PRIMITIVE,
+    SEEN,
     SOURCE,
     VALUE,
     WEIGHT,
@@ -28,6 +31,8 @@ from vtray.geometry.packets.packet import (
 )
 from vtray.geometry.packets.workspace import Pixels, Sums
 from vtray.geometry.vector import Vec, add, scale
+from vtray.geometry.world import Faded
+from vtray.transport.fog import FogFrame, lane_share
 from vtray.transport.light_buffer import KeptLight, keep_ray, nothing_kept
 
 Rows = Any
@@ -46,6 +51,8 @@ class Film(NamedTuple):
         Linear light, (height, width, 3).
     coverage
         Share of the pixel in which something is hit, (height, width); None for one ray a pixel.
+    fog
+        Share of the pixel in which fog is seen, (height, width).
     error
         The standard error of light, that of the channel that has the largest, (height, width).
     mixed
@@ -58,7 +65,7 @@ class Film(NamedTuple):
     primitive
         What the middle ray hits, -1 for nothing, (height, width).
     half
-        1 where that is the second half of a shape that has two, else 0, (height, width).
+        As in field ``HALF`` of a packet, 0 where nothing is hit, (height, width).
     kept
         What is kept of all rays to change lights and colours afterwards; never None.
     """
@@ -67,6 +74,7 @@ class Film(NamedTuple):
     top: int
     linear: Rows
     coverage: Rows
+    fog: Rows
     error: Rows
     mixed: Rows
     distance: Rows
@@ -87,13 +95,14 @@ def new_film(width: int, height: int, *wanted: str, left: int = 0, top: int = 0)
         top=top,
         linear=rows("linear", np.float64, 3),
         coverage=rows("coverage"),
+        fog=rows("fog"),
         error=rows("error"),
         mixed=rows("mixed", np.bool_),
         distance=rows("distance"),
         normal=rows("normal", np.float64, 3),
         primitive=rows("primitive", np.int32),
         half=rows("half", np.int8),
-        kept=nothing_kept(),
+        kept=nothing_kept(has_fog="fog" in wanted),
     )
 
 
@@ -107,6 +116,7 @@ def keep_rays(
     last: int,
     pixels: Pixels,
     kept: KeptLight,
+    fog: FogFrame | None,
 ) -> None:
     """Keep what the samples from `first` to before `last` of listed pixels hit, if anything is."""
     if kept.first.shape[0] == 0:
@@ -114,7 +124,7 @@ def keep_rays(
     samples = last - first
     for lane in range((end - begin) * samples):
         row, column = _place(block, pixels[begin + lane // samples])
-        keep_ray(packet, lane, kept.first[row, column] + first + lane % samples, kept)
+        keep_ray(packet, lane, kept.first[row, column] + first + lane % samples, kept, fog)
 
 
 @device
@@ -127,6 +137,7 @@ def clear_sums(sums: Sums, pixels: int, coverage: Rows) -> None:
         sums.light[k + LANES] = 0.0
         sums.light[k + 2 * LANES] = 0.0
         sums.covered[k] = 0.0
+        sums.fogged[k] = 0.0
         sums.weight[k] = 0.0
         store(sums.plain, 0, k, (0.0, 0.0, 0.0))
         store(sums.squares, 0, k, (0.0, 0.0, 0.0))
@@ -134,12 +145,18 @@ def clear_sums(sums: Sums, pixels: int, coverage: Rows) -> None:
 
 @device
 def add_samples(
-    packet: Packet, lanes: int, hits: int, samples: int, sums: Sums, coverage: Rows
+    packet: Packet,
+    lanes: int,
+    hits: int,
+    samples: int,
+    sums: Sums,
+    coverage: Rows,
+    fog: FogFrame | None,
+    faded: Faded | None,
 ) -> None:
     """Add the samples of a packet to their pixels, always in the order of their numbers."""
     if coverage is None:
         return
-    numbers = packet.view(np.int64)
     _bring_back(packet, lanes, hits)
     for k in range(lanes // samples):
         light = load(sums.light, 0, k)
@@ -152,13 +169,52 @@ def add_samples(
             light = add(light, scale(weight, value))
             plain = add(plain, value)
             squares = add(squares, (value[0] * value[0], value[1] * value[1], value[2] * value[2]))
-            covered += weight if numbers[PRIMITIVE + lane] != NO_PRIMITIVE else 0.0
+            covered += weight * _cover_of(packet, lane, faded)
             total += weight
         store(sums.light, 0, k, light)
         sums.covered[k] = covered
         sums.weight[k] = total
         store(sums.plain, 0, k, plain)
         store(sums.squares, 0, k, squares)
+    _add_fog(packet, lanes, samples, sums, fog, faded)
+
+
+@device
+def _add_fog(
+    packet: Packet,
+    lanes: int,
+    samples: int,
+    sums: Sums,
+    fog: FogFrame | None,
+    faded: Faded | None,
+) -> None:
+    """Add what the samples of a packet see of fog to their pixels."""
+    if fog is None:
+        return
+    for k in range(lanes // samples):
+        fogged = sums.fogged[k]
+        for lane in range(k * samples, (k + 1) * samples):
+            fogged += packet[WEIGHT + lane] * _fog_of(packet, lane, fog, faded)
+        sums.fogged[k] = fogged
+
+
+@device
+def _cover_of(packet: Packet, lane: int, faded: Faded | None) -> float:
+    """Return how much of what is behind everything the ray of a lane does not see."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if faded is not None:
+        cover: float = packet[COVER + lane]
+        return cover
+    return 1.0 if packet.view(np.int64)[PRIMITIVE + lane] != NO_PRIMITIVE else 0.0
+
+
+@device
+def _fog_of(packet: Packet, lane: int, fog: FogFrame, faded: Faded | None) -> float:
+    """Return how much of what the ray of a lane sees is fog."""
+    if faded is not None:
+        fogged: float = packet[FOGGED + lane]
+        return fogged
+    return lane_share(packet, lane, fog)
 
 
 @device
@@ -182,6 +238,7 @@ def write_pixels(
     samples: int,
     linear: Rows,
     coverage: Rows,
+    fog: Rows,
     error: Rows,
 ) -> float:
     """Write the sums of pixels of a block's list to the film; return their largest channel."""
@@ -199,7 +256,15 @@ def write_pixels(
         _write_error(row, column, sums, k, samples, error)
         # Filters with negative sides go a little beyond.
         coverage[row, column] = min(max(sums.covered[k] / weight, 0.0), 1.0)
+        _write_share(row, column, sums.fogged[k] / weight, fog)
     return peak
+
+
+@device
+def _write_share(row: int, column: int, share: float, rows: Rows) -> None:
+    """Write the share of a pixel, from 0 to 1, that is something, if it is wanted."""
+    if rows is not None:
+        rows[row, column] = min(max(share, 0.0), 1.0)
 
 
 @device
@@ -223,15 +288,24 @@ def _write_error(row: int, column: int, sums: Sums, k: int, samples: int, error:
 
 @device
 def write_middles(
-    packet: Packet, block: Block, begin: int, end: int, hits: int, pixels: Pixels, film: Film
+    packet: Packet,
+    block: Block,
+    begin: int,
+    end: int,
+    hits: int,
+    pixels: Pixels,
+    film: Film,
+    fog: FogFrame | None,
+    faded: Faded | None,
 ) -> float:
     """Write what is wanted of pixels with one ray, a lane for each; return the largest channel."""
     peak = _write_light(packet, block, begin, end, hits, pixels, film.linear)
     _write_normals(packet, block, begin, end, hits, pixels, film.normal)
     _write_distances(packet, block, begin, end, pixels, film.distance)
-    _write_primitives(packet, block, begin, end, pixels, film.primitive)
+    _write_primitives(packet, block, begin, end, pixels, film.primitive, film.mixed)
     _write_halves(packet, block, begin, end, pixels, film.half)
-    _write_coverage(packet, block, begin, end, pixels, film.coverage)
+    _write_coverage(packet, block, begin, end, pixels, film.coverage, faded)
+    _write_fog(packet, block, begin, end, pixels, film.fog, fog, faded)
     _write_mixed(packet, block, begin, end, pixels, film.mixed)
     _write_noise(packet, block, begin, end, hits, pixels, film.error)
     return peak
@@ -251,15 +325,22 @@ def _write_distances(
 
 @device
 def _write_primitives(
-    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, primitive: Rows
+    packet: Packet,
+    block: Block,
+    begin: int,
+    end: int,
+    pixels: Pixels,
+    primitive: Rows,
+    mixed: Rows,
 ) -> None:
     """Write what the rays hit."""
     if primitive is None:
         return
+    field = PRIMITIVE if mixed is None else SEEN
     numbers = packet.view(np.int64)
     for lane in range(end - begin):
         row, column = _place(block, pixels[begin + lane])
-        primitive[row, column] = numbers[PRIMITIVE + lane]
+        primitive[row, column] = numbers[field + lane]
 
 
 @device
@@ -278,15 +359,39 @@ def _write_halves(
 
 @device
 def _write_coverage(
-    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, coverage: Rows
+    packet: Packet,
+    block: Block,
+    begin: int,
+    end: int,
+    pixels: Pixels,
+    coverage: Rows,
+    faded: Faded | None,
 ) -> None:
-    """Write whether the rays hit anything."""
+    """Write how much of what is behind everything the rays do not see."""
     if coverage is None:
         return
-    numbers = packet.view(np.int64)
     for lane in range(end - begin):
         row, column = _place(block, pixels[begin + lane])
-        coverage[row, column] = 1.0 if numbers[PRIMITIVE + lane] != NO_PRIMITIVE else 0.0
+        coverage[row, column] = _cover_of(packet, lane, faded)
+
+
+@device
+def _write_fog(
+    packet: Packet,
+    block: Block,
+    begin: int,
+    end: int,
+    pixels: Pixels,
+    rows: Rows,
+    fog: FogFrame | None,
+    faded: Faded | None,
+) -> None:
+    """Write how much of what the rays see is fog."""
+    if rows is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if fog is not None:
+            for lane in range(end - begin):
+                row, column = _place(block, pixels[begin + lane])
+                rows[row, column] = _fog_of(packet, lane, fog, faded)
 
 
 @device

@@ -5,10 +5,11 @@ from typing import NamedTuple
 import numpy as np
 
 from vtray.base.compiler.compiled import device, part
-from vtray.geometry.dispatch import Shape, Verbs, with_any
+from vtray.geometry.dispatch import with_any
 from vtray.geometry.packets.coherence import CLUSTER, cluster_hits, list_hits
 from vtray.geometry.packets.packet import (
     BEND,
+    CAP,
     COLOR,
     CURVED,
     DISTANCE,
@@ -22,6 +23,7 @@ from vtray.geometry.packets.packet import (
     PLANE_DEPTH,
     POINT,
     PRIMITIVE,
+    SECOND,
     SOURCE,
     START,
     TOWARDS,
@@ -37,6 +39,7 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Footprint, Ray, has_width, ray_point
 from vtray.geometry.shapes.surface import Surface, bend_at, normal_at
+from vtray.geometry.shapes.verbs import Shape, Verbs
 from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.geometry.world import Group, World, has_trees, load_group
 from vtray.transport.materials.material import Materials, load_material
@@ -53,14 +56,14 @@ class Interaction(NamedTuple):
         The surface's unit normal, on the side that the ray came from.
     error_scale
         What the point's rounding error is relative to.
-    is_second
-        Whether it is in the second half of a shape that has two.
+    half
+        As in field ``HALF`` of a packet.
     """
 
     point: Vec
     normal: Vec
     error_scale: float
-    is_second: bool
+    half: int
 
 
 @device
@@ -100,7 +103,13 @@ def interact(world: World, ray: Ray, distance: float, row: int, slot: int) -> In
     surface = surface_at(world, group, slot, point, ray.error_scale + distance)
     normal = normal_at(surface.pole, surface.is_round, point, ray.direction)
     error_scale = surface.error_scale + ray.error_scale + distance
-    return Interaction(point, normal, error_scale, surface.is_second)
+    return Interaction(point, normal, error_scale, _half_of(surface))
+
+
+@device
+def _half_of(surface: Surface) -> int:
+    """Return what stands for a surface in field ``HALF``."""
+    return (SECOND if surface.is_second else 0) | (CAP if surface.is_cap else 0)
 
 
 @part
@@ -166,8 +175,8 @@ def _fetch(
     if start_apart(sheaf):
         store(packet, START, hit, ray.origin)
     packet[LENGTH + hit] = distance
-    numbers[HALF + lane] = 1 if surface.is_second else 0
-    material = load_material(materials, numbers[PRIMITIVE + lane], surface.is_second)
+    numbers[HALF + lane] = _half_of(surface)
+    material = load_material(materials, numbers[PRIMITIVE + lane], _half_of(surface))
     store(packet, COLOR, hit, material.color)
     packet[LAMBERT + hit] = material.lambert
     numbers[SOURCE + hit] = lane

@@ -5,7 +5,7 @@ arrives there, 0 where it does not. From these the light of the picture is added
 same operations in the same order as in tracing, so that not a bit differs.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,8 @@ from vtray.geometry.packets.packet import (
     WEIGHT,
     Packet,
 )
-from vtray.geometry.vector import add, scale
+from vtray.geometry.vector import Vec, add, scale
+from vtray.transport.fog import FogFrame, lane_share
 from vtray.transport.lights.light import lamp_light, lamp_number, load_power
 from vtray.transport.lights.lighting import arriving_cosine
 from vtray.transport.materials.material import load_material, scattered
@@ -43,6 +44,8 @@ class KeptLight(NamedTuple):
         What each ray counts for its pixel, 1 or -1, (places,).
     cosines
         The cosine for each component of a light, (components, places).
+    clear
+        How much of its light fog leaves, (places,); None if there is none.
     """
 
     first: NDArray[np.int64]
@@ -50,9 +53,12 @@ class KeptLight(NamedTuple):
     half: NDArray[np.int8]
     weight: NDArray[np.int8]
     cosines: NDArray[np.float64]
+    clear: Any
 
 
-def new_kept_light(first: NDArray[np.int64], places: int, components: int) -> KeptLight:
+def new_kept_light(
+    first: NDArray[np.int64], places: int, components: int, *, has_fog: bool
+) -> KeptLight:
     """Return what will be kept of a pass with so many rays."""
     return KeptLight(
         first,
@@ -60,22 +66,32 @@ def new_kept_light(first: NDArray[np.int64], places: int, components: int) -> Ke
         np.empty(places, np.int8),
         np.empty(places, np.int8),
         np.zeros((components, places)),
+        np.ones(places) if has_fog else None,
     )
 
 
-def nothing_kept() -> KeptLight:
+def nothing_kept(*, has_fog: bool) -> KeptLight:
     """Return what tells kernels to keep nothing: they are the same as those that keep light."""
-    return new_kept_light(np.zeros((0, 0), np.int64), 0, 0)
+    return new_kept_light(np.zeros((0, 0), np.int64), 0, 0, has_fog=has_fog)
 
 
 @device
-def keep_ray(packet: Packet, lane: int, place: int, kept: KeptLight) -> None:
+def keep_ray(packet: Packet, lane: int, place: int, kept: KeptLight, fog: FogFrame | None) -> None:
     """Keep what a ray hits and what it counts for."""
     numbers = packet.view(np.int64)
     numbers[KEPT + lane] = place
     kept.primitive[place] = numbers[PRIMITIVE + lane]
     kept.half[place] = numbers[HALF + lane]
     kept.weight[place] = int(packet[WEIGHT + lane])
+    _keep_clear(packet, lane, place, kept.clear, fog)
+
+
+@device
+def _keep_clear(packet: Packet, lane: int, place: int, clear: Any, fog: FogFrame | None) -> None:  # noqa: ANN401
+    """Keep how much of the light along a ray fog leaves, if there is any."""
+    if clear is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if fog is not None:
+            clear[place] = 1.0 - lane_share(packet, lane, fog)
 
 
 @device
@@ -124,7 +140,8 @@ def add_up_rows(
             total = 0.0
             for place in range(first, first + samples):
                 weight = float(kept.weight[place])
-                light = add(light, scale(weight, _light_of_ray(scene, kept, place)))
+                value = _cleared(_light_of_ray(scene, kept, place), place, kept.clear)
+                light = add(light, scale(weight, value))
                 total += weight
             linear[row, column, 0] = light[0] / total
             linear[row, column, 1] = light[1] / total
@@ -132,14 +149,20 @@ def add_up_rows(
 
 
 @device
-def _light_of_ray(scene: SceneArrays, kept: KeptLight, place: int) -> tuple[float, float, float]:
+def _cleared(light: Vec, place: int, clear: Any) -> Vec:  # noqa: ANN401
+    """Return what fog leaves of the light along a ray."""
+    return light if clear is None else scale(clear[place], light)
+
+
+@device
+def _light_of_ray(scene: SceneArrays, kept: KeptLight, place: int) -> Vec:
     """Return the light along a ray."""
     value = (0.0, 0.0, 0.0)
     primitive = int(kept.primitive[place])
     if primitive < NO_PRIMITIVE:
         return lamp_light(scene.lights, lamp_number(primitive))
     if primitive != NO_PRIMITIVE:
-        material = load_material(scene.materials, primitive, kept.half[place] == 1)
+        material = load_material(scene.materials, primitive, int(kept.half[place]))
         for row in range(kept.cosines.shape[0]):
             cosine, power = kept.cosines[row, place], load_power(scene.lights, row)
             value = add(value, scattered(material, cosine, power))

@@ -6,17 +6,19 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.vector import Vec
 from vtray.geometry.world import World
 from vtray.transport.camera_rays import CameraFrame
+from vtray.transport.fog import FogFrame
 from vtray.transport.lights.light import Lights, Powers, no_lights, powers_of
 from vtray.transport.materials.material import Materials
 
 
 class SceneArrays(NamedTuple):
-    """A scene as kernels see it."""
+    """A scene as kernels see it; its fog is None if there is none."""
 
     camera: CameraFrame
     world: World
     lights: Lights
     materials: Materials
+    fog: FogFrame | None = None
 
 
 class LitWorld(NamedTuple):
@@ -44,8 +46,8 @@ def lit_world(scene: SceneArrays) -> LitWorld:
 
 
 def without_light(scene: SceneArrays) -> SceneArrays:
-    """Return the same without its lights, where only surfaces are asked for.
+    """Return the same without lights and fog, where only surfaces are asked for.
 
     So their kernel is the same whatever the lights.
     """
-    return scene._replace(lights=no_lights())
+    return scene._replace(lights=no_lights(), fog=None)

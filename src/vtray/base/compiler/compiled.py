@@ -70,6 +70,14 @@ def device(function: Function) -> Function:
     return function if _is_off() else cast("Function", Device(function))
 
 
+def seldom(function: Function) -> Function:
+    """Compile a device function that is large and seldom called, as a function of its own.
+
+    Inlined wherever it may be called, it would take most of the time of compiling.
+    """
+    return function if _is_off() else cast("Function", Seldom(function))
+
+
 def written_in_llvm(writer: str) -> Callable[[Function], Function]:
     """Take the code of a device function from what writes it in LLVM's language.
 
@@ -204,6 +212,12 @@ class Device:
 
         dispatcher: Any = self._called_by_kernels if is_for_kernels() else self._called
         return numba.types.Dispatcher(dispatcher)
+
+
+class Seldom(Device):
+    """A function that is compiled as one of its own within the machine code of a kernel."""
+
+    _options: ClassVar[dict[str, Any]] = _OPTIONS
 
 
 class Written:

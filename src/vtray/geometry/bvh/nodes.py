@@ -177,13 +177,13 @@ def finish_subtrees(
         ordered[first + k] = numbers[drawn]
     for place in range(nodes * WIDTH - 1, -1, -1):
         if bvh.child[place] < EMPTY:
-            _set_box(bvh, place, _leaf_box(boxes, frame, order, bvh.child[place]))
+            set_box(bvh, place, _leaf_box(boxes, frame, order, bvh.child[place]))
         else:
-            _set_box(bvh, place, _node_box(bvh.child[place], bvh))
+            set_box(bvh, place, node_box(bvh.child[place], bvh))
     for k in range(ranges.shape[0]):
         place = ranges[k, 0]
         if above.child[place] < EMPTY:
-            _set_box(above, place, _leaf_box(boxes, frame, order, above.child[place]))
+            set_box(above, place, _leaf_box(boxes, frame, order, above.child[place]))
     return changed
 
 
@@ -192,7 +192,7 @@ def finish_top(bvh: Bvh, nodes: int) -> None:
     """Set the boxes of the topmost nodes, whose subtrees are built and whose leaves have theirs."""
     for place in range(nodes * WIDTH - 1, -1, -1):
         if bvh.child[place] >= EMPTY:
-            _set_box(bvh, place, _node_box(bvh.child[place], bvh))
+            set_box(bvh, place, node_box(bvh.child[place], bvh))
 
 
 @device
@@ -231,7 +231,7 @@ def _below(value: float) -> float:
 
 
 @device
-def _node_box(node: int, bvh: Bvh) -> tuple[Vec, Vec]:
+def node_box(node: int, bvh: Bvh) -> tuple[Vec, Vec]:
     """Return the box around a node's children, an empty one if there is no such node."""
     low = OUTSIDE, OUTSIDE, OUTSIDE
     high = -OUTSIDE, -OUTSIDE, -OUTSIDE
@@ -250,7 +250,7 @@ def _node_box(node: int, bvh: Bvh) -> tuple[Vec, Vec]:
 
 
 @device
-def _set_box(bvh: Bvh, place: int, box: tuple[Vec, Vec]) -> None:
+def set_box(bvh: Bvh, place: int, box: tuple[Vec, Vec]) -> None:
     """Set the box of a child, whose place is that in ``bvh.child``."""
     low, high = box
     first = place // WIDTH * SIDES + place % WIDTH

@@ -12,14 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.dispatch import Shape, Verbs, with_bounded
+from vtray.geometry.dispatch import with_bounded
 from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_margin, upper_limit
 from vtray.geometry.packets.fan import Start
 from vtray.geometry.packets.stack import Stack, push_met
 from vtray.geometry.rounding import MARGIN, ROUNDING
 from vtray.geometry.shapes.plane import load_plane, plane_side
+from vtray.geometry.shapes.verbs import Shape, Verbs
 from vtray.geometry.vector import Vec, add, dot, scale, sub
 from vtray.geometry.world import (
+    CUT,
     PLANE,
     SPHERE,
     Group,
@@ -238,7 +240,7 @@ def _relation_to_plane(cone: Cone, side: float, rise: float, error_scale: float)
 @device
 def _relation_to_shape(
     shape: Shape,
-    verbs: Verbs,  # noqa: ARG001
+    verbs: Verbs,
     number: int,  # noqa: ARG001
     arguments: tuple[Cone, int],
 ) -> int:
@@ -254,6 +256,9 @@ def _relation_to_shape(
     near, far = aside * cone.cosine - ahead * cone.sine, aside * cone.cosine + ahead * cone.sine
     if near > shape.radius + margin or ahead > cone.longest + shape.radius + margin:
         return _ASIDE
+    if kind >= CUT:
+        sides = verbs.sides(shape, start.point, start.error_scale)
+        return _ASIDE if _is_beyond(cone, sides.end) else _TOUCHES
     if kind != SPHERE:
         return _TOUCHES
     outside = distance2 - shape.radius * shape.radius
@@ -268,6 +273,14 @@ def _relation_to_shape(
     is_ahead = ahead * cone.cosine > aside * cone.sine
     covers = is_before and is_between and is_ahead and far < shape.radius - margin
     return _COVERS if covers else _TOUCHES
+
+
+@device
+def _is_beyond(cone: Cone, inward: Vec) -> bool:
+    """Tell whether all rays of a cone lead out of a half-space, given its inner normal or 0."""
+    ahead = dot(cone.axis, inward)
+    across = math.sqrt(max(1.0 - ahead * ahead, 0.0))
+    return ahead * cone.cosine + across * cone.sine < -SLIGHT
 
 
 def _search(

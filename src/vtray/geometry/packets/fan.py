@@ -20,7 +20,7 @@ END = 0
 END_PLANE_DEPTH = 3 * FAN
 """How far before the image plane that is."""
 BLOCKED = 4 * FAN
-"""1 where something stops the ray, or where it is not cast, else 0."""
+"""The share of the light along a ray that something stops: 1 where it is not cast."""
 DIRECTION = 5 * FAN
 """A unit vector."""
 LENGTH = 8 * FAN

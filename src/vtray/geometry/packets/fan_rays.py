@@ -186,10 +186,13 @@ def set_ball(
 
 @device
 def rays_along(fan: Fan, rays: int, way: Singles, least: np.float32) -> np.uint64:
-    """Return the rays on which a unit of length is at least so far along a way."""
+    """Return the rays on which a unit of length is at least so far along a way.
+
+    Where they are no whole octets, more may be among them than there are.
+    """
     singles = fan.view(np.float32)
     found = NONE
-    for octet in range(rays // OCTET):
+    for octet in range((rays + OCTET - 1) // OCTET):
         met = octet_within(singles, 2 * SINGLES + OCTET * octet, FAN, way, least)
         found |= met << np.uint64(OCTET * octet)
     return found

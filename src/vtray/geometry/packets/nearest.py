@@ -7,7 +7,7 @@ import numpy as np
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bundle import Bundle, Crossing, image_plane_range
-from vtray.geometry.dispatch import Shape, Verbs, with_bounded
+from vtray.geometry.dispatch import with_bounded
 from vtray.geometry.packets.packet import (
     ALL_MET,
     DISTANCE,
@@ -19,6 +19,7 @@ from vtray.geometry.packets.packet import (
     OCTET,
     PASSED,
     PASSING,
+    POWER,
     PRIMITIVE,
     RIVAL,
     Packet,
@@ -37,10 +38,13 @@ from vtray.geometry.packets.ray_bounds import (
     octets_met,
 )
 from vtray.geometry.packets.workspace import Workspace
-from vtray.geometry.ray import Footprint, Ray, has_width, width_at
+from vtray.geometry.ray import Footprint, Ray, has_width, ray_point, width_at
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.plane import load_plane, plane_crossing, plane_distance
-from vtray.geometry.world import Group, World
+from vtray.geometry.shapes.surface import no_power
+from vtray.geometry.shapes.verbs import Shape, Verbs
+from vtray.geometry.vector import Vec
+from vtray.geometry.world import Clip, Group, World
 
 
 @device
@@ -49,6 +53,7 @@ def clear_hits(packet: Packet, lanes: int) -> None:
     numbers = packet.view(np.int64)
     for lane in range(lanes):
         packet[DISTANCE + lane] = math.inf
+        packet[POWER + lane] = 0.0
         numbers[PRIMITIVE + lane] = NO_PRIMITIVE
         packet[NEAREST + lane] = math.inf
         packet[RIVAL + lane] = math.inf
@@ -87,7 +92,9 @@ def nearest_planes(
         plane = load_plane(world.planes, slot, group.place)
         number = group.number + world.planes.number[slot]
         met = join_met(group.row, slot)
-        _take_lanes(packet, 0, lanes, sheaf, met, number, plane, plane_distance)
+        _take_lanes(
+            packet, 0, lanes, sheaf, met, number, plane, plane_distance, no_power, world.clip
+        )
         if has_width(footprint):
             _note_crossings(packet, 0, lanes, sheaf, footprint, True, plane, plane_crossing)
 
@@ -122,7 +129,8 @@ def nearest_slots(
     """
     for slot in range(begin, end):
         rays = packet, first, count, sheaf, footprint, work
-        with_bounded(world, group, slot, _take_octets, (rays, join_met(group.row, slot)))
+        arguments = rays, join_met(group.row, slot), world.clip
+        with_bounded(world, group, slot, _take_octets, arguments)
 
 
 @device
@@ -130,10 +138,10 @@ def _take_octets(
     shape: Shape,
     verbs: Verbs,
     number: int,
-    arguments: tuple[tuple[Packet, int, int, Sheaf, Footprint | None, Workspace], int],
+    arguments: tuple[tuple[Packet, int, int, Sheaf, Footprint | None, Workspace], int, Clip | None],
 ) -> None:
     """Test a shape for those of some octets that it may meet."""
-    (packet, first, count, sheaf, footprint, work), met_here = arguments
+    (packet, first, count, sheaf, footprint, work), met_here, clip = arguments
     margin = MARGIN * (shape.error_scale + sheaf.error_scale)
     met = octets_met(
         work.cones, first, count, sheaf, shape.center, shape.radius + margin, footprint
@@ -146,7 +154,18 @@ def _take_octets(
             # The mask tells the compiler that no index is negative.
             begin = lane & (LANES - 1)
             end = begin + OCTET
-            _take_lanes(packet, begin, end, sheaf, met_here, number, shape, verbs.distance_to)
+            _take_lanes(
+                packet,
+                begin,
+                end,
+                sheaf,
+                met_here,
+                number,
+                shape,
+                verbs.distance_to,
+                verbs.power_at,
+                clip,
+            )
             if has_width(footprint) and (may_cover or not is_known_mixed(work.cones, lane)):
                 is_cut = distance <= latest_start(work.cones, lane)
                 cross = verbs.crossing
@@ -167,17 +186,51 @@ def _take_lanes(
     number: int,
     shape: Shape,
     distance_to: Callable[[Shape, Ray], float],
+    power_at: Callable[[Shape, Vec], float],
+    clip: Clip | None,
 ) -> None:
     """Let a shape take those of some lanes in which it is nearer than the hit so far.
 
-    Of two at the same distance, that with the lower number is hit.
+    Of two at the same distance, that with the lower power is hit, and of two with the same that
+    with the lower number. Where clip planes cut nothing, all powers are the same.
     """
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if clip is not None:
+        _take_deepest(packet, begin, end, sheaf, met, number, shape, distance_to, power_at)
+        return
     numbers = packet.view(np.int64)
     for lane in range(begin, end):
         distance = distance_to(shape, load_ray(packet, sheaf, lane))
         best = packet[DISTANCE + lane]
         nearer = (distance < best) | ((distance == best) & (number < numbers[PRIMITIVE + lane]))
         packet[DISTANCE + lane] = distance if nearer else packet[DISTANCE + lane]
+        numbers[PRIMITIVE + lane] = number if nearer else numbers[PRIMITIVE + lane]
+        numbers[MET + lane] = met if nearer else numbers[MET + lane]
+
+
+@device
+def _take_deepest(
+    packet: Packet,
+    begin: int,
+    end: int,
+    sheaf: Sheaf,
+    met: int,
+    number: int,
+    shape: Shape,
+    distance_to: Callable[[Shape, Ray], float],
+    power_at: Callable[[Shape, Vec], float],
+) -> None:
+    """Let a shape take those of some lanes in which it is nearer, or as near and deeper."""
+    numbers = packet.view(np.int64)
+    for lane in range(begin, end):
+        ray = load_ray(packet, sheaf, lane)
+        distance = distance_to(shape, ray)
+        best, deepest = packet[DISTANCE + lane], packet[POWER + lane]
+        power = power_at(shape, ray_point(ray, distance)) if distance <= best else 0.0
+        is_first = (power == deepest) & (number < numbers[PRIMITIVE + lane])
+        nearer = (distance < best) | ((distance == best) & ((power < deepest) | is_first))
+        packet[DISTANCE + lane] = distance if nearer else packet[DISTANCE + lane]
+        packet[POWER + lane] = power if nearer else packet[POWER + lane]
         numbers[PRIMITIVE + lane] = number if nearer else numbers[PRIMITIVE + lane]
         numbers[MET + lane] = met if nearer else numbers[MET + lane]
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.dispatch import Shape, Verbs, with_bounded
+from vtray.geometry.dispatch import with_bounded
 from vtray.geometry.packets.packet import (
     BLOCKED,
     ERROR_SCALE,
@@ -32,6 +32,7 @@ from vtray.geometry.ray import Segment
 from vtray.geometry.rounding import MARGIN, ROUNDING
 from vtray.geometry.shapes.plane import PlaneShape, end_side, hides_side, load_plane, plane_side
 from vtray.geometry.shapes.sphere import load_sphere
+from vtray.geometry.shapes.verbs import Shape, Verbs
 from vtray.geometry.vector import Vec, add, dot, lower, magnitude, scale, sub, upper
 from vtray.geometry.world import PLANE, SPHERE, Group, World, group_count, load_group
 

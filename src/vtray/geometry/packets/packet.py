@@ -66,10 +66,15 @@ KEPT = _fields.scalar()
 DISTANCE = _fields.scalar()
 PRIMITIVE = _fields.scalar()
 """Integer: the number of what is hit, which decides between equal distances."""
+SEEN = _fields.scalar()
+"""Integer: the same, also for rays whose hit is left out as their pixel gets samples."""
 MET = _fields.scalar()
 """Integer: where to find what is hit; see `join_met`."""
+POWER = _fields.scalar()
+"""The power of the point that is hit, as in `Verbs`, where clip planes cut anything."""
 HALF = _fields.scalar()
-"""Integer: 1 where the second half of what is hit is, else 0."""
+"""Integer: ``SECOND`` where the second half of what is hit is, and ``CAP`` where a clip plane cuts
+it; both where both are, and 0 where none is."""
 NEAREST = _fields.scalar()
 RIVAL = _fields.scalar()
 """Before that distance no ray of the lane's bundle meets anything, and before this one only one
@@ -83,6 +88,23 @@ MIXED = _fields.scalar()
 """1 where the rays of the bundle may not all see the same, else 0."""
 LIGHT = _fields.vector()
 """The light along the ray."""
+
+# What is seen of layers of faded bodies, by the same lanes.
+BEHIND = _fields.scalar()
+BEHIND_DISTANCE = _fields.scalar()
+BEHIND_MET = _fields.scalar()
+"""``PRIMITIVE``, ``DISTANCE`` and ``MET`` of what is behind all layers."""
+PASSED_LAYERS = _fields.scalar()
+"""Integer: how many layers there are."""
+SHARE = _fields.scalar()
+"""How much light passes from a layer to the start of the ray, times how opaque it is."""
+GATHERED = _fields.vector()
+VARIANCE = _fields.scalar()
+"""The light of the layers so far, and its variance."""
+FOGGED = _fields.scalar()
+"""The share of what is seen that is fog."""
+COVER = _fields.scalar()
+"""The share of what is behind everything that does not get through."""
 
 # The hits, from the first lane on.
 SOURCE = _fields.scalar()
@@ -110,6 +132,7 @@ NOISE = _fields.scalar()
 
 # Its shadow rays to one light.
 BLOCKED = _fields.scalar()
+"""The share of its light that something stops."""
 
 # What tells whether the surface around a hit looks the same everywhere.
 OWNER = _fields.scalar()
@@ -140,6 +163,9 @@ SIZE = _fields.size
 
 NO_PRIMITIVE = -1
 """In field ``PRIMITIVE``: the ray hits nothing. Lower numbers are lamps, which are no surfaces."""
+
+SECOND, CAP = 1, 2
+"""In field ``HALF``."""
 
 SLOT_BITS = 27
 """The low bits of an integer in field ``MET``, which say the slot; see `MAX_SPHERES`."""

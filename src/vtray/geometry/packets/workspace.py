@@ -7,10 +7,11 @@ from numpy.typing import NDArray
 
 from vtray.geometry.packets.cone import Touching, new_touching
 from vtray.geometry.packets.fan import FAN, MOST_RAYS, Fan, new_fan
+from vtray.geometry.packets.layer_notes import Layers, Walk, new_layers, new_walk
 from vtray.geometry.packets.packet import BLOCK, LANES
 from vtray.geometry.packets.ray_bounds import Cones, new_cones
 from vtray.geometry.packets.stack import Stack, new_stack
-from vtray.geometry.world import NO_TREE, PLANE, World
+from vtray.geometry.world import NO_TREE, PLANE, World, body_count
 
 TABLE = 2 * LANES
 """Places of the hash table in which lanes are grouped."""
@@ -27,12 +28,15 @@ class Sums(NamedTuple):
     ----------
     light, covered, weight
         Light times weight in three rows, coverage times weight, and weight.
+    fogged
+        What fog covers times weight, if there is any.
     plain, squares
         Light and its squares without weights, in three rows, from which its error is estimated.
     """
 
     light: NDArray[np.float64]
     covered: NDArray[np.float64]
+    fogged: NDArray[np.float64]
     weight: NDArray[np.float64]
     plain: NDArray[np.float64]
     squares: NDArray[np.float64]
@@ -99,6 +103,8 @@ class Workspace(NamedTuple):
         The shadow rays of one hit to one light, and the shapes that touch their cone.
     shared
         Notes on rays that many lights share.
+    walk, layers
+        The bodies that a ray goes through, and the layers of all lanes.
     table, owner, member, size
         The hash table of what is hit: a number for each, what it is, which lanes hit it, how many.
     """
@@ -117,6 +123,8 @@ class Workspace(NamedTuple):
     fan: Fan
     touching: Touching
     shared: Shared
+    walk: Walk
+    layers: Layers
     table: NDArray[np.int64]
     owner: NDArray[np.int64]
     member: NDArray[np.int64]
@@ -158,10 +166,12 @@ def new_workspace(world: World, sharing: int = 0) -> Workspace:
         cluster=integers(LANES + 2),
         curve=curve_of_block(),
         pixels=integers(LANES),
-        sums=Sums(*(np.zeros(size * LANES) for size in (3, 1, 1, 3, 3))),
+        sums=Sums(*(np.zeros(size * LANES) for size in (3, 1, 1, 1, 3, 3))),
         fan=new_fan(),
         touching=new_touching(),
         shared=new_shared(sharing),
+        walk=new_walk(body_count(world)),
+        layers=new_layers(body_count(world)),
         table=integers(TABLE),
         owner=integers(LANES),
         member=integers(LANES),

@@ -8,6 +8,7 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.bundle import (
     Bundle,
     Crossing,
+    Passage,
     bundle_width,
     first_crossing,
     is_looked_at,
@@ -182,6 +183,14 @@ def is_second_half(shape: Axial, point: Vec, error_scale: float) -> bool:
     return height - 0.5 * shape.length > error_bound
 
 
+class AxialPassage(NamedTuple):
+    """Where the rays of a bundle enter and leave a shape, and how wide the bundle is there."""
+
+    passage: Passage
+    before: float
+    behind: float
+
+
 @device
 def axial_crossing(
     shape: AnyAxial,
@@ -191,6 +200,34 @@ def axial_crossing(
     spans_of: Callable[[AnyAxial, Line, float, float], tuple[Span, Span]],
 ) -> Crossing:
     """Return from where to where the rays of a bundle first meet a shape.
+
+    The parameters are those of `axial_passage`.
+    """
+    passage, before, behind = axial_passage(shape, line, bundle, any_inside, spans_of)
+    enters, leaves, _ = passage
+    found = first_crossing(passage, bundle)
+    if is_looked_at(bundle.sight) and found.far < math.inf:
+        reverse = Line(line.height, -line.rise, line.beside, scale(-1.0, line.aside))
+        is_one = (
+            _is_one_part(shape, line, bundle, before, enters, spans_of)
+            if found.far == enters.far
+            else _is_one_part(
+                shape, reverse, bundle, behind, Crossing(-leaves.far, -leaves.near), spans_of
+            )
+        )
+        return Crossing(found.near, found.far if is_one else math.inf)
+    return found
+
+
+@device
+def axial_passage(
+    shape: AnyAxial,
+    line: Line,
+    bundle: Bundle,
+    any_inside: Span,
+    spans_of: Callable[[AnyAxial, Line, float, float], tuple[Span, Span]],
+) -> AxialPassage:
+    """Return where the rays of a bundle enter and leave a shape.
 
     As long as a bundle is no wider than some width, all its rays are inside where they would be
     inside a shape that is so much smaller.
@@ -218,19 +255,7 @@ def axial_crossing(
     covers = (all_before.near < all_before.far) & (all_before.near <= valid)
     end = all_behind.far if all_behind.near < all_behind.far else -math.inf
     enters = Crossing(any_inside.near, all_before.near)
-    leaves = Crossing(end, any_inside.far)
-    found = first_crossing(enters, leaves, covers, bundle)
-    if is_looked_at(bundle.sight) and found.far < math.inf:
-        reverse = Line(line.height, -line.rise, line.beside, scale(-1.0, line.aside))
-        is_one = (
-            _is_one_part(shape, line, bundle, before, enters, spans_of)
-            if found.far == enters.far
-            else _is_one_part(
-                shape, reverse, bundle, behind, Crossing(-leaves.far, -leaves.near), spans_of
-            )
-        )
-        return Crossing(found.near, found.far if is_one else math.inf)
-    return found
+    return AxialPassage(Passage(enters, Crossing(end, any_inside.far), covers), before, behind)
 
 
 @device

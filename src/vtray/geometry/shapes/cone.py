@@ -10,14 +10,15 @@ import math
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.bundle import Bundle, Crossing, bundle_width, spread_along
-from vtray.geometry.ray import Ray, Segment
+from vtray.geometry.bundle import Bundle, Crossing, Passage, bundle_width, spread_along
+from vtray.geometry.ray import Ray, Segment, way_in_front
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.shapes.axis_line import (
     Line,
     Span,
     at_least,
     axial_crossing,
+    axial_passage,
     both_spans,
     cap_span,
     is_second_half,
@@ -27,6 +28,8 @@ from vtray.geometry.shapes.axis_line import (
 )
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
 from vtray.geometry.shapes.sides import Sides
+from vtray.geometry.shapes.solid import Chord, chord_if, chord_that_counts, first_met
+from vtray.geometry.shapes.stay import Stay, no_stay, seen_stay
 from vtray.geometry.shapes.surface import Surface
 from vtray.geometry.vector import Vec, add, cross, dot, magnitude, scale, sub
 
@@ -198,33 +201,55 @@ def slant_at(cone: ConeShape, line: Line, side: SideSpan, distance: float) -> fl
 
 
 @device
+def cone_chord(cone: ConeShape, origin: Vec, direction: Vec, error_bound: float) -> Chord:
+    """Return where a line is within a cone, if it comes clearly into it."""
+    line = line_beside(cone, origin, direction)
+    caps = cap_span(line, 0.0, cone.length)
+    side = side_span(cone, line, caps, 0.0, 0.0)
+    span = both_spans(side.span, caps)
+    slope = abs(line.rise)
+    near_slope = slope if caps.near >= side.span.near else slant_at(cone, line, side, span.near)
+    far_slope = slope if caps.far <= side.span.far else slant_at(cone, line, side, span.far)
+    meets = enters_clearly(cone, line, span, error_bound)
+    return chord_if(meets, Chord(span.near, span.far, near_slope, far_slope))
+
+
+@device
+def cone_outside(cone: ConeShape, point: Vec) -> float:
+    """Return how far outside a cone a point is, as `signed_distance`."""
+    return signed_distance(cone, line_beside(cone, point, cone.axis))
+
+
+@device
+def cone_power(cone: ConeShape, point: Vec) -> float:
+    """Return how deep a point is within the side of a cone, as a square below 0."""
+    line = line_beside(cone, point, cone.axis)
+    room = cone.room + cone.sine * line.height
+    return cone.cosine * cone.cosine * dot(line.beside, line.beside) - room * room
+
+
+@device
 def cone_distance(cone: ConeShape, ray: Ray) -> float:
     """Return the distance to the first point of a cone that a ray meets, or infinity.
 
     The ray counts from the image plane on. Where it starts on the cone, as near as rounding can
     tell, it meets the cone only where it crosses it elsewhere.
     """
-    line = line_beside(cone, ray.origin, ray.direction)
-    caps = cap_span(line, 0.0, cone.length)
-    side = side_span(cone, line, caps, 0.0, 0.0)
-    span = both_spans(side.span, caps)
-    # A surface that the ray meets at a small angle magnifies the error of the distance.
-    slope = abs(line.rise)
-    near, far = span.near, span.far
-    near_slope = slope if caps.near >= side.span.near else slant_at(cone, line, side, near)
-    far_slope = slope if caps.far <= side.span.far else slant_at(cone, line, side, far)
     error_scale = cone.error_scale + ray.error_scale
-    meets = enters_clearly(cone, line, span, ROUNDING * error_scale)
-    if ray.error_bound > 0.0:
-        outside = signed_distance(cone, line)
-        ahead = near + far > 0.0
-        near = near if (outside > ray.error_bound) & ahead else -math.inf
-        far = far if (outside < -ray.error_bound) | ahead else math.inf
-    near_plane_depth = near * ray.forward + ray.plane_depth
-    far_plane_depth = far * ray.forward + ray.plane_depth
-    sees_near = meets & (near_plane_depth * near_slope > ROUNDING * (abs(near) + error_scale))
-    sees_far = meets & (far_plane_depth * far_slope > ROUNDING * (abs(far) + error_scale))
-    return near if sees_near else far if sees_far else math.inf
+    chord = cone_chord(cone, ray.origin, ray.direction, ROUNDING * error_scale)
+    outside = cone_outside(cone, ray.origin)
+    return first_met(chord_that_counts(chord, outside, ray), ray, error_scale)
+
+
+@device
+def cone_stay(cone: ConeShape, ray: Ray) -> Stay:
+    """Return the part of a ray within a cone, by the rules of `cone_distance`."""
+    error_scale = cone.error_scale + ray.error_scale
+    chord = cone_chord(cone, ray.origin, ray.direction, ROUNDING * error_scale)
+    if not chord.near < chord.far:
+        return no_stay()
+    outside = cone_outside(cone, ray.origin)
+    return seen_stay(ray, chord_that_counts(chord, outside, ray), error_scale)
 
 
 @device
@@ -238,19 +263,12 @@ def cone_hides(cone: ConeShape, segment: Segment) -> bool:
     """Tell whether a cone stands between two points, in front of the image plane."""
     error_bound = ROUNDING * (segment.start_scale + cone.error_scale)
     end_bound = ROUNDING * (cone.error_scale + segment.end_scale)
-    to_end = sub(segment.end, segment.start)
-    end = segment.end
-    if segment.end_plane_depth < 0.0:
-        # The way counts up to where it passes through the image plane.
-        share = segment.start_plane_depth / (segment.start_plane_depth - segment.end_plane_depth)
-        to_end = scale(share, to_end)
-        end = add(segment.start, to_end)
-        end_bound = error_bound + share * end_bound
-    line = line_beside(cone, segment.start, to_end)
+    way, end, end_bound = way_in_front(segment, error_bound, end_bound)
+    line = line_beside(cone, segment.start, way)
     caps = cap_span(line, 0.0, cone.length)
     span = both_spans(side_span(cone, line, caps, 0.0, 0.0).span, caps)
     start_outside = signed_distance(cone, line)
-    end_outside = signed_distance(cone, line_beside(cone, end, to_end))
+    end_outside = signed_distance(cone, line_beside(cone, end, way))
     middle = 0.5 * (span.near + span.far)
     meets = enters_clearly(cone, line, span, error_bound) & (middle > 0.0)
     enters = meets & ((end_outside < -end_bound) | (middle < 1.0))
@@ -296,7 +314,8 @@ def cone_pole(cone: ConeShape, point: Vec) -> tuple[Vec, bool]:
 def cone_surface(cone: ConeShape, point: Vec, error_scale: float) -> Surface:
     """Return the surface of a cone at a point."""
     pole, is_round = cone_pole(cone, point)
-    return Surface(pole, is_round, cone.error_scale, is_second_half(cone, point, error_scale))
+    is_second = is_second_half(cone, point, error_scale)
+    return Surface(pole, is_round, cone.error_scale, is_second, False)
 
 
 @device
@@ -311,6 +330,14 @@ def cone_crossing(cone: ConeShape, bundle: Bundle) -> Crossing:
     """Return from where to where the rays of a bundle first meet a cone."""
     line = line_beside(cone, bundle.origin, bundle.direction)
     return axial_crossing(cone, line, bundle, _any_inside(cone, line, bundle), _spans)
+
+
+@device
+def cone_passage(cone: ConeShape, bundle: Bundle) -> Passage:
+    """Return where the rays of a bundle enter and leave a cone."""
+    line = line_beside(cone, bundle.origin, bundle.direction)
+    any_inside = _any_inside(cone, line, bundle)
+    return axial_passage(cone, line, bundle, any_inside, _spans).passage
 
 
 @device

@@ -12,17 +12,19 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.bundle import (
     Bundle,
     Crossing,
+    Passage,
     bundle_width,
     spread_along,
     spread_beside,
 )
-from vtray.geometry.ray import Ray, Segment
+from vtray.geometry.ray import Ray, Segment, way_in_front
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.shapes.axis_line import (
     Line,
     Span,
     at_least,
     axial_crossing,
+    axial_passage,
     both_spans,
     cap_span,
     is_second_half,
@@ -32,6 +34,8 @@ from vtray.geometry.shapes.axis_line import (
 )
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
 from vtray.geometry.shapes.sides import Sides
+from vtray.geometry.shapes.solid import Chord, chord_if, chord_that_counts, first_met
+from vtray.geometry.shapes.stay import Stay, no_stay, seen_stay
 from vtray.geometry.shapes.surface import Surface
 from vtray.geometry.vector import Vec, add, dot, magnitude, scale, sub
 
@@ -130,33 +134,56 @@ def enters_clearly(cylinder: CylinderShape, line: Line, span: Span, error_bound:
 
 
 @device
+def cylinder_chord(
+    cylinder: CylinderShape, origin: Vec, direction: Vec, error_bound: float
+) -> Chord:
+    """Return where a line is within a cylinder, if it comes clearly into it."""
+    line = line_beside(cylinder, origin, direction)
+    side = side_span(line, cylinder.side_radius)
+    caps = cap_span(line, 0.0, cylinder.length)
+    span = both_spans(side, caps)
+    slope, steepness = abs(line.rise), math.sqrt(dot(line.aside, line.aside))
+    near_slope = slope if caps.near >= side.near else steepness
+    far_slope = slope if caps.far <= side.far else steepness
+    meets = enters_clearly(cylinder, line, span, error_bound)
+    return chord_if(meets, Chord(span.near, span.far, near_slope, far_slope))
+
+
+@device
+def cylinder_outside(cylinder: CylinderShape, point: Vec) -> float:
+    """Return how far outside a cylinder a point is, as `signed_distance`."""
+    return signed_distance(cylinder, line_beside(cylinder, point, cylinder.axis))
+
+
+@device
+def cylinder_power(cylinder: CylinderShape, point: Vec) -> float:
+    """Return how deep a point is within the side of a cylinder, as a square below 0."""
+    line = line_beside(cylinder, point, cylinder.axis)
+    return dot(line.beside, line.beside) - cylinder.side_radius * cylinder.side_radius
+
+
+@device
 def cylinder_distance(cylinder: CylinderShape, ray: Ray) -> float:
     """Return the distance to the first point of a cylinder that a ray meets, or infinity.
 
     The ray counts from the image plane on. Where it starts on the cylinder, as near as rounding can
     tell, it meets the cylinder only where it crosses it elsewhere.
     """
-    line = line_beside(cylinder, ray.origin, ray.direction)
-    side = side_span(line, cylinder.side_radius)
-    caps = cap_span(line, 0.0, cylinder.length)
-    span = both_spans(side, caps)
-    # A surface that the ray meets at a small angle magnifies the error of the distance.
-    slope, steepness = abs(line.rise), math.sqrt(dot(line.aside, line.aside))
-    near_slope = slope if caps.near >= side.near else steepness
-    far_slope = slope if caps.far <= side.far else steepness
-    near, far = span.near, span.far
     error_scale = cylinder.error_scale + ray.error_scale
-    meets = enters_clearly(cylinder, line, span, ROUNDING * error_scale)
-    if ray.error_bound > 0.0:
-        outside = signed_distance(cylinder, line)
-        ahead = near + far > 0.0
-        near = near if (outside > ray.error_bound) & ahead else -math.inf
-        far = far if (outside < -ray.error_bound) | ahead else math.inf
-    near_plane_depth = near * ray.forward + ray.plane_depth
-    far_plane_depth = far * ray.forward + ray.plane_depth
-    sees_near = meets & (near_plane_depth * near_slope > ROUNDING * (abs(near) + error_scale))
-    sees_far = meets & (far_plane_depth * far_slope > ROUNDING * (abs(far) + error_scale))
-    return near if sees_near else far if sees_far else math.inf
+    chord = cylinder_chord(cylinder, ray.origin, ray.direction, ROUNDING * error_scale)
+    outside = cylinder_outside(cylinder, ray.origin)
+    return first_met(chord_that_counts(chord, outside, ray), ray, error_scale)
+
+
+@device
+def cylinder_stay(cylinder: CylinderShape, ray: Ray) -> Stay:
+    """Return the part of a ray within a cylinder, by the rules of `cylinder_distance`."""
+    error_scale = cylinder.error_scale + ray.error_scale
+    chord = cylinder_chord(cylinder, ray.origin, ray.direction, ROUNDING * error_scale)
+    if not chord.near < chord.far:
+        return no_stay()
+    outside = cylinder_outside(cylinder, ray.origin)
+    return seen_stay(ray, chord_that_counts(chord, outside, ray), error_scale)
 
 
 @device
@@ -170,18 +197,11 @@ def cylinder_hides(cylinder: CylinderShape, segment: Segment) -> bool:
     """Tell whether a cylinder stands between two points, in front of the image plane."""
     error_bound = ROUNDING * (segment.start_scale + cylinder.error_scale)
     end_bound = ROUNDING * (cylinder.error_scale + segment.end_scale)
-    to_end = sub(segment.end, segment.start)
-    end = segment.end
-    if segment.end_plane_depth < 0.0:
-        # The way counts up to where it passes through the image plane.
-        share = segment.start_plane_depth / (segment.start_plane_depth - segment.end_plane_depth)
-        to_end = scale(share, to_end)
-        end = add(segment.start, to_end)
-        end_bound = error_bound + share * end_bound
-    line = line_beside(cylinder, segment.start, to_end)
+    way, end, end_bound = way_in_front(segment, error_bound, end_bound)
+    line = line_beside(cylinder, segment.start, way)
     span = both_spans(side_span(line, cylinder.side_radius), cap_span(line, 0.0, cylinder.length))
     start_outside = signed_distance(cylinder, line)
-    end_outside = signed_distance(cylinder, line_beside(cylinder, end, to_end))
+    end_outside = signed_distance(cylinder, line_beside(cylinder, end, way))
     middle = 0.5 * (span.near + span.far)
     meets = enters_clearly(cylinder, line, span, error_bound) & (middle > 0.0)
     enters = meets & ((end_outside < -end_bound) | (middle < 1.0))
@@ -222,7 +242,7 @@ def cylinder_surface(cylinder: CylinderShape, point: Vec, error_scale: float) ->
     """Return the surface of a cylinder at a point."""
     pole, is_round = cylinder_pole(cylinder, point)
     is_second = is_second_half(cylinder, point, error_scale)
-    return Surface(pole, is_round, cylinder.error_scale, is_second)
+    return Surface(pole, is_round, cylinder.error_scale, is_second, False)
 
 
 @device
@@ -243,6 +263,14 @@ def cylinder_crossing(cylinder: CylinderShape, bundle: Bundle) -> Crossing:
     line = line_beside(cylinder, bundle.origin, bundle.direction)
     any_inside = _any_inside(cylinder, line, bundle)
     return axial_crossing(cylinder, line, bundle, any_inside, _spans)
+
+
+@device
+def cylinder_passage(cylinder: CylinderShape, bundle: Bundle) -> Passage:
+    """Return where the rays of a bundle enter and leave a cylinder."""
+    line = line_beside(cylinder, bundle.origin, bundle.direction)
+    any_inside = _any_inside(cylinder, line, bundle)
+    return axial_passage(cylinder, line, bundle, any_inside, _spans).passage
 
 
 @device

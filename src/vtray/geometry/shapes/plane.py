@@ -9,6 +9,7 @@ from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
 from vtray.geometry.shapes.sides import Sides, all_sides
+from vtray.geometry.shapes.stay import Stay
 from vtray.geometry.shapes.surface import Surface
 from vtray.geometry.vector import Vec, dot, magnitude, sub
 
@@ -75,6 +76,13 @@ def plane_distance(plane: PlaneShape, ray: Ray) -> float:
     if ray.error_bound > 0.0:
         seen = seen & (abs(height) > ray.error_bound) & (distance > 0.0)
     return distance if seen else math.inf
+
+
+@device
+def plane_stay(plane: PlaneShape, ray: Ray) -> Stay:
+    """Return the part of a ray within a plane: the point where it meets it, if it does."""
+    distance = plane_distance(plane, ray)
+    return Stay(distance, distance if distance < math.inf else -math.inf)
 
 
 @device
@@ -177,4 +185,4 @@ def plane_crossing(plane: PlaneShape, bundle: Bundle) -> Crossing:
 @device
 def plane_surface(plane: PlaneShape, point: Vec, error_scale: float) -> Surface:  # noqa: ARG001
     """Return the surface of a plane, which is the same everywhere."""
-    return Surface(plane.normal, False, plane.error_scale, False)
+    return Surface(plane.normal, False, plane.error_scale, False, False)

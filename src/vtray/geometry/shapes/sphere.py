@@ -7,6 +7,7 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.bundle import (
     Bundle,
     Crossing,
+    Passage,
     bundle_width,
     first_crossing,
     spread_ahead,
@@ -16,6 +17,8 @@ from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
 from vtray.geometry.shapes.sides import Sides, all_sides
+from vtray.geometry.shapes.solid import Chord
+from vtray.geometry.shapes.stay import Stay, seen_stay
 from vtray.geometry.shapes.surface import Surface
 from vtray.geometry.vector import Vec, add, cross, dot, magnitude, scale, sub
 
@@ -96,20 +99,63 @@ def sphere_distance(sphere: SphereShape, ray: Ray) -> float:
     The ray counts from the image plane on. Where it starts on the sphere, as near as rounding can
     tell, it meets the sphere only where it crosses it elsewhere.
     """
+    near, far = _ends_within(sphere, ray)
+    error_scale = sphere.error_scale + ray.error_scale
+    if near * ray.forward + ray.plane_depth > ROUNDING * (abs(near) + error_scale):
+        return near
+    if far * ray.forward + ray.plane_depth > ROUNDING * (abs(far) + error_scale):
+        return far
+    return math.inf
+
+
+@device
+def sphere_stay(sphere: SphereShape, ray: Ray) -> Stay:
+    """Return the part of a ray within a sphere, by the rules of `sphere_distance`."""
+    near, far = _ends_within(sphere, ray)
+    return seen_stay(ray, Chord(near, far, 1.0, 1.0), sphere.error_scale + ray.error_scale)
+
+
+@device
+def _ends_within(sphere: SphereShape, ray: Ray) -> tuple[float, float]:
+    """Return where a ray enters and leaves a sphere: minus infinity where it starts inside."""
     from_center = sub(ray.origin, sphere.center)
     near, far = intersect_sphere(from_center, ray.direction, sphere.radius)
-    error_scale = sphere.error_scale + ray.error_scale
     if ray.error_bound > 0.0:
         start = dot(from_center, from_center) - sphere.radius * sphere.radius
         slack = ray.error_bound * (2.0 * sphere.radius + ray.error_bound)
         ahead = -dot(from_center, ray.direction) > 0.0
         near = near if (start > slack) & ahead else -math.inf
         far = far if (start < -slack) | ahead else math.inf
-    if near * ray.forward + ray.plane_depth > ROUNDING * (abs(near) + error_scale):
-        return near
-    if far * ray.forward + ray.plane_depth > ROUNDING * (abs(far) + error_scale):
-        return far
-    return math.inf
+    return near, far
+
+
+@device
+def sphere_chord(
+    sphere: SphereShape,
+    origin: Vec,
+    direction: Vec,
+    error_bound: float,  # noqa: ARG001
+) -> Chord:
+    """Return where a line in a unit direction is within a sphere."""
+    near, far = intersect_sphere(sub(origin, sphere.center), direction, sphere.radius)
+    return Chord(near, far, 1.0, 1.0)
+
+
+@device
+def sphere_outside(sphere: SphereShape, point: Vec) -> float:
+    """Return how far outside a sphere a point is, below 0 inside."""
+    from_center = sub(point, sphere.center)
+    return math.sqrt(dot(from_center, from_center)) - sphere.radius
+
+
+@device
+def sphere_power(sphere: SphereShape, point: Vec) -> float:
+    """Return how deep a point is within a sphere, as a square below 0: its power.
+
+    Where two spheres overlap, that of both is the same on the plane of the circle where they meet.
+    """
+    from_center = sub(point, sphere.center)
+    return dot(from_center, from_center) - sphere.radius * sphere.radius
 
 
 @device
@@ -198,7 +244,13 @@ def sphere_is_outside(sphere: SphereShape, point: Vec, normal: Vec) -> bool:
 
 @device
 def sphere_crossing(sphere: SphereShape, bundle: Bundle) -> Crossing:
-    """Return from where to where the rays of a bundle first meet a sphere.
+    """Return from where to where the rays of a bundle first meet a sphere."""
+    return first_crossing(sphere_passage(sphere, bundle), bundle)
+
+
+@device
+def sphere_passage(sphere: SphereShape, bundle: Bundle) -> Passage:
+    """Return where the rays of a bundle enter and leave a sphere.
 
     At the distance t an offset e is at least ``gap - along(e)`` beside the centre, where `gap` is
     that of the middle ray, and ``|t - middle| - ahead(e)`` before or behind it; by Pythagoras, no
@@ -227,7 +279,7 @@ def sphere_crossing(sphere: SphereShape, bundle: Bundle) -> Crossing:
         any_chord = _any_chord(gap, along, ahead, behind, radius)
         all_chord = _all_chord(bundle, gap, along, ahead, behind, radius)
     last = middle + any_chord if touches & (radius > 0.0) else -math.inf
-    return first_crossing(enters, Crossing(middle + all_chord, last), covers, bundle)
+    return Passage(enters, Crossing(middle + all_chord, last), covers)
 
 
 @device
@@ -256,4 +308,4 @@ def _all_inside(bundle: Bundle, gap: float, along: float, width: float, radius: 
 @device
 def sphere_surface(sphere: SphereShape, point: Vec, error_scale: float) -> Surface:  # noqa: ARG001
     """Return the surface of a sphere, which is the same everywhere."""
-    return Surface(sphere.center, True, sphere.error_scale, False)
+    return Surface(sphere.center, True, sphere.error_scale, False, False)

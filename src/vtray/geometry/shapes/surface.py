@@ -1,7 +1,7 @@
 """The surface of a shape at a point, and its normal."""
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.vector import Vec, dot, scale, sub
@@ -21,12 +21,21 @@ class Surface(NamedTuple):
         What the rounding errors of the shape are relative to.
     is_second
         Whether it is in the second half of a shape that has two, which may differ in colour.
+    is_cap
+        Whether it closes what a clip plane cuts.
     """
 
     pole: Vec
     is_round: bool
     error_scale: float
     is_second: bool
+    is_cap: bool
+
+
+@device
+def no_power(shape: Any, point: Vec) -> float:  # noqa: ANN401, ARG001
+    """Return 0: the power of a point where no clip plane cuts."""
+    return 0.0
 
 
 @device

@@ -61,7 +61,7 @@ def _channels(picture: Picture, how: How) -> "dict[str, NDArray[Any]]":
         for k, name in enumerate(names):
             channels[name] = np.ascontiguousarray(planes if len(names) == 1 else planes[..., k])
 
-    light = picture.with_sky / 255.0
+    light = picture.with_overlays / 255.0
     if picture.settings.background not in ("black", "sky"):
         add(("A",), picture.alpha)
         # What covers nothing sends no light; filters with negative sides leave a little.

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
+from vtray.scene.style import Style
 
 if TYPE_CHECKING:
     import numpy as np
@@ -23,6 +24,7 @@ class Picture(Protocol):
     white: float
     scene: Scene
     settings: RenderSettings
+    style: Style
     locked: bool
     partial: float | None
 
@@ -31,8 +33,8 @@ class Picture(Protocol):
         """A hash of the scene."""
 
     @property
-    def with_sky(self) -> "Floats":
-        """Light with that of the sky, if it is the background, (height, width, 3)."""
+    def with_overlays(self) -> "Floats":
+        """Light of all that is seen: the sky too, fog and lines, (height, width, 3)."""
 
     @property
     def alpha(self) -> "Floats":

@@ -45,7 +45,8 @@ class Column(NamedTuple):
     table
         What the columns of a table may be called.
     stand_in
-        The array that counts where this one is left out; "" if it must be given.
+        The array, or the constant of the class, that counts where this one is left out; "" if it
+        must be given.
     """
 
     kind: Any
@@ -62,6 +63,7 @@ POINT = Column(Real, (3,), "", COORDINATES)
 RADIUS = Column(NonNegative, (), "a number", ("radius",))
 COLOR = Column(Byte, (3,), "three integers", RED_GREEN_BLUE)
 LAMBERT = Column(Fraction, (), "a number", ("lambert",))
+OPACITY = Column(Fraction, (), "a number", ("opacity",), "OPAQUE")
 
 NO_NAMES: Mapping[str, str] = MappingProxyType({})
 

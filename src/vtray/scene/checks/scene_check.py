@@ -92,9 +92,7 @@ class FileChecker:
         return _make(cls, values, place, found) if hasattr(cls, "__post_init__") else values
 
     def _array(self, found: list[Tree], kind: Kind, place: str) -> Any:  # noqa: ANN401
-        kinds = typing.get_args(plain_kind(kind))
-        if origin_of(kind) is list:
-            kinds *= len(found)
+        kinds = _kinds_of_items(kind, len(found))
         if len(found) != len(kinds) or len(found) < _least_length(kind):
             raise wrong(place, kind, show(found))
         pairs = enumerate(zip(found, kinds, strict=True))
@@ -178,12 +176,10 @@ def from_code(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401
         if not is_number:
             raise SceneError(f"{place}: expected a finite number, got {found!r}")
         return _convert_leaf(found, kind, place)
-    kinds = typing.get_args(plain_kind(kind))
     if not isinstance(found, (list, tuple)):
         raise wrong(place, kind, show(found), in_code=True)
-    if origin is list:
-        kinds *= len(found)
-    elif len(found) != len(kinds):
+    kinds = _kinds_of_items(kind, len(found))
+    if len(found) != len(kinds):
         raise wrong(place, kind, show(found), in_code=True)
     pairs = enumerate(zip(found, kinds, strict=True))
     return [from_code(item, item_kind, f"{place}[{i}]") for i, (item, item_kind) in pairs]
@@ -228,6 +224,12 @@ def plain_kind(kind: Kind) -> Kind:
 def origin_of(kind: Kind) -> Kind:
     """Give list or tuple for an array of these, None for a single value."""
     return typing.get_origin(plain_kind(kind))
+
+
+def _kinds_of_items(kind: Kind, count: int) -> tuple[Kind, ...]:
+    """Give the kinds of the items of an array; of one of any length, of so many."""
+    first, *rest = typing.get_args(plain_kind(kind))
+    return (first,) * count if rest in ([], [...]) else (first, *rest)
 
 
 def _least_length(kind: Kind) -> int:

@@ -26,6 +26,7 @@ from vtray.scene.objects import Cone, Cylinder, Plane, Sphere
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient, check_one_of
 from vtray.scene.spheres import Spheres
+from vtray.scene.style import Style
 from vtray.scene.vectors import Color, Direction, Vector
 
 
@@ -68,12 +69,16 @@ class SpheresInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="ty
         Colour of all spheres; for a .npz file, it may stand there.
     lambert : float, optional
         Share of the light that the surfaces scatter; for a .npz file, it may stand there.
+    opacity : float, optional
+        Share of the light that they take on its way through, 1 if left out; for a .npz file, it
+        may stand there.
     """
 
     data: DataPath
     radius: NonNegative | UnsetType = UNSET
     color: Color | UnsetType = UNSET
     lambert: Fraction | UnsetType = UNSET
+    opacity: Fraction | UnsetType = UNSET
 
     MADE = Spheres
     ONE = Sphere
@@ -89,8 +94,8 @@ class CylindersInFile(
     ----------
     data : str
         Path of the arrays, relative to the scene file: a .npz file with the arrays start, end
-        and, where they are not keys of this object, radius, color and lambert; color_end may be
-        in neither.
+        and, where they are not keys of this object, radius, color and lambert; color_end and
+        opacity may be in neither.
     radius : float, optional
         Radius of all cylinders, in scene units; it may stand in the file of arrays.
     color : Color, optional
@@ -100,6 +105,9 @@ class CylindersInFile(
         Colour of the halves at end; it may stand in the file of arrays, or be left out.
     lambert : float, optional
         Share of the light that the surfaces scatter; it may stand in the file of arrays.
+    opacity : float, optional
+        Share of the light that they take on its way through; it may stand in the file of arrays,
+        and is 1 if left out.
     """
 
     data: NpzPath
@@ -107,6 +115,7 @@ class CylindersInFile(
     color: Color | UnsetType = UNSET
     color_end: Color | UnsetType = UNSET
     lambert: Fraction | UnsetType = UNSET
+    opacity: Fraction | UnsetType = UNSET
 
     MADE = Cylinders
     ONE = Cylinder
@@ -120,7 +129,7 @@ class ConesInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="type
     data : str
         Path of the arrays, relative to the scene file: a .npz file with the arrays start, end
         and, where they are not keys of this object, radius, radius_end, color and lambert;
-        color_end may be in neither.
+        color_end and opacity may be in neither.
     radius : float, optional
         Radius of all cones at their starts, in scene units; it may stand in the file of arrays.
     radius_end : float, optional
@@ -132,6 +141,9 @@ class ConesInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="type
         Colour of the halves at end; it may stand in the file of arrays, or be left out.
     lambert : float, optional
         Share of the light that the surfaces scatter; it may stand in the file of arrays.
+    opacity : float, optional
+        Share of the light that they take on its way through; it may stand in the file of arrays,
+        and is 1 if left out.
     """
 
     data: NpzPath
@@ -140,6 +152,7 @@ class ConesInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="type
     color: Color | UnsetType = UNSET
     color_end: Color | UnsetType = UNSET
     lambert: Fraction | UnsetType = UNSET
+    opacity: Fraction | UnsetType = UNSET
 
     MADE = Cones
     ONE = Cone
@@ -247,9 +260,12 @@ or CopiesInFile
         The objects; may be empty.
     render : RenderSettings, optional
         How the picture is taken.
+    style : Style, optional
+        How the picture is drawn, beside its light.
     """
 
     camera: Camera
     lights: list[LightInFile]
     objects: list[ObjectInFile]
     render: RenderSettings | UnsetType = UNSET
+    style: Style | UnsetType = UNSET

@@ -17,8 +17,10 @@ from vtray.scene.default_light import lights_of
 from vtray.scene.files.in_file import HOLDERS_IN_FILE, HolderInFile, SceneInFile
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_image import SkyImage
+from vtray.scene.style import Style
 from vtray.scene.vectors import Color
 from vtray.scene.written_lights import as_written
+from vtray.scene.written_objects import object_as_written
 
 if TYPE_CHECKING:
     from vtray.scene.scene import Scene
@@ -32,7 +34,7 @@ def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
     def in_file(item: Any) -> Any:  # noqa: ANN401
         """Return what stands of an object in the scene file; keep the arrays for other files."""
         if not isinstance(item, ArrayHolder):
-            return item
+            return object_as_written(item)
         shared: dict[str, Any] = {}
         if isinstance(item, Copies):
             shared["objects"] = [in_file(part) for part in item.objects]
@@ -53,6 +55,8 @@ def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
     found = SceneInFile(scene.camera, lights, objects)
     if scene.render != RenderSettings():
         found.render = scene.render
+    if scene.style != Style():
+        found.style = scene.style
     data = msgspec.json.format(_encode(found, target), indent=2) + b"\n"
 
     def write(file: BinaryIO) -> None:

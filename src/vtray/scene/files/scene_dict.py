@@ -19,6 +19,7 @@ from vtray.scene.objects import ARRAY_KINDS, Object
 from vtray.scene.scene import Scene
 from vtray.scene.sky_image import sky_image
 from vtray.scene.written_lights import as_written
+from vtray.scene.written_objects import object_as_written
 
 # Stands in the text for objects whose arrays stand in the dictionary.
 _PLACEHOLDER = msgspec.Raw(
@@ -120,8 +121,9 @@ def to_dict(scene: Scene) -> dict[str, Any]:
         "lights": [_light_to_dict(light) for light in lights_of(scene)],
         "objects": [_object_to_dict(item) for item in scene.objects],
     }
-    settings = msgspec.to_builtins(scene.render)
-    return {**data, "render": settings} if settings else data
+    more = {"render": scene.render, "style": scene.style}
+    told = {key: msgspec.to_builtins(value) for key, value in more.items()}
+    return {**data, **{key: value for key, value in told.items() if value}}
 
 
 def _light_to_dict(light: AnyLight) -> dict[str, Any]:
@@ -137,7 +139,7 @@ def _object_to_dict(item: Object) -> dict[str, Any]:
         objects = [_object_to_dict(part) for part in item.objects]
         return {"type": item.__struct_config__.tag, "objects": objects, "at": item.at}
     if not isinstance(item, Arrays):
-        plain: dict[str, Any] = msgspec.to_builtins(item)
+        plain: dict[str, Any] = msgspec.to_builtins(object_as_written(item))
         return plain
     values: dict[str, Any] = {"type": item.__struct_config__.tag}
     for key, column in item.COLUMNS.items():

@@ -24,6 +24,7 @@ from vtray.scene.light_types import AnyLight
 from vtray.scene.objects import Object
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
+from vtray.scene.style import Style
 from vtray.scene.vectors import Color, Direction, Vector
 
 Warn = Callable[[str], None]
@@ -36,6 +37,7 @@ class _Found(msgspec.Struct):
     lights: msgspec.Raw
     objects: list[ObjectInFile]
     render: RenderSettings | UnsetType = UNSET
+    style: Style | UnsetType = UNSET
 
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
@@ -136,7 +138,7 @@ def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
         _explain(raw, name, warn)
         # The slow look should have raised; if it saw nothing, msgspec's own words have to do.
         raise SceneError(f"{name}: {error}") from None
-    keys, in_files = _count_keys(found.objects)
+    keys, in_files = _count_keys(found.objects, may_be_faded=b'"opacity"' in raw)
     others = raw.count(b":") - _count_others(found) - keys
     # A colon of a path that is written as an escape is not in the file, and one inside any other
     # string is that of an unknown key or its value.
@@ -148,7 +150,8 @@ def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
     if in_files:
         objects = _read_arrays(found, name, folder, warn)
     made = _read_skies(lights, name, folder)
-    parts: dict[str, object] = {} if found.render is UNSET else {"render": found.render}
+    parts = {"render": found.render, "style": found.style}
+    parts = {key: value for key, value in parts.items() if value is not UNSET}
     scene: Scene = make_unchecked(Scene, camera=found.camera, lights=made, objects=objects, **parts)
     return scene
 
@@ -174,23 +177,31 @@ _KEYS_ONCE = 3 + 5 + _keys(Vector, Direction)
 
 
 def _keys_within(cls: type[msgspec.Struct]) -> int:
-    """Count the keys of an object of a file and of what it holds, its tag included."""
+    """Count the keys that an object of a file must have, and of what it holds, its tag included."""
     parts = [kind for kind in cls.__annotations__.values() if isinstance(kind, msgspec.StructMeta)]
-    return _keys(cls, *parts)
+    return _keys(cls, *parts) - len(cls.__struct_defaults__)
 
 
 # Those of other kinds are counted one by one, as most are optional.
 _KEYS_OF = {kind: _keys_within(kind) for kind in KINDS if not issubclass(kind, HolderInFile)}
 
 
-def _count_keys(objects: Sequence[Any]) -> tuple[int, bool]:
+def _count_keys(objects: Sequence[Any], *, may_be_faded: bool = True) -> tuple[int, bool]:
     """Count the colons of objects of a file, and tell whether any may name a file."""
     kinds = Counter(map(type, objects))
     keys = sum(_KEYS_OF.get(kind, 0) * count for kind, count in kinds.items())
+    if may_be_faded:
+        keys += sum(_count_optional(item) for item in objects if type(item) in _KEYS_OF)
     in_files = any(issubclass(kind, HolderInFile) for kind in kinds)
     if in_files:
         keys += sum(_count_colons(item) for item in objects if isinstance(item, HolderInFile))
     return keys, in_files
+
+
+def _count_optional(item: Any) -> int:  # noqa: ANN401
+    """Count the optional keys of a single object; one that is given with its default is not."""
+    is_faded: bool = item.opacity != 1.0
+    return int(is_faded)
 
 
 def _count_others(found: _Found) -> int:
@@ -201,15 +212,16 @@ def _count_others(found: _Found) -> int:
     """
     camera = found.camera
     keys = (camera.projection != "perspective") + (camera.up is not None) * (1 + _keys(Direction))
-    if found.render is not UNSET:
-        keys += 1 + _colons_in(msgspec.to_builtins(found.render))
+    for value in (found.render, found.style):
+        if value is not UNSET:
+            keys += 1 + _colons_in(msgspec.to_builtins(value))
     return _KEYS_ONCE + keys
 
 
 def _count_colons(item: msgspec.Struct) -> int:
     """Count the colons of an object of a file: those of its keys, and of a path."""
     if type(item) in _KEYS_OF:
-        return _KEYS_OF[type(item)]
+        return _KEYS_OF[type(item)] + _count_optional(item)
     values = [getattr(item, key) for key in item.__struct_fields__]
     tag = 1
     return tag + sum(1 + _count_within(value) for value in values if value is not UNSET)

@@ -13,6 +13,7 @@ from typing import Any
 import msgspec
 
 from vtray.scene.camera import Camera
+from vtray.scene.clip import ClipPlane, Slice
 from vtray.scene.files.in_file import (
     ARRAYS_IN_FILE,
     KINDS,
@@ -24,6 +25,7 @@ from vtray.scene.files.in_file import (
 from vtray.scene.light_types import Ambient, Lamp, Light
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient
+from vtray.scene.style import EyeDome, Fog, Outline, Style
 from vtray.scene.vectors import Color, Direction, Vector
 
 _FIELD = re.compile(r"^(\w+(?:, \w+)*) : .*\n((?:    .+\n?)+)", re.MULTILINE)
@@ -38,7 +40,8 @@ def scene_schema() -> dict[str, Any]:
         A schema of draft 2020-12. It checks all that a schema can; that a key is given only
         once, for instance, it cannot.
     """
-    values = (RenderSettings, Gradient, Vector, Direction, Color)
+    style = (Style, Outline, Fog, EyeDome, ClipPlane, Slice)
+    values = (RenderSettings, *style, Gradient, Vector, Direction, Color)
     lights: tuple[type[msgspec.Struct], ...] = typing.get_args(LightInFile)
     classes: list[type[msgspec.Struct]] = [SceneInFile, Camera, *lights, *KINDS, *values]
     (_, parts) = msgspec.json.schema_components(classes, ref_template="#/$defs/{name}")
@@ -50,7 +53,8 @@ def scene_schema() -> dict[str, Any]:
     }
     for kind in ARRAYS_IN_FILE:
         if kind.ALONE:  # a file of one array has nothing else
-            _, *keys = kind.__struct_fields__
+            columns = kind.MADE.COLUMNS
+            keys = [k for k in kind.__struct_fields__ if k in columns and not columns[k].stand_in]
             parts[kind.__name__] |= {
                 "if": {"properties": {"data": {"pattern": r"\.npy$"}}},
                 "then": {"required": keys},
@@ -72,6 +76,8 @@ def scene_schema() -> dict[str, Any]:
     # A light need not say that it is a point, and so has nothing that always tells its type.
     parts[Light.__name__]["required"].remove("type")
     del scene["properties"]["lights"]["items"]["discriminator"]
+    # JSON has no tuples.
+    parts[Style.__name__]["properties"]["clip"]["default"] = []
     # JSON has no infinity.
     del parts[Ambient.__name__]["properties"]["distance"]["default"]
     return {

@@ -44,8 +44,10 @@ class AddingParticles:
         clim: tuple[float, float] | None = None,
         norm: "Norm | None" = None,
         nan_color: "AnyColor" = "gray",
+        categories: Sequence[Any] | None = None,
         select: "str | NDArray[np.bool_] | None" = None,
         highlight: "str | NDArray[np.bool_] | None" = None,
+        opacity: "str | ArrayLike | None" = None,
         background: "AnyColor | None" = None,
         bonds: "bool | float | Literal['file'] | ArrayLike | None" = None,
         bond_radius: float | None = None,
@@ -97,11 +99,19 @@ class AddingParticles:
             the middle, and the limit that is farther from it counts for both sides.
         nan_color
             The colour of values that are NaN.
+        categories
+            Names or integers that get a colour each, in their order, so that they have the same in
+            several pictures; others get one by their names. By default those that there are,
+            sorted.
         select
             What is drawn: an expression such as ``"element == 'O' and z > 3"``, or an array (n,) of
             bool.
         highlight
             What keeps its colour, in the same ways; all others come near `background`.
+        opacity
+            Share of the light that particles take on its way through, from 0 to 1: a number, one
+            for each, (n,), or the name of a column. With `highlight`, of all others, which then
+            keep their colours. Balls and bonds of one opacity are one body, without walls inside.
         background
             The colour that they come near; by default white, and black for points that shine.
         bonds
@@ -179,9 +189,11 @@ class AddingParticles:
                 "clim": clim,
                 "norm": norm,
                 "nan_color": nan_color,
+                "categories": categories,
             },
             select=select,
             highlight=highlight,
+            opacity=opacity,
             background=background,
             bonds=bonds,
             bond_radius=bond_radius,

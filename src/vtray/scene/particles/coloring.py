@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from blake3 import blake3
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
@@ -57,11 +58,14 @@ class Coloring(NamedTuple):
         How values became colours, if they did.
     legend
         What colours stand for, if they are of elements or categories: names and colours.
+    categories
+        Those that there are, in the order of their colours, if these are of categories.
     """
 
     colors: Bytes
     scale: ColorScale | None = None
     legend: Sequence[tuple[str, Rgb]] = ()
+    categories: Sequence[Any] | None = None
 
 
 def color_particles(
@@ -74,6 +78,7 @@ def color_particles(
     clim: object = None,
     norm: "Norm | None" = None,
     nan_color: "AnyColor" = "gray",
+    categories: Sequence[Any] | None = None,
 ) -> Coloring:
     """Return the colours of some particles.
 
@@ -83,7 +88,7 @@ def color_particles(
         All particles.
     rows
         Which of them are drawn, (n,).
-    color, colors, cmap, clim, norm, nan_color
+    color, colors, cmap, clim, norm, nan_color, categories
         As for `Scene.add_particles`.
 
     Raises
@@ -102,7 +107,7 @@ def color_particles(
         if color == "element" and color in particles.columns and cmap is None:
             return _of_elements(particles["element"][rows], colors)
         if color in particles.columns or color in POSITION:
-            return _of_column(color, particles[color], rows, scaled)
+            return _of_column(color, particles[color], rows, scaled, categories)
         return Coloring(np.array(_one(color, particles), np.uint8))
     return _of_values(color, len(particles), rows, scaled)
 
@@ -134,32 +139,64 @@ def _of_elements(symbols: NDArray[Any], colors: str) -> Coloring:
     return Coloring(table[numbers], None, legend)
 
 
-def _of_column(name: str, values: NDArray[Any], rows: Integers, scaled: dict[str, Any]) -> Coloring:
+def _of_column(
+    name: str,
+    values: NDArray[Any],
+    rows: Integers,
+    scaled: dict[str, Any],
+    categories: Sequence[Any] | None,
+) -> Coloring:
     """Return the colours of what a column holds."""
     if name == "color" and values.ndim == 2:
         return _of_values(values, len(values), rows, scaled)
     if values.ndim == 2:
         values = _lengths(values, name)
     is_text = values.dtype.kind in "OUST"
-    few = values.dtype.kind in "iub" and len(np.unique(values)) <= len(PALETTE)
+    few = values.dtype.kind in "iub" and (
+        categories is not None or len(np.unique(values)) <= len(PALETTE)
+    )
     if scaled["cmap"] is None and scaled["clim"] is None and (is_text or few):
-        return _of_categories(values, rows)
+        return _of_categories(values, rows, categories)
     if is_text:
         words = f"column {show(name)} holds names, which no colour map is for"
         raise SceneError(f"color: {words}; leave cmap and clim out")
     return _of_values(values, len(values), rows, scaled)
 
 
-def _of_categories(values: NDArray[Any], rows: Integers) -> Coloring:
+def _of_categories(values: NDArray[Any], rows: Integers, known: Sequence[Any] | None) -> Coloring:
     """Return colours of which each stands for one value; with many values, they come again."""
-    kinds, which = np.unique(
+    found, which = np.unique(
         values.astype(str) if values.dtype.kind == "O" else values, return_inverse=True
     )
-    palette = np.array([to_rgb(color, "") for color in PALETTE], np.uint8)
-    table = palette[np.arange(len(kinds)) % len(palette)]
+    kinds = found.tolist()
+    palette = [to_rgb(color, "") for color in PALETTE]
+    places = _places(kinds, kinds if known is None else known)
+    table = np.array([palette[place] for place in places], np.uint8).reshape(-1, 3)
     drawn = which[rows]
-    legend = [(str(kinds[k]), _rgb(table[k])) for k in np.unique(drawn)]
-    return Coloring(table[drawn], None, legend)
+    named = dict(zip(kinds, (_rgb(row) for row in table), strict=True))
+    shown = {kinds[k] for k in np.unique(drawn)}
+    legend = [(str(kind), named[kind]) for kind in kinds if kind in shown]
+    if known is not None:
+        listed = [(str(kind), palette[k % len(palette)]) for k, kind in enumerate(known)]
+        legend = listed + [(name, color) for name, color in legend if name not in dict(listed)]
+    return Coloring(table[drawn], None, legend, kinds if known is None else known)
+
+
+def _places(kinds: Sequence[Any], known: Sequence[Any]) -> list[int]:
+    """Return the places of categories in the palette.
+
+    One that is not known has a place by its name alone, among those that are free, if some are: so
+    it has the same colour wherever it is met.
+    """
+    size = len(PALETTE)
+    first = len(known) if len(known) < size else 0
+    place_of = {str(kind): k % size for k, kind in enumerate(known)}
+    return [
+        place_of[str(kind)]
+        if str(kind) in place_of
+        else first + int.from_bytes(blake3(str(kind).encode()).digest(8), "little") % (size - first)
+        for kind in kinds
+    ]
 
 
 def _of_values(given: Any, count: int, rows: Integers, scaled: dict[str, Any]) -> Coloring:  # noqa: ANN401

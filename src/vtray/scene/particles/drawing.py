@@ -26,6 +26,7 @@ from vtray.scene.particles.from_objects import as_particles
 from vtray.scene.particles.hydrogen_bonds import criterion_of, dashes, find_hydrogen_bonds
 from vtray.scene.particles.lattice import columns_of, lattice_of
 from vtray.scene.particles.made_of import MadeOf, remember, written_out
+from vtray.scene.particles.opacity import opacities, see_through
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.shining import check_shining, shining
 from vtray.scene.particles.styles import (
@@ -86,7 +87,7 @@ class Drawn:
     copies : Copies or None
         What stands at all places of a cell that is shown several times, with `spheres`, `bonds`
         and `hydrogen_bonds`, which are then not among the objects of the scene themselves. None
-        where these are so few that they hold all cells, one after the other.
+        where these are so few that they hold all cells, one after the other, and opaque.
     stars : Stars or None
         The particles, those of all cells that are shown, if they shine.
     color_scale : ColorScale or None
@@ -98,6 +99,9 @@ class Drawn:
         Which of the particles were drawn.
     style : str
         The style.
+    categories : sequence or None
+        The names or integers that have a colour each, in the order of the palette, if such were
+        coloured.
     """
 
     spheres: Spheres
@@ -110,6 +114,7 @@ class Drawn:
     legend: "list[tuple[str, Rgb]]"
     indices: Integers
     style: str
+    categories: Sequence[Any] | None = None
 
 
 class _Placed(NamedTuple):
@@ -146,6 +151,14 @@ class _Solid(NamedTuple):
         """Those that there are."""
         return [part for part in self if part is not None]
 
+    def see_through(self, opacity: Floats) -> "_Solid":
+        """Return the same as opaque as the particles are, (n,)."""
+        spheres, *others = self
+        bonds, hydrogen_bonds = (
+            None if part is None else see_through(part, opacity) for part in others
+        )
+        return _Solid(see_through(spheres, opacity), bonds, hydrogen_bonds)
+
     def written_out(self, places: Floats) -> "_Solid":
         """Return the same at several places, one after the other."""
         spheres, *others = self
@@ -165,6 +178,7 @@ def draw(
     coloring: Mapping[str, Any],
     select: Any,  # noqa: ANN401
     highlight: Any,  # noqa: ANN401
+    opacity: Any,  # noqa: ANN401
     background: "AnyColor | None",
     bonds: Any,  # noqa: ANN401
     bond_radius: float | None,
@@ -181,6 +195,8 @@ def draw(
     particles = as_particles(given)
     size = _number(scale, "scale", *SCALES)
     shines = emission is not None
+    if shines and opacity is not None:
+        raise SceneError("opacity: expected None with emission, as what shines hides nothing")
     if shines:
         coloring = check_shining(style, coloring, radii=radii, bonds=bonds, hydrogen=hydrogen_bonds)
     name = "points" if shines else style_of(style, particles, bonds)
@@ -190,10 +206,11 @@ def draw(
     pairs = None if wanted is None else find_hydrogen_bonds(particles, wanted)
     placed = _place(particles, name, rows, bonds, pairs, times, wrap=wrap, unwrap=unwrap)
     found = color_particles(particles, rows, **coloring)
-    if highlight is not None:
-        kept = chosen(particles, highlight, "highlight")[rows]
+    kept = None if highlight is None else chosen(particles, highlight, "highlight")
+    if kept is not None and opacity is None:
         behind = background or ("black" if shines else "white")
-        found = found._replace(colors=faded(found.colors, kept, behind))
+        found = found._replace(colors=faded(found.colors, kept[rows], behind))
+    seen_through = None if opacity is None else opacities(particles, opacity, kept)
     if shines:
         positions, places = placed.positions[rows], placed.places
         stars = shining(particles, rows, positions, places, emission, found, stretched)
@@ -205,18 +222,23 @@ def draw(
         solid = _solid(
             particles, placed, found, name, radii, size, bond_radius, camera or scene.camera
         )
+        if seen_through is not None:
+            solid = solid.see_through(seen_through)
         copies = None
         if 1 < len(placed.places) <= WRITTEN_OUT // max(sum(map(len, solid.parts)), 1):
             solid = solid.written_out(placed.places)
         elif len(placed.places) > 1:
             copies = Copies(solid.parts, placed.places)
+        if copies is None and seen_through is not None and len(solid.parts) > 1:
+            # One object, so that balls and bonds are one body.
+            copies = Copies(solid.parts, np.zeros((1, 3)))
         scene.objects.extend(solid.parts if copies is None else [copies])
     edges = None
     if cell if cell is not None else particles.cell is not None and not shines:
         edges = _edges(particles, times)
         scene.objects.extend(edges)
     legend = list(found.legend)
-    return Drawn(*solid, edges, copies, stars, found.scale, legend, rows, name)
+    return Drawn(*solid, edges, copies, stars, found.scale, legend, rows, name, found.categories)
 
 
 def _solid(

@@ -113,6 +113,10 @@ class Particles:
         for name, value in found.items():
             object.__setattr__(self, name, value)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        values = {**vars(self), "columns": dict(self.columns)}
+        return type(self), tuple(values[name] for name in self.__dataclass_fields__)
+
     def __len__(self) -> int:
         return len(self.positions)
 

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
     AnyPath = str | os.PathLike[str]
 
+_SLOW = ("ase_file",)
+"""The readers that pass over a frame by reading it."""
+
 _BY_NAME = ("table_file", "ply_file")
 """The readers that find the places by the names of their columns."""
 
@@ -119,8 +122,23 @@ def read_frames(
     >>> for particles in vtray.read_frames("run.xyz", "::10"):  # doctest: +SKIP
     ...     print(particles.frame, len(particles))
     """
-    name = os.fsdecode(path)
     wanted = iter(numbers_of(path, frames, format=format, columns=columns, trajectory=trajectory))
+    yield from read_numbers(path, wanted, format=format, columns=columns, trajectory=trajectory)
+
+
+def read_numbers(
+    path: "AnyPath",
+    wanted: Iterator[int],
+    *,
+    format: str | None = None,  # noqa: A002
+    columns: Mapping[str, str] | None = None,
+    trajectory: "AnyPath | None" = None,
+) -> Iterator[Particles]:
+    """Read frames by their numbers from 0, each of which is asked for when the last is read.
+
+    The other arguments, and what is given, are those of `read_frames`.
+    """
+    name = os.fsdecode(path)
     number = next(wanted, None)
     while number is not None:
         with _explained(name), _opened(path, format, columns, trajectory) as (module, given):
@@ -129,8 +147,7 @@ def read_frames(
                 if number is None or number <= last:
                     break
                 if at == number:
-                    found = _finished(step(), given, path)
-                    yield found
+                    yield _finished(step(), given, path)
                     last, number = number, next(wanted, None)
             else:
                 if number is not None and number > last:
@@ -153,6 +170,19 @@ def numbers_of(
 
     with _explained(os.fsdecode(path)):
         return which_frames(frames, count)
+
+
+def is_slow(
+    path: "AnyPath",
+    *,
+    format: str | None = None,  # noqa: A002
+    columns: Mapping[str, str] | None = None,  # noqa: ARG001
+    trajectory: "AnyPath | None" = None,
+) -> bool:
+    """Tell whether a frame is only passed over by reading it; the arguments are those of `read`."""
+    with _explained(os.fsdecode(path)):
+        _, reader = reader_of(os.fsdecode(path), format if trajectory is None else "mdanalysis")
+    return reader.module in _SLOW
 
 
 def _steps(module: Any, given: Given) -> Steps:  # noqa: ANN401

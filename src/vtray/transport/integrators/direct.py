@@ -4,28 +4,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
+from vtray.geometry.packets.layer_notes import AT_ONCE
 from vtray.geometry.packets.nearest import find_mixed
 from vtray.geometry.packets.occlusion import find_close_planes
 from vtray.geometry.packets.packet import (
     BLOCK,
-    COLUMN,
-    DIRECTION,
-    FORWARD,
     LANES,
-    ORIGIN,
     PART,
-    ROW,
     Block,
     Packet,
-    load,
-    start_apart,
-    store,
 )
 from vtray.geometry.packets.search import find_nearest
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import has_width
-from vtray.geometry.vector import dot
-from vtray.transport.camera_rays import CameraFrame, camera_ray, sheaf_of
+from vtray.geometry.world import Faded
+from vtray.transport.camera_rays import cast_rays, sheaf_of
 from vtray.transport.film import (
     Film,
     Rows,
@@ -35,7 +28,19 @@ from vtray.transport.film import (
     write_middles,
     write_pixels,
 )
+from vtray.transport.fog import veil
 from vtray.transport.integrators.lamps import mix_lamps, see_lamps
+from vtray.transport.integrators.layered import (
+    begin_layers,
+    choose_surfaces,
+    end_layers,
+    gather_light,
+    list_lanes,
+    mix_faded,
+    see_all,
+    take_round,
+    weigh_colors,
+)
 from vtray.transport.integrators.points import add_points
 from vtray.transport.integrators.soft import add_soft_lights, clear_noise
 from vtray.transport.integrators.soft_shared import add_shared_light
@@ -48,6 +53,7 @@ from vtray.transport.sampling.adaptive import (
     find_patches,
     leave_mixed,
     mix_uneven,
+    note_seen,
 )
 from vtray.transport.sampling.fans import Fans
 from vtray.transport.sampling.pixel_samples import Sampling, list_pixels, place_samples
@@ -129,44 +135,39 @@ def _trace_pixels(
     for first in range(0, sampling.rays, LANES):
         last = min(first + LANES, sampling.rays)
         lanes = place_samples(packet, block, begin, end, sampling, first, last, work.pixels)
-        hits = _find_surfaces(packet, lanes, scene, sampling, film.linear, film.mixed, work)
-        keep_rays(packet, block, begin, end, first, last, work.pixels, film.kept)
-        if hits > 0:
-            rays += _add_points(
-                scene,
-                scene.lights.points,
-                hits,
-                film.linear,
-                _is_wide(sampling, film.mixed),
-                film.kept,
-                packet,
-                work,
-                stop,
-            )
-            rays += _add_soft_lights(
-                scene,
-                scene.lights.soft,
-                scene.lights.crowd,
-                sampling,
-                sampling.fans,
-                block,
-                begin,
-                first,
-                last,
-                hits,
-                film.linear,
-                film.error,
-                _is_wide(sampling, film.mixed),
-                film.kept,
-                packet,
-                work,
-            )
-            _mix_hits(packet, hits, _is_wide(sampling, film.mixed))
-        rays += lanes
+        _meet(packet, lanes, scene, scene.world.faded, sampling, film.linear, film.mixed, work)
+        hits, cast = _light_lanes(
+            packet,
+            lanes,
+            scene,
+            scene.world.faded,
+            sampling,
+            block,
+            begin,
+            end,
+            first,
+            last,
+            film,
+            film.linear,
+            work,
+            stop,
+        )
+        rays += lanes + cast
         if sampling.rays > 1:
-            add_samples(packet, lanes, hits, last - first, work.sums, film.coverage)
+            add_samples(
+                packet,
+                lanes,
+                hits,
+                last - first,
+                work.sums,
+                film.coverage,
+                scene.fog,
+                scene.world.faded,
+            )
         else:
-            peak = write_middles(packet, block, begin, end, hits, work.pixels, film)
+            peak = write_middles(
+                packet, block, begin, end, hits, work.pixels, film, scene.fog, scene.world.faded
+            )
     if sampling.rays > 1:
         peak = write_pixels(
             block,
@@ -177,6 +178,7 @@ def _trace_pixels(
             sampling.rays,
             film.linear,
             film.coverage,
+            film.fog,
             film.error,
         )
     return peak, rays
@@ -197,33 +199,128 @@ def _mix_hits(packet: Packet, hits: int, is_wide: bool | None) -> None:
 
 
 @device
-def _find_surfaces(
+def _meet(
     packet: Packet,
     lanes: int,
     scene: SceneArrays,
+    faded: Faded | None,
     sampling: Sampling,
     linear: Rows,
     mixed: Rows,
     work: Workspace,
-) -> int:
-    """Cast the rays of a packet, and bring what they hit together; return how many hits."""
+) -> None:
+    """Cast the rays of a packet, and find what they meet first."""
     whole = (lanes + PART - 1) // PART * PART
     sheaf = sheaf_of(scene.camera)
-    _cast_rays(packet, whole, scene.camera)
+    cast_rays(packet, whole, scene.camera)
     part = PART if sampling.rays == 1 else LANES
     find_nearest(packet, whole, part, sheaf, sampling.footprint, scene.world, work)
     lights, footprint = scene.lights, sampling.footprint
     see_lamps(packet, whole, sheaf, lights, lights.visible, linear)
-    if mixed is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+    # Arguments that are None are known to the compiler, which drops what depends on that alone.
+    if faded is not None:  # noqa: SIM102
+        if linear is None:
+            choose_surfaces(packet, lanes, sheaf, scene.world, faded, work)
+    if mixed is not None:
+        note_seen(packet, lanes)
         if has_width(footprint):
             find_mixed(packet, lanes)
             mix_lamps(packet, lanes, sheaf, footprint, lights.visible)
+            mix_faded(packet, lanes, sheaf, footprint, scene.world, faded, work)
             leave_mixed(packet, lanes)
+
+
+@device
+def _light_lanes(
+    packet: Packet,
+    lanes: int,
+    scene: SceneArrays,
+    faded: Faded | None,
+    sampling: Sampling,
+    block: Block,
+    begin: int,
+    end: int,
+    first: int,
+    last: int,
+    film: Film,
+    linear: Rows,
+    work: Workspace,
+    stop: NDArray[np.bool_],
+) -> tuple[int, int]:
+    """Find the light of all lanes; return how many hits have it, and how many rays that took."""
+    if faded is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if linear is not None:
+            if not has_width(sampling.footprint):
+                return _light_layers(
+                    packet,
+                    lanes,
+                    scene,
+                    faded,
+                    sampling,
+                    block,
+                    begin,
+                    first,
+                    last,
+                    film,
+                    work,
+                    stop,
+                )
+            see_all(packet, lanes)
+    hits = _gather(packet, lanes, scene, sampling, film.mixed, work)
+    keep_rays(packet, block, begin, end, first, last, work.pixels, film.kept, scene.fog)
+    cast = _light_hits(packet, hits, scene, sampling, block, begin, first, last, film, work, stop)
+    veil(packet, lanes, hits, film.linear, film.error, scene.fog)
+    return hits, cast
+
+
+@device
+def _light_layers(
+    packet: Packet,
+    lanes: int,
+    scene: SceneArrays,
+    faded: Faded,
+    sampling: Sampling,
+    block: Block,
+    begin: int,
+    first: int,
+    last: int,
+    film: Film,
+    work: Workspace,
+    stop: NDArray[np.bool_],
+) -> tuple[int, int]:
+    """Find the light of all lanes layer by layer; the result is that of `_light_lanes`."""
+    sheaf, cast, skipped, rounds = sheaf_of(scene.camera), 0, 0, 1
+    begin_layers(packet, lanes)
+    while rounds > 0 and not stop[0]:
+        rounds = list_lanes(packet, lanes, skipped, sheaf, scene.world, faded, work)
+        for k in range(rounds):
+            take_round(packet, lanes, skipped, k, work.layers, scene.fog)
+            hits = _gather(packet, lanes, scene, sampling, film.mixed, work)
+            weigh_colors(packet, hits)
+            cast += _light_hits(
+                packet, hits, scene, sampling, block, begin, first, last, film, work, stop
+            )
+            gather_light(packet, hits)
+        skipped += AT_ONCE
+    return end_layers(packet, lanes, work.layers), cast
+
+
+@device
+def _gather(
+    packet: Packet,
+    lanes: int,
+    scene: SceneArrays,
+    sampling: Sampling,
+    mixed: Rows,
+    work: Workspace,
+) -> int:
+    """Bring what the rays of a packet hit together; return how many hits."""
+    footprint = sampling.footprint
     hits = gather_interactions(
         packet,
         lanes,
         sampling.rays,
-        sheaf,
+        sheaf_of(scene.camera),
         footprint,
         scene.world,
         scene.materials,
@@ -235,6 +332,49 @@ def _find_surfaces(
             find_patches(packet, hits, footprint, sampling.thickest)
             find_close_planes(packet, hits, scene.world, work)
     return hits
+
+
+@device
+def _light_hits(
+    packet: Packet,
+    hits: int,
+    scene: SceneArrays,
+    sampling: Sampling,
+    block: Block,
+    begin: int,
+    first: int,
+    last: int,
+    film: Film,
+    work: Workspace,
+    stop: NDArray[np.bool_],
+) -> int:
+    """Add all lights to the hits of a packet; return how many shadow rays were cast."""
+    if hits == 0:
+        return 0
+    is_wide = _is_wide(sampling, film.mixed)
+    cast = _add_points(
+        scene, scene.lights.points, hits, film.linear, is_wide, film.kept, packet, work, stop
+    )
+    cast += _add_soft_lights(
+        scene,
+        scene.lights.soft,
+        scene.lights.crowd,
+        sampling,
+        sampling.fans,
+        block,
+        begin,
+        first,
+        last,
+        hits,
+        film.linear,
+        film.error,
+        is_wide,
+        film.kept,
+        packet,
+        work,
+    )
+    _mix_hits(packet, hits, is_wide)
+    return cast
 
 
 @device
@@ -318,17 +458,3 @@ def _add_soft_lights(
     if error is not None:
         clear_noise(packet, hits)
     return 0
-
-
-@device
-def _cast_rays(packet: Packet, lanes: int, camera: CameraFrame) -> None:
-    """Set each lane's ray."""
-    apart = start_apart(sheaf_of(camera))
-    for lane in range(lanes):
-        ray = camera_ray(camera, packet[COLUMN + lane], packet[ROW + lane])
-        if apart:
-            store(packet, ORIGIN, lane, ray.origin)
-        store(packet, DIRECTION, lane, ray.direction)
-    # A loop of its own: the compiler vectorises both then.
-    for lane in range(lanes):
-        packet[FORWARD + lane] = dot(load(packet, DIRECTION, lane), camera.forward)

@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, part
+from vtray.geometry.faded.dimming import dim_points
 from vtray.geometry.packets.occlusion import Target, bound_points, find_sides, own_sphere
 from vtray.geometry.packets.packet import Packet
 from vtray.geometry.packets.patch import judge_patches
@@ -57,6 +58,7 @@ def add_points(
         facing = find_facing(packet, hits, bounds, target)
         if facing > 0:
             if find_blocked(packet, hits, bounds, own, world, target, work):
+                dim_points(packet, hits, world, target, is_wide, work)
                 add_light(packet, hits, target, load_power(lit.powers, light))
             _judge_patches(packet, hits, is_wide)
             keep_cosines(packet, hits, target, light, cosines)

@@ -10,14 +10,16 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
 from vtray.geometry.between import first_between
+from vtray.geometry.faded.dimming import blocked_share
 from vtray.geometry.packets.cone import Touching
 from vtray.geometry.packets.fan import BLOCKED, Fan, Start, fan_segment
+from vtray.geometry.packets.layer_notes import Walk
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import Shared
-from vtray.geometry.queries import NOTHING, nearest_hit
+from vtray.geometry.queries import NOTHING, Hit, nearest_hit
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
-from vtray.geometry.vector import Vec, add, dot, sub
+from vtray.geometry.vector import Vec, add, dot, scale, sub
 from vtray.transport.camera_rays import camera_ray
 from vtray.transport.integrators.lamps import nearest_lamp
 from vtray.transport.integrators.soft_shared import decide_by_cones
@@ -33,7 +35,7 @@ from vtray.transport.lights.light import (
 )
 from vtray.transport.lights.soft_light import SoftLights, aim_at, component_count, soft_count
 from vtray.transport.materials.lambert import lambert_cosine
-from vtray.transport.materials.material import load_material, scattered
+from vtray.transport.materials.material import Material, load_material, scattered
 from vtray.transport.sampling.estimate import (
     counted_variance,
     needs_more,
@@ -41,7 +43,14 @@ from vtray.transport.sampling.estimate import (
     shares_of,
     with_fan,
 )
-from vtray.transport.sampling.fans import Fans, fan_keys, offset_of, place_of, shared_keys
+from vtray.transport.sampling.fans import (
+    Fans,
+    fan_keys,
+    fans_of_share,
+    offset_of,
+    place_of,
+    shared_keys,
+)
 from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
 from vtray.transport.sampling.shared_estimate import (
     light_of,
@@ -70,6 +79,8 @@ class TracedPixel(NamedTuple):
         Linear red, green and blue.
     lamp
         The row of the lamp that is seen, or ``NOTHING``; then nothing is hit.
+    share
+        How much of the light from there is seen: 1 with nothing before it.
     """
 
     ray: Ray
@@ -78,6 +89,7 @@ class TracedPixel(NamedTuple):
     interaction: Interaction
     value: Vec
     lamp: int
+    share: float
 
 
 @kernel
@@ -88,8 +100,9 @@ def trace_pixel(
     stack: Stack,
     cosines: NDArray[np.float64],
     blockers: NDArray[np.int64],
+    walk: Walk,
 ) -> TracedPixel:
-    """Trace one pixel, with the light of points.
+    """Trace one pixel, with the light of points, as if faded bodies were not seen.
 
     Parameters
     ----------
@@ -97,24 +110,59 @@ def trace_pixel(
         The scene.
     column, row
         The pixel, from the left and from the top.
-    stack
+    stack, walk
         Scratch memory.
     cosines
-        Out: for each point light the cosine at the hit, 0 for a light below the horizon.
+        Out: for each point light the cosine at the hit, 0 for a light below the horizon, times what
+        passes faded bodies.
     blockers
         Out: for each point light the first primitive between hit and light, or ``NOTHING``.
     """
+    return trace_behind(scene, column, row, 1.0, stack, cosines, blockers, walk)
+
+
+@device
+def trace_behind(
+    scene: SceneArrays,
+    column: int,
+    row: int,
+    share: float,
+    stack: Stack,
+    cosines: NDArray[np.float64],
+    blockers: NDArray[np.int64],
+    walk: Walk,
+) -> TracedPixel:
+    """Trace one pixel, of which a share is seen; the parameters are those of `trace_pixel`."""
     ray = camera_ray(scene.camera, column, row)
     hit = nearest_hit(scene.world, ray, stack)
     value = (0.0, 0.0, 0.0)
-    nowhere = Interaction(ray.origin, ray.direction, 0.0, False)
+    nowhere = Interaction(ray.origin, ray.direction, 0.0, 0)
     lamp, distance = nearest_lamp(ray, hit.distance, scene.lights.visible)
     if lamp != NOTHING:
-        return TracedPixel(ray, distance, NOTHING, nowhere, lamp_light(scene.lights, lamp), lamp)
+        light = scale(share, lamp_light(scene.lights, lamp))
+        return TracedPixel(ray, distance, NOTHING, nowhere, light, lamp, share)
     if hit.primitive == NOTHING:
-        return TracedPixel(ray, hit.distance, hit.primitive, nowhere, value, NOTHING)
-    found = interact(scene.world, ray, hit.distance, hit.group, hit.slot)
-    material = load_material(scene.materials, hit.primitive, found.is_second)
+        return TracedPixel(ray, hit.distance, hit.primitive, nowhere, value, NOTHING, share)
+    return light_hit(scene, ray, hit, share, stack, cosines, blockers, walk)
+
+
+@device
+def light_hit(
+    scene: SceneArrays,
+    ray: Ray,
+    hit: Hit,
+    share: float,
+    stack: Stack,
+    cosines: NDArray[np.float64],
+    blockers: NDArray[np.int64],
+    walk: Walk,
+) -> TracedPixel:
+    """Return what a ray hits with the light of points, of which a share is seen.
+
+    The parameters are those of `trace_pixel`.
+    """
+    found, value = interact(scene.world, ray, hit.distance, hit.group, hit.slot), (0.0, 0.0, 0.0)
+    material = seen_material(scene, hit.primitive, found.half, share)
     plane_depth = dot(found.point, scene.camera.forward)
     for light in range(light_count(scene.lights)):
         target = light_target(scene.lights, light)
@@ -131,9 +179,18 @@ def trace_pixel(
         )
         blockers[light] = first_between(scene.world, segment, stack)
         if blockers[light] == NOTHING:
+            blocked = blocked_share(scene.world, segment, walk, stack)
+            cosines[light] = cosines[light] * (1.0 - blocked) if blocked < 1.0 else 0.0
             power = load_power(scene.lights, light)
             value = add(value, scattered(material, cosines[light], power))
-    return TracedPixel(ray, hit.distance, hit.primitive, found, value, NOTHING)
+    return TracedPixel(ray, hit.distance, hit.primitive, found, value, NOTHING, share)
+
+
+@device
+def seen_material(scene: SceneArrays, primitive: int, half: int, share: float) -> Material:
+    """Return the material of a primitive, whose colour counts as much as is seen of it."""
+    material = load_material(scene.materials, primitive, half)
+    return Material(scale(share, material.color), material.lambert)
 
 
 def _trace_fan(
@@ -149,6 +206,7 @@ def _trace_fan(
     stack: Stack,
     fan: Fan,
     blockers: NDArray[np.int64],
+    walk: Walk,
 ) -> tuple[Vec, float]:
     """Trace the rays of a fan from the hit of a pixel to one soft light, one by one.
 
@@ -164,7 +222,7 @@ def _trace_fan(
         The light, counted among the soft ones.
     fans, number, seed
         Which rays are cast: those of the fan of this number, from 0.
-    stack
+    stack, walk
         Scratch memory.
     fan
         Out: the rays.
@@ -177,6 +235,7 @@ def _trace_fan(
         How much of each component of the light arrives, and the variance of that, as the fan alone
         tells it.
     """
+    fans = fans_of_share(fans, traced.share)
     point, normal, error_scale, _ = traced.interaction
     start = Start(point, dot(point, scene.camera.forward), error_scale)
     aim = aim_at(soft, light, start, normal)
@@ -190,7 +249,10 @@ def _trace_fan(
         if fan[BLOCKED + ray] == 0.0:
             segment = fan_segment(fan, ray, start, end_scale)
             blockers[ray] = first_between(scene.world, segment, stack)
-            fan[BLOCKED + ray] = 0.0 if blockers[ray] == NOTHING else 1.0
+            is_free = blockers[ray] == NOTHING
+            fan[BLOCKED + ray] = (
+                blocked_share(scene.world, segment, walk, stack) if is_free else 1.0
+            )
     return arriving_shares(fan, fans.rays, component_count(soft, light), aim, normal)
 
 
@@ -233,24 +295,25 @@ def trace_lamp(
     stack: Stack,
     fan: Fan,
     blockers: NDArray[np.int64],
+    walk: Walk,
 ) -> TracedLamp:
     """Trace all fans from the hit of a pixel to one soft light.
 
     Parameters
     ----------
-    scene, soft, column, row, light, fans, seed, stack, fan, blockers
+    scene, soft, column, row, light, fans, seed, stack, fan, blockers, walk
         As for `trace_fan`.
     traced
         The pixel, with the light of all lights before this one.
     spent
         What these have of the variance that all may have.
     """
-    material = load_material(scene.materials, traced.primitive, traced.interaction.is_second)
+    material = seen_material(scene, traced.primitive, traced.interaction.half, traced.share)
     worth, estimate = soft_worth(scene.lights, soft, light, material), no_estimate()
     while needs_more(estimate, fans, worth, spent, light, soft_count(soft)):
         number = estimate.fans
         shares, spread = _trace_any_fan(
-            scene, soft, traced, column, row, light, fans, number, seed, stack, fan, blockers
+            scene, soft, traced, column, row, light, fans, number, seed, stack, fan, blockers, walk
         )
         estimate = with_fan(estimate, shares, spread)
     shares, value = shares_of(estimate), traced.value
@@ -275,6 +338,7 @@ def _trace_shared_fan(
     fan: Fan,
     blockers: NDArray[np.int64],
     shared: Shared,
+    walk: Walk,
 ) -> None:
     """Trace the rays of a shared fan from the hit of a pixel, one by one.
 
@@ -282,13 +346,13 @@ def _trace_shared_fan(
     ----------
     scene, soft, crowd
         The scene, and its soft lights.
-    traced, column, row, fans, number, seed, stack, fan, blockers
+    traced, column, row, fans, number, seed, stack, fan, blockers, walk
         As for `trace_fan`.
     shared
         What `trace_crowd` leaves there; out: the light of each ray.
     """
-    point, normal, error_scale, is_second = traced.interaction
-    material = load_material(scene.materials, traced.primitive, is_second)
+    point, normal, error_scale, half = traced.interaction
+    material = seen_material(scene, traced.primitive, half, traced.share)
     start = Start(point, dot(point, scene.camera.forward), error_scale)
     keys, first = shared_keys(column, row, 0, seed), number * fans.rays
     spread_among(
@@ -309,8 +373,12 @@ def _trace_shared_fan(
     for ray in range(fans.rays):
         blockers[ray] = NOTHING
         if fan[BLOCKED + ray] == 0.0:
-            blockers[ray] = first_between(scene.world, fan_segment(fan, ray, start, None), stack)
-            fan[BLOCKED + ray] = 0.0 if blockers[ray] == NOTHING else 1.0
+            segment = fan_segment(fan, ray, start, None)
+            blockers[ray] = first_between(scene.world, segment, stack)
+            is_free = blockers[ray] == NOTHING
+            fan[BLOCKED + ray] = (
+                blocked_share(scene.world, segment, walk, stack) if is_free else 1.0
+            )
 
 
 trace_shared_fan, _trace_any_shared_fan = kernel(_trace_shared_fan), device(_trace_shared_fan)
@@ -347,12 +415,13 @@ def trace_crowd(
     blockers: NDArray[np.int64],
     shared: Shared,
     touching: Touching,
+    walk: Walk,
 ) -> TracedCrowd:
     """Trace all shared fans from the hit of a pixel.
 
     Parameters
     ----------
-    scene, soft, crowd, column, row, fans, seed, stack, fan, blockers
+    scene, soft, crowd, column, row, fans, seed, stack, fan, blockers, walk
         As for `trace_shared_fan`.
     traced
         The pixel, with the light of the points.
@@ -361,8 +430,8 @@ def trace_crowd(
     touching
         Scratch memory.
     """
-    point, normal, error_scale, is_second = traced.interaction
-    material = load_material(scene.materials, traced.primitive, is_second)
+    point, normal, error_scale, half = traced.interaction
+    material = seen_material(scene, traced.primitive, half, traced.share)
     start = Start(point, dot(point, scene.camera.forward), error_scale)
     lit, value, estimate = lit_world(scene), traced.value, no_shared_estimate()
     most = weigh_lights(lit.powers, soft, crowd, start, normal, material, shared.sums)
@@ -390,6 +459,7 @@ def trace_crowd(
             fan,
             blockers,
             shared,
+            walk,
         )
         estimate = with_shared_fan(estimate, pool, fan, fans, shared.brought)
     return TracedCrowd(estimate.fans, add(value, light_of(estimate, fans)))

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, part
+from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
 from vtray.geometry.packets.cone import CLOSED, MANY, find_touching
 from vtray.geometry.packets.fan import Start, count_open
 from vtray.geometry.packets.packet import (
@@ -18,6 +19,7 @@ from vtray.geometry.packets.packet import (
     NORMAL,
     PLANE_DEPTH,
     POINT,
+    SHARE,
     SOURCE,
     UNEVEN,
     VALUE,
@@ -29,6 +31,7 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.workspace import Pixels, Workspace
 from vtray.geometry.stopped import Bundle, stop_by_all, stop_by_touching
 from vtray.geometry.vector import Vec, add
+from vtray.geometry.world import Faded
 from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
 from vtray.transport.lights.light import Powers, load_power, soft_worth
 from vtray.transport.lights.soft_light import (
@@ -52,7 +55,7 @@ from vtray.transport.sampling.estimate import (
     with_fan,
     with_unseen,
 )
-from vtray.transport.sampling.fans import Fans, fan_keys, offset_of, place_of
+from vtray.transport.sampling.fans import Fans, fan_keys, fans_of_share, offset_of, place_of
 from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
 from vtray.transport.scene_arrays import LitWorld
 
@@ -143,6 +146,7 @@ def add_soft_lights(
         lane = packet.view(np.int64)[SOURCE + hit]
         column, row, sample = sample_of(lane, samples, first, block, begin, work.pixels)
         material, spent = Material(load(packet, COLOR, hit), packet[LAMBERT + hit]), 0.0
+        own = fans_of_share(fans, _seen_share(packet, lane, lit.world.faded))
         for light in range(soft_count(soft)):
             if _is_uneven(packet, hit, lit, soft, light, is_wide, work):
                 break
@@ -150,7 +154,7 @@ def add_soft_lights(
             place = place_of(fans.levels, sample, column, row, light, seed)
             worth = soft_worth(lit.powers, soft, light, material)
             arriving = _arriving(
-                packet, hit, lit, soft, light, worth, spent, fans, place, keys, work
+                packet, hit, lit, soft, light, worth, spent, own, place, keys, work
             )
             spent += arriving.counted
             for component in range(component_count(soft, light)):
@@ -160,6 +164,16 @@ def add_soft_lights(
             packet[NOISE + hit] += worth * worth * arriving.variance
             cast += arriving.cast
     return cast
+
+
+@device
+def _seen_share(packet: Packet, lane: int, faded: Faded | None) -> float:
+    """Return how much of the light of the hit of a lane is seen."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if faded is not None:
+        share: float = packet[SHARE + lane]
+        return share
+    return 1.0
 
 
 @device
@@ -183,14 +197,16 @@ def _arriving(
     point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
     start = Start(point, packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
     aim = aim_at(soft, light, start, normal)
-    is_narrow, forward = aim.spread < NARROW, lit.forward
+    is_narrow, is_dimmed, forward = aim.spread < NARROW, True, lit.forward
     touching, count = work.touching, MANY
     if is_below(aim, normal):
         return Arriving(NO_SHARES, 0.0, 0.0, 0, 0)
     if is_narrow and is_cone(aim):
-        count = find_touching(cone_of(aim, start, forward), lit.world, touching, work.stack)
+        cone = cone_of(aim, start, forward)
+        count = find_touching(cone, lit.world, touching, work.stack)
+        is_dimmed = count != CLOSED and may_be_dimmed(cone, lit.world, work.stack)
         # What a cone as a whole tells is what all its rays would.
-        if count == 0 and is_above(aim, normal):
+        if count == 0 and is_above(aim, normal) and not is_dimmed:
             shares = middle_share(aim, normal), 0.0, 0.0
             return Arriving(shares, 0.0, 0.0, fans.rays, fans.rays)
         if count == CLOSED and is_above(aim, normal):
@@ -208,6 +224,8 @@ def _arriving(
             stop_by_touching(bundle, lit.world, touching, count)
         else:
             stop_by_all(bundle, lit.world, work.stack)
+        if is_dimmed:
+            dim_fan(bundle, lit.world, work.walk, work.stack)
         shares, spread = arriving_shares(fan, fans.rays, components, aim, normal)
         estimate = with_fan(estimate, shares, spread)
         arrived += count_open(fan, fans.rays)

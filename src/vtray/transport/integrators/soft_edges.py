@@ -7,6 +7,7 @@ import numpy as np
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bundle import Bundle
 from vtray.geometry.edges import LampView, has_edge
+from vtray.geometry.faded.dimming import is_tube_dimmed
 from vtray.geometry.packets.fan import Start
 from vtray.geometry.packets.packet import (
     BEND,
@@ -59,6 +60,8 @@ def is_lit_unevenly(
         return True
     if height < -tangent:
         return False
+    if is_tube_dimmed(lit.world, start, axis, reach, tangent, length, work.stack):
+        return True
     return has_edge(lit.world, _view(packet, hit, lit.forward, axis, length, tangent), work.stack)
 
 

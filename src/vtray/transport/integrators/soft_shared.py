@@ -3,6 +3,7 @@
 import numpy as np
 
 from vtray.base.compiler.compiled import device, part
+from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
 from vtray.geometry.packets.cone import CLOSED, Touching, find_touching
 from vtray.geometry.packets.fan import Start
 from vtray.geometry.packets.packet import (
@@ -151,7 +152,9 @@ def _light_hit(
             shared,
         )
         longest = longest_of(fan, fans.rays)
-        stop_by_all(Bundle(fan, fans.rays, start, normal, None, longest), lit.world, work.stack)
+        bundle = Bundle(fan, fans.rays, start, normal, None, longest)
+        stop_by_all(bundle, lit.world, work.stack)
+        dim_fan(bundle, lit.world, work.walk, work.stack)
         estimate = with_shared_fan(estimate, pool, fan, fans, shared.brought)
     store(packet, VALUE, hit, add(load(packet, VALUE, hit), light_of(estimate, fans)))
     packet[NOISE + hit] += estimate.variance
@@ -203,7 +206,8 @@ def decide_by_cones(
                 cone = cone_of(aim, start, forward)
                 count = find_touching(cone, lit.world, touching, stack)
                 undecided += 1
-                if count in (0, CLOSED):
+                is_dimmed = count == 0 and may_be_dimmed(cone, lit.world, stack)
+                if count in (0, CLOSED) and not is_dimmed:
                     share = middle_share(aim, normal) if count == 0 else 0.0
                     power = load_power(lit.powers, soft.row[number])
                     light = add(light, scattered(material, share, power))

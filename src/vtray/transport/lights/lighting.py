@@ -55,10 +55,13 @@ def _is_lane_above(packet: Packet, lane: int, target: Target) -> bool:
 
 @device
 def arriving_cosine(packet: Packet, lane: int, target: Target) -> float:
-    """Return the cosine of a light for a point of a packet, 0 if it is blocked."""
+    """Return the cosine of a light for a point of a packet, 0 if it is blocked.
+
+    Of light that is blocked in part, only the rest counts.
+    """
     to_light = sub(target.place, load(packet, POINT, lane))
-    cosine = cosine_of(load(packet, NORMAL, lane), to_light)
-    return cosine if packet[BLOCKED + lane] == 0.0 else 0.0
+    cosine, blocked = cosine_of(load(packet, NORMAL, lane), to_light), packet[BLOCKED + lane]
+    return cosine * (1.0 - blocked) if blocked < 1.0 else 0.0
 
 
 @device

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.packet import CAP, SECOND
 from vtray.geometry.vector import Vec
 from vtray.transport.materials.lambert import lambert_light
 
@@ -35,6 +36,9 @@ class Materials(NamedTuple):
         Colours, (rows, 3).
     lambert
         Lambert coefficients, (rows,).
+    cap
+        The colour of all that closes what clip planes cut, negative if it is that of what is cut;
+        None where nothing is cut.
     """
 
     first: Integers
@@ -47,6 +51,7 @@ class Materials(NamedTuple):
     lambert_step: Integers
     color: NDArray[np.uint8]
     lambert: NDArray[np.float64]
+    cap: Vec | None = None
 
 
 class Material(NamedTuple):
@@ -64,8 +69,11 @@ class Power(NamedTuple):
 
 
 @device
-def load_material(materials: Materials, primitive: int, is_second: bool) -> Material:
-    """Return the material of a primitive, or of its second half."""
+def load_material(materials: Materials, primitive: int, half: int) -> Material:
+    """Return the material of a primitive, or of that part of it that `half` says.
+
+    It is what stands in field ``HALF`` of a packet.
+    """
     k = materials.first.shape[0] - 1
     while primitive < materials.first[k]:
         k -= 1
@@ -73,13 +81,28 @@ def load_material(materials: Materials, primitive: int, is_second: bool) -> Mate
     if place >= materials.each[k]:
         place %= materials.each[k]
     row = materials.color_row[k] + place * materials.color_step[k]
-    if is_second:
+    if half & SECOND:
         row = materials.end_row[k] + place * materials.end_step[k]
     color = materials.color
+    own = float(color[row, 0]), float(color[row, 1]), float(color[row, 2])
     return Material(
-        (float(color[row, 0]), float(color[row, 1]), float(color[row, 2])),
+        _cap_color(materials.cap, half, own),
         materials.lambert[materials.lambert_row[k] + place * materials.lambert_step[k]],
     )
+
+
+@device
+def _cap_color(cap: Vec | None, half: int, own: Vec) -> Vec:
+    """Return the colour of a surface that is maybe a cap, given that of what it belongs to."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if cap is not None:
+        is_cap = (half & CAP != 0) & (cap[0] >= 0.0)
+        return (
+            cap[0] if is_cap else own[0],
+            cap[1] if is_cap else own[1],
+            cap[2] if is_cap else own[2],
+        )
+    return own
 
 
 @device

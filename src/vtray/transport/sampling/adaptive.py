@@ -42,6 +42,7 @@ from vtray.geometry.packets.packet import (
     POINT,
     PRIMITIVE,
     REACH,
+    SEEN,
     SETTLED,
     SOURCE,
     STRETCH,
@@ -73,6 +74,14 @@ the horizon. The mean then differs from the middle by less than 2 of 255."""
 NEARNESS = 32.0
 """A patch must be nearer to its middle than to a light by the root of this number. The mean of the
 light then differs from that in the middle by less than 4 of 255."""
+
+
+@device
+def note_seen(packet: Packet, lanes: int) -> None:
+    """Note what rays hit, before some of it is left out."""
+    numbers = packet.view(np.int64)
+    for lane in range(lanes):
+        numbers[SEEN + lane] = numbers[PRIMITIVE + lane]
 
 
 @device

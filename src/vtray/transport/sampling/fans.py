@@ -48,6 +48,9 @@ WHOLE_FAN = 64
 LEAST_FAN = 16
 """Rays of each of many samples of a pixel."""
 
+FEWEST = 8
+"""Rays of each fan of a layer of which little is seen, at the least."""
+
 COARSE = 0.016
 """From this tolerance on, the fans of samples have half as many rays. How much the samples of a
 pixel differ says what that does; where there is but one, thin bars would make errors larger than
@@ -90,6 +93,19 @@ class Fans(NamedTuple):
     offsets: Integers
     error: float
     by_light: bool
+
+
+@device
+def fans_of_share(fans: Fans, share: float) -> Fans:
+    """Return which rays are cast from a hit of whose light only a share is seen.
+
+    So much less its error counts, and so many fewer rays do: the first ones of each fan.
+    """
+    rays = fans.rays
+    while share <= 0.5 and rays > FEWEST:
+        rays //= 2
+        share *= 2.0
+    return Fans(rays, fans.fans, fans.levels, fans.points, fans.offsets, fans.error, fans.by_light)
 
 
 class Noise(NamedTuple):

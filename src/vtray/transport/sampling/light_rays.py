@@ -209,5 +209,6 @@ def _arriving_share(fan: Fan, rays: int, component: int) -> tuple[float, float]:
 
 @device
 def _brought(fan: Fan, ray: int, component: int) -> float:
-    """Return what a ray brings: one of its weights, 0 if something stops it."""
-    return fan[WEIGHT + component * FAN + ray] if fan[BLOCKED + ray] == 0.0 else 0.0
+    """Return what a ray brings: of one of its weights what is not blocked."""
+    blocked = fan[BLOCKED + ray]
+    return fan[WEIGHT + component * FAN + ray] * (1.0 - blocked) if blocked < 1.0 else 0.0

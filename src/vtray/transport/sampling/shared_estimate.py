@@ -95,10 +95,10 @@ def with_shared_fan(
     total = estimate.total
     for ray in range(fans.rays):
         number = fans.points[0, begin + ray]
-        arrives = fan[BLOCKED + ray] == 0.0
-        red = fan[WEIGHT + ray] if arrives else 0.0
-        green = fan[WEIGHT + FAN + ray] if arrives else 0.0
-        blue = fan[WEIGHT + 2 * FAN + ray] if arrives else 0.0
+        blocked = fan[BLOCKED + ray]
+        red = fan[WEIGHT + ray] * (1.0 - blocked) if blocked < 1.0 else 0.0
+        green = fan[WEIGHT + FAN + ray] * (1.0 - blocked) if blocked < 1.0 else 0.0
+        blue = fan[WEIGHT + 2 * FAN + ray] * (1.0 - blocked) if blocked < 1.0 else 0.0
         brought[number] = red
         brought[MOST_RAYS + number] = green
         brought[2 * MOST_RAYS + number] = blue

@@ -1,0 +1,104 @@
+"""What the pictures of a movie are taken of, one after the other."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from vtray.animation.sources import Source
+from vtray.animation.stage import Shot
+from vtray.base.errors import SceneError
+from vtray.scene.camera import Camera
+from vtray.scene.checks.scene_words import show
+from vtray.scene.particles.from_objects import as_particles
+from vtray.scene.scene import Scene
+
+Make = Callable[[Any, int], Shot]
+"""Makes what a picture is taken of, by what there is for it, and its number."""
+
+
+class Take(NamedTuple):
+    """A picture that is to be taken.
+
+    Attributes
+    ----------
+    k
+        The number of the picture, from 0.
+    item
+        What there is for it: a scene, or particles; None where these are still in their file.
+    number
+        Its number where it comes from.
+    camera
+        Its camera, where that is said.
+    """
+
+    k: int
+    item: Any
+    number: int
+    camera: Camera | None
+
+    def shot(self, make: Make) -> Shot:
+        """Return what it is taken of."""
+        found = make(self.item, self.k)
+        if self.camera is not None:
+            found = found._replace(camera=self.camera)
+        return found if found.frame is not None else found._replace(frame=self.number)
+
+
+@dataclass(frozen=True)
+class Script:
+    """What the pictures of a movie are taken of.
+
+    Attributes
+    ----------
+    source
+        What there is for each picture.
+    first
+        What there is for the first.
+    make
+        Makes what a picture is taken of.
+    camera
+        Gives the camera by the number of the picture; None for that of what is made.
+    """
+
+    source: Source
+    first: Any
+    make: Make
+    camera: Callable[[int], Any] | None = None
+
+    @property
+    def total(self) -> int:
+        """How many pictures there are; 0 if that is not known."""
+        return self.source.count or 0
+
+    def shots(self, start: int) -> Iterator[Shot]:
+        """Give what pictures are taken of, from one with a number on; called once."""
+        for k, item in enumerate(self.source.start(start), start):
+            yield self._take(k, item).shot(self.make)
+
+    def first_shot(self) -> Shot:
+        """Return what the first picture is taken of."""
+        return self._take(0, self.first).shot(self.make)
+
+    def takes(self, start: int) -> Iterator[Take]:
+        """Give what others need to take pictures, from one with a number on; called once."""
+        for k, item in enumerate(self.source.start(start), start):
+            # What goes through a trajectory may give the same object again and again.
+            yield self._take(k, item if isinstance(self.first, Scene) else as_particles(item))
+
+    def takes_in_file(self, start: int) -> Iterator[Take]:
+        """Give the same for those who read the file themselves."""
+        assert self.source.count is not None  # noqa: S101 - that of a file is known
+        for k in range(start, self.source.count):
+            yield self._take(k, None)
+
+    def take_again(self, k: int) -> Take:
+        """Return a picture of a file with its particles."""
+        assert self.source.some is not None  # noqa: S101 - a file can be read again
+        (item,) = self.source.some([k])
+        return self._take(k, item)
+
+    def _take(self, k: int, item: Any) -> Take:  # noqa: ANN401
+        camera = None if self.camera is None else self.camera(k)
+        if self.camera is not None and not isinstance(camera, Camera):
+            raise SceneError(f"camera: expected a Camera for picture {k}, got {show(camera)}")
+        return Take(k, item, self.source.number(k), camera)

@@ -1,0 +1,197 @@
+"""Where scenes are put to be taken: one after the other, all in the same light."""
+
+import copy
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import msgspec
+
+from vtray.animation.annotating import annotated
+from vtray.image.image import Image
+from vtray.rendering.fog import Ball, ball_around, fitted
+from vtray.rendering.renderer import render
+from vtray.rendering.starlight import peak_of
+from vtray.scene.camera import Camera
+from vtray.scene.default_light import settings_of
+from vtray.scene.light_types import AnyLight
+from vtray.scene.scene import Scene
+from vtray.scene.settings import overridden
+from vtray.scene.stars import Stars
+from vtray.scene.style import Fog, Style
+
+Warn = Callable[[str], None]
+
+
+class Shot(NamedTuple):
+    """What a picture of a movie is taken of.
+
+    Attributes
+    ----------
+    scene
+        The scene, which is not changed.
+    camera
+        The camera of this picture.
+    lights
+        Its lights; None for those of the scene.
+    frame, time
+        Which frame of a simulation it is, and when that was, as far as that is known.
+    marks
+        What else is painted on it, as keywords of `vtray.Image.annotated`.
+    """
+
+    scene: Scene
+    camera: Camera
+    lights: list[AnyLight] | None = None
+    frame: int | None = None
+    time: float | None = None
+    marks: Mapping[str, Any] | None = None
+
+
+class Exposed(NamedTuple):
+    """What a picture is locked to: the light that becomes white."""
+
+    white: float
+
+
+class Common(NamedTuple):
+    """What all pictures of a movie take from the first.
+
+    Attributes
+    ----------
+    peaks
+        What is as bright as can be of points that shine, where that is not said.
+    ball
+        The ball around its scene, to which fog is fitted; None where nothing asks for it.
+    """
+
+    peaks: Sequence[float | None]
+    ball: Ball | None
+
+
+@dataclass(frozen=True)
+class Look:
+    """How each picture of a movie is taken.
+
+    Attributes
+    ----------
+    settings
+        Settings of the render that are given, by their names.
+    annotate
+        What is painted on pictures, as keywords of `vtray.Image.annotated`.
+    bits, aov
+        What files of pictures hold, as for `vtray.Image.save`.
+    threads
+        How many threads render; None for all cores.
+    """
+
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    annotate: Mapping[str, Any] = field(default_factory=dict)
+    bits: int | None = None
+    aov: tuple[str, ...] = ()
+    threads: int | None = None
+
+    def holds(self, scene: Scene) -> bool:
+        """Tell whether pictures have the exposure of the first: unless it is said otherwise."""
+        return "exposure" not in self.settings and settings_of(scene).exposure == "max"
+
+    def save(self, image: Image, shot: Shot, path: Path) -> None:
+        """Write a picture, and what is painted on it, to a file."""
+        keywords = annotated(self.annotate, shot.frame, shot.time, shot.marks or {})
+        if keywords:
+            image.annotated(**keywords).save(path)
+        else:
+            image.save(path, bits=self.bits, aov=self.aov)
+
+
+class Stage:
+    """Where scenes are put to be taken.
+
+    Parameters
+    ----------
+    look
+        How pictures are taken.
+    common
+        What they take from the first; see `common_of`.
+
+    Attributes
+    ----------
+    common
+        As given.
+    """
+
+    def __init__(self, look: Look, common: Common) -> None:
+        self.common = common
+        self._look = look
+        self._last: Scene | None = None
+        self._scene = Scene()
+
+    def holds(self) -> bool:
+        """Tell whether the picture of the scene that is set has the exposure of the first."""
+        return self._look.holds(self._scene)
+
+    def set(self, shot: Shot) -> Scene:
+        """Return a scene with the camera and the lights of a picture."""
+        # What is kept with a scene stays from one picture of it to the next.
+        if self._last is not shot.scene:
+            self._scene = copy.copy(shot.scene)
+            self._scene.objects = self._with_peaks(shot.scene)
+            self._last = shot.scene
+        self._scene.camera = shot.camera
+        if shot.lights is not None:
+            self._scene.lights = shot.lights
+        return self._scene
+
+    def take(
+        self, shot: Shot, white: float | None, warn: Warn, threads: int | None = None
+    ) -> tuple[Image, float | None]:
+        """Return a picture, and the light that becomes white in all others, if it decides that.
+
+        Parameters
+        ----------
+        shot
+            What it is taken of.
+        white
+            The light that becomes white in all pictures; None if that is not known yet.
+        warn
+            Called with a line about something that is noticed.
+        threads
+            How many threads render; by default, as the look says.
+        """
+        scene, look = self.set(shot), self._look
+        holds = look.holds(scene)
+        lock = Exposed(white) if holds and white is not None else None
+        given = {**look.settings, **msgspec.structs.asdict(self.style(scene))}
+        image = render(scene, threads or look.threads, lock=lock, warn=warn, **given)
+        decides = holds and lock is None and image.white > 0
+        return image, float(image.white) if decides else None
+
+    def style(self, scene: Scene) -> Style:
+        """Return how pictures are drawn, with fog that is fitted to what the first one shows."""
+        style = overridden(scene.style, self._look.settings)
+        return fitted(style, scene.camera, lambda: self.common.ball)
+
+    def _with_peaks(self, scene: Scene) -> list[Any]:
+        """Return the objects of a scene; points shine as brightly as in the first."""
+        peaks = iter(self.common.peaks)
+        return [
+            item.replace(peak=next(peaks, None))
+            if isinstance(item, Stars) and item.peak is None
+            else item
+            for item in scene.objects
+        ]
+
+
+def common_of(first: Shot, settings: Mapping[str, Any]) -> Common:
+    """Return what all pictures take from the first, given the settings for all."""
+    width, height = map(int, settings.get("size") or first.scene.render.size or first.camera.size)
+    camera = first.camera.resized((width, height))
+    peaks = [
+        peak_of(item, camera)
+        for item in first.scene.objects
+        if isinstance(item, Stars) and item.peak is None
+    ]
+    fog = overridden(first.scene.style, settings).fog
+    is_fitted = isinstance(fog, Fog) and (fog.start is None or fog.end is None)
+    return Common(peaks, ball_around(first.scene) if is_fitted else None)

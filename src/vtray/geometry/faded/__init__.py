@@ -1,0 +1,1 @@
+"""Shapes that light passes in part."""

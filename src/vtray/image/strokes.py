@@ -1,0 +1,138 @@
+"""Lines through the crossings of a grid of pixels, as smooth as they can be."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.compiler.compiled import device, kernel
+
+Shares = NDArray[np.float32]
+
+
+@kernel
+def draw_strokes(
+    primitive: NDArray[np.int32],
+    place: Shares,
+    part: Shares,
+    share: Shares,
+    width: float,
+    top: int,
+    bottom: int,
+    lines: Shares,
+    points: NDArray[np.float64],
+) -> None:
+    """Draw lines into some rows of a picture.
+
+    Four pixels are the corners of a cell. Where lines cross two sides of it, they are joined by a
+    straight one; where they cross three, these meet in their middle.
+
+    Parameters
+    ----------
+    primitive
+        What each pixel sees, (height, width).
+    place, part, share
+        Where lines cross the ways from each pixel to those right of it and below, how wide they
+        are in parts of the width, 0 for none, and how much they hide, each (2, height, width).
+    width
+        The width of lines in pixels.
+    top, bottom
+        The rows from the first to before the last.
+    lines
+        How much of each pixel lines hide, (height, width), 0 before.
+    points
+        Scratch memory, (5, 4).
+    """
+    height, columns = primitive.shape
+    reach = int(0.5 * width + 0.5) + 1
+    for y in range(max(top - reach - 1, 0), min(bottom + reach, height - 1)):
+        for x in range(columns - 1):
+            found = _crossings_of(place, part, share, width, y, x, points)
+            if found > 1:
+                _join(primitive, y, x, found, points, top, bottom, reach, lines)
+
+
+@device
+def _crossings_of(
+    place: Shares,
+    part: Shares,
+    share: Shares,
+    width: float,
+    y: int,
+    x: int,
+    points: NDArray[np.float64],
+) -> int:
+    """Set column, row, width and share where lines cross the sides of a cell; return how many."""
+    found = 0
+    for side in range(4):
+        # Above, right, below, left.
+        axis = side & 1
+        row, column = y + (1 if side == 2 else 0), x + (1 if side == 1 else 0)
+        if part[axis, row, column] > 0.0:
+            along = float(place[axis, row, column])
+            points[found, 0] = column + (1 - axis) * along
+            points[found, 1] = row + axis * along
+            points[found, 2] = width * part[axis, row, column]
+            points[found, 3] = share[axis, row, column]
+            found += 1
+    return found
+
+
+@device
+def _join(
+    primitive: NDArray[np.int32],
+    y: int,
+    x: int,
+    found: int,
+    points: NDArray[np.float64],
+    top: int,
+    bottom: int,
+    reach: int,
+    lines: Shares,
+) -> None:
+    """Draw the lines between the crossings of a cell."""
+    if found == 2:
+        _stroke(points, 0, 1, top, bottom, reach, lines)
+    elif found == 4 and primitive[y, x] == primitive[y + 1, x + 1]:
+        _stroke(points, 0, 1, top, bottom, reach, lines)
+        _stroke(points, 2, 3, top, bottom, reach, lines)
+    elif found == 4 and primitive[y, x + 1] == primitive[y + 1, x]:
+        _stroke(points, 0, 3, top, bottom, reach, lines)
+        _stroke(points, 1, 2, top, bottom, reach, lines)
+    else:
+        for k in range(4):
+            total = 0.0
+            for point in range(found):
+                total += points[point, k]
+            points[4, k] = total / found
+        for point in range(found):
+            _stroke(points, point, 4, top, bottom, reach, lines)
+
+
+@device
+def _stroke(
+    points: NDArray[np.float64],
+    one: int,
+    two: int,
+    top: int,
+    bottom: int,
+    reach: int,
+    lines: Shares,
+) -> None:
+    """Draw a line from one point to another, with round ends."""
+    x, y = points[one, 0], points[one, 1]
+    across, down = points[two, 0] - x, points[two, 1] - y
+    square = across * across + down * down
+    first, last = min(y, points[two, 1]), max(y, points[two, 1])
+    start, end = min(x, points[two, 0]), max(x, points[two, 0])
+    for row in range(max(int(first) - reach, top), min(int(last) + reach + 2, bottom)):
+        for column in range(max(int(start) - reach, 0), min(int(end) + reach + 2, lines.shape[1])):
+            right, below = column - x, row - y
+            along = (right * across + below * down) / square if square > 0.0 else 0.0
+            along = min(max(along, 0.0), 1.0)
+            off, under = right - along * across, below - along * down
+            distance = math.sqrt(off * off + under * under)
+            width = points[one, 2] + along * (points[two, 2] - points[one, 2])
+            covered = min(max(0.5 * width + 0.5 - distance, 0.0), width, 1.0)
+            covered *= points[one, 3] + along * (points[two, 3] - points[one, 3])
+            lines[row, column] = max(lines[row, column], np.float32(covered))

@@ -1,0 +1,106 @@
+"""What a style draws onto a picture once its rays are traced: lines, and shade by distance."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.pool import run_tasks
+from vtray.base.tiles import TILE
+from vtray.image.eye_dome import shade_rows, surroundings
+from vtray.rendering.outlines import draw_outlines, pixel_size
+from vtray.rendering.pack import Packed
+from vtray.rendering.passes import Tracer
+from vtray.scene.scene import Scene
+from vtray.scene.style import EyeDome, Outline, Style
+from vtray.transport.film import Film, new_film
+from vtray.transport.integrators.outlines import Seen
+from vtray.transport.scene_arrays import without_light
+
+Shares = NDArray[np.float32]
+
+
+class Drawing:
+    """Draws what a style wants.
+
+    Parameters
+    ----------
+    style
+        The style.
+    scene, packed
+        The scene as it is rendered, and its arrays.
+    has_samples
+        Whether pixels have samples, so that the same kernels are used.
+    threads
+        How many threads to use at the most.
+    """
+
+    def __init__(
+        self, style: Style, scene: Scene, packed: Packed, *, has_samples: bool, threads: int
+    ) -> None:
+        self._outline = style.outline if isinstance(style.outline, Outline) else None
+        self._eye_dome = style.eye_dome if isinstance(style.eye_dome, EyeDome) else None
+        self._scene = scene
+        self._packed = packed
+        self._has_samples = has_samples
+        self._threads = threads
+
+    @property
+    def wanted(self) -> tuple[str, ...]:
+        """What is wanted of the rays that find light, by the names of a film's rows."""
+        if self._sees_layers:
+            return ()
+        if self._outline is not None:
+            return ("primitive", "distance")
+        return () if self._eye_dome is None else ("distance",)
+
+    @property
+    def _sees_layers(self) -> bool:
+        """Whether the rays that find light see layers, and not the one surface that is drawn."""
+        return self._packed.arrays.world.faded is not None
+
+    def _surfaces(self) -> Film:
+        """Return the surfaces that are drawn."""
+        return Tracer(without_light(self._packed.arrays), self._threads).surfaces()
+
+    def warm_up(self) -> None:
+        """Load the kernels, or compile them."""
+        if self._sees_layers:
+            return
+        nothing = new_film(0, 0, *self.wanted)
+        self.lines(nothing)
+        self.shade(nothing)
+
+    def lines(self, film: Film) -> Shares | None:
+        """Return how much of each pixel lines hide, if there are any."""
+        if self._outline is None:
+            return None
+        normal = None
+        if self._sees_layers:
+            film = self._surfaces()
+            normal = film.normal if self._outline.normals else None
+        elif self._outline.normals:
+            # Of pixels that get samples, no normals are known.
+            normal = self._surfaces().normal if film.primitive.size else np.zeros((0, 0, 3))
+        return draw_outlines(
+            self._outline,
+            self._scene,
+            self._packed,
+            Seen(film.primitive, film.distance, normal),
+            has_samples=self._has_samples,
+            threads=self._threads,
+        )
+
+    def shade(self, film: Film) -> Shares | None:
+        """Return how much of its light each pixel keeps in eye-dome lighting, if there is any."""
+        if self._eye_dome is None:
+            return None
+        film = self._surfaces() if self._sees_layers else film
+        strength, around = float(self._eye_dome.strength), surroundings(self._eye_dome.radius)
+        size, growth = pixel_size(self._scene.camera, self._packed)
+        shade = np.empty(film.distance.shape, np.float32)
+
+        def shade_tile(top: int) -> None:
+            bottom = min(top + TILE, len(shade))
+            shade_rows(film.distance, size, growth, around, strength, top, bottom, shade)
+
+        run_tasks(range(0, max(len(shade), 1), TILE), lambda: shade_tile, self._threads)
+        return shade

@@ -1,0 +1,103 @@
+"""Fog between its two distances, and as kernels see it."""
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from vtray.base.errors import SceneError
+from vtray.rendering.pack import Packed
+from vtray.scene.camera import Camera
+from vtray.scene.placing.bounding_sphere import bounding_sphere
+from vtray.scene.placing.bounds import balls_of
+from vtray.scene.placing.directions import Vec, unit
+from vtray.scene.scene import Scene
+from vtray.scene.style import Fog, Style
+from vtray.transport.fog import FogFrame
+
+LARGEST = 2.0**900
+"""Lengths in units of the arrays that are as good as any longer one."""
+
+
+class Ball(NamedTuple):
+    """A ball in world space."""
+
+    middle: Vec
+    radius: float
+
+
+def ball_around(scene: Scene) -> Ball | None:
+    """Return the ball around all bounded objects of a scene; None if there are none."""
+    try:
+        middle, radius = bounding_sphere(*balls_of(scene, "fog"))
+    except SceneError:
+        return None
+    x, y, z = map(float, middle)
+    return Ball((x, y, z), radius)
+
+
+def fitted(style: Style, camera: Camera, around: Callable[[], Ball | None]) -> Style:
+    """Return a style whose fog has both its distances.
+
+    What is not given is that of the ball around all bounded objects: from the nearest of its points
+    to the farthest. It depends neither on which of them are seen nor on how the camera turns, and
+    stays when the camera goes around them; so frames of a movie do not flicker.
+
+    Parameters
+    ----------
+    style, camera
+        The style, and the camera.
+    around
+        Gives that ball; only called where it is needed.
+
+    Raises
+    ------
+    SceneError
+        There is nothing to fit it to, or it ends where it begins.
+    """
+    fog = style.fog
+    if not isinstance(fog, Fog) or not (fog.start is None or fog.end is None):
+        return style
+    ball = around()
+    if ball is None:
+        words = "there is nothing that it could be fitted to, as planes have no edge"
+        raise SceneError(f"fog: {words}; give its two distances")
+    away = _distance(camera, ball.middle)
+    start = max(away - ball.radius, 0.0) if fog.start is None else fog.start
+    end = away + ball.radius if fog.end is None else fog.end
+    if not end > start:
+        words = f"expected a start before its end, got {start:g} and {end:g}, fitted to the scene"
+        raise SceneError(f"fog: {words}; give both")
+    return style.replace(fog=fog.replace(start=start, end=end))
+
+
+def _distance(camera: Camera, point: Vec) -> float:
+    """Return how far a point is from where the ray to it starts, in scene units."""
+    x, y, z = unit(camera.normal)
+    center, focus = camera.center, camera.focus
+    way = (point[0] - center.x, point[1] - center.y, point[2] - center.z)
+    along = way[0] * x + way[1] * y + way[2] * z + focus
+    if camera.projection == "orthographic":
+        return along
+    across = [part - (along - focus) * axis for part, axis in zip(way, (x, y, z), strict=True)]
+    largest = max(abs(along), *map(abs, across)) or 1.0
+    squares = 0.0
+    for part in (along, *across):
+        squares += (part / largest) * (part / largest)
+    return largest * math.sqrt(squares)
+
+
+def with_fog(packed: Packed, style: Style) -> Packed:
+    """Return the arrays of a scene with the fog of a style whose distances are known."""
+    fog = style.fog
+    if not isinstance(fog, Fog):
+        return packed
+    assert fog.start is not None  # noqa: S101 - it was fitted
+    assert fog.end is not None  # noqa: S101
+    with np.errstate(over="ignore"):
+        start = np.float64(fog.start - packed.before) / packed.unit
+        length = np.float64(fog.end - fog.start) / packed.unit
+    start, length = np.clip((start, length), (-LARGEST, 1.0 / LARGEST), LARGEST)
+    frame = FogFrame(float(start), float(length))
+    return packed._replace(arrays=packed.arrays._replace(fog=frame))

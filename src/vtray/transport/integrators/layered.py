@@ -1,0 +1,240 @@
+"""What the rays of a packet see of faded bodies: layer by layer, and behind them what is opaque.
+
+Each layer of each ray is a hit. Its colour counts as much as light from there passes the layers
+before it, so that all that lights add to it is what is seen of that.
+"""
+
+import numpy as np
+
+from vtray.base.compiler.compiled import device
+from vtray.geometry.faded.chords import End
+from vtray.geometry.faded.layers import Slot, list_layers
+from vtray.geometry.faded.nearby import Tube, touches_faded
+from vtray.geometry.packets.layer_notes import AT_ONCE, Layers
+from vtray.geometry.packets.packet import (
+    BEHIND,
+    BEHIND_DISTANCE,
+    BEHIND_MET,
+    COLOR,
+    COVER,
+    DISTANCE,
+    FOGGED,
+    GATHERED,
+    LIGHT,
+    MET,
+    MIXED,
+    NO_PRIMITIVE,
+    NOISE,
+    PASSED_LAYERS,
+    PRIMITIVE,
+    SHARE,
+    SOURCE,
+    VALUE,
+    VARIANCE,
+    Packet,
+    Sheaf,
+    load,
+    load_ray,
+    store,
+)
+from vtray.geometry.packets.workspace import Workspace
+from vtray.geometry.ray import Footprint, growth_of, width_at
+from vtray.geometry.vector import add, scale
+from vtray.geometry.world import Faded, World, load_body
+from vtray.transport.fog import FogFrame, lane_share
+
+
+@device
+def mix_faded(
+    packet: Packet,
+    lanes: int,
+    sheaf: Sheaf,
+    footprint: Footprint | None,
+    world: World,
+    faded: Faded | None,
+    work: Workspace,
+) -> None:
+    """Set field ``MIXED`` of the lanes whose pixels may see something of a faded body."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if faded is None:
+        return
+    for lane in range(lanes):
+        ray = load_ray(packet, sheaf, lane)
+        tube = Tube(
+            ray.origin,
+            ray.direction,
+            width_at(footprint, 0.0),
+            growth_of(footprint),
+            packet[DISTANCE + lane],
+            ray.error_scale,
+        )
+        if touches_faded(world, faded, tube, work.stack):
+            packet[MIXED + lane] = 1.0
+
+
+@device
+def choose_surfaces(
+    packet: Packet, lanes: int, sheaf: Sheaf, world: World, faded: Faded | None, work: Workspace
+) -> None:
+    """Let the first layers that are opaque enough take the lanes."""
+    if faded is None:
+        return
+    numbers, layers = packet.view(np.int64), work.layers
+    for lane in range(lanes):
+        skipped, found = 0, AT_ONCE
+        while skipped < found:
+            found = _list_lane(packet, lane, skipped, sheaf, world, faded, work)
+            for k in range(lane * AT_ONCE, lane * AT_ONCE + layers.listed[lane]):
+                body = load_body(faded.bodies, layers.number[k])
+                if faded.bodies.opacity[body] > faded.least:
+                    packet[DISTANCE + lane] = layers.distance[k]
+                    numbers[PRIMITIVE + lane] = layers.number[k]
+                    numbers[MET + lane] = layers.met[k]
+                    found = 0
+                    break
+            skipped += AT_ONCE
+
+
+@device
+def see_all(packet: Packet, lanes: int) -> None:
+    """Note that all light of what the lanes meet is seen: those that see layers are left out."""
+    for lane in range(lanes):
+        packet[SHARE + lane] = 1.0
+
+
+@device
+def begin_layers(packet: Packet, lanes: int) -> None:
+    """Keep what is behind all layers, and start with no light."""
+    numbers = packet.view(np.int64)
+    for lane in range(lanes):
+        packet[BEHIND_DISTANCE + lane] = packet[DISTANCE + lane]
+        numbers[BEHIND + lane] = numbers[PRIMITIVE + lane]
+        numbers[BEHIND_MET + lane] = numbers[MET + lane]
+        numbers[PASSED_LAYERS + lane] = AT_ONCE
+        packet[VARIANCE + lane] = 0.0
+        packet[FOGGED + lane] = 0.0
+        store(packet, GATHERED, lane, (0.0, 0.0, 0.0))
+
+
+@device
+def list_lanes(
+    packet: Packet,
+    lanes: int,
+    skipped: int,
+    sheaf: Sheaf,
+    world: World,
+    faded: Faded,
+    work: Workspace,
+) -> int:
+    """List the layers of all lanes after so many; return how many rounds it takes to see them."""
+    numbers, rounds = packet.view(np.int64), 0
+    for lane in range(lanes):
+        if numbers[PASSED_LAYERS + lane] > skipped or skipped == 0:
+            _restore(packet, lane)
+            found = _list_lane(packet, lane, skipped, sheaf, world, faded, work)
+            numbers[PASSED_LAYERS + lane] = found
+            is_last = found - skipped <= AT_ONCE
+            rounds = max(rounds, work.layers.listed[lane] + (1 if is_last else 0))
+        else:
+            work.layers.listed[lane] = 0
+    return rounds
+
+
+@device
+def _list_lane(
+    packet: Packet,
+    lane: int,
+    skipped: int,
+    sheaf: Sheaf,
+    world: World,
+    faded: Faded,
+    work: Workspace,
+) -> int:
+    """List the layers of a lane after so many; return how many there are."""
+    primitive = packet.view(np.int64)[PRIMITIVE + lane]
+    ray, end = load_ray(packet, sheaf, lane), End(packet[DISTANCE + lane], primitive, 0.0)
+    slot = Slot(work.layers, lane, skipped)
+    return list_layers(world, faded, ray, end, slot, work.walk, work.stack)
+
+
+@device
+def _restore(packet: Packet, lane: int) -> None:
+    """Bring back what is behind all layers of a lane."""
+    numbers = packet.view(np.int64)
+    packet[DISTANCE + lane] = packet[BEHIND_DISTANCE + lane]
+    numbers[PRIMITIVE + lane] = numbers[BEHIND + lane]
+    numbers[MET + lane] = numbers[BEHIND_MET + lane]
+
+
+@device
+def take_round(
+    packet: Packet, lanes: int, skipped: int, k: int, layers: Layers, fog: FogFrame | None
+) -> None:
+    """Let the k-th of the layers that are listed take the lanes, or what is behind the last."""
+    numbers = packet.view(np.int64)
+    for lane in range(lanes):
+        listed, found = layers.listed[lane], numbers[PASSED_LAYERS + lane]
+        is_last = (found > skipped or skipped == 0) and found - skipped <= AT_ONCE
+        if k < listed:
+            place = lane * AT_ONCE + k
+            packet[DISTANCE + lane] = layers.distance[place]
+            numbers[PRIMITIVE + lane] = layers.number[place]
+            numbers[MET + lane] = layers.met[place]
+            packet[SHARE + lane] = _clear_share(packet, lane, layers.share[place], fog)
+        elif k == listed and is_last and layers.passed[lane] > 0.0:
+            _restore(packet, lane)
+            packet[SHARE + lane] = _clear_share(packet, lane, layers.passed[lane], fog)
+            if numbers[PRIMITIVE + lane] < NO_PRIMITIVE:
+                light = scale(packet[SHARE + lane], load(packet, LIGHT, lane))
+                store(packet, GATHERED, lane, add(load(packet, GATHERED, lane), light))
+        else:
+            numbers[PRIMITIVE + lane] = NO_PRIMITIVE
+
+
+@device
+def _clear_share(packet: Packet, lane: int, share: float, fog: FogFrame | None) -> float:
+    """Return what fog leaves of a share of what a lane sees, and note what it takes."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if fog is not None:
+        fogged = lane_share(packet, lane, fog)
+        packet[FOGGED + lane] += share * fogged
+        return share * (1.0 - fogged)
+    return share
+
+
+@device
+def weigh_colors(packet: Packet, hits: int) -> None:
+    """Let the colours of hits count as much as is seen of them."""
+    numbers = packet.view(np.int64)
+    for hit in range(hits):
+        share = packet[SHARE + numbers[SOURCE + hit]]
+        store(packet, COLOR, hit, scale(share, load(packet, COLOR, hit)))
+        packet[NOISE + hit] = 0.0
+
+
+@device
+def gather_light(packet: Packet, hits: int) -> None:
+    """Add the light of hits to that of their lanes."""
+    numbers = packet.view(np.int64)
+    for hit in range(hits):
+        lane = numbers[SOURCE + hit]
+        light = add(load(packet, GATHERED, lane), load(packet, VALUE, hit))
+        store(packet, GATHERED, lane, light)
+        packet[VARIANCE + lane] += packet[NOISE + hit]
+
+
+@device
+def end_layers(packet: Packet, lanes: int, layers: Layers) -> int:
+    """Make one hit of all that each lane sees; return how many there are."""
+    numbers, hits = packet.view(np.int64), 0
+    for lane in range(lanes):
+        _restore(packet, lane)
+        passed, behind = layers.passed[lane], numbers[BEHIND + lane]
+        packet[COVER + lane] = 1.0 - passed if behind == NO_PRIMITIVE else 1.0
+        if numbers[PASSED_LAYERS + lane] > 0 or behind > NO_PRIMITIVE:
+            numbers[PRIMITIVE + lane] = max(behind, 0)
+            numbers[SOURCE + hits] = lane
+            store(packet, VALUE, hits, load(packet, GATHERED, lane))
+            packet[NOISE + hits] = packet[VARIANCE + lane]
+            hits += 1
+    return hits

@@ -1,0 +1,214 @@
+"""Fog hides more and more of what is farther away, and is antialiased as all else."""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from examples import light, plane, scene, sphere
+
+import vtray
+from conftest import compiled_only
+from vtray.rendering.fog import ball_around, fitted
+from vtray.scene.style import Style
+
+SIZE = [16, 12]
+WIDE = {"size": SIZE, "resolution": [0.4, 0.4]}
+BALLS = [sphere((0, 0, 3), 2), sphere((1.5, 1, 8), 2.5, color={"r": 200, "g": 90, "b": 0})]
+LAMP = [light(3, -9, -10)]
+
+
+def world(*objects: dict, **camera: object) -> vtray.Scene:
+    """Return a scene of balls or of others, seen along z from (0, 0, -10)."""
+    return vtray.loads(json.dumps(scene([*objects] or BALLS, LAMP, **{**WIDE, **camera})))
+
+
+def share_at(depth: np.ndarray, start: float, end: float) -> np.ndarray:
+    """Return how much of what is seen is fog, by the rule as it is told; 0 where nothing is."""
+    with np.errstate(over="ignore"):
+        share = (np.where(np.isfinite(depth), depth, 0.0) - start) / (end - start)
+    share = np.clip(share, 0.0, 1.0)
+    return np.where(np.isfinite(depth), share, 0.0)
+
+
+@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
+@pytest.mark.parametrize("background", ["black", "#204060", "transparent"])
+@pytest.mark.parametrize("color", [None, (9, 99, 199)])
+def test_one_ray_a_pixel(projection: str, background: str, color: object) -> None:
+    found = world(projection=projection)
+    plain = vtray.render(found, exposure=0.9)
+    image = vtray.render(
+        found, exposure=0.9, background=background, fog={"start": 12, "end": 19, "color": color}
+    )
+    share = share_at(image.depth, 12, 19)[..., None]
+    assert 0 < share.mean() < 1
+    np.testing.assert_allclose(image.linear, plain.linear * (1 - share), rtol=1e-14)
+    covered = np.isfinite(image.depth)[..., None]
+    lit = 0.9 * plain.linear * (1 - share)
+    behind = np.zeros(3) if background == "black" else np.array([32, 64, 96])
+    if background == "transparent":
+        alpha = covered * (1.0 if color else 1 - share)
+        assert (image.pixels[..., 3:] == np.rint(255 * alpha)).all()
+        lit = np.divide(lit, alpha, out=np.zeros_like(lit), where=alpha > 0)
+        veil = share * np.array(color or (0, 0, 0))
+    else:
+        veil = share * np.array(color or behind) + (1 - covered) * behind
+    expected = np.floor((lit + veil).clip(0, 255))
+    assert np.abs(image.pixels[..., :3] - expected).max() <= 1
+    assert np.mean(image.pixels[..., :3] != expected) < 0.01
+
+
+def test_depth_is_that_of_files() -> None:
+    found = world()
+    image, plain = vtray.render(found, fog=(11, 19)), vtray.render(found)
+    np.testing.assert_array_equal(image.depth, plain.depth)
+    np.testing.assert_array_equal(image.ids, plain.ids)
+    np.testing.assert_array_equal(image.normals, plain.normals)
+
+
+@pytest.mark.parametrize("samples", [1, 4])
+@pytest.mark.parametrize("lights", ["points", "soft"])
+def test_samples_see_it_each(samples: int, lights: str) -> None:
+    # A wall that all rays meet after the same length: three quarters are left of everything.
+    found = world(plane((0, 0, 5), (0, 0, -1)), sphere((0, 0, 5), 1), projection="orthographic")
+    if lights == "soft":
+        found.lights = [vtray.SphereLight((3, -9, -1), 1.0)]
+    wall = vtray.Scene(found.camera, found.lights, found.objects[:1])
+    plain = vtray.render(wall, samples=samples, exposure=1.0)
+    image = vtray.render(wall, samples=samples, exposure=1.0, fog=(13, 21))
+    np.testing.assert_allclose(image.linear, 0.75 * plain.linear, rtol=1e-12)
+    # Before it, a ball, whose pixels lie between what is nearest and what is farthest in them.
+    plain = vtray.render(found, samples=samples, exposure=1.0)
+    image = vtray.render(found, samples=samples, exposure=1.0, fog=(13, 21))
+    assert (image.linear >= 0.75 * plain.linear * (1 - 1e-12)).all()
+    assert (image.linear <= 0.875 * plain.linear * (1 + 1e-12)).all()
+
+
+@pytest.mark.parametrize("fog", [(11, 19), (11, 19, "red")])
+@pytest.mark.parametrize("samples", [1, 4])
+def test_light_and_colours_change_as_in_a_new_render(fog: object, samples: int) -> None:
+    found = world()
+    found.style = Style(fog=fog)
+    found.lights = [*found.lights, vtray.Light((-5, 0, -9), 0.5)]
+    kept = vtray.render(found, samples=samples, background="#204060", keep_lights=True)
+    plain = vtray.render(found, samples=samples, background="#204060")
+    np.testing.assert_array_equal(kept.linear, plain.linear)
+    changed = kept.relight([0.25, 2.0])
+    first, second = found.lights
+    found.lights = [first.replace(intensity=0.25), second.replace(intensity=2.0)]
+    expected = vtray.render(found, samples=samples, background="#204060")
+    np.testing.assert_array_equal(changed.linear, expected.linear)
+    np.testing.assert_array_equal(changed.pixels, expected.pixels)
+    assert changed.style == expected.style
+    changed = kept.recolor(0, "lime")
+    expected = vtray.render(changed.scene, samples=samples, background="#204060")
+    np.testing.assert_array_equal(changed.pixels, expected.pixels)
+
+
+@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
+def test_fitted_to_the_ball_around_the_scene(projection: str) -> None:
+    found = world(sphere((0, 0, 4), 1), sphere((0, 0, 10), 2), projection=projection)
+    image = vtray.render(found, fog=True)
+    # The middle of the centres is (0, 0, 7); the farthest point from there is at 12.
+    fog = image.style.fog
+    assert (fog.start, fog.end) == pytest.approx((17 - 5, 17 + 5))
+    half = vtray.render(found, fog={"start": 3}).style.fog
+    assert (half.start, half.end) == (3, pytest.approx(22))
+    turned = found.camera.orbit(70, about=found)
+    again = fitted(Style(fog=True), turned, lambda: ball_around(found)).fog
+    assert (again.start, again.end) == pytest.approx((fog.start, fog.end))
+
+
+def test_nothing_to_fit_it_to() -> None:
+    found = world(plane((0, 0, 5), (0, 0, -1)))
+    with pytest.raises(vtray.SceneError, match="fog: there is nothing that it could be fitted to"):
+        vtray.render(found, fog=True)
+    vtray.render(found, fog=(1, 2))
+    with pytest.raises(vtray.SceneError, match="fog: expected a start before its end, got 99 and"):
+        vtray.render(world(), fog={"start": 99})
+
+
+@pytest.mark.parametrize("numbers", [(0, 1e308), (1e300, 1e308), (0, 5e-324), (14.5, 14.5 + 1e-14)])
+def test_extreme_distances(numbers: tuple[float, float]) -> None:
+    image = vtray.render(world(), fog=(*numbers, "red"))
+    share = share_at(image.depth, *numbers)
+    sure = np.abs(image.depth - 14.5) > 1e-9
+    np.testing.assert_allclose(image.overlays[0].share[sure], share[sure], rtol=1e-9, atol=1e-99)
+
+
+def test_lamps_are_seen_through_it() -> None:
+    found = world(plane((0, 0, 50), (0, 0, -1)))
+    found.lights = [vtray.SphereLight((0, 0, 10), 1.0, visible=True)]
+    plain, image = vtray.render(found), vtray.render(found, fog=(11, 27))
+    middle = 6, 8
+    # From -10 to the lamp's nearest point, at 9.
+    np.testing.assert_allclose(image.linear[middle], plain.linear[middle] / 2, rtol=1e-3)
+
+
+def test_a_pixel_is_explained() -> None:
+    found = world()
+    image = vtray.render(found, fog=(5, 19, "red"))
+    tree = vtray.trace_pixel(image, 8, 6)
+    share = float(share_at(np.array(tree.hit.distance), 5, 19))
+    assert tree.veil.share == pytest.approx(share)
+    assert tree.veil.light == pytest.approx(tuple((1 - share) * channel for channel in tree.light))
+    assert tree.veil.light == tuple(image.linear[6, 8])
+    text = str(tree)
+    assert f"fog          {100 * share:.4g} % of what is seen {tree.hit.distance:.10g} away" in text
+    assert " + (" in text
+    assert "samples" not in text
+    found.style = Style(fog=(5, 19))
+    assert vtray.trace_pixel(found, 8, 6).veil == tree.veil
+    assert vtray.trace_pixel(vtray.render(found), 8, 6).exposed.overlays == ()
+    assert vtray.trace_pixel(found, 0, 0).veil is None
+
+
+def test_pictures_made_again(tmp_path: Path) -> None:
+    found = world()
+    image = vtray.render(found, fog=True)
+    image.save(tmp_path / "a.png")
+    told = vtray.read_provenance(tmp_path / "a.png")
+    assert told.style == image.style
+    again = vtray.render(found, **{name: told.told(name) for name in Style.__struct_fields__})
+    np.testing.assert_array_equal(again.pixels, image.pixels)
+
+
+def test_files_of_light_hold_it() -> None:
+    image = vtray.render(world(), fog=(11, 19, "red"), exposure=0.5)
+    share = share_at(image.depth, 11, 19)
+    np.testing.assert_allclose(
+        image.with_overlays[..., 0], image.linear[..., 0] + share * 255 / 0.5
+    )
+    np.testing.assert_array_equal(image.with_overlays[..., 1:], image.linear[..., 1:])
+
+
+@compiled_only
+def test_frames_have_the_same_fog(tmp_path: Path) -> None:
+    found = world()
+    found.camera = vtray.Camera.fit(found, size=(12, 9))
+    vtray.turntable(found, tmp_path / "%d.png", seconds=0.3, fps=10, fog=True)
+    fogs = [vtray.read_provenance(tmp_path / f"{k}.png").style.fog for k in range(3)]
+    for fog in fogs[1:]:
+        assert math.isclose(fog.start, fogs[0].start)
+        assert math.isclose(fog.end, fogs[0].end)
+    vtray.turntable(found, tmp_path / "%d.png", seconds=0.3, fps=10, fog=True, resume=True)
+
+
+@compiled_only
+def test_parts_of_a_picture_have_it() -> None:
+    shown: list[vtray.Image] = []
+    found = world(size=[160, 120], resolution=[0.04, 0.04])
+    image = vtray.render(
+        found,
+        samples=4,
+        fog=(11, 19),
+        tile=8,
+        on_update=shown.append,
+        update_seconds=0.0,
+        background="white",
+    )
+    assert shown
+    assert shown[-1].style == image.style
+    plain = vtray.render(found, samples=4)
+    assert shown[-1].alpha.sum() < 0.9 * plain.alpha.sum()
