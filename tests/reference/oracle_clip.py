@@ -160,23 +160,22 @@ class _Cutting:
                 best[nearer], ids[nearer], caps[nearer] = t[nearer], k, wall[nearer]
                 power[nearer] = deep[nearer]
         points = starts + np.where(np.isfinite(best), best, 0)[..., None] * rays
-        normals, linear = np.zeros(points.shape, Real), np.zeros(points.shape, Real)
+        normals, colors = np.zeros(points.shape, Real), np.zeros(points.shape, Real)
         for k, item in enumerate(self.scene["objects"]):
             mine = ids == k
-            normal = self.normals(item, points, caps)
-            normal = normal * np.where(_dot(normal, rays) > 0, -1, 1)[..., None]
-            normals[mine] = normal[mine]
-            color = np.array([item["color"][c] for c in "rgb"], Real) * Real(item["lambert"])
-            colors = np.broadcast_to(color, points.shape).copy()
-            if self.cap is not None:
-                colors[caps >= 0] = np.array(self.cap, Real) * Real(item["lambert"])
-            for light in self.scene["lights"]:
-                way = _vector(light["location"]) - points
-                length = np.sqrt(_dot(way, way))
-                cosine = _dot(normal, way) / length
-                hidden = self.hidden(points, way)
-                share = np.where((cosine > 0) & ~hidden, cosine, 0) * Real(light["intensity"])
-                linear[mine] += (share[..., None] * colors)[mine]
+            normal = self.normals(item, points[mine], caps[mine])
+            away = _dot(normal, rays[mine]) > 0
+            normals[mine] = normal * np.where(away, -1, 1)[..., None]
+            color = [item["color"][c] for c in "rgb"] if self.cap is None else self.cap
+            colors[mine] = np.array([item["color"][c] for c in "rgb"], Real)
+            colors[mine & (caps >= 0)] = np.array(color, Real)
+            colors[mine] *= Real(item["lambert"])
+        linear = np.zeros(points.shape, Real)
+        for light in self.scene["lights"]:
+            way = _vector(light["location"]) - points
+            cosine = _dot(normals, way) / np.sqrt(_dot(way, way))
+            lit = (cosine > 0) & ~self.hidden(points, way)
+            linear += np.where(lit, cosine, 0)[..., None] * Real(light["intensity"]) * colors
         return Seen(linear, best, normals, ids, caps)
 
     def normals(self, item: Scene, points: Array, caps: Array) -> Array:

@@ -90,7 +90,8 @@ def test_is_near_the_oracle(cap: Any, planes: Any, kinds: Any, camera: Scene) ->
     same = ids == seen.ids
     assert (~same).mean() < (2e-3 if JIT else 0.04)
     assert (seen.caps >= 0).any() <= (cap is not False)
-    assert (seen.caps >= 0).any() or cap is False or not JIT
+    # From within what is cut away, the camera may see no cap.
+    assert (seen.caps >= 0).any() or cap is False or camera.get("center") or not JIT
     hit = same & (ids >= 0)
     np.testing.assert_allclose(image.depth[hit], seen.depth[hit].astype(float), rtol=1e-9)
     far = np.abs(image.normals[hit] - seen.normals[hit]).max(axis=-1) > 1e-6
@@ -146,7 +147,7 @@ def with_all_cut(kept: Acceleration) -> Acceleration:
     """Return shapes of which all that are copied count as such that clip planes may cut."""
     assert kept.placed is not None
     assert not kept.is_cut
-    items = sum(1 for parts in kept.copied if parts)
+    items = len(kept.items_of(kept.copied))
     placed = replace(kept.placed, item=kept.placed.item + np.int32(items))
     return replace(kept, placed=placed)
 
