@@ -1,6 +1,7 @@
 """Kernels are loaded without LLVM to the same effect, and what is not plain is left to LLVM."""
 
 import ctypes
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -15,6 +16,7 @@ from conftest import compiled_only
 from vtray.base.compiler import object_code
 from vtray.base.compiler.compiled import Kernel
 from vtray.base.compiler.elf_loader import IS_KNOWN, load
+from vtray.base.compiler.kernel_folder import cache_folder
 from vtray.base.compiler.native_call import caller, unpack
 from vtray.base.compiler.object_code import compile_object
 
@@ -151,9 +153,16 @@ def test_second_run_loads_little(tmp_path: Path) -> None:
 
     (tmp_path / "scene.json").write_text(json.dumps(one_sphere()))
 
+    kept = cache_folder()
+    assert kept is not None
+    # Where kernels are kept is given: what finds that out loads what it likes.
+    given = {**os.environ, "VTRAY_CACHE_DIR": str(kept.parent)}
+
     def run() -> str:
         command = [sys.executable, "-c", RENDER, "scene.json", "picture.png"]
-        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+        done = subprocess.run(
+            command, cwd=tmp_path, env=given, capture_output=True, text=True, check=True
+        )
         assert done.stderr == ""
         return done.stdout.splitlines()[-1]
 

@@ -128,14 +128,13 @@ def test_hierarchies_and_single_rays_tell_the_same(cap: bool) -> None:
 
 @compiled_only
 @pytest.mark.parametrize("cap", [False, True])
-@pytest.mark.parametrize("samples", [1])
-def test_copies_are_cut_as_if_written_out(cap: bool, samples: int) -> None:
+def test_copies_are_cut_as_if_written_out(cap: bool) -> None:
     random = np.random.default_rng(3)
     scene = load(crowd(5, 6, *KINDS))
     balls = vtray.Spheres(random.uniform(-0.5, 0.5, (20, 3)), random.uniform(0.1, 0.3, 20))
     parts = [balls, vtray.Cylinder((0, 0, 0), (0.5, 0.2, 0.1), 0.1), vtray.Sphere((1, 0, 0), 0.2)]
     scene.add_copies(parts, random.uniform((-2, -1.5, 2), (2, 1.5, 6), (15, 3)))
-    options = {**style_of(WEDGE, cap), "samples": samples, "threads": 2}
+    options = {**style_of(WEDGE, cap), "threads": 2}
     image, whole = vtray.render(scene, **options), vtray.render(write_out(scene)[0], **options)
     np.testing.assert_array_equal(image.linear, whole.linear)
     np.testing.assert_array_equal(image.depth, whole.depth)
@@ -153,25 +152,23 @@ def with_all_cut(kept: Acceleration) -> Acceleration:
 
 
 @compiled_only
-@pytest.mark.parametrize("samples", [1])
-def test_what_is_not_cut_is_as_without_clip_planes(samples: int) -> None:
-    objects = load(crowd(6, 150, *KINDS)).objects
-    scene = load(crowd(6, 1, *KINDS))
+def test_what_is_not_cut_is_as_without_clip_planes() -> None:
+    kinds = "sphere", "cylinder"
+    objects, scene = load(crowd(6, 150, *kinds)).objects, load(crowd(6, 1, *kinds))
     scene.objects = [objects[0], vtray.Copies(objects[1:], [(0, 0, 0), (0.1, 0.2, 0.3)])]
-    plain = vtray.render(scene, samples=samples)
+    plain = vtray.render(scene)
     options = style_of([((0.1, 0.2, 1), 99)], True)
-    image = vtray.render(scene, samples=samples, **options)
+    image = vtray.render(scene, **options)
     # But for the far part of the wall behind all.
     same = image.ids[..., 0] == plain.ids[..., 0]
     assert same.mean() > 0.9
     kept = accelerate(scene, style=Style(**options))
     few, many = (
-        Tracer(pack(scene, one).arrays, 1).light(RenderSettings(samples=samples), None).film.linear
+        Tracer(pack(scene, one).arrays, 1).light(RenderSettings(), None).film.linear
         for one in (kept, with_all_cut(kept))
     )
     np.testing.assert_array_equal(few, many)
-    if samples == 1:
-        np.testing.assert_array_equal(image.linear[same], plain.linear[same])
+    np.testing.assert_array_equal(image.linear[same], plain.linear[same])
 
 
 def test_parts_of_the_picture() -> None:
@@ -194,7 +191,7 @@ def test_parts_of_the_picture() -> None:
 
 @compiled_only
 def test_other_lights_and_colors() -> None:
-    scene = load(crowd(5, 30, *KINDS))
+    scene = load(crowd(5, 30, "sphere"))
     options = {**style_of(WEDGE, "white"), "samples": 4, "keep_lights": True}
     image = vtray.render(scene, **options)
     dimmed = image.relight([0.5, 2.0])
@@ -233,9 +230,8 @@ def test_nothing_speckles(far: float, cap: bool) -> None:
 
 @compiled_only
 @pytest.mark.parametrize("cap", [False, True])
-@pytest.mark.parametrize("kinds", [("sphere",)])
-def test_pixels_on_edges_have_samples(cap: bool, kinds: Any) -> None:
-    document = crowd(9, 40, *kinds)
+def test_pixels_on_edges_have_samples(cap: bool) -> None:
+    document = crowd(9, 40, "sphere")
     options = style_of(WEDGE, cap)
     image = render(load(document), ALWAYS, samples=4, keep_lights=True, **options)
     marks = image._relighting._passes[1].first >= 0
@@ -246,7 +242,6 @@ def test_pixels_on_edges_have_samples(cap: bool, kinds: Any) -> None:
     fine["camera"]["resolution"] = [length / times for length in fine["camera"]["resolution"]]
     found = render(load(fine), ALWAYS, **options)
     # The middle of a pixel is at an integer, and so a fine one beside it belongs to two.
-    parts = np.concatenate([found.ids[..., :1], np.round(found.normals, 1)], axis=-1)
     ids = found.ids[..., 0]
     for y in range(1, height - 1):
         for x in range(1, width - 1):
@@ -255,7 +250,6 @@ def test_pixels_on_edges_have_samples(cap: bool, kinds: Any) -> None:
                 assert len(np.unique(ids[mine])) == 1
                 normals = found.normals[mine].reshape(-1, 3)
                 assert np.abs(normals - normals[0]).max() < 0.75
-    assert len(parts)
     hit = image.ids[..., 0] >= 0
     assert marks[hit].mean() < 0.8
 

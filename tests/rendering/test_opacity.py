@@ -191,7 +191,8 @@ def cut_scene(opacity: float) -> vtray.Scene:
     scene = vtray.Scene(camera(), [vtray.Light((4, -9, 8), 1.0)], [])
     generator = np.random.default_rng(8)
     scene.add_spheres(generator.normal(size=(14, 3)), 0.7, "skyblue", opacity=opacity)
-    scene.add_cylinder((-2, 0, -1), (2, 0.5, 1), 0.4, "orange", opacity=opacity)
+    if not JIT:  # Compiling this for one more kind of shape takes a minute.
+        scene.add_cylinder((-2, 0, -1), (2, 0.5, 1), 0.4, "orange", opacity=opacity)
     scene.add_copies(
         vtray.Sphere((0, 0, 1.5), 0.5, (0, 255, 0), opacity=opacity), [(0, 0, 0), (1, 1, 0)]
     )
