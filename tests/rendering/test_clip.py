@@ -11,11 +11,11 @@ import pytest
 from examples import cone, cylinder, light, plane, scene, sphere
 from hierarchies import ALWAYS, NEVER, render
 from plain import trace_pixel as trace_plainly
+from single_rays import lit_pixel
 from written_out import write_out
 
 import vtray
 from conftest import JIT, compiled_only
-from vtray.geometry.packets.fan import new_fan
 from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.packet import CAP
 from vtray.geometry.packets.stack import new_stack
@@ -314,37 +314,15 @@ def test_soft_light_arrives_as_each_ray_alone_would(cap: bool) -> None:
     scene.camera = vtray.Camera.fit(scene, direction=(0.3, 1, -0.6), size=(24, 18))
     options: dict[str, Any] = {"clip": (0.1, -1, 0.3, 0.2), "cap": cap}
     image = vtray.render(scene, seed=5, tolerance=0.05, **options)
-    arrays, fan = pack(scene, accelerate(scene, style=Style(**options))).arrays, new_fan()
+    arrays = pack(scene, accelerate(scene, style=Style(**options))).arrays
     assert image.noise is not None
-    fans, soft = fans_of_middles(image.noise), arrays.lights.soft
-    assert soft is not None
-    stack, points = new_stack(), max(1, len(scene.lights) - len(soft.kind))
-    cosines, blockers = np.zeros(points), np.full(points, NOTHING)
-    on_ways = np.full(fans.rays, NOTHING)
+    fans = fans_of_middles(image.noise)
     caps = 0
     for y in range(0, 18, 2):
         for x in range(0, 24, 2):
-            traced = reference.trace_pixel(arrays, x, y, stack, cosines, blockers, new_walk(0))
-            spent = 0.0
+            traced, _ = lit_pixel(arrays, x, y, fans, seed=5)
             if traced.primitive != NOTHING:
                 caps += bool(traced.interaction.half & CAP)
-                for light in range(len(soft.kind)):
-                    lamp = reference.trace_lamp(
-                        arrays,
-                        soft,
-                        traced,
-                        x,
-                        y,
-                        light,
-                        fans,
-                        spent,
-                        5,
-                        stack,
-                        fan,
-                        on_ways,
-                        new_walk(0),
-                    )
-                    traced, spent = traced._replace(value=lamp.value), spent + lamp.counted
             assert tuple(image.linear[y, x]) == traced.value
     assert (caps > 5) == cap
 

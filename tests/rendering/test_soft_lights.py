@@ -6,17 +6,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from single_rays import lit_pixel
 
 import vtray
 from conftest import JIT, compiled_only, once
 from vtray import render
-from vtray.geometry.packets.fan import new_fan
-from vtray.geometry.packets.layer_notes import new_walk
-from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.queries import NOTHING
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
-from vtray.transport.integrators import reference
 from vtray.transport.sampling.fans import fans_of_middles
 
 SIZE = (28, 21) if JIT else (8, 6)
@@ -70,36 +67,14 @@ def test_bundles_tell_what_each_ray_alone_would(kind: str) -> None:
         pytest.skip("takes minutes without the compiler")
     scene = scene_of(kind)
     image = render(scene, seed=5, tolerance=TOLERANCE)
-    arrays, fan = pack(scene, accelerate(scene)).arrays, new_fan()
+    arrays = pack(scene, accelerate(scene)).arrays
+    assert image.noise is not None
     fans = fans_of_middles(image.noise)
-    soft = arrays.lights.soft
-    assert soft is not None
-    stack, cosines, blockers = new_stack(), np.zeros(1), np.full(1, NOTHING)
-    on_ways = np.full(fans.rays, NOTHING)
     hits = most = 0
     for y in range(1, SIZE[1], STEP):
         for x in range(1, SIZE[0], STEP):
-            traced = reference.trace_pixel(arrays, x, y, stack, cosines, blockers, new_walk(0))
-            if traced.primitive != NOTHING:
-                hits, spent = hits + 1, 0.0
-                for light in range(len(soft.kind)):
-                    lamp = reference.trace_lamp(
-                        arrays,
-                        soft,
-                        traced,
-                        x,
-                        y,
-                        light,
-                        fans,
-                        spent,
-                        5,
-                        stack,
-                        fan,
-                        on_ways,
-                        new_walk(0),
-                    )
-                    traced, spent = traced._replace(value=lamp.value), spent + lamp.counted
-                    most = max(most, lamp.fans)
+            traced, count = lit_pixel(arrays, x, y, fans, seed=5)
+            hits, most = hits + (traced.primitive != NOTHING), max(most, count)
             assert tuple(image.linear[y, x]) == traced.value
     assert hits > 10
     assert most > 2
