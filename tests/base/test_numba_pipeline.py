@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from numba.core.codegen import JITCodeLibrary
 
-from vtray.base.compiler.compiled import Device, Kernel
+from vtray.base.compiler import compiled
+from vtray.base.compiler.compiled import Device, Kernel, Seldom
+from vtray.base.compiler.numba_pipeline import DeviceLibrary, KernelLibrary
 
 pytestmark = pytest.mark.usefixtures("compiler")
 
@@ -57,3 +59,47 @@ def test_device_functions_are_optimized_in_kernels_alone(monkeypatch: pytest.Mon
     assert Kernel(lambda x: doubled(doubled(x)))(0.5) == 2.0
     assert "DeviceLibrary" not in optimized
     assert optimized.count("KernelLibrary") == 1
+
+
+def test_what_is_seldom_called_stays_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+    left: list[int] = []
+    optimize = JITCodeLibrary._optimize_final_module
+
+    def spy(library: JITCodeLibrary) -> None:
+        optimize(library)
+        if isinstance(library, KernelLibrary):
+            functions = library._final_module.functions
+            left.append(sum(not function.is_declaration for function in functions))
+
+    monkeypatch.setattr(JITCodeLibrary, "_optimize_final_module", spy)
+    apart = Seldom(lambda x: 0.5 * half_compiled(x))
+    often = Device(lambda x: apart(x) + 1.0)
+    kernel = Kernel(lambda x: often(x) + apart(x))
+    assert kernel(2.0) == 2.0
+    assert left == [2]  # the kernel, and what it calls twice
+    assert None not in kernel._native.values()
+
+
+def test_what_is_seldom_called_works_through_numba(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(compiled, "_trusted", [False])
+    apart = Seldom(lambda x: 0.5 * half_compiled(x))
+    often = Device(lambda x: apart(x) + 1.0)
+    kernel = Kernel(lambda x: often(x) + apart(x))
+    assert kernel(2.0) == 2.0
+    assert set(kernel._native.values()) == {None}
+
+
+def test_kernels_take_each_device_function_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    taken: list[object] = []
+    take = JITCodeLibrary._get_module_for_linking
+
+    def spy(library: JITCodeLibrary) -> object:
+        if isinstance(library, DeviceLibrary):  # the others are Numba's own
+            taken.append(library)
+        return take(library)
+
+    monkeypatch.setattr(JITCodeLibrary, "_get_module_for_linking", spy)
+    below = Device(lambda x: x - 1.0)
+    left, right = Device(lambda x: 2.0 * below(x)), Device(lambda x: 3.0 * below(x))
+    assert Kernel(lambda x: left(x) + right(x))(3.0) == 10.0
+    assert len(taken) == len(set(taken)) == 3

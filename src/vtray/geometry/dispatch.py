@@ -9,7 +9,7 @@ None then; nor for clip planes where there are none.
 from collections.abc import Callable
 from typing import Any
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, seldom
 from vtray.geometry.shapes.columns import Columns, Place
 from vtray.geometry.shapes.cone import (
     cone_chord,
@@ -158,7 +158,7 @@ def _with_one_of(
     return action(sphere, _verbs_of_spheres(), group.number + spheres.number[slot], arguments)
 
 
-@device
+@seldom
 def _with_cut(
     spheres: Columns,
     cylinders: Columns | None,

@@ -195,13 +195,18 @@ class Device:
         """
         import numba
 
-        from vtray.base.compiler.numba_pipeline import DevicePipeline
-
         options = {**self._options, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
         compiled: Callable[..., object] = numba.njit(
-            self._function, pipeline_class=DevicePipeline, **options
+            self._function, pipeline_class=self._pipeline, **options
         )
         return compiled
+
+    @property
+    def _pipeline(self) -> type[Any]:
+        """Numba's way to compiled code."""
+        from vtray.base.compiler.numba_pipeline import DevicePipeline
+
+        return DevicePipeline
 
     @property
     def _numba_type_(self) -> object:
@@ -217,7 +222,15 @@ class Device:
 class Seldom(Device):
     """A function that is compiled as one of its own within the machine code of a kernel."""
 
-    _options: ClassVar[dict[str, Any]] = _OPTIONS
+    # Said in so many words: Numba hands options on to what is called.
+    _options: ClassVar[dict[str, Any]] = {**_OPTIONS, "forceinline": False}
+
+    @property
+    def _pipeline(self) -> type[Any]:
+        """Numba's way to compiled code."""
+        from vtray.base.compiler.numba_pipeline import SeldomPipeline
+
+        return SeldomPipeline
 
 
 class Written:

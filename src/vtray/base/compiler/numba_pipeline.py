@@ -75,25 +75,76 @@ class _NoEnvironments:
 
 
 class DeviceLibrary(JITCodeLibrary):
-    """A function and all that it calls, in LLVM's language, to be put into others."""
+    """A function in LLVM's language, to be put into others with all that it calls."""
 
     codegen = _NoEnvironments()
+
+    def finalize(self) -> None:
+        """Leave what the function calls apart: kernels take each function once."""
+        self._raise_if_finalized()
+        self._finalized = True
+
+    def add_all_called(self, module: binding.ModuleRef) -> None:
+        """Put all that the function calls, and that what it calls calls, into a module, once.
+
+        LLVM takes in only what is called by then, so what calls comes before what it calls.
+        """
+        seen: set[JITCodeLibrary] = set()
+        called: list[JITCodeLibrary] = []
+
+        def visit(library: JITCodeLibrary) -> None:
+            for each in library._linking_libraries:  # noqa: SLF001
+                if each not in seen:
+                    seen.add(each)
+                    visit(each)
+                    called.append(each)
+
+        visit(self)
+        for library in reversed(called):
+            module.link_in(JITCodeLibrary._get_module_for_linking(library), preserve=True)  # noqa: SLF001
+
+    def _get_module_for_linking(self) -> binding.ModuleRef:
+        """Return the function with all that it calls, as Numba's own libraries want it."""
+        module = JITCodeLibrary._get_module_for_linking(self).clone()  # noqa: SLF001
+        self.add_all_called(module)
+        return module
 
     def get_pointer_to_function(self, name: str) -> int:  # noqa: ARG002
         """Return 0: the function is nowhere in memory."""
         self._ensure_finalized()
         return 0
 
-    def _optimize_final_module(self) -> None:
-        """Leave what is optimized in the kernel as it is."""
 
-    def _finalize_final_module(self) -> None:
-        """Make no machine code of it."""
-        self._finalized = True
+class SeldomLibrary(DeviceLibrary):
+    """A function that is never put into others, and all that it calls."""
+
+    def add_ir_module(self, ir_module: ir.Module) -> None:
+        """Take the function itself, as Numba has written it."""
+        for function in ir_module.functions:
+            if function.blocks:
+                function.attributes.add("noinline")
+                # Without tables for exceptions of C++, code is loaded without LLVM.
+                function.attributes.add("nounwind")
+        super().add_ir_module(ir_module)
 
 
 class KernelLibrary(DeviceLibrary):
     """A kernel and all that it calls, optimized."""
+
+    def finalize(self) -> None:
+        """Take in all that the kernel calls, and optimize it."""
+        own = {function.name for function in self._final_module.functions}
+        self.add_all_called(self._final_module)
+        for function in self._final_module.functions:
+            # What nobody else calls takes no arguments that it does not use.
+            if not function.is_declaration and function.name not in own:
+                function.linkage = "internal"
+        self._linking_libraries = []
+        JITCodeLibrary.finalize(self)
+
+    def _finalize_final_module(self) -> None:
+        """Put nothing into Numba's own memory."""
+        self._finalized = True
 
     def part_code(self, name: str, symbol: str) -> bytes:
         """Return an object file of this machine with a function under another name."""
@@ -124,9 +175,6 @@ class KernelLibrary(DeviceLibrary):
         code: bytes = self._codegen._tm.emit_object(self._final_module)  # noqa: SLF001
         return code
 
-    def _optimize_final_module(self) -> None:
-        JITCodeLibrary._optimize_final_module(self)  # noqa: SLF001
-
 
 class DevicePipeline(Compiler):
     """Numba's usual way from a function in Python to one in LLVM's language."""
@@ -153,6 +201,12 @@ class DevicePipeline(Compiler):
             manager.passes = [step for step in manager.passes if step[0] not in UNUSED]
             manager.finalize()
         return managers
+
+
+class SeldomPipeline(DevicePipeline):
+    """The same for a function that is never put into others."""
+
+    library = SeldomLibrary
 
 
 class KernelPipeline(DevicePipeline):
@@ -182,8 +236,7 @@ def type_of_calls(
         convention, types = context.call_conv, signature.args
         kind = convention.get_function_type(returned, types)
         called = cgutils.get_or_insert_function(builder.module, kind, symbol_of(types))
-        # Without tables for exceptions of C++, code is loaded without LLVM.
-        called.attributes.add("nounwind")
+        called.attributes.add("nounwind")  # as in `SeldomLibrary`
         status, value = convention.call_function(builder, called, returned, types, arguments)
         with cgutils.if_unlikely(builder, status.is_error):
             convention.return_status_propagate(builder, status)
