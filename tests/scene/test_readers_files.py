@@ -478,9 +478,11 @@ def test_broken(name: str, content: bytes, tmp_path: Path) -> None:
 WRONG = [
     ("a.csv", "px,py\n1,2\n", "expected the columns x, y and z, got px, py; name them, as in col"),
     ("a.csv", "x,y,z\n1,2\n", "line 2: expected 3 entries, got 2"),
-    ("a.csv", "x,y,z\n1,2,a\n", "column 'z': expected numbers, got such as 'a'"),
+    ("a.csv", "x,y,z\n1,2,a\n", "line 2: column 'z': expected numbers, got such as 'a'"),
     ("a.csv", "x,x\n1,2\n", "line 1: expected each column once, got 'x' twice"),
-    ("a.csv", "x,y,z\n1,2,\n", "Particles.positions[0, 2]: must be finite, got nan"),
+    ("a.csv", "x,y,z\n1,2,\n", "line 2: column 'z': must be finite, got nan"),
+    ("a.csv", "x,y,z\n\n1,2,3\n\n1,inf,3\n", "line 5: column 'y': must be finite, got inf"),
+    ("a.csv", "x,Y,z\n1,2,3\n1,b,3\n", "line 3: column 'Y': expected numbers, got such as 'b'"),
     ("a.pdb", PDB.replace("  -1.500", "  -1.5x0"), "line 4: columns 31 to 38: x must be a number"),
     ("a.pdb", PDB.replace("  -1.500", "     nan"), "line 4: x must be finite, got nan"),
     ("a.dump", dump(one="0 1 inf"), "line 10: z must be finite, got inf"),

@@ -1,6 +1,6 @@
 """Particles of named columns: those of tables, data frames and mappings."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
@@ -14,8 +14,15 @@ if TYPE_CHECKING:
     Array = NDArray[Any]
 
 
+def in_column(row: int, name: str) -> str:
+    """Return the place of an entry in a column, for messages."""
+    return f"column {name!r}[{row}]"
+
+
 def from_columns(
-    columns: "Mapping[str, Array]", called: Mapping[str, str] | None = None
+    columns: "Mapping[str, Array]",
+    called: Mapping[str, str] | None = None,
+    place_of: Callable[[int, str], str] = in_column,
 ) -> Particles:
     """Return the particles whose places are the columns x, y and z, or `position`.
 
@@ -25,11 +32,13 @@ def from_columns(
         Arrays (n,) or (n, k) by their names, in any case for those of the places.
     called
         For some columns, what they are called in `columns`, such as ``{"x": "px"}``.
+    place_of
+        Returns where the entry of a row from 0 on stands, given also the name of the column.
 
     Raises
     ------
     SceneError
-        There are no places, or a column that was named is not there.
+        There are no places, one is no finite number, or a column that was named is not there.
     """
     import numpy as np
 
@@ -38,10 +47,9 @@ def from_columns(
     places = {name.lower(): name for name in reversed(left)}
     whole = [name for name in left if canonical(name) == "position" and left[name].ndim == 2]
     if all(name in places for name in POSITION):
+        for name in POSITION:
+            _check_numbers(left[places[name]], places[name], place_of)
         parts = [left.pop(places[name]) for name in POSITION]
-        for name, part in zip(POSITION, parts, strict=True):
-            if part.ndim != 1 or part.dtype.kind not in "biuf":
-                raise SceneError(f"column {name!r}: expected numbers, got {_kind(part)}")
         kind = np.float32 if all(part.dtype == np.float32 for part in parts) else np.float64
         positions = np.stack(parts, axis=1).astype(kind, copy=False)
     elif whole:
@@ -71,6 +79,26 @@ def renamed(columns: "Mapping[str, Array]", called: Mapping[str, str]) -> "dict[
     return {**chosen, **{name: values for name, values in left.items() if name not in chosen}}
 
 
-def _kind(part: "Array") -> str:
-    """Say what a column holds that is no numbers."""
-    return f"shape {part.shape}" if part.ndim != 1 else f"such as {short(str(part[0]))!r}"
+def _check_numbers(part: "Array", name: str, place_of: Callable[[int, str], str]) -> None:
+    """Raise SceneError if a column does not hold one finite number for each row."""
+    import numpy as np
+
+    if part.ndim != 1:
+        raise SceneError(f"column {name!r}: expected numbers, got shape {part.shape}")
+    if part.size and part.dtype.kind not in "biuf":
+        row = next((k for k, entry in enumerate(part) if not _is_number(entry)), 0)
+        shown = short(str(part[row]))
+        raise SceneError(f"{place_of(row, name)}: expected numbers, got such as {shown!r}")
+    is_finite = np.isfinite(part)
+    if not is_finite.all():
+        row = int(np.argmin(is_finite))
+        raise SceneError(f"{place_of(row, name)}: must be finite, got {part[row]}")
+
+
+def _is_number(entry: object) -> bool:
+    """Tell whether an entry of a column that holds others may be a number."""
+    try:
+        float(str(entry))
+    except ValueError:
+        return False
+    return True

@@ -2,6 +2,8 @@
 
 import csv
 import io
+from functools import partial
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -38,23 +40,29 @@ def read(given: Given) -> Particles:
         pyarrow, for .parquet, is not installed.
     """
     frame_number(given.frame, 1)
-    columns = {"csv": _read_csv, "npz": _read_npz, "parquet": _read_parquet}[given.format](given)
+    if given.format == "csv":
+        text = _read_text(given)
+        return from_columns(_csv_columns(text), given.columns, partial(_in_line, text))
+    columns = {"npz": _read_npz, "parquet": _read_parquet}[given.format](given)
     return from_columns(columns, given.columns)
 
 
-def _read_csv(given: Given) -> "dict[str, Array]":
-    """Read columns between commas, semicolons or tabs, named in the first line."""
+def _read_text(given: Given) -> str:
+    """Read the text of a .csv file."""
     try:
-        text = read_stream(given.file).decode("utf-8-sig")
+        return read_stream(given.file).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise SceneError(f"byte {error.start}: not UTF-8; expected text") from None
+
+
+def _csv_columns(text: str) -> "dict[str, Array]":
+    """Return columns between commas, semicolons or tabs, named in the first line."""
     head = text.partition("\n")[0]
-    separator = max(_SEPARATORS, key=head.count)
-    entries = head.count(separator) + 1
+    entries = head.count(_separator(text)) + 1
     lack = lack_of_memory(_BYTES * entries * text.count("\n"))
     if lack:
         raise SceneError(f"reading it needs about {lack}")
-    lines = csv.reader(io.StringIO(text, newline=""), delimiter=separator, skipinitialspace=True)
+    lines = _csv_lines(text)
     try:
         names = [name.strip() for name in next(lines, [])]
         _check_names(names)
@@ -69,6 +77,24 @@ def _read_csv(given: Given) -> "dict[str, Array]":
         raise SceneError(f"line {lines.line_num}: {error}") from None
     parts = zip(*rows, strict=True) if rows else ([] for _ in names)
     return {name: _column(list(part)) for name, part in zip(names, parts, strict=True)}
+
+
+def _separator(text: str) -> str:
+    """Return what is between the entries of a text."""
+    return max(_SEPARATORS, key=text.partition("\n")[0].count)
+
+
+def _csv_lines(text: str) -> Any:  # noqa: ANN401
+    """Return a reader of the lines of a text, entry by entry."""
+    file = io.StringIO(text, newline="")
+    return csv.reader(file, delimiter=_separator(text), skipinitialspace=True)
+
+
+def _in_line(text: str, row: int, name: str) -> str:
+    """Return where an entry stands, given its row below the names and the name of its column."""
+    lines = _csv_lines(text)
+    rows = (lines.line_num for entries in lines if entries)
+    return f"line {next(islice(rows, row + 1, None))}: column {name!r}"
 
 
 def _check_names(names: list[str]) -> None:
