@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image
 
@@ -12,6 +13,7 @@ from vtray.commands.annotation_options import annotations_of
 from vtray.commands.data_options import joined
 from vtray.commands.data_scene import load_data
 from vtray.commands.options import parse
+from vtray.figures.painted.picture import share_beside
 from vtray.scene.scene import Scene
 
 WATER = """3
@@ -38,6 +40,18 @@ def water(tmp_path: Path) -> Path:
 def scene_of(*arguments: object) -> Scene:
     """Return the scene that the command makes of data."""
     return load_data(parse([*map(str, arguments), "picture.png"]))[0]
+
+
+def rightmost(scene: Scene) -> float:
+    """Return the column of the rightmost of many points on the spheres of a scene."""
+    (spheres,) = scene.objects
+    around = np.random.default_rng(3).normal(size=(2000, 3))
+    around /= np.linalg.norm(around, axis=1, keepdims=True)
+    radii = np.broadcast_to(spheres.radius, len(spheres))
+    pairs = zip(spheres.center, radii, strict=True)
+    return max(
+        scene.camera.project(center + radius * around)[:, 0].max() for center, radius in pairs
+    )
 
 
 def test_data_becomes_a_scene(water: Path) -> None:
@@ -183,6 +197,19 @@ def test_picture_of_data(water: Path, capfd: pytest.CaptureFixture[str]) -> None
     with Image.open(picture) as made:
         assert made.size == (40, 30)
         assert made.getpixel((0, 0)) == (255, 255, 255)
+
+
+@pytest.mark.parametrize("mark", ["--legend", "--color-bar"])
+def test_particles_leave_room_for_what_stands_beside(water: Path, mark: str) -> None:
+    coloured = ["--color", "x"] if mark == "--color-bar" else []
+    given = [*coloured, "--no-cell", "--size", "300x300", str(water)]
+    alone, beside = (rightmost(scene_of(*given, *marks)) for marks in ([], [mark]))
+    assert alone > 270
+    scene = scene_of(*given, mark)
+    legend = [("H", "white"), ("O", "red")] if mark == "--legend" else None
+    taken = share_beside(scene.objects, legend, mark == "--color-bar", (300, 300))
+    assert 0.1 < taken < 0.4
+    assert beside <= 300 * (1 - taken) + 1
 
 
 def test_legend_of_data(water: Path) -> None:

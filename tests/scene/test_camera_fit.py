@@ -133,6 +133,25 @@ def test_fit_is_inside_tight_and_in_the_middle(
 
 
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
+@pytest.mark.parametrize("margins", [(0.1, 0, 0.4, 0.2), (0, 0.45, 0.05, 0.05)])
+@pytest.mark.parametrize("size", [(101, 101), (201, 101)])
+def test_fit_leaves_free_what_each_margin_says(
+    projection: Any, margins: tuple[float, float, float, float], size: tuple[int, int]
+) -> None:
+    random = np.random.default_rng(5)
+    spheres = Spheres(random.normal(size=(9, 3)), 0.3, (1, 2, 3), 1)
+    camera = Camera.fit(spheres, margin=margins, projection=projection, size=size)
+    low, high = seen_range(camera, spheres)
+    lattice = np.array(size) - 1.0
+    free = np.array([low[:2] / lattice, 1 - high[:2] / lattice]).ravel() - margins
+    assert np.all(free > -1e-4)
+    across, down = free[::2], free[1::2]
+    assert min(across.max(), down.max()) < 1e-4, "not tight"
+    assert np.abs(np.diff(across)) < 1e-4
+    assert np.abs(np.diff(down)) < 1e-4
+
+
+@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 def test_fit_of_points(projection: Any) -> None:
     points = [(x, y, z) for x in (0, 2) for y in (0, 1) for z in (0, 3)]
     camera = Camera.fit(points, (0, 0, -1), margin=0, projection=projection, size=(101, 101))
@@ -395,6 +414,18 @@ CALLS: list[tuple[str, tuple[Any, ...], dict[str, Any], str]] = [
         (ONE,),
         {"margin": 0.5},
         "margin: expected a number from 0 to less than 0.5, got 0.5",
+    ),
+    (
+        "fit",
+        (ONE,),
+        {"margin": (0, 0, 0.5, 0)},
+        "margin[2]: expected a number from 0 to less than 0.5, got 0.5",
+    ),
+    (
+        "fit",
+        (ONE,),
+        {"margin": (0.1, 0.2)},
+        "margin: expected a number, or four: left, top, right, bottom, got (0.1, 0.2)",
     ),
     ("fit", (ONE,), {"direction": ORIGIN}, f"direction: {ZERO}"),
     ("fit", (ONE,), {"up": (0, 0, 2)}, f"up: {PARALLEL} direction, or None, got (0.0, 0.0, 2.0)"),

@@ -10,7 +10,6 @@ from vtray.commands.annotation_options import PointLabel, labels_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from pathlib import Path
 
     from vtray.scene.particles.drawing import Drawn
     from vtray.scene.particles.particles import Particles
@@ -74,13 +73,15 @@ def draw_data(
         if options.background is not None and not isinstance(options.background, str):
             drawing["background"] = options.background
         drawn = scene.add_particles(particles, **drawing)
+        marks = _marks(options, drawn, particles)
         if camera is None:
-            scene.camera = camera_of(scene, has_cell, size, **view)
+            beside = _share_beside(options, scene, marks.get("legend"), size)
+            scene.camera = camera_of(scene, has_cell, size, beside=beside, **view)
         settings = taken(scene.camera, drawn.spheres, is_alone=camera is None)
         scene.render = scene.render.replace(**settings)
     except SceneError as error:
         raise SceneError(f"{options.scene}: {error}") from None
-    return scene, drawn, _marks(options, drawn, particles)
+    return scene, drawn, marks
 
 
 def _marks(options: argparse.Namespace, drawn: "Drawn", particles: "Particles") -> dict[str, Any]:
@@ -89,30 +90,43 @@ def _marks(options: argparse.Namespace, drawn: "Drawn", particles: "Particles") 
     if data_options.given(options).get("legend"):
         if not drawn.legend:
             message = "--legend: colours have no names; --color-bar says what values they stand for"
-            raise SceneError(f"{options.scene}: {message}")
+            raise SceneError(message)
         marks["legend"] = drawn.legend
     _, columns = labels_of(options)
     if columns:
-        marks["labels"] = [
-            label for name in columns for label in _labels(drawn, particles, name, options.scene)
-        ]
+        marks["labels"] = [label for name in columns for label in _labels(drawn, particles, name)]
         # Of atoms behind others, too, would be too many.
         marks["hide_labels"] = True
     return marks
 
 
-def _labels(drawn: "Drawn", particles: "Particles", name: str, file: "Path") -> list[PointLabel]:
+def _share_beside(
+    options: argparse.Namespace,
+    scene: "Scene",
+    legend: Any,  # noqa: ANN401
+    size: tuple[int, int],
+) -> float:
+    """Return the share of the picture's width that a legend and colour bars take."""
+    colorbar = options.colorbar
+    if legend is None and colorbar is None:
+        return 0.0
+    from vtray.figures.painted.picture import share_beside
+
+    return share_beside(scene.objects, legend, True if colorbar == "" else colorbar or False, size)
+
+
+def _labels(drawn: "Drawn", particles: "Particles", name: str) -> list[PointLabel]:
     """Return what a column says of each particle that is drawn, and where it is."""
     try:
         values = particles[name]
     except SceneError as error:
-        raise SceneError(f"{file}: --label: {error}, or give x,y,z:TEXT") from None
+        raise SceneError(f"--label: {error}, or give x,y,z:TEXT") from None
     if values.ndim != 1:
-        raise SceneError(f"{file}: --label: column {name} has {values.shape[1]} numbers each")
+        raise SceneError(f"--label: column {name} has {values.shape[1]} numbers each")
     places = drawn.spheres.center if drawn.stars is None else drawn.stars.center
     if len(places) > MOST_LABELS:
         words = f"expected at most {MOST_LABELS} particles to label, got {len(places)}"
-        raise SceneError(f"{file}: --label {name}: {words}; choose some by --select")
+        raise SceneError(f"--label {name}: {words}; choose some by --select")
     rows = values[drawn.indices]
     texts = [f"{value:.4g}" for value in rows] if rows.dtype.kind == "f" else [*map(str, rows)]
     times = len(places) // max(len(texts), 1)

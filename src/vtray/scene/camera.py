@@ -157,7 +157,7 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         subject: "HasObjects | ArrayHolder | ArrayLike",
         direction: "Direction | Vector | Triple" = AHEAD,
         up: "Direction | Vector | Triple | None" = None,
-        margin: float = 0.05,
+        margin: float | tuple[float, float, float, float] = 0.05,
         projection: Projection = "perspective",
         fov_degrees: float = 40.0,
         size: tuple[int, int] = (800, 600),
@@ -185,7 +185,8 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
             within 0.06 degrees, (0, 1, 0), and where that is too, (0, 0, 1).
         margin
             What stays free at each side, as a share of the picture's width and height, from 0 to
-            less than 0.5.
+            less than 0.5; or four of them, on the left, at the top, on the right and at the bottom,
+            as for a legend on the right. The middle is that of what they leave.
         projection
             "perspective" or "orthographic".
         fov_degrees

@@ -1,17 +1,24 @@
 """A picture with annotations painted onto it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from vtray.figures.annotations import Annotations, Marks, find_marks
+from vtray.figures.color_bar import bar_labels, color_scales
+from vtray.figures.legend import legend_entries
 from vtray.figures.painted.canvas import Canvas
-from vtray.figures.painted.layout import Placed, arranged
+from vtray.figures.painted.layout import MARGIN, Placed, arranged
 from vtray.figures.painted.letters import check_letters, letters
 from vtray.figures.painted.words import Words
 from vtray.figures.point_labels import Label
 from vtray.figures.sheet import FigureError, check_number
 from vtray.figures.subject import Pixels, Subject
+
+if TYPE_CHECKING:
+    from vtray.figures.legend import LegendGiven
+    from vtray.scene.scene import Object
 
 SHARE = 0.035
 """The size of letters in parts of the picture's shorter side."""
@@ -58,6 +65,40 @@ def annotated_pixels(image: Subject, wanted: Annotations, fontsize: float | None
         remedy += ", or give a smaller fontsize"
     message = f"annotations: there is no room in a picture of {width} x {height} pixels; {remedy}"
     raise FigureError(message)
+
+
+def share_beside(
+    objects: "Sequence[Object]",
+    legend: "LegendGiven | None",
+    colorbar: bool | str,
+    size: tuple[int, int],
+) -> float:
+    """Return the share of a picture's width that a legend and colour bars take on its right.
+
+    Parameters
+    ----------
+    objects
+        What is shown.
+    legend, colorbar
+        As for `vtray.Image.annotated`.
+    size
+        Width and height of the picture in pixels.
+
+    Raises
+    ------
+    FigureError
+        One of them is not right.
+    """
+    scales = color_scales(objects) if colorbar else []
+    entries = [] if legend is None else legend_entries(legend)
+    labels = bar_labels(colorbar, len(scales))
+    marks = _checked(Marks("", "", entries, scales, labels, None, [], []))
+    width, height = size
+    for em in _sizes(None, width, height):
+        placed = arranged(marks, em, width, height)
+        if placed:
+            return 1.0 - min(one.left for one in placed) / width + round(MARGIN * em) / width
+    return 0.0
 
 
 def _checked(marks: Marks) -> Marks:

@@ -58,7 +58,7 @@ def fitting(
     """
     call = "Camera.fit"
     forward = unit(argument(call, "direction", direction, Direction))
-    share = argument(call, "margin", margin, Margin)
+    free = _margins(call, margin)
     kind = argument(call, "projection", projection, Projection)
     fov = argument(call, "fov_degrees", fov_degrees, FieldOfView)
     width, height = pixels = argument(call, "size", size, SizePair)
@@ -67,7 +67,7 @@ def fitting(
     upward = _choose_up(subject, up, forward, middle)
     right, down = view_axes(forward, unit(upward))
     axes = (right, down, forward)
-    frames = _frame(int(width), share), _frame(int(height), share)
+    frames = _frame(int(width), free[0], free[2]), _frame(int(height), free[1], free[3])
     with np.errstate(over="ignore", invalid="ignore"):
         if kind == "perspective":
             slope = pixel_slope(fov, pixels)
@@ -108,14 +108,24 @@ def _to_world(point: Vec, middle: Floats, axes: tuple[Vec, Vec, Vec]) -> Vec:
     return place[0] + float(middle[0]), place[1] + float(middle[1]), place[2] + float(middle[2])
 
 
-def _frame(count: int, margin: float) -> tuple[float, float]:
+def _margins(call: str, margin: object) -> list[float]:
+    """Return what stays free on the left, at the top, on the right and at the bottom."""
+    if not isinstance(margin, Sequence) or isinstance(margin, str):
+        return [argument(call, "margin", margin, Margin)] * 4
+    if len(margin) != 4:
+        words = "expected a number, or four: left, top, right, bottom"
+        raise SceneError(f"{call}: margin: {words}, got {show(margin)}")
+    return [argument(call, f"margin[{k}]", share, Margin) for k, share in enumerate(margin)]
+
+
+def _frame(count: int, before: float, after: float) -> tuple[float, float]:
     """Return where silhouettes may begin and end on a row of pixels, in pixels from the axis.
 
     Pixels lie from -count/2 to count/2 - 1; a row of a single one has no length, and stands for the
     area of that pixel instead.
     """
     first, length = (-count / 2, count - 1) if count > 1 else (-1.0, 1)
-    return first + margin * length, first + (1 - margin) * length
+    return first + before * length, first + (1 - after) * length
 
 
 def _stand(seen: Sequence[Seen], edges: Sequence[Slopes]) -> tuple[Vec, float]:
