@@ -1,5 +1,6 @@
 """Cameras that go around a scene, their lights, and cameras between others."""
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ from PIL import Image
 import vtray
 from conftest import compiled_only
 from vtray.animation.animate import camera_around
+from vtray.animation.between_cameras import between_cameras
 from vtray.animation.keyframes import Keyframes
 from vtray.animation.swept import fit_around, upright
 from vtray.animation.turned_lights import turned_light
@@ -154,10 +156,16 @@ def test_errors(
     assert not [*tmp_path.iterdir()]
 
 
+def keys_of(
+    cameras: dict[float, vtray.Camera], pivot: tuple[float, float, float]
+) -> Keyframes[vtray.Camera]:
+    return Keyframes("camera", cameras, partial(between_cameras, pivot=pivot))
+
+
 def test_keyframes_turn_about_the_middle() -> None:
     camera = vtray.Camera.look_at((3, -8, 2), (3, 0, 0), up=UP)
     middle = (3.0, 0.0, 0.0)
-    keys = Keyframes({30: camera.orbit(120), 10: camera}, middle)
+    keys = keys_of({30: camera.orbit(120), 10: camera}, middle)
     assert keys(0) == keys(10) == camera
     assert keys(30) == keys(99) == camera.orbit(120)
     for number, degrees in ((20, 60), (15, 120 * 0.15625)):  # a quarter: 3/16 - 2/64
@@ -171,12 +179,12 @@ def test_keyframes_turn_about_the_middle() -> None:
 def test_keyframes_zoom_evenly() -> None:
     camera = vtray.Camera.look_at((0, -8, 0), (0, 0, 0), up=UP)
     near = vtray.Camera.look_at((0, -2, 0), (0, 0, 0), up=UP)
-    between = Keyframes({0: camera, 2: near}, (0.0, 0.0, 0.0))(1)
+    between = keys_of({0: camera, 2: near}, (0.0, 0.0, 0.0))(1)
     assert between.center.y == pytest.approx(-4)
-    zoomed = Keyframes({0: camera, 2: camera.zoomed(4)}, (0.0, 0.0, 0.0))(1)
+    zoomed = keys_of({0: camera, 2: camera.zoomed(4)}, (0.0, 0.0, 0.0))(1)
     assert zoomed.resolution[0] == pytest.approx(camera.resolution[0] / 2)
     flat = vtray.Camera.orthographic((0, -8, 0), (0, 0, 0), 4, up=UP)
-    beside = Keyframes({0: flat, 2: flat.zoomed(4)}, (0.0, 9.0, 0.0))(1)
+    beside = keys_of({0: flat, 2: flat.zoomed(4)}, (0.0, 9.0, 0.0))(1)
     assert beside.resolution[0] == pytest.approx(flat.resolution[0] / 2)
     assert beside.projection == "orthographic"
 
@@ -185,4 +193,4 @@ def test_keyframes_of_other_kinds() -> None:
     camera = vtray.Camera.look_at((0, -8, 0), (0, 0, 0), up=UP)
     words = r"camera\[5\]: expected a perspective camera of size \(800, 600\), as camera\[0\] is"
     with pytest.raises(SceneError, match=words):
-        Keyframes({0: camera, 5: camera.resized((8, 6))}, (0.0, 0.0, 0.0))
+        keys_of({0: camera, 5: camera.resized((8, 6))}, (0.0, 0.0, 0.0))

@@ -336,3 +336,10 @@ def test_a_plane_that_cuts_nothing_may_be_anywhere(distance: float) -> None:
     np.testing.assert_array_equal(
         vtray.render(scene, clip=(0, 0, 1, distance)).linear, plain.linear
     )
+
+
+def test_planes_that_leave_nothing_are_warned_of_where_render_is_called() -> None:
+    world = load(scene([sphere((0, 0, 5), 1)], [light(0, 0, 0)], size=[3, 2]))
+    with pytest.warns(UserWarning, match=r"^style.clip: leaves nothing of the scene") as caught:
+        assert not vtray.render(world, clip=(0, 0, 1, -9)).linear.any()
+    assert [warning.filename for warning in caught] == [__file__]

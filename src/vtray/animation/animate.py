@@ -7,8 +7,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from vtray.animation.cluster import check_client
+from vtray.animation.fading import Opacity
 from vtray.animation.film import Film, Progress
-from vtray.animation.keyframes import Keyframes, check_keyframes
+from vtray.animation.moving import (
+    STYLE,
+    Moving,
+    is_moving,
+    last_of,
+    way_of_cameras,
+    way_of_opacity,
+    way_of_part,
+)
 from vtray.animation.output import Output
 from vtray.animation.particle_scenes import Drawing, ParticleScenes, looked_at
 from vtray.animation.script import Make, Script
@@ -47,6 +56,7 @@ def animate(
     frames: "Frames | int" = None,
     fps: float = 30.0,
     camera: AnyCamera | None = None,
+    opacity: Any = None,  # noqa: ANN401
     annotate: Mapping[str, Any] | None = None,
     resume: bool = False,
     threads: int | None = None,
@@ -83,6 +93,10 @@ def animate(
         or keyframes, cameras by such numbers, between which it turns and moves smoothly. By default
         that of each scene; of scenes without one, the one that fits the first. Of particles, the
         one that shows eight frames, spread over all.
+    opacity
+        How opaque objects are: a number from 0 to 1, or one for each of the scene's objects, of
+        which None leaves one as it is; or, as for `camera`, a function or keyframes of these. Of
+        particles, that of `Scene.add_particles`, which may move too.
     annotate
         What is painted on each picture, as keywords of `Image.annotated`. In the texts ``title``
         and ``time``, ``{frame}`` and ``{time}`` stand for those of the frame.
@@ -103,10 +117,12 @@ def animate(
         What numbered pictures hold, as for `Image.save`.
     options
         Settings of the render and parts of the style, such as ``samples=16`` or ``fog=True``, as
-        for `render`. With `exposure`, that is the exposure of each picture. Of particles, also the
-        keywords of `Scene.add_particles`, and ``view``, ``zoom`` and ``orthographic``: see
-        `Camera.fit`. Of a trajectory, also those of `read`. Colours by values have one scale, that
-        of eight frames, spread over all, unless ``clim`` is given.
+        for `render`. `clip` and `slice` may also be functions of the number of the picture, or
+        keyframes, between which planes turn and move smoothly. With `exposure`, that is the
+        exposure of each picture. Of particles, also the keywords of `Scene.add_particles`, and
+        ``view``, ``zoom`` and ``orthographic``: see `Camera.fit`. Of a trajectory, also those of
+        `read`. Colours by values have one scale, that of eight frames, spread over all, unless
+        ``clim`` is given.
 
     Returns
     -------
@@ -132,17 +148,17 @@ def animate(
     >>> vtray.animate("run.xyz", "run.mp4", frames="::5", bonds=True)  # doctest: +SKIP
     """
     settings = {name: options.pop(name) for name in PICTURE if options.get(name) is not None}
+    parts = {name: settings.pop(name) for name in STYLE if is_moving(settings.get(name))}
     reading = {name: options.pop(name) for name in READING if name in options}
     look = Look(settings, dict(annotate or {}), bits, tuple(aov), threads)
     film = _film(path, fps, look, resume, client, progress, warn)
-    usual = None
-    if isinstance(camera, Mapping):
-        usual = int(check_keyframes(camera)[-1]) + 1
+    ways = {name: way_of_part(name, part) for name, part in parts.items()}
+    last = last_of(camera=camera, opacity=opacity, **parts)
     is_file = isinstance(scenes, (str, os.PathLike))
     if reading and not is_file:
         message = f"{next(iter(reading))}: expected the name of a trajectory beside it"
         raise SceneError(message)
-    source = source_of(scenes, frames, reading, usual)
+    source = source_of(scenes, frames, reading, None if last is None else last + 1)
     first, source = first_of(source)
     if isinstance(first, Scene):
         if options:
@@ -151,9 +167,15 @@ def animate(
             raise TypeError(message)
         make: Make = SceneShots(first)
     else:
+        if opacity is not None and not is_moving(opacity):
+            options["opacity"], opacity = opacity, None  # may be the name of a column
         drawing = Drawing(options, settings.get("size"), settings.get("background"))
         make = ParticleScenes(drawing.draw, drawing.fit, looked_at(source, first))
-    run(film, Script(source, first, make, _camera_of_pictures(camera, make, first)))
+    if opacity is not None:
+        ways["opacity"] = way_of_opacity(opacity)
+    if camera is not None:
+        ways["camera"] = way_of_cameras(camera, lambda: _pivot(make(first, 0, None).scene))
+    run(film, Script(source, first, make, Moving(ways)))
     return film.output.path
 
 
@@ -165,6 +187,7 @@ def turntable(
     fps: float = 30.0,
     degrees: float = 360.0,
     lights: Literal["turn", "still"] = "turn",
+    opacity: Any = None,  # noqa: ANN401
     annotate: Mapping[str, Any] | None = None,
     resume: bool = False,
     threads: int | None = None,
@@ -195,8 +218,8 @@ def turntable(
     lights
         ``"turn"``: the lights go with the camera, as if the scene turned before it. ``"still"``:
         they stay, but for those of a scene whose lights were never set.
-    settings
-        Settings of the render, as for `render`.
+    opacity, settings
+        As for `animate`, for which settings of the render may move too.
 
     Returns
     -------
@@ -218,10 +241,14 @@ def turntable(
         message = f"turntable() argument {unknown[0]!r} is unknown"
         raise TypeError(message)
     settings = {name: value for name, value in settings.items() if value is not None}
+    parts = {name: settings.pop(name) for name in STYLE if is_moving(settings.get(name))}
     look = Look(settings, dict(annotate or {}), bits, tuple(aov), threads)
     film = _film(path, fps, look, resume, client, progress, warn)
+    ways = {name: way_of_part(name, part) for name, part in parts.items()}
+    if opacity is not None:
+        ways["opacity"] = way_of_opacity(opacity)
     camera, about = camera_around(scene)
-    go_around(film, scene, camera, about, seconds, degrees, lights)
+    go_around(film, scene, camera, about, seconds, degrees, lights, moving=Moving(ways))
     return film.output.path
 
 
@@ -242,10 +269,11 @@ def go_around(
     degrees: float = 360.0,
     lights: str = "turn",
     shot: Shot | None = None,
+    moving: Moving | None = None,
 ) -> None:
     """Make a movie of a scene as a camera goes around it; see `turntable`.
 
-    `shot` says what is painted on each picture.
+    `shot` says what is painted on each picture, and `moving` what else moves.
     """
     length, angle = _number("seconds", seconds), _number("degrees", degrees, positive=False)
     count = max(round(length * film.fps), 1)
@@ -258,7 +286,7 @@ def go_around(
     axis = (-down[0], -down[1], -down[2]) if camera.up is None else unit(camera.up)
     turns = lights == "turn" and not has_default_light(scene)
     shots = TurnedShots(shot or Shot(Scene(), camera), camera, about, axis, angle, count, turns)
-    run(film, Script(source_of(scene, count), scene, shots))
+    run(film, Script(source_of(scene, count), scene, shots, moving or Moving()))
 
 
 @dataclass(frozen=True)
@@ -285,7 +313,7 @@ class TurnedShots:
     count: int
     turns_lights: bool
 
-    def __call__(self, scene: Scene, k: int) -> Shot:
+    def __call__(self, scene: Scene, k: int, opacity: Opacity | None = None) -> Shot:
         """Return what a picture is taken of."""
         turn = self.degrees * k / self.count
         middle = (self.about.x, self.about.y, self.about.z)
@@ -294,6 +322,7 @@ class TurnedShots:
             scene=scene,
             camera=self.camera.orbit(turn, about=self.about),
             lights=lights if self.turns_lights else None,
+            opacity=opacity,
         )
 
 
@@ -336,27 +365,12 @@ class SceneShots:
     def __init__(self, first: Scene) -> None:
         self._fitted = first.camera if not _is_none(first.camera) else Camera.fit(first, view=USUAL)
 
-    def __call__(self, scene: Any, k: int) -> Shot:  # noqa: ANN401
+    def __call__(self, scene: Any, k: int, opacity: Opacity | None = None) -> Shot:  # noqa: ANN401
         """Return what a picture is taken of."""
         if not isinstance(scene, Scene):
             raise SceneError(f"scenes: expected a Scene for picture {k}, got {show(scene)}")
-        return Shot(scene, self._fitted if _is_none(scene.camera) else scene.camera)
-
-
-def _camera_of_pictures(
-    camera: object,
-    make: Make,
-    first: Any,  # noqa: ANN401
-) -> Callable[[int], Any] | None:
-    """Return what gives the cameras that are asked for, by the numbers of pictures."""
-    if camera is None or callable(camera):
-        return camera
-    if isinstance(camera, Camera):
-        return lambda _: camera
-    if isinstance(camera, Mapping):
-        return Keyframes(camera, _pivot(make(first, 0).scene))
-    words = "expected a Camera, cameras by the numbers of pictures, or a function of these"
-    raise SceneError(f"camera: {words}, got {show(camera)}")
+        camera = self._fitted if _is_none(scene.camera) else scene.camera
+        return Shot(scene, camera, opacity=opacity)
 
 
 def _pivot(scene: Scene) -> Vec:

@@ -1,130 +1,93 @@
-"""Cameras between others: each turns, moves and zooms evenly from one to the next.
+"""Values between others: cameras, clip planes and opacities of some pictures, and of all between.
 
-A turn is the shortest one, about a pivot, so that a camera that goes around something keeps its
-distance. Numbers between two are found by halving, again and again, which needs nothing but square
-roots, and gives the same camera on every machine.
+Each moves evenly from one to the next, and starts and stops smoothly. What lies on the way between
+two on a circle or a scale is found by halving, again and again, which needs nothing but square
+roots, and gives the same on every machine.
 """
 
 import math
 from bisect import bisect_right
 from collections.abc import Callable, Mapping
-from typing import TypeVar
+from itertools import pairwise
+from typing import Generic, TypeVar
 
 from vtray.base.errors import SceneError
-from vtray.scene.camera import Camera
 from vtray.scene.checks.scene_words import show
-from vtray.scene.placing.directions import Vec, along, dot
-from vtray.scene.placing.moved import axes_of
-from vtray.scene.vectors import Direction, Vector
 
-Turn = tuple[float, float, float, float]
-"""A unit quaternion."""
+Value = TypeVar("Value")
 
-Any_ = TypeVar("Any_")
+BEFORE = "{before}"
+"""What stands in messages for the name of the keyframe before."""
 
 HALVINGS = 40
 """How often what lies between two is halved: to a millionth of a millionth."""
 
 
-class Keyframes:
-    """The cameras of a movie, by those of some of its pictures.
+class ApartError(Exception):
+    """There is no way from one value to another; says why, with `BEFORE`."""
+
+
+class Keyframes(Generic[Value]):
+    """The values that something has in a movie, by those of some of its pictures.
 
     Parameters
     ----------
-    cameras
-        Cameras by the numbers of pictures, from 0. Before the first and after the last, the camera
-        stands still; between two, it starts and stops smoothly.
-    pivot
-        The point that cameras turn about, in world space.
+    name
+        What it is called in messages.
+    values
+        Values by the numbers of pictures, from 0. Before the first and after the last, nothing
+        moves; between two, it starts and stops smoothly.
+    between
+        Gives what lies at a share of the way from one value to another, from 0 to 1.
 
     Raises
     ------
     SceneError
-        There is none, a number is none, or cameras differ in size or projection.
+        There is none, a number is none, or there is no way from one to the next.
     """
 
-    def __init__(self, cameras: Mapping[float, Camera], pivot: Vec) -> None:
-        self._numbers = check_keyframes(cameras)
-        self._cameras = [cameras[number] for number in self._numbers]
-        self._pivot = pivot
+    def __init__(
+        self,
+        name: str,
+        values: Mapping[float, Value],
+        between: Callable[[Value, Value, float], Value],
+    ) -> None:
+        self._numbers = numbers_of(name, values)
+        self._values = [values[number] for number in self._numbers]
+        self._between = between
+        for (k, one), (n, other) in pairwise(zip(self._numbers, self._values, strict=True)):
+            try:
+                between(one, other, 0.5)
+            except ApartError as error:
+                words = str(error).replace(BEFORE, f"{name}[{k}]")
+                raise SceneError(f"{name}[{n}]: {words}") from None
 
-    def __call__(self, number: int) -> Camera:
-        """Return the camera of a picture."""
+    def __call__(self, number: int) -> Value:
+        """Return the value in a picture."""
         k = bisect_right(self._numbers, number)
         if k == 0 or k == len(self._numbers):
-            return self._cameras[max(k - 1, 0)]
+            return self._values[max(k - 1, 0)]
         first, last = self._numbers[k - 1], self._numbers[k]
         share = (number - first) / (last - first)
-        return between(
-            self._cameras[k - 1], self._cameras[k], share * share * (3 - 2 * share), self._pivot
-        )
+        smooth = share * share * (3 - 2 * share)
+        return self._between(self._values[k - 1], self._values[k], smooth)
 
 
-def check_keyframes(cameras: Mapping[float, Camera]) -> list[float]:
-    """Return the numbers of pictures that have a camera, in their order; see `Keyframes`."""
-    if not cameras:
-        raise SceneError("camera: expected cameras by the numbers of pictures, got none")
-    for number, camera in cameras.items():
+def numbers_of(name: str, values: Mapping[float, object]) -> list[float]:
+    """Return the numbers of pictures that have a value, in their order; see `Keyframes`."""
+    what = "cameras" if name == "camera" else "values"
+    if not values:
+        raise SceneError(f"{name}: expected {what} by the numbers of pictures, got none")
+    for number in values:
         is_number = isinstance(number, (int, float)) and not isinstance(number, bool)
         if not is_number or not 0 <= number < math.inf:
-            raise SceneError(f"camera: expected numbers of pictures from 0, got {show(number)}")
-        if not isinstance(camera, Camera):
-            raise SceneError(f"camera[{number}]: expected a Camera, got {show(camera)}")
-    numbers = sorted(cameras)
-    first = cameras[numbers[0]]
-    for number in numbers:
-        camera = cameras[number]
-        if (camera.size, camera.projection) != (first.size, first.projection):
-            words = f"a {first.projection} camera of size {first.size}, as camera[{numbers[0]}] is"
-            got = f"{camera.projection} and {camera.size}"
-            raise SceneError(f"camera[{number}]: expected {words}, got {got}")
-    return numbers
+            raise SceneError(f"{name}: expected numbers of pictures from 0, got {show(number)}")
+    return sorted(values)
 
 
-def between(one: Camera, other: Camera, share: float, pivot: Vec) -> Camera:
-    """Return the camera at a share of the way from one to another, from 0 to 1."""
-    if share <= 0.0 or one == other:
-        return one
-    if share >= 1.0:
-        return other
-    axes, others = axes_of(one), axes_of(other)
-    turn, end = _turn_of(axes), _turn_of(others)
-    if sum(a * b for a, b in zip(turn, end, strict=True)) < 0:
-        end = (-end[0], -end[1], -end[2], -end[3])
-    right, down, forward = _axes_of(_part_way(turn, end, share, _middle_turn))
-    # Where the pivot is, as the camera sees it.
-    start, stop = _seen(one, axes, pivot), _seen(other, others, pivot)
-    x, y = (a + (b - a) * share for a, b in zip(start[:2], stop[:2], strict=True))
-    if start[2] > 0 and stop[2] > 0:
-        z = _part_way(start[2], stop[2], share, _mean)
-    else:
-        z = start[2] + (stop[2] - start[2]) * share
-    eye = along(along(along(pivot, -x, right), -y, down), -z, forward)
-    focus = _part_way(one.focus, other.focus, share, _mean)
-    across, below = (
-        _part_way(a / one.focus, b / other.focus, share, _mean) * focus
-        if one.projection == "perspective"
-        else _part_way(a, b, share, _mean)
-        for a, b in zip(one.resolution, other.resolution, strict=True)
-    )
-    return one.replace(
-        center=Vector(*along(eye, focus, forward)),
-        normal=Direction(*forward),
-        up=Direction(-down[0], -down[1], -down[2]),
-        focus=focus,
-        resolution=(across, below),
-    )
-
-
-def _seen(camera: Camera, axes: tuple[Vec, Vec, Vec], point: Vec) -> Vec:
-    """Return where a point is relative to the eye: to the right, below and ahead."""
-    center = camera.center
-    x, y, z = along((center.x, center.y, center.z), -camera.focus, axes[2])
-    way = point[0] - x, point[1] - y, point[2] - z
-    return dot(way, axes[0]), dot(way, axes[1]), dot(way, axes[2])
-
-
-def _part_way(one: Any_, other: Any_, share: float, middle: Callable[[Any_, Any_], Any_]) -> Any_:
+def part_way(
+    one: Value, other: Value, share: float, middle: Callable[[Value, Value], Value]
+) -> Value:
     """Return what lies at a share of the way between two, by what lies in the middle of two."""
     for _ in range(HALVINGS):
         half = middle(one, other)
@@ -136,45 +99,6 @@ def _part_way(one: Any_, other: Any_, share: float, middle: Callable[[Any_, Any_
     return one
 
 
-def _mean(one: float, other: float) -> float:
-    """Return the geometric mean of two numbers > 0."""
-    return math.sqrt(one) * math.sqrt(other)
-
-
-def _middle_turn(one: Turn, other: Turn) -> Turn:
-    """Return the turn in the middle of two that are less than half a turn apart."""
-    a, b, c, d = (x + y for x, y in zip(one, other, strict=True))
-    length = math.sqrt(a * a + b * b + c * c + d * d)
-    return a / length, b / length, c / length, d / length
-
-
-def _turn_of(axes: tuple[Vec, Vec, Vec]) -> Turn:
-    """Return the turn that takes x, y and z to right-handed unit axes.
-
-    References
-    ----------
-    S. W. Shepperd, "Quaternion from rotation matrix", Journal of Guidance and Control 1, 1978.
-    """
-    (a, d, g), (b, e, h), (c, f, i) = axes  # rows a b c, d e f, g h i
-    trace = a + e + i
-    squares = [1 + trace, 1 + 2 * a - trace, 1 + 2 * e - trace, 1 + 2 * i - trace]
-    largest = max(range(4), key=squares.__getitem__)
-    rows = [
-        (squares[0], h - f, c - g, d - b),
-        (h - f, squares[1], b + d, c + g),
-        (c - g, b + d, squares[2], f + h),
-        (d - b, c + g, f + h, squares[3]),
-    ]
-    half = 2 * math.sqrt(squares[largest])
-    w, x, y, z = rows[largest]
-    return w / half, x / half, y / half, z / half
-
-
-def _axes_of(turn: Turn) -> tuple[Vec, Vec, Vec]:
-    """Return where a turn takes x, y and z."""
-    w, x, y, z = turn
-    return (
-        (1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)),
-        (2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)),
-        (2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)),
-    )
+def straight(one: float, other: float, share: float) -> float:
+    """Return the number at a share of the way between two, which it reaches exactly."""
+    return other if share >= 1.0 else one + (other - one) * share

@@ -7,6 +7,7 @@ them are in the picture, and the scale has all their values.
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
+from vtray.animation.fading import Opacity
 from vtray.animation.feed import spread
 from vtray.animation.sources import Source
 from vtray.animation.stage import Shot
@@ -86,10 +87,11 @@ class ParticleScenes:
             in_order = sorted(categories, key=lambda kind: (isinstance(kind, str), kind))
             self.fixed["categories"] = in_order
 
-    def __call__(self, given: Any, _: int) -> Shot:  # noqa: ANN401
+    def __call__(self, given: Any, _: int, opacity: Opacity | None = None) -> Shot:  # noqa: ANN401
         """Return what a picture is taken of."""
         particles = as_particles(given)
-        scene, _drawn, marks = self._draw(particles, self.camera, self.fixed)
+        fixed = self.fixed if opacity is None else {**self.fixed, "opacity": opacity}
+        scene, _drawn, marks = self._draw(particles, self.camera, fixed)
         frame = None if particles.source is None else particles.frame
         return Shot(scene, self.camera, None, frame, particles.time, marks)
 

@@ -1,19 +1,19 @@
 """What the pictures of a movie are taken of, one after the other."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
+from vtray.animation.fading import Opacity
+from vtray.animation.moving import Moved, Moving
 from vtray.animation.sources import Source
 from vtray.animation.stage import Shot
-from vtray.base.errors import SceneError
-from vtray.scene.camera import Camera
-from vtray.scene.checks.scene_words import show
 from vtray.scene.particles.from_objects import as_particles
 from vtray.scene.scene import Scene
 
-Make = Callable[[Any, int], Shot]
-"""Makes what a picture is taken of, by what there is for it, and its number."""
+Make = Callable[[Any, int, Opacity | None], Shot]
+"""Makes what a picture is taken of, by what there is for it, its number, and how opaque its objects
+are where that is said."""
 
 
 class Take(NamedTuple):
@@ -27,20 +27,20 @@ class Take(NamedTuple):
         What there is for it: a scene, or particles; None where these are still in their file.
     number
         Its number where it comes from.
-    camera
-        Its camera, where that is said.
+    moved
+        What is said of it alone.
     """
 
     k: int
     item: Any
     number: int
-    camera: Camera | None
+    moved: Moved
 
     def shot(self, make: Make) -> Shot:
         """Return what it is taken of."""
-        found = make(self.item, self.k)
-        if self.camera is not None:
-            found = found._replace(camera=self.camera)
+        found = make(self.item, self.k, self.moved.opacity)._replace(style=self.moved.style)
+        if self.moved.camera is not None:
+            found = found._replace(camera=self.moved.camera)
         return found if found.frame is not None else found._replace(frame=self.number)
 
 
@@ -56,14 +56,14 @@ class Script:
         What there is for the first.
     make
         Makes what a picture is taken of.
-    camera
-        Gives the camera by the number of the picture; None for that of what is made.
+    moving
+        What moves.
     """
 
     source: Source
     first: Any
     make: Make
-    camera: Callable[[int], Any] | None = None
+    moving: Moving = field(default_factory=Moving)
 
     @property
     def total(self) -> int:
@@ -98,7 +98,4 @@ class Script:
         return self._take(k, item)
 
     def _take(self, k: int, item: Any) -> Take:  # noqa: ANN401
-        camera = None if self.camera is None else self.camera(k)
-        if self.camera is not None and not isinstance(camera, Camera):
-            raise SceneError(f"camera: expected a Camera for picture {k}, got {show(camera)}")
-        return Take(k, item, self.source.number(k), camera)
+        return Take(k, item, self.source.number(k), self.moving(k))

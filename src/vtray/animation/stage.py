@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import msgspec
 
 from vtray.animation.annotating import annotated
+from vtray.animation.fading import Opacity, faded
 from vtray.image.image import Image
 from vtray.rendering.fog import Ball, ball_around, fitted
 from vtray.rendering.renderer import render
@@ -39,6 +40,10 @@ class Shot(NamedTuple):
         Which frame of a simulation it is, and when that was, as far as that is known.
     marks
         What else is painted on it, as keywords of `vtray.Image.annotated`.
+    opacity
+        How opaque its objects are; None for as they are.
+    style
+        The parts of its style that are its own, by their names.
     """
 
     scene: Scene
@@ -47,6 +52,8 @@ class Shot(NamedTuple):
     frame: int | None = None
     time: float | None = None
     marks: Mapping[str, Any] | None = None
+    opacity: Opacity | None = None
+    style: Mapping[str, Any] = {}
 
 
 class Exposed(NamedTuple):
@@ -126,18 +133,24 @@ class Stage:
         self._look = look
         self._last: Scene | None = None
         self._scene = Scene()
+        self._opacity: Opacity | None = None
+        self._style: Mapping[str, Any] = {}
 
     def holds(self) -> bool:
         """Tell whether the picture of the scene that is set has the exposure of the first."""
         return self._look.holds(self._scene)
 
     def set(self, shot: Shot) -> Scene:
-        """Return a scene with the camera and the lights of a picture."""
+        """Return a scene with the camera, the lights and the opacities of a picture."""
         # What is kept with a scene stays from one picture of it to the next.
-        if self._last is not shot.scene:
+        is_new = self._last is not shot.scene
+        if is_new:
             self._scene = copy.copy(shot.scene)
-            self._scene.objects = self._with_peaks(shot.scene)
-            self._last = shot.scene
+        if is_new or self._opacity != shot.opacity:
+            objects = self._with_peaks(shot.scene)
+            self._scene.objects = objects if shot.opacity is None else faded(objects, shot.opacity)
+            self._last, self._opacity = shot.scene, shot.opacity
+        self._style = shot.style
         self._scene.camera = shot.camera
         if shot.lights is not None:
             self._scene.lights = shot.lights
@@ -169,7 +182,7 @@ class Stage:
 
     def style(self, scene: Scene) -> Style:
         """Return how pictures are drawn, with fog that is fitted to what the first one shows."""
-        style = overridden(scene.style, self._look.settings)
+        style = overridden(scene.style, {**self._look.settings, **self._style})
         return fitted(style, scene.camera, lambda: self.common.ball)
 
     def _with_peaks(self, scene: Scene) -> list[Any]:

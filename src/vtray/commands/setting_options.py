@@ -4,6 +4,7 @@ import argparse
 import re
 import typing
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any, Literal
 
 import msgspec
@@ -82,7 +83,8 @@ def _can_be(settings: type[msgspec.Struct], name: str, argument: str) -> bool:
     try:
         taken(settings, name, argument, name)
     except SceneError:
-        return False
+        # A word that names no file is a wrong value: names of pictures and of scenes have endings.
+        return bool(re.fullmatch(r"#?\w[\w,-]*", argument)) and not Path(argument).exists()
     return True
 
 

@@ -44,7 +44,6 @@ from vtray.scene.light_types import AnyLight, strength_of
 from vtray.scene.scene import Camera, Scene
 from vtray.scene.settings import RenderSettings, overridden
 from vtray.scene.stars import Stars
-from vtray.scene.style import Style
 
 Progress = Callable[[str, int, int], None]
 
@@ -206,13 +205,13 @@ def render(
     style = fitted(style, shown.camera, lambda: ball_around(shown))
     if settings.denoise:
         load_library()  # before any work is done
-    if problem := _darkness(shown, keep_lights=keep_lights):
-        (warn or _warn)(problem)
     _check(shown, settings, is_shown=on_update is not None)
     clock, loaded = Stopwatch(), loading_seconds()
-    kept = _accelerate(scene, threads, _step_of(progress, "build"), style, warn or _warn)
-    clock.lap("build")
+    kept = accelerate(scene, threads, _step_of(progress, "build"), style)
     loading = loading_seconds() - loaded
+    for problem in _problems(shown, kept, keep_lights=keep_lights):
+        (warn or _warn)(problem)
+    clock.lap("build")
     packed = styled(pack(shown, kept), style)
     clock.lap("pack")
     drawing = Drawing(style, shown, packed, has_samples=settings.samples > 1, threads=threads)
@@ -278,16 +277,6 @@ def render(
     return image
 
 
-def _accelerate(
-    scene: Scene, threads: int, progress: StepProgress | None, style: Style, warn: Warn
-) -> Acceleration:
-    """Return what is kept with a scene; warn if clip planes leave nothing of it."""
-    kept = accelerate(scene, threads, progress, style)
-    if is_nothing_left(kept):
-        warn(NOTHING_LEFT)
-    return kept
-
-
 def _growth(
     darkroom: Darkroom, on_update: Callable[[Image], object] | None, seconds: float
 ) -> Growth | None:
@@ -295,6 +284,12 @@ def _growth(
     if on_update is None:
         return None
     return Growth(lambda part: on_update(darkroom.part(part)), seconds)
+
+
+def _problems(scene: Scene, kept: Acceleration, *, keep_lights: bool) -> list[str]:
+    """Say why nothing is seen, as far as that is known before."""
+    nothing = NOTHING_LEFT if is_nothing_left(kept) else ""
+    return [words for words in (_darkness(scene, keep_lights=keep_lights), nothing) if words]
 
 
 def _darkness(scene: Scene, *, keep_lights: bool) -> str:
