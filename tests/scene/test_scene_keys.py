@@ -36,6 +36,7 @@ FULL = {
         "size": [30, 20],
         "exposure": 1.5,
         "background": WHITE,
+        "stops": -0.5,
     },
 }
 DEFAULTS = {
@@ -48,6 +49,7 @@ DEFAULTS = {
         "size": None,
         "exposure": "max",
         "background": "black",
+        "stops": 0.0,
     },
 }
 
@@ -56,7 +58,9 @@ def test_all_keys() -> None:
     scene = read(json.dumps(changed(FULL)))
     assert scene.camera.up == Direction(0, 1, 0)
     assert scene.camera.projection == "orthographic"
-    assert scene.render == RenderSettings(16, "mitchell", 3, (30, 20), 1.5, (255, 255, 255))
+    assert scene.render == RenderSettings(
+        16, "mitchell", 3, (30, 20), 1.5, (255, 255, 255), stops=-0.5
+    )
     assert type(scene.render.samples) is int
     VALIDATOR.validate(changed(FULL))
 
@@ -89,6 +93,8 @@ TYPES = '"sphere", "cylinder", "cone", "plane", "spheres", "cylinders", "cones" 
 PARALLEL = "expected a direction that is not parallel to normal, got"
 FILTER = 'expected "box", "tent", "gaussian", "mitchell" or "blackman-harris", got'
 BACKGROUND = 'expected "black", "transparent", "sky" or an object with the keys r, g and b, got'
+EXPOSURE = 'expected "max", "auto" or a number > 0, got'
+STOPS = "expected a number from -100 to 100, got"
 BAD_VALUES: list[tuple[str, object, str]] = [
     ("camera.up", [0, 1, 0], "expected an object with the keys x, y and z, got [0, 1, 0]"),
     ("camera.up", "y", 'expected an object with the keys x, y and z, got "y"'),
@@ -111,8 +117,16 @@ BAD_VALUES: list[tuple[str, object, str]] = [
     ("render.seed", 2**32, "expected an integer from 0 to 4294967295, got 4294967296"),
     ("render.size", [1], "expected an array of two integers > 0, got [1]"),
     ("render.size", 5, "expected an array of two integers > 0, got 5"),
-    ("render.exposure", 0, 'expected "max" or a number > 0, got 0'),
-    ("render.exposure", "auto", 'expected "max" or a number > 0, got "auto"'),
+    ("render.exposure", 0, f"{EXPOSURE} 0"),
+    ("render.exposure", "min", f'{EXPOSURE} "min"'),
+    ("render.exposure", "Auto", f'{EXPOSURE} "Auto"'),
+    ("render.exposure", True, f"{EXPOSURE} true"),
+    ("render.stops", "1", f'{STOPS} "1"'),
+    ("render.stops", None, f"{STOPS} null"),
+    ("render.stops", False, f"{STOPS} false"),
+    ("render.stops", 100.5, f"{STOPS} 100.5"),
+    ("render.stops", -101, f"{STOPS} -101"),
+    ("render.stops", [1], f"{STOPS} [1]"),
     ("render.background", "white", f'{BACKGROUND} "white"'),
     ("render.background", [1, 2, 3], f"{BACKGROUND} [1, 2, 3]"),
     ("render.background", 7, f"{BACKGROUND} 7"),
@@ -139,13 +153,13 @@ def test_bad_values(place: str, value: object, problem: str) -> None:
             "render",
             3,
             "expected an object with the keys samples, filter, seed, size, exposure, "
-            "background, tolerance and denoise, got 3",
+            "background, tolerance, denoise and stops, got 3",
         ),
         (
             "render",
             None,
             "expected an object with the keys samples, filter, seed, size, exposure, "
-            "background, tolerance and denoise, got null",
+            "background, tolerance, denoise and stops, got null",
         ),
         ("render.size[1]", 0, "expected an integer from 1 to 2147483647, got 0"),
         ("render.background.g", 256, "expected an integer from 0 to 255, got 256"),
@@ -205,8 +219,13 @@ CODE: list[tuple[dict[str, Any], str]] = [
     ({"seed": -1}, "seed: expected an integer from 0 to 4294967295, got -1"),
     ({"size": (0, 1)}, "size[0]: expected an integer from 1 to 2147483647, got 0"),
     ({"size": 5}, "size: expected an array of two integers > 0, got 5"),
-    ({"exposure": -1}, 'exposure: expected "max" or a number > 0, got -1'),
-    ({"exposure": "min"}, "exposure: expected \"max\" or a number > 0, got 'min'"),
+    ({"exposure": -1}, f"exposure: {EXPOSURE} -1"),
+    ({"exposure": "min"}, f"exposure: {EXPOSURE} 'min'"),
+    ({"exposure": float("inf")}, "exposure: expected a finite number, got inf"),
+    ({"stops": "1"}, f"stops: {STOPS} '1'"),
+    ({"stops": 101}, f"stops: {STOPS} 101"),
+    ({"stops": float("nan")}, "stops: expected a finite number, got nan"),
+    ({"stops": float("-inf")}, "stops: expected a finite number, got -inf"),
 ]
 
 
@@ -243,7 +262,8 @@ def settings_in_files() -> st.SearchStrategy[dict[str, Any]]:
             "filter": st.sampled_from(FILTERS),
             "seed": st.integers(0, 2**32 - 1),
             "size": st.tuples(st.integers(1, 99), st.integers(1, 99)).map(list),
-            "exposure": st.just("max") | st.floats(1e-9, 1e9),
+            "exposure": st.sampled_from(["max", "auto"]) | st.floats(1e-9, 1e9),
+            "stops": st.floats(-100, 100),
             "background": st.sampled_from(["black", "transparent", "sky"])
             | st.fixed_dictionaries(channels),
         },

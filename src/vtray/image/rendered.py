@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import RenderError
-from vtray.image.exposure import Drawn, Overlay, check_brightness, develop, develop_drawn, white_of
+from vtray.image.exposure import Drawn, Overlay, check_brightness, develop, develop_drawn
 from vtray.image.surfaces import Surfaces
+from vtray.image.white import white_of
 from vtray.scene.fingerprint import scene_hash
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
@@ -328,5 +329,5 @@ class Rendered:
         for name in ("scene_hash", "with_sky", "error"):
             vars(other).pop(name, None)
         vars(other).update(changes, _pixels=None, locked=lock is not None)
-        other.white = white_of(other.settings.exposure, max(float(other.linear.max()), 0.0), lock)
+        other.white = white_of(other.settings, other.linear, lock)
         return other

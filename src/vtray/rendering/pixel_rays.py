@@ -11,7 +11,7 @@ from vtray.base.pool import available_cores
 from vtray.figures.ray_tree import Exposed, RayTree, Veil, View
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, scale
-from vtray.image.exposure import known_white
+from vtray.image.white import known_white
 from vtray.rendering.fog import ball_around, fitted
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.numbering import number_objects
@@ -124,7 +124,7 @@ def _veil(packed: Packed, traced: TracedPixel, light: Vec) -> Veil | None:
 def _noise(packed: Packed, settings: RenderSettings) -> Noise | None:
     """Return how noisy soft light may be in a picture with some settings."""
     tracer = Tracer(packed.arrays, available_cores())
-    return tracer.noise(settings, known_white(settings.exposure), keep=False)
+    return tracer.noise(settings, known_white(settings), keep=False)
 
 
 def _place_of(scene: Scene, packed: Packed, row: int) -> int:
