@@ -116,6 +116,7 @@ def test_wrong_values(
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
+        (["--tonemap", "aces"], "argument --tonemap: invalid choice: 'aces' (choose from"),
         (["--filter", "sinc"], "argument --filter: invalid choice: 'sinc' (choose from"),
         (
             ["--background", "oramge"],
@@ -219,6 +220,7 @@ def test_settings_of_the_picture_reach_the_render(
             "background": vtray.Color(1, 2, 3),
             "denoise": False,
             "stops": 0.0,
+            "tonemap": "linear",
             **msgspec.structs.asdict(vtray.Style()),
         }
     ]

@@ -64,6 +64,7 @@ def _document(random: Random, folder: Path) -> dict[str, Any]:
             "size": [10, 10],
             "exposure": random.choice(["max", "auto", 0.5, 1e308]),
             "stops": random.choice([0, 1, -100, 0.3]),
+            "tonemap": random.choice(["linear", "srgb", "filmic", "agx"]),
             "background": random.choice(["transparent", {"r": 1, "g": 2, "b": 3}]),
         }
     return found

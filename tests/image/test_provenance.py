@@ -29,6 +29,7 @@ SETTINGS = {
     "background": vtray.Color(1, 2, 3),
     "denoise": True,
     "stops": 1.25,
+    "tonemap": "filmic",
 }
 
 
@@ -154,6 +155,7 @@ def told(**changes: object) -> str:
         (told(exposure=0), "is not understood: .*exposure"),
         (told(exposure="min"), "is not understood: .*exposure"),
         (told(stops="1"), "is not understood: .*stops"),
+        (told(tonemap="aces"), "is not understood: Invalid enum value 'aces'.*tonemap"),
         (told(stops=1e9), "is not understood: .*stops"),
         (told(background="blue"), "is not understood: .*background"),
         (told(lock=-1), "is not understood: .*lock"),

@@ -37,6 +37,7 @@ FULL = {
         "exposure": 1.5,
         "background": WHITE,
         "stops": -0.5,
+        "tonemap": "agx",
     },
 }
 DEFAULTS = {
@@ -50,6 +51,7 @@ DEFAULTS = {
         "exposure": "max",
         "background": "black",
         "stops": 0.0,
+        "tonemap": "linear",
     },
 }
 
@@ -59,7 +61,7 @@ def test_all_keys() -> None:
     assert scene.camera.up == Direction(0, 1, 0)
     assert scene.camera.projection == "orthographic"
     assert scene.render == RenderSettings(
-        16, "mitchell", 3, (30, 20), 1.5, (255, 255, 255), stops=-0.5
+        16, "mitchell", 3, (30, 20), 1.5, (255, 255, 255), stops=-0.5, tonemap="agx"
     )
     assert type(scene.render.samples) is int
     VALIDATOR.validate(changed(FULL))
@@ -94,6 +96,7 @@ PARALLEL = "expected a direction that is not parallel to normal, got"
 FILTER = 'expected "box", "tent", "gaussian", "mitchell" or "blackman-harris", got'
 BACKGROUND = 'expected "black", "transparent", "sky" or an object with the keys r, g and b, got'
 EXPOSURE = 'expected "max", "auto" or a number > 0, got'
+TONEMAP = 'expected "linear", "srgb", "filmic" or "agx", got'
 STOPS = "expected a number from -100 to 100, got"
 BAD_VALUES: list[tuple[str, object, str]] = [
     ("camera.up", [0, 1, 0], "expected an object with the keys x, y and z, got [0, 1, 0]"),
@@ -127,6 +130,11 @@ BAD_VALUES: list[tuple[str, object, str]] = [
     ("render.stops", 100.5, f"{STOPS} 100.5"),
     ("render.stops", -101, f"{STOPS} -101"),
     ("render.stops", [1], f"{STOPS} [1]"),
+    ("render.tonemap", "AgX", f'{TONEMAP} "AgX"'),
+    ("render.tonemap", "", f'{TONEMAP} ""'),
+    ("render.tonemap", None, f"{TONEMAP} null"),
+    ("render.tonemap", 1, f"{TONEMAP} 1"),
+    ("render.tonemap", ["agx"], f'{TONEMAP} ["agx"]'),
     ("render.background", "white", f'{BACKGROUND} "white"'),
     ("render.background", [1, 2, 3], f"{BACKGROUND} [1, 2, 3]"),
     ("render.background", 7, f"{BACKGROUND} 7"),
@@ -153,13 +161,13 @@ def test_bad_values(place: str, value: object, problem: str) -> None:
             "render",
             3,
             "expected an object with the keys samples, filter, seed, size, exposure, "
-            "background, tolerance, denoise and stops, got 3",
+            "background, tolerance, denoise, stops and tonemap, got 3",
         ),
         (
             "render",
             None,
             "expected an object with the keys samples, filter, seed, size, exposure, "
-            "background, tolerance, denoise and stops, got null",
+            "background, tolerance, denoise, stops and tonemap, got null",
         ),
         ("render.size[1]", 0, "expected an integer from 1 to 2147483647, got 0"),
         ("render.background.g", 256, "expected an integer from 0 to 255, got 256"),
@@ -192,7 +200,7 @@ def test_bad_values_inside(place: str, value: object, problem: str) -> None:
         (
             '"lights"',
             '"render": {"exposure": "max", "a": ":"}, "lights"',
-            'render.a: unknown key, ignored; the nearest known key is "samples"',
+            'render.a: unknown key, ignored; the nearest known key is "tonemap"',
         ),
     ],
 )
@@ -222,6 +230,9 @@ CODE: list[tuple[dict[str, Any], str]] = [
     ({"exposure": -1}, f"exposure: {EXPOSURE} -1"),
     ({"exposure": "min"}, f"exposure: {EXPOSURE} 'min'"),
     ({"exposure": float("inf")}, "exposure: expected a finite number, got inf"),
+    ({"tonemap": "aces"}, f"tonemap: {TONEMAP} 'aces'"),
+    ({"tonemap": 2.2}, f"tonemap: {TONEMAP} 2.2"),
+    ({"tonemap": float("nan")}, "tonemap: expected a finite number, got nan"),
     ({"stops": "1"}, f"stops: {STOPS} '1'"),
     ({"stops": 101}, f"stops: {STOPS} 101"),
     ({"stops": float("nan")}, "stops: expected a finite number, got nan"),
@@ -264,6 +275,7 @@ def settings_in_files() -> st.SearchStrategy[dict[str, Any]]:
             "size": st.tuples(st.integers(1, 99), st.integers(1, 99)).map(list),
             "exposure": st.sampled_from(["max", "auto"]) | st.floats(1e-9, 1e9),
             "stops": st.floats(-100, 100),
+            "tonemap": st.sampled_from(["linear", "srgb", "filmic", "agx"]),
             "background": st.sampled_from(["black", "transparent", "sky"])
             | st.fixed_dictionaries(channels),
         },

@@ -84,7 +84,8 @@ def trace_rays(
         fitted(scene.style, camera, lambda: ball_around(scene)) if image is None else image.style
     )
     kept = accelerate(scene, style=style)  # which the given scene may have already
-    scene = Scene(camera, lights_of(scene), list(scene.objects), style=style)
+    render = scene.render.replace(tonemap=settings.tonemap)
+    scene = Scene(camera, lights_of(scene), list(scene.objects), render, style)
     packed, numbering = styled(pack(scene, kept), style), number_objects(scene.objects)
     noise = _noise(packed, settings) if image is None else image.noise
     pixel = Pixel(scene, numbering, packed, (column, row), noise, int(settings.seed))
@@ -172,6 +173,7 @@ def _exposed(image: "Image", column: int, row: int) -> Exposed:
         value=tuple(int(channel) for channel in image.pixels[row, column]),
         overlays=tuple(overlays),
         drawn=drawn,
+        tonemap=image.settings.tonemap,
     )
 
 

@@ -78,6 +78,7 @@ def render(
     tolerance: float | None = None,
     denoise: bool | None = None,
     stops: float | None = None,
+    tonemap: str | None = None,
     outline: Any = None,  # noqa: ANN401 - all that `Style` takes
     fog: Any = None,  # noqa: ANN401
     eye_dome: Any = None,  # noqa: ANN401
@@ -136,6 +137,10 @@ def render(
         picture is then no longer the same on every machine; `Image.raw` is.
     stops
         How often the light is doubled after the exposure, 0 by default; below 0 it is halved.
+    tonemap
+        How light becomes the numbers of a file: ``"linear"``, the default, as it is; ``"srgb"``,
+        ``"filmic"`` and ``"agx"`` encoded for monitors. For these, all colours that are given are
+        taken for sRGB, so that what is lit squarely shows its own colour back with ``"srgb"``.
     outline
         Lines around what is seen: True, their width in pixels, that and a colour, or an `Outline`;
         False for none.
@@ -209,6 +214,7 @@ def render(
     lights = lights_of(scene)
     settings, style = overridden(settings_of(scene), locals()), overridden(scene.style, locals())
     shown = _snapshot(scene, lights, _camera(scene, settings))
+    shown.render = shown.render.replace(tonemap=settings.tonemap)  # which says what its colours are
     style = fitted(style, shown.camera, lambda: ball_around(shown))
     if settings.denoise:
         load_library()  # before any work is done

@@ -27,6 +27,7 @@ from msgspec import Meta
 from vtray.scene.checks.checked import Checked, Frozen, bind
 from vtray.scene.checks.limits import Positive, SizePair, alternatives
 from vtray.scene.colors.names import to_rgb
+from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.vectors import Color
 
 MAX_SAMPLES = 2**16
@@ -118,6 +119,7 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
         Option("", "take the grain of soft light out by Open Image Denoise"),
     ] = False
     stops: Annotated[Stops, Option("NUMBER", "twice as bright for each, after any exposure")] = 0.0
+    tonemap: Annotated[ToneMapName, Option("NAME", ", ".join(get_args(ToneMapName)))] = "linear"
 
     def __post_init__(self) -> None:
         """Hold equal settings equally: integers as such, and the colour black as "black"."""
@@ -191,6 +193,9 @@ class RenderSettings(
         Whether the grain of soft light is taken out by Open Image Denoise.
     stops : float
         How often the light is doubled after that exposure, from -100 to 100; below 0 it is halved.
+    tonemap : str
+        How light becomes the numbers of a file: "linear" as it is; "srgb", "filmic" and "agx"
+        encoded for monitors, for which all colours that are given are taken for sRGB.
     """
 
     if TYPE_CHECKING:  # what code may give, beside what the attributes hold
@@ -206,6 +211,7 @@ class RenderSettings(
             tolerance: float = 0.008,
             denoise: bool = False,
             stops: float = 0.0,
+            tonemap: str = "linear",
         ) -> None: ...
 
     def replace(self, **changes: Any) -> Self:  # noqa: ANN401
