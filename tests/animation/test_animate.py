@@ -69,6 +69,23 @@ def test_exposure_is_that_of_the_first(tmp_path: Path) -> None:
     assert [int(picture.max()) for picture in pixels(tmp_path / "b")] == [255, 255]
 
 
+def test_stops_count_once_in_all_pictures(tmp_path: Path) -> None:
+    scene, dark = ball(), ball()
+    scene.lights = [vtray.Light((0, -9, 0))]
+    dark.lights = [vtray.Light((0, -9, 0), 0.5)]
+    scene.render = dark.render = vtray.RenderSettings(exposure="auto", stops=-1)
+    vtray.animate([scene, dark], tmp_path / "a" / "%d.png")
+    half, quarter = (int(picture.max()) for picture in pixels(tmp_path / "a"))
+    assert abs(half - 2 * quarter) <= 1
+    first, second = (vtray.read_provenance(tmp_path / "a" / f"{k}.png") for k in range(2))
+    assert (first.stops, second.stops) == (-1, -1)
+    assert first.lock is None
+    assert second.lock > 0
+    scene.render = dark.render = vtray.RenderSettings()
+    vtray.animate([scene, dark], tmp_path / "b" / "%d.png", stops=-1)
+    assert [int(picture.max()) for picture in pixels(tmp_path / "b")] == [127, 63]
+
+
 def test_black_pictures_decide_no_exposure(tmp_path: Path) -> None:
     def make(k: int) -> vtray.Scene:
         scene = ball(50 if k == 0 else 0)

@@ -11,6 +11,8 @@ from vtray.base.exact_math import (
     cosine,
     exponential,
     hypotenuse,
+    power,
+    power_of_2,
     sine,
     small_cosine,
     small_sine,
@@ -106,3 +108,25 @@ def test_hypotenuse_is_rounded_once() -> None:
 )
 def test_hypotenuse_at_the_edges(parts: tuple[float, ...], length: float) -> None:
     assert hypotenuse(*parts) == length
+
+
+def test_powers_of_2() -> None:
+    for x in (-1000, -3, -1, 0, 1, 2.0, 10, 1000):
+        assert power_of_2(x) == math.ldexp(1.0, int(x))
+    for x in [DRAW.uniform(-1000, 1000) for _ in range(100)] + [0.5, -0.5, 1.5, 1e-17, 0.1]:
+        with localcontext(prec=50):
+            true = Decimal(2) ** Decimal(x)
+            assert abs(Decimal(power_of_2(x)) / true - 1) < Decimal(2.0**-45)
+
+
+def test_powers() -> None:
+    bases = [DRAW.random() for _ in range(100)] + [2.0 ** -DRAW.uniform(0, 60) for _ in range(200)]
+    bases += [2.0**-60, 0.5, math.nextafter(1.0, 0.0)]
+    for exponent in (0.1, 1 / 2.4, 1.0, 2.2, 2.4, 4.0):
+        found = power(np.array(bases), exponent)
+        for base, value in zip(bases, found.tolist(), strict=True):
+            with localcontext(prec=50):
+                true = Decimal(base) ** Decimal(exponent)
+                assert abs(Decimal(value) / true - 1) < Decimal(2.0**-43)
+        known = power(np.array([0.0, 1.0, -1.0, 2.0**-61]), exponent)
+        assert known.tolist() == [0.0, 1.0, 0.0, 0.0]

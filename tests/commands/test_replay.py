@@ -82,8 +82,12 @@ WRONG = [
         for bad in ("8", "8x", "0x8", "8x2147483648", "8 x 6", "8X6", "8x6x4", "٣x٣")
     ),
     *(
-        ("--exposure", bad, "max or a number > 0")
+        ("--exposure", bad, "max, auto or a number > 0")
         for bad in ("0", "-1", "inf", "nan", "1e999", "MAX", "", "1_0")
+    ),
+    *(
+        ("--stops", bad, "a number from -100 to 100")
+        for bad in ("x", "", "101", "-100.1", "inf", "nan", "max")
     ),
     *(
         ("--background", bad, f"black, transparent, sky, {COLOR}")
@@ -112,6 +116,7 @@ def test_wrong_values(
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
+        (["--tonemap", "aces"], "argument --tonemap: invalid choice: 'aces' (choose from"),
         (["--filter", "sinc"], "argument --filter: invalid choice: 'sinc' (choose from"),
         (
             ["--background", "oramge"],
@@ -214,6 +219,8 @@ def test_settings_of_the_picture_reach_the_render(
             "exposure": 2.0,
             "background": vtray.Color(1, 2, 3),
             "denoise": False,
+            "stops": 0.0,
+            "tonemap": "linear",
             **msgspec.structs.asdict(vtray.Style()),
         }
     ]
@@ -325,3 +332,26 @@ def test_help_is_quick_and_has_groups(capfd: pytest.CaptureFixture[str]) -> None
         assert heading in out
     assert all(option in out for option in PICTURE)
     assert max(map(len, out.splitlines())) <= 80
+
+
+def test_stops_are_told_and_made_again(small: Path) -> None:
+    picture, again = small.with_name("a.png"), small.with_name("b.png")
+    assert cli.run([str(small), str(picture), "--exposure", "auto", "--stops=-0.5"]) == 0
+    told = vtray.read_provenance(picture)
+    assert (told.exposure, told.stops) == ("auto", -0.5)
+    assert cli.run(["--replay", str(picture), str(small), str(again)]) == 0
+    assert picture.read_bytes() == again.read_bytes()
+
+
+def test_stops_of_a_picture_that_is_locked(small: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    loaded = vtray.load(small)
+    first = vtray.render(loaded, stops=1)
+    loaded.lights[0] = loaded.lights[0].replace(intensity=0.1)
+    loaded.save(small)
+    picture, again = small.with_name("a.png"), small.with_name("b.png")
+    vtray.render(loaded, lock=first).save(picture)
+    assert cli.run(["--replay", str(picture), str(small), str(again)]) == 0
+    assert picture.read_bytes() == again.read_bytes()
+    assert cli.run(["--replay", str(picture), str(small), str(again), "--stops", "1"]) == 1
+    words = "its exposure is that of another picture, with its stops; give --exposure too"
+    assert words in capfd.readouterr().err

@@ -12,11 +12,23 @@ from fuzz.promises import run_quietly
 OPTIONS = [
     *("-t", "--threads", "-q", "--samples", "--filter", "--seed", "--size", "--exposure", "-V"),
     *("--background", "--alpha", "--bits", "--aov", "--replay", "--stats", "--pixel", "--help"),
-    *("--outline", "--fog", "--eye-dome"),
+    *("--outline", "--fog", "--eye-dome", "--stops", "--tonemap"),
 ]
 VALUES = [
     *("1", "2", "16", "0", "-1", "3.5", "1e5", "999999999", "9" * 30, "8", "32", "12x9", "5x0"),
-    *("max", "1e308", "1e-320", "inf", "nan", "white", "#e0e8ff", "transparent", "depth,ids"),
+    *(
+        "max",
+        "auto",
+        "agx",
+        "1e308",
+        "1e-320",
+        "inf",
+        "nan",
+        "white",
+        "#e0e8ff",
+        "transparent",
+        "depth,ids",
+    ),
     *(
         "box",
         "mitchell",

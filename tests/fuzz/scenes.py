@@ -62,7 +62,9 @@ def _document(random: Random, folder: Path) -> dict[str, Any]:
             "filter": random.choice(["box", "mitchell", "gaussian"]),
             "seed": 7,
             "size": [10, 10],
-            "exposure": random.choice(["max", 0.5, 1e308]),
+            "exposure": random.choice(["max", "auto", 0.5, 1e308]),
+            "stops": random.choice([0, 1, -100, 0.3]),
+            "tonemap": random.choice(["linear", "srgb", "filmic", "agx"]),
             "background": random.choice(["transparent", {"r": 1, "g": 2, "b": 3}]),
         }
     return found

@@ -28,6 +28,8 @@ SETTINGS = {
     "exposure": 0.1 + 0.2,
     "background": vtray.Color(1, 2, 3),
     "denoise": True,
+    "stops": 1.25,
+    "tonemap": "filmic",
 }
 
 
@@ -151,7 +153,10 @@ def told(**changes: object) -> str:
         (told(size=[3]), "is not understood: .*size"),
         (told(size=[0, 1]), "is not understood: .*size"),
         (told(exposure=0), "is not understood: .*exposure"),
-        (told(exposure="auto"), "is not understood: .*exposure"),
+        (told(exposure="min"), "is not understood: .*exposure"),
+        (told(stops="1"), "is not understood: .*stops"),
+        (told(tonemap="aces"), "is not understood: Invalid enum value 'aces'.*tonemap"),
+        (told(stops=1e9), "is not understood: .*stops"),
         (told(background="blue"), "is not understood: .*background"),
         (told(lock=-1), "is not understood: .*lock"),
         (told(bits=9), "is not understood: .*bits"),

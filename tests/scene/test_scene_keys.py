@@ -36,6 +36,8 @@ FULL = {
         "size": [30, 20],
         "exposure": 1.5,
         "background": WHITE,
+        "stops": -0.5,
+        "tonemap": "agx",
     },
 }
 DEFAULTS = {
@@ -48,6 +50,8 @@ DEFAULTS = {
         "size": None,
         "exposure": "max",
         "background": "black",
+        "stops": 0.0,
+        "tonemap": "linear",
     },
 }
 
@@ -56,7 +60,9 @@ def test_all_keys() -> None:
     scene = read(json.dumps(changed(FULL)))
     assert scene.camera.up == Direction(0, 1, 0)
     assert scene.camera.projection == "orthographic"
-    assert scene.render == RenderSettings(16, "mitchell", 3, (30, 20), 1.5, (255, 255, 255))
+    assert scene.render == RenderSettings(
+        16, "mitchell", 3, (30, 20), 1.5, (255, 255, 255), stops=-0.5, tonemap="agx"
+    )
     assert type(scene.render.samples) is int
     VALIDATOR.validate(changed(FULL))
 
@@ -89,6 +95,9 @@ TYPES = '"sphere", "cylinder", "cone", "plane", "spheres", "cylinders", "cones" 
 PARALLEL = "expected a direction that is not parallel to normal, got"
 FILTER = 'expected "box", "tent", "gaussian", "mitchell" or "blackman-harris", got'
 BACKGROUND = 'expected "black", "transparent", "sky" or an object with the keys r, g and b, got'
+EXPOSURE = 'expected "max", "auto" or a number > 0, got'
+TONEMAP = 'expected "linear", "srgb", "filmic" or "agx", got'
+STOPS = "expected a number from -100 to 100, got"
 BAD_VALUES: list[tuple[str, object, str]] = [
     ("camera.up", [0, 1, 0], "expected an object with the keys x, y and z, got [0, 1, 0]"),
     ("camera.up", "y", 'expected an object with the keys x, y and z, got "y"'),
@@ -111,8 +120,21 @@ BAD_VALUES: list[tuple[str, object, str]] = [
     ("render.seed", 2**32, "expected an integer from 0 to 4294967295, got 4294967296"),
     ("render.size", [1], "expected an array of two integers > 0, got [1]"),
     ("render.size", 5, "expected an array of two integers > 0, got 5"),
-    ("render.exposure", 0, 'expected "max" or a number > 0, got 0'),
-    ("render.exposure", "auto", 'expected "max" or a number > 0, got "auto"'),
+    ("render.exposure", 0, f"{EXPOSURE} 0"),
+    ("render.exposure", "min", f'{EXPOSURE} "min"'),
+    ("render.exposure", "Auto", f'{EXPOSURE} "Auto"'),
+    ("render.exposure", True, f"{EXPOSURE} true"),
+    ("render.stops", "1", f'{STOPS} "1"'),
+    ("render.stops", None, f"{STOPS} null"),
+    ("render.stops", False, f"{STOPS} false"),
+    ("render.stops", 100.5, f"{STOPS} 100.5"),
+    ("render.stops", -101, f"{STOPS} -101"),
+    ("render.stops", [1], f"{STOPS} [1]"),
+    ("render.tonemap", "AgX", f'{TONEMAP} "AgX"'),
+    ("render.tonemap", "", f'{TONEMAP} ""'),
+    ("render.tonemap", None, f"{TONEMAP} null"),
+    ("render.tonemap", 1, f"{TONEMAP} 1"),
+    ("render.tonemap", ["agx"], f'{TONEMAP} ["agx"]'),
     ("render.background", "white", f'{BACKGROUND} "white"'),
     ("render.background", [1, 2, 3], f"{BACKGROUND} [1, 2, 3]"),
     ("render.background", 7, f"{BACKGROUND} 7"),
@@ -139,13 +161,13 @@ def test_bad_values(place: str, value: object, problem: str) -> None:
             "render",
             3,
             "expected an object with the keys samples, filter, seed, size, exposure, "
-            "background, tolerance and denoise, got 3",
+            "background, tolerance, denoise, stops and tonemap, got 3",
         ),
         (
             "render",
             None,
             "expected an object with the keys samples, filter, seed, size, exposure, "
-            "background, tolerance and denoise, got null",
+            "background, tolerance, denoise, stops and tonemap, got null",
         ),
         ("render.size[1]", 0, "expected an integer from 1 to 2147483647, got 0"),
         ("render.background.g", 256, "expected an integer from 0 to 255, got 256"),
@@ -178,7 +200,7 @@ def test_bad_values_inside(place: str, value: object, problem: str) -> None:
         (
             '"lights"',
             '"render": {"exposure": "max", "a": ":"}, "lights"',
-            'render.a: unknown key, ignored; the nearest known key is "samples"',
+            'render.a: unknown key, ignored; the nearest known key is "tonemap"',
         ),
     ],
 )
@@ -205,8 +227,16 @@ CODE: list[tuple[dict[str, Any], str]] = [
     ({"seed": -1}, "seed: expected an integer from 0 to 4294967295, got -1"),
     ({"size": (0, 1)}, "size[0]: expected an integer from 1 to 2147483647, got 0"),
     ({"size": 5}, "size: expected an array of two integers > 0, got 5"),
-    ({"exposure": -1}, 'exposure: expected "max" or a number > 0, got -1'),
-    ({"exposure": "min"}, "exposure: expected \"max\" or a number > 0, got 'min'"),
+    ({"exposure": -1}, f"exposure: {EXPOSURE} -1"),
+    ({"exposure": "min"}, f"exposure: {EXPOSURE} 'min'"),
+    ({"exposure": float("inf")}, "exposure: expected a finite number, got inf"),
+    ({"tonemap": "aces"}, f"tonemap: {TONEMAP} 'aces'"),
+    ({"tonemap": 2.2}, f"tonemap: {TONEMAP} 2.2"),
+    ({"tonemap": float("nan")}, "tonemap: expected a finite number, got nan"),
+    ({"stops": "1"}, f"stops: {STOPS} '1'"),
+    ({"stops": 101}, f"stops: {STOPS} 101"),
+    ({"stops": float("nan")}, "stops: expected a finite number, got nan"),
+    ({"stops": float("-inf")}, "stops: expected a finite number, got -inf"),
 ]
 
 
@@ -243,7 +273,9 @@ def settings_in_files() -> st.SearchStrategy[dict[str, Any]]:
             "filter": st.sampled_from(FILTERS),
             "seed": st.integers(0, 2**32 - 1),
             "size": st.tuples(st.integers(1, 99), st.integers(1, 99)).map(list),
-            "exposure": st.just("max") | st.floats(1e-9, 1e9),
+            "exposure": st.sampled_from(["max", "auto"]) | st.floats(1e-9, 1e9),
+            "stops": st.floats(-100, 100),
+            "tonemap": st.sampled_from(["linear", "srgb", "filmic", "agx"]),
             "background": st.sampled_from(["black", "transparent", "sky"])
             | st.fixed_dictionaries(channels),
         },

@@ -57,9 +57,10 @@ class Shot(NamedTuple):
 
 
 class Exposed(NamedTuple):
-    """What a picture is locked to: the light that becomes white."""
+    """What a picture is locked to: the light that becomes white, with all stops."""
 
     white: float
+    has_stops: bool = True
 
 
 class Common(NamedTuple):
@@ -101,7 +102,7 @@ class Look:
 
     def holds(self, scene: Scene) -> bool:
         """Tell whether pictures have the exposure of the first: unless it is said otherwise."""
-        return "exposure" not in self.settings and settings_of(scene).exposure == "max"
+        return "exposure" not in self.settings and isinstance(settings_of(scene).exposure, str)
 
     def save(self, image: Image, shot: Shot, path: Path) -> None:
         """Write a picture, and what is painted on it, to a file."""

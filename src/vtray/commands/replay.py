@@ -4,6 +4,7 @@ import argparse
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from vtray.base.errors import ProvenanceError
 from vtray.base.version import __version__
 from vtray.image.formats.image_format import find_format
 from vtray.image.provenance import Provenance, read_provenance
@@ -12,9 +13,13 @@ from vtray.scene.style import PICTURE
 
 
 class Exposed(NamedTuple):
-    """What a render can be locked to instead of a picture: the light that becomes white."""
+    """What a render can be locked to instead of a picture: the light that becomes white.
+
+    Stops are in it already; they are told beside it to stand in the new picture too.
+    """
 
     white: float
+    has_stops: bool = True
 
 
 def take_over(options: argparse.Namespace) -> Provenance:
@@ -27,6 +32,9 @@ def take_over(options: argparse.Namespace) -> Provenance:
     """
     told = read_provenance(options.replay)
     if told.lock is not None and options.exposure is None:
+        if options.stops is not None:
+            words = "its exposure is that of another picture, with its stops; give --exposure too"
+            raise ProvenanceError(f"{options.replay}: {words}, or leave out --stops")
         options.lock = Exposed(told.lock)
     for name in PICTURE:
         decided = name == "exposure" and options.lock is not None

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from vtray.figures.oklab import oklab_to_linear, oklab_to_srgb, srgb_to_oklab
 from vtray.figures.subject import Floats, Pixels, Subject
 from vtray.scene.arrays import Arrays
+from vtray.scene.colors.color_light import light_of_numbers
 from vtray.scene.copies import Copies
 from vtray.scene.objects import Object
 from vtray.scene.vectors import Color
@@ -121,7 +122,7 @@ def _lightness(image: Subject, seen: NDArray[np.bool_], colors: Pixels) -> Float
     That is how often the light of a pixel contains the colour of its surface, in parts of what
     becomes white or, if that is only the brightest channel, in parts of the most there is.
     """
-    own = colors.astype(np.float64)
+    own = light_of_numbers(image.settings.tonemap)[colors]
     squares = (own * own).sum(axis=1)
     times = (image.linear[seen] * own).sum(axis=1) / np.maximum(squares, 1.0)
     # A black surface scatters nothing; its light is not known.

@@ -13,6 +13,8 @@ from vtray.figures.traced_rays import (
     Veil,
     WayToLight,
 )
+from vtray.scene.colors.color_light import light_of_numbers
+from vtray.scene.colors.tone_map_names import is_encoded
 from vtray.scene.light_types import AnyLight, measure_of, strength_of
 from vtray.scene.scene import Scene
 
@@ -36,7 +38,7 @@ def describe(tree: TracedRays) -> str:
         lines.append("hit          nothing in front of the image plane")
     else:
         lines += _describe_hit(tree.hit, tree.scene)
-        lines += _describe_lights(tree.lights, tree.hit, tree.share)
+        lines += _describe_lights(tree.lights, tree.hit, tree.share, tree.scene)
     of = "the sum over all lights" if tree.lamp is None else "that of the lamp"
     of = "the sum over all layers and lights" if tree.layers else of
     lines.append(f"light        {_vector(tree.light)}, {of}")
@@ -54,14 +56,14 @@ def _describe_layer(layer: Layer, scene: Scene) -> list[str]:
         first.replace("hit  ", "layer", 1),
         *others,
         f"  seen       {100 * layer.share:.4g} % of its light",
-        *_describe_lights(layer.lights, layer.hit, layer.share),
+        *_describe_lights(layer.lights, layer.hit, layer.share, scene),
     ]
 
 
-def _describe_lights(ways: Sequence[WayToLight], hit: Hit, share: float) -> list[str]:
+def _describe_lights(ways: Sequence[WayToLight], hit: Hit, share: float, scene: Scene) -> list[str]:
     """Return the lines on all lights at a hit, of whose light a share is seen."""
     told = [way for way in ways if not _is_idle(way)]
-    lines = [line for way in told for line in _describe_light(way, hit, share)]
+    lines = [line for way in told for line in _describe_light(way, hit, share, scene)]
     if len(told) < len(ways):
         lines.append(_describe_others(len(ways) - len(told), bool(told)))
     return lines
@@ -75,14 +77,26 @@ def _describe_lamp(light: AnyLight, number: int) -> str:
 
 def _describe_hit(hit: Hit, scene: Scene) -> list[str]:
     """Return the lines on what the ray hit."""
-    red, green, blue = hit.surface.color
     return [
         f"hit          {hit.surface}, {hit.distance:.10g} away",
         *_describe_copy(hit.surface, scene),
         f"  point      {_vector(hit.point)}",
         f"  normal     {_vector(hit.normal)}, on the ray's side",
-        f"  material   color ({red:g}, {green:g}, {blue:g}), lambert {hit.surface.lambert:g}",
+        f"  material   color {_color(hit.surface.color, scene)}, lambert {hit.surface.lambert:g}",
     ]
+
+
+def _color(color: Sequence[float], scene: Scene) -> str:
+    """Return a colour as it was given, and as light if that is something else."""
+    shown = "(" + ", ".join(f"{channel:g}" for channel in color) + ")"
+    tonemap = scene.render.tonemap
+    return f"{shown}, as light {_vector(_as_light(color, scene))}" if is_encoded(tonemap) else shown
+
+
+def _as_light(color: Sequence[float], scene: Scene) -> list[float]:
+    """Return a colour as light, 255 for white."""
+    table = light_of_numbers(scene.render.tonemap)
+    return [float(table[int(channel)]) for channel in color]
 
 
 def _describe_copy(surface: Surface, scene: Scene) -> list[str]:
@@ -93,7 +107,7 @@ def _describe_copy(surface: Surface, scene: Scene) -> list[str]:
     )
 
 
-def _describe_light(way: WayToLight, hit: Hit, share: float) -> list[str]:
+def _describe_light(way: WayToLight, hit: Hit, share: float, scene: Scene) -> list[str]:
     """Return the lines on a light: its direction, what blocks it or what it adds."""
     name = f"lights[{way.light}]"
     if isinstance(way, ShadowFan):
@@ -110,7 +124,9 @@ def _describe_light(way: WayToLight, hit: Hit, share: float) -> list[str]:
     factors = f"{factor} {amount} x lambert {hit.surface.lambert:g}"
     factors += f" x {strength} {way.intensity:g} x color"
     if way.color != WHITE:
-        factors += f" x {_vector([channel / 255 for channel in way.color])} of the light"
+        factors += (
+            f" x {_vector([channel / 255 for channel in _as_light(way.color, scene)])} of the light"
+        )
     if share < 1.0:
         factors += f" x {share:.6g} that is seen"
     return [first, f"  adds       {_vector(way.adds)} = {factors}"]
@@ -164,6 +180,9 @@ def _describe_exposure(exposed: Exposed, tree: TracedRays) -> list[str]:
     white = f"{exposed.white:.10g}"
     more = "".join(f" + {_vector(overlay)}" for overlay in exposed.overlays)
     formula = f"floor(255 x light / {white}{more}), {white} is {what}"
+    if is_encoded(exposed.tonemap):
+        behind = f", with {more[3:]} of their own colours" if more else ""
+        formula = f'tone map "{exposed.tonemap}" of light / {white}{behind}, {white} is {what}'
     lines.append(f"exposure     {formula if exposed.white > 0.0 else 'the whole picture is black'}")
     is_color = exposed.background and exposed.sky is None
     behind = f", {share} % of it background" if is_color else ""

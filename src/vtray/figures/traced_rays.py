@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from vtray.geometry.vector import Vec
+from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.scene import Scene
 
 
@@ -324,6 +325,8 @@ class Exposed:
         add.
     drawn
         What outlines and eye-dome lighting leave of the light; None if that is all of it.
+    tonemap
+        What made numbers of the light.
     """
 
     light: Vec
@@ -335,6 +338,7 @@ class Exposed:
     value: tuple[int, ...]
     overlays: tuple[Vec, ...] = ()
     drawn: Vec | None = None
+    tonemap: ToneMapName = "linear"
 
 
 @dataclass(frozen=True)

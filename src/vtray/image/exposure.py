@@ -1,7 +1,6 @@
 """Exposure: from linear light to the numbers of the image file."""
 
 import math
-import reprlib
 import sys
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
@@ -14,7 +13,7 @@ from vtray.base.errors import RenderError
 from vtray.base.pool import run_tasks
 from vtray.base.tiles import TILE
 from vtray.scene.light_types import AnyLight, brightest
-from vtray.scene.settings import Background, Exposure
+from vtray.scene.settings import Background
 from vtray.scene.vectors import Color
 
 BRIGHTEST = sys.float_info.max / 2.0**17
@@ -212,46 +211,3 @@ def _expose_drawn(
                 share = 255.0 if light == white > 0.0 else share
                 own = fog * (1.0 - line) * drawn.fog_color[k] + line * drawn.line_color[k]
                 bytes_[row, column, k] = np.uint8(math.floor(min(max(share + own, 0.0), 255.0)))
-
-
-def locked_white(lock: object, exposure: object = None) -> float:
-    """Return the white of the picture whose exposure another one shall have.
-
-    Raises
-    ------
-    RenderError
-        It is no picture, or an exposure was asked for too.
-    """
-    if exposure is not None:
-        shown = reprlib.repr(exposure)
-        message = f"lock and exposure {shown}: expected one of them; leave out the other"
-        raise RenderError(message)
-    white = getattr(lock, "white", None)
-    if isinstance(white, (int, float)):
-        return float(white)
-    message = f"lock: expected a picture that was rendered, or None, got {reprlib.repr(lock)}"
-    raise RenderError(message)
-
-
-def known_white(exposure: Exposure, lock: object = None) -> float | None:
-    """Return the light that becomes 255, if that is known before the light of the picture is."""
-    if lock is not None:
-        return locked_white(lock)
-    return None if exposure == "max" else white_of(exposure, 0.0)
-
-
-def white_of(exposure: Exposure, peak: float, lock: object = None) -> float:
-    """Return the light that becomes 255 in an image whose largest channel is `peak`.
-
-    Parameters
-    ----------
-    exposure
-        What the settings say.
-    peak
-        The largest channel, ≥ 0.
-    lock
-        A picture whose exposure is taken instead, or None.
-    """
-    if lock is not None:
-        return locked_white(lock)
-    return peak if exposure == "max" else 255.0 / exposure

@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.image.exposure import locked_white
+from vtray.base.errors import RenderError
 from vtray.image.formats.png_file import as_png
 from vtray.image.rendered import Rendered
 from vtray.image.saving import save_picture
+from vtray.image.white import locked_white
 from vtray.scene.checks.unknown_names import explain_unknown
+from vtray.scene.colors.tone_map_names import is_encoded
 from vtray.scene.edits import recolored, relit
 
 if TYPE_CHECKING:
@@ -61,29 +63,55 @@ class Image(Rendered):
     """
 
     def expose(
-        self, exposure: Literal["max"] | float | None = None, *, lock: "Image | None" = None
+        self,
+        exposure: Literal["max", "auto"] | float | None = None,
+        *,
+        stops: float | None = None,
+        tonemap: str | None = None,
+        lock: "Image | None" = None,
     ) -> "Image":
-        """Return the same light with another exposure.
+        """Return the same light with another exposure, or by another tone map.
 
         Parameters
         ----------
         exposure
-            ``"max"``, the default, or what light is multiplied by, > 0, as in `render`.
+            ``"max"``, the default, ``"auto"``, or what light is multiplied by, > 0, as in `render`.
+            Where only stops or a tone map are given, it stays as it is.
+        stops
+            How often light is doubled after that; 0 by default, or as they are where only a tone
+            map is given.
+        tonemap
+            The tone map, as in `render`; by default that of this picture. A picture whose tone map
+            is linear has no other, and others are never linear, as their colours are other light.
         lock
-            A picture whose exposure is taken; not together with `exposure`.
+            A picture whose exposure is taken; not together with `exposure` or `stops`.
 
         Raises
         ------
         SceneError
-            The exposure is neither.
+            The exposure, the stops or the tone map are wrong.
         RenderError
-            `lock` is no picture, or `exposure` is given too.
+            `lock` is no picture, or `exposure` or `stops` is given too; or stops alone are given,
+            and the exposure of this picture is that of another one; or the tone map cannot be
+            had without another render.
         """
+        settings = self.settings.replace(tonemap=tonemap)
+        if is_encoded(settings.tonemap) != is_encoded(self.settings.tonemap):
+            own, words = self.settings.tonemap, "by which its colours became other light"
+            remedy = f'render it with tonemap="{settings.tonemap}"'
+            raise RenderError(f'tonemap: the picture was rendered with "{own}", {words}; {remedy}')
         if lock is not None:
-            locked_white(lock, exposure)
-            return self._again(lock)
-        settings = self.settings.replace(exposure="max" if exposure is None else exposure)
-        return self._again(None, settings=settings)
+            locked_white(lock, exposure, stops)
+            return self._again(lock, settings=settings)
+        if exposure is None and stops is None and tonemap is not None:
+            return self._again(self if self.locked else None, settings=settings)
+        if exposure is None:
+            if stops is not None and self.locked:
+                words = "the exposure of this picture is that of another one, with its stops"
+                raise RenderError(f"stops: {words}; give an exposure too")
+            exposure = "max" if stops is None else self.settings.exposure
+        stops = 0.0 if stops is None else stops
+        return self._again(None, settings=settings.replace(exposure=exposure, stops=stops))
 
     def relight(self, intensities: Sequence[float], *, lock: "Image | None" = None) -> "Image":
         """Return the picture with other intensities of its lights, exactly as a new render.

@@ -9,8 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import RenderError
-from vtray.image.exposure import Drawn, Overlay, check_brightness, develop, develop_drawn, white_of
+from vtray.image.exposure import Drawn, Overlay, check_brightness, develop, develop_drawn
 from vtray.image.surfaces import Surfaces
+from vtray.image.toned import Toning, develop_toned
+from vtray.image.white import white_of
+from vtray.scene.colors.color_light import light_of
+from vtray.scene.colors.tone_map_names import is_encoded
 from vtray.scene.fingerprint import scene_hash
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
@@ -133,12 +137,15 @@ class Rendered:
         """Return light after exposure with 8 or 16 bits for each channel.
 
         A channel v of light becomes ``floor(maximum * v / white)``, where the maximum is 255 or
-        65535. With a transparent background there is a fourth channel, alpha, and colours are not
-        multiplied by it.
+        65535. With a tone map that is not linear, it becomes ``round(maximum * encoded)``. With a
+        transparent background there is a fourth channel, alpha, and colours are not multiplied by
+        it.
         """
         if bits == 8 and self._pixels is not None:
             return self._pixels
         background = self.settings.background
+        if is_encoded(self.settings.tonemap):
+            return self._develop_toned(bits)
         if bits == 8 and background == "black" and self._is_drawn_on:
             self._pixels = develop_drawn(self.linear, self.white, self._drawn, self._threads)
             return self._pixels
@@ -151,6 +158,16 @@ class Rendered:
             bits,
             self.overlays,
         )
+        if bits == 8:
+            self._pixels = pixels
+        return pixels
+
+    def _develop_toned(self, bits: int) -> NDArray[Any]:
+        """Return what `develop` does, by a tone map that is not linear."""
+        settings = self.settings
+        toning = Toning(settings.tonemap, self.white, settings.background, 2**bits - 1)
+        light, overlays = self.with_sky, self.overlays
+        pixels = develop_toned(light, toning, lambda: self.alpha, self._threads, overlays)
         if bits == 8:
             self._pixels = pixels
         return pixels
@@ -274,7 +291,7 @@ class Rendered:
         """Light before exposure of all that is seen, fog and lines too, (height, width, 3)."""
         light = self.with_sky
         for share, color in self.overlays:
-            own = np.array([color.r, color.g, color.b]) * (self.white / 255)
+            own = np.array(light_of(color, self.settings.tonemap)) * (self.white / 255)
             light = light + share[..., None] * own
         return light
 
@@ -328,5 +345,5 @@ class Rendered:
         for name in ("scene_hash", "with_sky", "error"):
             vars(other).pop(name, None)
         vars(other).update(changes, _pixels=None, locked=lock is not None)
-        other.white = white_of(other.settings.exposure, max(float(other.linear.max()), 0.0), lock)
+        other.white = white_of(other.settings, other.linear, lock)
         return other

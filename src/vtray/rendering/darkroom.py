@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.image.exposure import white_of
 from vtray.image.image import Image
 from vtray.image.surfaces import Surfaces
+from vtray.image.white import white_of
 from vtray.rendering.growth import Part
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
@@ -104,7 +104,7 @@ class Darkroom:
         return Image(
             linear,
             None,
-            white_of(self.settings.exposure, peak, self.lock),
+            white_of(self.settings, linear, self.lock, peak),
             self.scene,
             self.settings,
             {},

@@ -102,7 +102,7 @@ def albedo_of(materials: Materials, primitive: NDArray[Any], half: NDArray[Any])
         materials.color_row[k] + place * materials.color_step[k],
     )
     lambert = materials.lambert[materials.lambert_row[k] + place * materials.lambert_step[k]]
-    color = materials.color[row].astype(np.float64)
+    color = materials.light[materials.color[row]]
     if materials.cap is not None and materials.cap[0] >= 0:
         color[half & CAP != 0] = materials.cap
     shares: Floats = (color / 255.0 * lambert[..., None]).clip(0.0, 1.0)

@@ -31,6 +31,8 @@ from vtray.rendering.pack_lights import pack_lights, points_of
 from vtray.rendering.pack_skies import up_of
 from vtray.rendering.placed import Placed
 from vtray.rendering.rooms import Rooms
+from vtray.scene.colors.color_light import light_of, light_of_numbers
+from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.light_types import Lamp, Light, RectangleLight, SphereLight
 from vtray.scene.objects import Object
 from vtray.scene.placing.directions import camera_axes, view_axes
@@ -78,7 +80,10 @@ class Packed(NamedTuple):
 
 
 def pack(scene: Scene, kept: Acceleration) -> Packed:
-    """Return the arrays of a scene, whose spheres are ready for tracing."""
+    """Return the arrays of a scene, whose spheres are ready for tracing.
+
+    The tone map of its settings says what its colours are as light.
+    """
     planes = [item for item in scene.objects if isinstance(item, Plane)]
     unit = _unit_length(scene, planes, kept)
     camera = _pack_camera(scene.camera, unit)
@@ -87,8 +92,8 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
     arrays = SceneArrays(
         camera,
         _pack_world(scene.objects, kept, unit, (x, y, z)),
-        pack_lights(scene.lights, origin, unit, camera, up_of(scene.camera)),
-        _pack_materials(kept, planes),
+        pack_lights(scene.lights, origin, unit, camera, up_of(scene.camera), scene.render.tonemap),
+        _pack_materials(kept, planes, scene.render.tonemap),
     )
     return Packed(arrays, unit, scene.camera.focus - start_distance(scene.camera))
 
@@ -368,7 +373,7 @@ def _pack_to_boxes(frame: Frame, origin: Vec, unit: float) -> ToBoxes:
     return ToBoxes(ratio, (x * ratio - a, y * ratio - b, z * ratio - c), 0.0)
 
 
-def _pack_materials(kept: Acceleration, planes: list[Plane]) -> Materials:
+def _pack_materials(kept: Acceleration, planes: list[Plane], tonemap: ToneMapName) -> Materials:
     """Return the materials of all primitives, by ranges of their numbers."""
     sources = [shapes.source for shapes in (*kept.shapes, *kept.copied)]
     colors = [source.color for source in sources]
@@ -396,17 +401,18 @@ def _pack_materials(kept: Acceleration, planes: list[Plane]) -> Materials:
         lambert_row[k] + begin * lambert_step[k],
         lambert_step[k],
         joined([*colors, *ends], np.uint8),
+        light_of_numbers(tonemap),
         joined(lamberts, np.float64),
-        _cap_color(kept.rooms),
+        _cap_color(kept.rooms, tonemap),
     )
 
 
-def _cap_color(rooms: Rooms | None) -> Vec | None:
+def _cap_color(rooms: Rooms | None, tonemap: ToneMapName) -> Vec | None:
     """Return the colour of what closes shapes that are cut, as in `Materials`."""
     if rooms is None:
         return None
     color = rooms.color
-    return (float(color.r), float(color.g), float(color.b)) if color else (-1.0, -1.0, -1.0)
+    return light_of(color, tonemap) if color else (-1.0, -1.0, -1.0)
 
 
 def _pack_planes(planes: Sequence[tuple[int, Plane]]) -> Columns:

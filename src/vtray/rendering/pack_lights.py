@@ -11,6 +11,8 @@ from vtray.geometry.vector import Vec
 from vtray.rendering.pack_crowd import order_by_place
 from vtray.rendering.pack_rectangles import join_rectangles, pack_rectangle
 from vtray.rendering.pack_skies import changes_color, pack_skies
+from vtray.scene.colors.color_light import light_of
+from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.light_types import (
     Ambient,
     AnyLight,
@@ -44,7 +46,12 @@ FAR = 2.0**221
 
 
 def pack_lights(
-    lights: Sequence[AnyLight], origin: Floats, unit: float, camera: CameraFrame, up: Vec
+    lights: Sequence[AnyLight],
+    origin: Floats,
+    unit: float,
+    camera: CameraFrame,
+    up: Vec,
+    tonemap: ToneMapName = "linear",
 ) -> Lights:
     """Return the arrays of all lights.
 
@@ -60,14 +67,16 @@ def pack_lights(
         The camera.
     up
         What is up for skies that do not say it, a unit vector in world space.
+    tonemap
+        The tone map, which says what colours are as light.
     """
     hard = [light for light in lights if isinstance(light, Light)]
     soft = [light for light in lights if not isinstance(light, Light)]
     points = points_of([light.location for light in hard], unit) - origin
     x, y, z = _columns(points)
     ordered = *hard, *soft
-    parts = [part for light in ordered for part in _components_of(light)]
-    packed = _pack_soft(soft, len(hard), origin, unit, up) if soft else None
+    parts = [part for light in ordered for part in _components_of(light, tonemap)]
+    packed = _pack_soft(soft, len(hard), origin, unit, up, tonemap) if soft else None
     return Lights(
         x,
         y,
@@ -83,12 +92,9 @@ def pack_lights(
     )
 
 
-def _components_of(light: AnyLight) -> list[tuple[float, Vec]]:
+def _components_of(light: AnyLight, tonemap: ToneMapName) -> list[tuple[float, Vec]]:
     """Return the strengths and colours, 255 for white, of the components of a light."""
-    color, strength = (
-        (float(light.color.r), float(light.color.g), float(light.color.b)),
-        strength_of(light),
-    )
+    color, strength = light_of(light.color, tonemap), strength_of(light)
     if not changes_color(light):
         return [(strength, color)]
     parts = (color[0], 0.0, 0.0), (0.0, color[1], 0.0), (0.0, 0.0, color[2])
@@ -96,7 +102,12 @@ def _components_of(light: AnyLight) -> list[tuple[float, Vec]]:
 
 
 def _pack_soft(
-    lights: Sequence[AnyLight], first: int, origin: Floats, unit: float, up: Vec
+    lights: Sequence[AnyLight],
+    first: int,
+    origin: Floats,
+    unit: float,
+    up: Vec,
+    tonemap: ToneMapName,
 ) -> SoftLights:
     """Return the arrays of the lights that are no points; `first` is the row of the first."""
     x, y, z, size, error_scale = np.zeros((5, len(lights)))
@@ -141,7 +152,7 @@ def _pack_soft(
         first + np.cumsum(counts) - counts,
         FAR,
         join_rectangles(len(lights), rectangles) if are_rare else None,
-        pack_skies(skies, up) if are_rare else None,
+        pack_skies(skies, up, tonemap) if are_rare else None,
     )
 
 

@@ -10,10 +10,11 @@ from vtray.base.exact_math import cosine, sine
 from vtray.geometry.vector import Vec
 from vtray.rendering.pack_brightness import pack_brightness, starts_of
 from vtray.scene.camera import Camera
+from vtray.scene.colors.color_light import light_of
+from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.light_types import AnyLight, Sky
 from vtray.scene.placing.directions import along, camera_axes, cross, unit, view_axes
 from vtray.scene.sky_types import Gradient
-from vtray.scene.vectors import Color
 from vtray.transport.lights.sky import Skies
 
 Floats = NDArray[np.float64]
@@ -28,7 +29,7 @@ def changes_color(light: AnyLight) -> bool:
     return isinstance(light, Sky) and (light.gradient is not None or light.image is not None)
 
 
-def pack_skies(skies: Sequence[Sky], up: Vec) -> Skies:
+def pack_skies(skies: Sequence[Sky], up: Vec, tonemap: ToneMapName = "linear") -> Skies:
     """Return the maps of skies.
 
     Parameters
@@ -37,8 +38,10 @@ def pack_skies(skies: Sequence[Sky], up: Vec) -> Skies:
         Those whose colour changes, any number.
     up
         What is up where they do not say it.
+    tonemap
+        The tone map, which says what the colours of gradients are as light. Pictures are light.
     """
-    pictures = [_picture_of(sky) for sky in skies]
+    pictures = [_picture_of(sky, tonemap) for sky in skies]
     nodes = [_nodes_of(picture) for picture in pictures]
     return Skies(
         np.array([_axes_of(sky, up) for sky in skies], float).reshape(-1, 9),
@@ -58,14 +61,14 @@ def up_of(camera: Camera) -> Vec:
     return -down[0], -down[1], -down[2]
 
 
-def _picture_of(sky: Sky) -> Pictures:
+def _picture_of(sky: Sky, tonemap: ToneMapName) -> Pictures:
     """Return the light of a sky as a picture, (height, width, 3)."""
     if sky.image is not None:
         return sky.image.pixels
-    return _gradient_picture(sky.gradient or Gradient())
+    return _gradient_picture(sky.gradient or Gradient(), tonemap)
 
 
-def _gradient_picture(gradient: Gradient) -> Pictures:
+def _gradient_picture(gradient: Gradient, tonemap: ToneMapName) -> Pictures:
     """Return the light of a gradient as a picture of one column, (ROWS, 1, 3)."""
     height = _heights()
     depth = np.minimum(-height, 1.0)
@@ -73,7 +76,10 @@ def _gradient_picture(gradient: Gradient) -> Pictures:
     for _ in range(3):
         below = below * below
     above = np.maximum(height, 0.0)
-    zenith, horizon, ground = map(_light_of, (gradient.zenith, gradient.horizon, gradient.ground))
+    zenith, horizon, ground = (
+        np.array(light_of(color, tonemap)) / 255.0
+        for color in (gradient.zenith, gradient.horizon, gradient.ground)
+    )
     rising = horizon + (zenith - horizon) * (above * (2.0 - above))[:, None]
     falling = ground + (horizon - ground) * below[:, None]
     picture = np.where(height[:, None] >= 0.0, rising, falling)
@@ -84,11 +90,6 @@ def _gradient_picture(gradient: Gradient) -> Pictures:
 def _heights() -> Floats:
     """Return the sines of the heights of the rows of a gradient, from the top, (ROWS,)."""
     return np.array([cosine((row + 0.5) * 180.0 / ROWS) for row in range(ROWS)])
-
-
-def _light_of(color: Color) -> Floats:
-    """Return a colour as light, 1 for white, (3,)."""
-    return np.array([color.r, color.g, color.b]) / 255.0
 
 
 def _nodes_of(picture: Pictures) -> Pictures:

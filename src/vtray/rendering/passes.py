@@ -14,6 +14,7 @@ from vtray.geometry.packets.packet import NO_PRIMITIVE
 from vtray.geometry.ray import Footprint
 from vtray.geometry.shapes import cone, cylinder, sphere
 from vtray.geometry.world import World
+from vtray.image.white import white_of
 from vtray.rendering.engines.engine import Engine, trace_to
 from vtray.rendering.engines.threads import Threads
 from vtray.rendering.growth import DRAFT_TILE, Growth, draft_camera
@@ -112,7 +113,7 @@ class Tracer:
         settings
             How many samples, and which, and how noisy soft light may be.
         white
-            The light that becomes 255; None if it is that of the brightest channel.
+            The light that becomes 255; None if the light of the picture decides it.
         keep
             Whether to keep what each ray hits and which lights reach it.
         """
@@ -153,7 +154,7 @@ class Tracer:
             error, coarse = settings.tolerance * len(soft.kind), is_coarse(settings.tolerance)
             return Noise(error, by_light=False, is_coarse=coarse)
         if white is None:
-            white = self._about_peak(settings)
+            white = self._about_white(settings)
         return self._noise_of_light(settings.tolerance * white or math.inf, settings)
 
     def _noise_of_light(self, error: float, settings: RenderSettings) -> Noise:
@@ -161,8 +162,8 @@ class Tracer:
         are_shared = self._scene.lights.crowd is not None
         return Noise(error, True, are_shared, is_coarse(settings.tolerance))
 
-    def _about_peak(self, settings: RenderSettings) -> float:
-        """Return the largest channel of some pixels, with as few rays as there can be."""
+    def _about_white(self, settings: RenderSettings) -> float:
+        """Return the light that becomes white in some pixels, with as few rays as there can be."""
         marks = np.zeros(self._size[::-1], np.bool_)
         marks[SPARSE // 2 :: SPARSE, SPARSE // 2 :: SPARSE] = True
         has_samples = settings.samples > 1
@@ -172,7 +173,8 @@ class Tracer:
             *self._size, *(with_samples if has_samples else one_ray)(self._scene, self._more)
         )
         tiles = split_into_tiles(*self._size, self._tile)
-        return self._engine.trace(self._scene, rays._replace(marks=marks), tiles, film, None).peak
+        cast = self._engine.trace(self._scene, rays._replace(marks=marks), tiles, film, None)
+        return white_of(settings, film.linear[marks], peak=cast.peak)
 
     def _middles(self, sampling: Sampling, keep: bool, *wanted: str) -> Traced:
         """Trace one ray for each pixel."""

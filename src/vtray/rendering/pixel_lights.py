@@ -18,6 +18,7 @@ from vtray.geometry.world import body_count
 from vtray.rendering.numbering import Numbering
 from vtray.rendering.pack import Packed
 from vtray.rendering.pixel_surfaces import find_blocker, rgb
+from vtray.scene.colors.color_light import light_of, light_of_numbers
 from vtray.scene.light_types import (
     Ambient,
     AnyLight,
@@ -219,8 +220,9 @@ def added(lit: Lit, light: AnyLight, shares: Vec) -> Vec:
     # In the order of the kernels, so that the sum has the same bits.
     surface = lit.hit.surface
     strengths = [share * surface.lambert * strength_of(light) for share in shares]
-    red, green, blue = (lit.share * channel for channel in surface.color)
-    tint = rgb(light.color)
+    table = light_of_numbers(lit.scene.render.tonemap)
+    red, green, blue = (lit.share * float(table[int(channel)]) for channel in surface.color)
+    tint = light_of(light.color, lit.scene.render.tonemap)
     return (
         strengths[0] * red * (tint[0] / 255),
         strengths[1] * green * (tint[1] / 255),

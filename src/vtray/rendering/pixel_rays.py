@@ -11,7 +11,7 @@ from vtray.base.pool import available_cores
 from vtray.figures.ray_tree import Exposed, RayTree, Veil, View
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, scale
-from vtray.image.exposure import known_white
+from vtray.image.white import known_white
 from vtray.rendering.fog import ball_around, fitted
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.numbering import number_objects
@@ -84,7 +84,8 @@ def trace_rays(
         fitted(scene.style, camera, lambda: ball_around(scene)) if image is None else image.style
     )
     kept = accelerate(scene, style=style)  # which the given scene may have already
-    scene = Scene(camera, lights_of(scene), list(scene.objects), style=style)
+    render = scene.render.replace(tonemap=settings.tonemap)
+    scene = Scene(camera, lights_of(scene), list(scene.objects), render, style)
     packed, numbering = styled(pack(scene, kept), style), number_objects(scene.objects)
     noise = _noise(packed, settings) if image is None else image.noise
     pixel = Pixel(scene, numbering, packed, (column, row), noise, int(settings.seed))
@@ -124,7 +125,7 @@ def _veil(packed: Packed, traced: TracedPixel, light: Vec) -> Veil | None:
 def _noise(packed: Packed, settings: RenderSettings) -> Noise | None:
     """Return how noisy soft light may be in a picture with some settings."""
     tracer = Tracer(packed.arrays, available_cores())
-    return tracer.noise(settings, known_white(settings.exposure), keep=False)
+    return tracer.noise(settings, known_white(settings), keep=False)
 
 
 def _place_of(scene: Scene, packed: Packed, row: int) -> int:
@@ -172,6 +173,7 @@ def _exposed(image: "Image", column: int, row: int) -> Exposed:
         value=tuple(int(channel) for channel in image.pixels[row, column]),
         overlays=tuple(overlays),
         drawn=drawn,
+        tonemap=image.settings.tonemap,
     )
 
 

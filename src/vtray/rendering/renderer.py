@@ -20,8 +20,9 @@ from vtray.base.pool import available_cores
 from vtray.base.stopwatch import Stopwatch
 from vtray.base.tiles import TILE
 from vtray.image.denoise import load_library
-from vtray.image.exposure import check_brightness, known_white, locked_white, warm_up
+from vtray.image.exposure import check_brightness, warm_up
 from vtray.image.image import Image
+from vtray.image.white import known_white, locked_white
 from vtray.rendering.acceleration import Acceleration
 from vtray.rendering.clipping import is_nothing_left
 from vtray.rendering.darkroom import Darkroom
@@ -71,10 +72,12 @@ def render(
     filter: str | None = None,  # noqa: A002 - as in the scene file
     seed: int | None = None,
     size: tuple[int, int] | None = None,
-    exposure: Literal["max"] | float | None = None,
+    exposure: Literal["max", "auto"] | float | None = None,
     background: Any = None,  # noqa: ANN401
     tolerance: float | None = None,
     denoise: bool | None = None,
+    stops: float | None = None,
+    tonemap: str | None = None,
     outline: Any = None,  # noqa: ANN401 - all that `Style` takes
     fog: Any = None,  # noqa: ANN401
     eye_dome: Any = None,  # noqa: ANN401
@@ -116,9 +119,10 @@ def render(
     size
         Width and height of the picture in pixels, of the same view, instead of the camera's.
     exposure
-        ``"max"``, the default: the brightest channel becomes 255. A number: light is multiplied by
-        it, so that for 1 a surface that a light of intensity 1 shines on squarely gets its colour.
-        1 is also the default of scenes whose lights were never set.
+        ``"max"``, the default: the brightest channel becomes 255. ``"auto"``: that of 99 of 100
+        pixels with light does at the most, and what is brighter is cut off. A number: light is
+        multiplied by it, so that for 1 a surface that a light of intensity 1 shines on squarely
+        gets its colour. 1 is also the default of scenes whose lights were never set.
     background
         What is seen where nothing is: ``"black"``, the default, ``"transparent"``, ``"sky"`` for
         the skies among the lights, or a colour in any of the ways of `vtray.colors.to_rgb`.
@@ -130,6 +134,12 @@ def render(
     denoise
         Whether the grain of soft light is taken out by Open Image Denoise, once all is traced. The
         picture is then no longer the same on every machine; `Image.raw` is.
+    stops
+        How often the light is doubled after the exposure, 0 by default; below 0 it is halved.
+    tonemap
+        How light becomes the numbers of a file: ``"linear"``, the default, as it is; ``"srgb"``,
+        ``"filmic"`` and ``"agx"`` encoded for monitors. For these, all colours that are given are
+        taken for sRGB, so that what is lit squarely shows its own colour back with ``"srgb"``.
     outline
         Lines around what is seen: True, their width in pixels, that and a colour, or an `Outline`;
         False for none.
@@ -154,8 +164,8 @@ def render(
         Depth, ids and normals are those of the first surface that is more opaque than that, 0.5 by
         default.
     lock
-        A picture whose exposure is taken, so that a sequence does not flicker; not together with
-        `exposure`.
+        A picture whose exposure is taken, its stops too, so that a sequence does not flicker; not
+        together with `exposure` or `stops`.
     keep_lights
         Keep the light of each lamp apart, for `Image.relight` and `Image.recolor`.
     on_update
@@ -185,7 +195,8 @@ def render(
         The scene or a setting holds something that none may hold.
     RenderError
         The image does not fit into memory, its light is too bright for a double, `lock` is no
-        picture, or `exposure` is given too; or the background is the sky, and there is none.
+        picture, or `exposure` or `stops` is given too; or the background is the sky, and there is
+        none.
     ValueError
         `threads` or `tile` is not an integer of at least 1, or `update_seconds` no number ≥ 0.
     ExtraError
@@ -197,11 +208,12 @@ def render(
     tile = _count("tile", tile)
     _check_seconds(update_seconds)
     if lock is not None:
-        locked_white(lock, exposure)
+        locked_white(lock, exposure, stops)
     scene.check()
     lights = lights_of(scene)
     settings, style = overridden(settings_of(scene), locals()), overridden(scene.style, locals())
     shown = _snapshot(scene, lights, _camera(scene, settings))
+    shown.render = shown.render.replace(tonemap=settings.tonemap)  # which says what its colours are
     style = fitted(style, shown.camera, lambda: ball_around(shown))
     if settings.denoise:
         load_library()  # before any work is done
@@ -237,7 +249,7 @@ def render(
     tracer = Tracer(
         packed.arrays, threads, tile, _step_of(progress, "trace"), growth, drawing.wanted
     )
-    white = known_white(settings.exposure, lock)
+    white = known_white(settings, lock)
     with growth or nullcontext():
         traced = tracer.light(settings, white, keep=keep_lights)
     clock.lap("trace")

@@ -8,6 +8,7 @@ from vtray.base.pool import run_tasks
 from vtray.base.tiles import TILE
 from vtray.geometry.packets.packet import LANES, new_packet
 from vtray.rendering.pack_skies import changes_color, pack_skies, up_of
+from vtray.scene.colors.color_light import light_of
 from vtray.scene.light_types import AnyLight, Sky
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
@@ -61,7 +62,7 @@ class SeenSky:
         """
         seen = np.zeros((*cover.shape, 3))
         for sky in _skies_of(scene.lights):
-            color = np.array([sky.color.r, sky.color.g, sky.color.b], float) * sky.radiance
+            color = np.array(light_of(sky.color, scene.render.tonemap)) * sky.radiance
             if changes_color(sky):
                 seen += color * self._look_at(sky, scene, cover)
             else:
@@ -76,7 +77,7 @@ class SeenSky:
     def _look_at(self, sky: Sky, scene: Scene, cover: Floats) -> Floats:
         """Return the light of one sky of many colours, 1 for its radiance."""
         seen = np.zeros((*cover.shape, 3))
-        skies = pack_skies([sky], up_of(scene.camera))
+        skies = pack_skies([sky], up_of(scene.camera), scene.render.tonemap)
 
         def look(top: int) -> None:
             scratch = new_packet(), np.zeros(LANES, np.int64)

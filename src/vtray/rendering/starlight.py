@@ -15,6 +15,8 @@ from vtray.base.exact_math import logarithm
 from vtray.figures.projection import Places, project
 from vtray.rendering.rooms import Rooms, Wall
 from vtray.scene.camera import Camera
+from vtray.scene.colors.color_light import light_of_numbers
+from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 from vtray.scene.stars import Stars
@@ -83,7 +85,7 @@ class Starlight:
             if isinstance(item, Stars):
                 left = item if self._rooms is None else _left_of(item, self._rooms.walls_of(place))
                 if len(left):
-                    light += _light_of(left, scene.camera, hidden_behind)
+                    light += _light_of(left, scene, hidden_behind)
         return light
 
 
@@ -116,13 +118,14 @@ def peak_of(stars: Stars, camera: Camera) -> float | None:
     return None if usual is None else float(np.ldexp(max(usual, LEAST_PEAK), -unit))
 
 
-def _light_of(stars: Stars, camera: Camera, hidden_behind: Floats | None) -> Floats:
+def _light_of(stars: Stars, scene: Scene, hidden_behind: Floats | None) -> Floats:
     """Return the light of points, (height, width, 3), from 0 to 255."""
+    camera, tonemap = scene.camera, scene.render.tonemap
     width, height = map(int, camera.size)
     most = float(np.max(stars.emission))
     if most == 0.0:
         return np.zeros((height, width, 3))
-    inner, unit, color = _collected(stars, camera, hidden_behind)
+    inner, unit, color = _collected(stars, camera, hidden_behind, tonemap)
     total = inner[0]
     usual = _usual(total)
     if usual is None:
@@ -131,7 +134,7 @@ def _light_of(stars: Stars, camera: Camera, hidden_behind: Floats | None) -> Flo
     with np.errstate(over="ignore"):
         bright = _stretched(np.minimum(total / max(peak, LEAST_PEAK), 1.0), stars)
     if len(inner) == 1:
-        return bright[..., None] * color.astype(np.float64)
+        return bright[..., None] * color
     share = bright / np.where(total > 0.0, total, 1.0)
     return np.stack([np.minimum(share * channel, 255.0) for channel in inner[1:]], axis=2)
 
@@ -146,8 +149,11 @@ def _usual(total: Floats) -> float | None:
 
 
 def _collected(
-    stars: Stars, camera: Camera, hidden_behind: Floats | None
-) -> tuple[Floats, int, NDArray[np.uint8]]:
+    stars: Stars,
+    camera: Camera,
+    hidden_behind: Floats | None,
+    tonemap: ToneMapName = "linear",
+) -> tuple[Floats, int, Floats]:
     """Return the light that adds up in each pixel.
 
     Returns
@@ -157,7 +163,7 @@ def _collected(
     unit
         It is in units of this power of two, turned over.
     color
-        The colour of the first point.
+        The colour of the first point, as light.
     """
     width, height = map(int, camera.size)
     # In units of a power of two, so that no sum overflows.
@@ -171,16 +177,23 @@ def _collected(
         emission = np.ldexp(np.float64(given), unit)
         with np.errstate(over="ignore", invalid="ignore"):
             places = project(camera, np.asarray(stars.center[rows], np.float64))
-        _add(film, places, emission, stars.color[rows] if many else None, camera, hidden_behind)
+        _add(
+            film,
+            places,
+            emission,
+            light_of_numbers(tonemap)[stars.color[rows]] if many else None,
+            camera,
+            hidden_behind,
+        )
     inner = film.reshape(-1, height + 2 * RIM, width + 2 * RIM)[:, RIM:-RIM, RIM:-RIM]
-    return inner, unit, color
+    return inner, unit, light_of_numbers(tonemap)[color]
 
 
 def _add(
     film: Floats,
     places: Places,
     emission: Floats,
-    color: NDArray[np.uint8] | None,
+    color: Floats | None,
     camera: Camera,
     hidden_behind: Floats | None,
 ) -> None:
@@ -225,7 +238,7 @@ def _add(
     by_row = _shares(places.row[seen] - down)
     channels = [light]
     if color is not None:
-        channels += [light * channel for channel in color[seen].T.astype(np.float64)]
+        channels += [light * channel for channel in color[seen].T]
     for i, j in product(range(3), repeat=2):
         target = pixel + ((i - 1) * (width + 2 * RIM) + (j - 1))
         share = by_row[i] * by_column[j]

@@ -27,6 +27,7 @@ from msgspec import Meta
 from vtray.scene.checks.checked import Checked, Frozen, bind
 from vtray.scene.checks.limits import Positive, SizePair, alternatives
 from vtray.scene.colors.names import to_rgb
+from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.vectors import Color
 
 MAX_SAMPLES = 2**16
@@ -46,7 +47,8 @@ Seed = Annotated[
     Meta(description=f"an integer from 0 to {MAX_SEED}"),
 ]
 FilterName = Literal["box", "tent", "gaussian", "mitchell", "blackman-harris"]
-Exposure = Literal["max"] | Positive
+Exposure = Literal["max", "auto"] | Positive
+Stops = Annotated[float, Meta(ge=-100, le=100, description="a number from -100 to 100")]
 Background = Literal["black", "transparent", "sky"] | Color
 
 FILTERS: tuple[str, ...] = get_args(FilterName)
@@ -94,7 +96,11 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
     ] = None
     exposure: Annotated[
         Exposure,
-        Option("max|NUMBER", "max: the brightest channel becomes 255; a number: light times that"),
+        Option(
+            "max|auto|NUMBER",
+            "max: the brightest channel becomes 255; auto: all but the brightest; a number: light "
+            "times that",
+        ),
     ] = "max"
     background: Annotated[
         Background,
@@ -112,6 +118,8 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
         Annotated[bool, Meta(description="true or false")],
         Option("", "take the grain of soft light out by Open Image Denoise"),
     ] = False
+    stops: Annotated[Stops, Option("NUMBER", "twice as bright for each, after any exposure")] = 0.0
+    tonemap: Annotated[ToneMapName, Option("NAME", ", ".join(get_args(ToneMapName)))] = "linear"
 
     def __post_init__(self) -> None:
         """Hold equal settings equally: integers as such, and the colour black as "black"."""
@@ -171,9 +179,11 @@ class RenderSettings(
         Chooses among equally good places of the samples, from 0 to 2**32 - 1.
     size : tuple of int, optional
         Width and height of the picture in pixels, instead of those of the camera; the view stays.
-    exposure : "max" or float
-        "max": the brightest channel of the picture becomes 255. A number: light is multiplied by
-        it, so that for 1 a surface that a light of intensity 1 shines on squarely gets its color.
+    exposure : "max", "auto" or float
+        "max": the brightest channel of the picture becomes 255. "auto": that of 99 of 100 pixels
+        with light does at the most, and what is brighter is cut off. A number: light is multiplied
+        by it, so that for 1 a surface that a light of intensity 1 shines on squarely gets its
+        color.
     background : "black", "transparent", "sky" or Color
         What is seen where there is nothing; "sky" shows the skies among the lights. Code may write
         a colour in all ways of `vtray.colors.to_rgb`.
@@ -181,6 +191,11 @@ class RenderSettings(
         How noisy soft light may be: the estimated standard error of a pixel, > 0, 1 for white.
     denoise : bool
         Whether the grain of soft light is taken out by Open Image Denoise.
+    stops : float
+        How often the light is doubled after that exposure, from -100 to 100; below 0 it is halved.
+    tonemap : str
+        How light becomes the numbers of a file: "linear" as it is; "srgb", "filmic" and "agx"
+        encoded for monitors, for which all colours that are given are taken for sRGB.
     """
 
     if TYPE_CHECKING:  # what code may give, beside what the attributes hold
@@ -191,10 +206,12 @@ class RenderSettings(
             filter: str = "blackman-harris",  # noqa: A002
             seed: int = 0,
             size: tuple[int, int] | None = None,
-            exposure: Literal["max"] | float = "max",
+            exposure: Literal["max", "auto"] | float = "max",
             background: "str | Color | Sequence[float]" = "black",
             tolerance: float = 0.008,
             denoise: bool = False,
+            stops: float = 0.0,
+            tonemap: str = "linear",
         ) -> None: ...
 
     def replace(self, **changes: Any) -> Self:  # noqa: ANN401

@@ -50,7 +50,7 @@ class Direction(Frozen, frozen=True, gc=False):
 
 
 class Color(Frozen, frozen=True, gc=False):
-    """The colour of a surface, in linear light.
+    """The colour of a surface, in linear light; in sRGB for all tone maps but "linear".
 
     Attributes
     ----------

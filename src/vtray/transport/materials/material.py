@@ -34,10 +34,13 @@ class Materials(NamedTuple):
         Those of their Lambert coefficients.
     color
         Colours, (rows, 3).
+    light
+        What each number of a colour is as light, 255 for white, (256,).
     lambert
         Lambert coefficients, (rows,).
     cap
-        The colour of all that closes what clip planes cut, negative if it is that of what is cut;
+        The colour of all that closes what clip planes cut, as light, negative if it is that of what
+        is cut;
         None where nothing is cut.
     """
 
@@ -50,12 +53,13 @@ class Materials(NamedTuple):
     lambert_row: Integers
     lambert_step: Integers
     color: NDArray[np.uint8]
+    light: NDArray[np.float64]
     lambert: NDArray[np.float64]
     cap: Vec | None = None
 
 
 class Material(NamedTuple):
-    """What a surface is made of: its colour, 0 to 255, and the share of light it scatters."""
+    """What a surface is made of: its colour as light, 0 to 255, and what share it scatters."""
 
     color: Vec
     lambert: float
@@ -83,8 +87,8 @@ def load_material(materials: Materials, primitive: int, half: int) -> Material:
     row = materials.color_row[k] + place * materials.color_step[k]
     if half & SECOND:
         row = materials.end_row[k] + place * materials.end_step[k]
-    color = materials.color
-    own = float(color[row, 0]), float(color[row, 1]), float(color[row, 2])
+    color, light = materials.color, materials.light
+    own = light[color[row, 0]], light[color[row, 1]], light[color[row, 2]]
     return Material(
         _cap_color(materials.cap, half, own),
         materials.lambert[materials.lambert_row[k] + place * materials.lambert_step[k]],
