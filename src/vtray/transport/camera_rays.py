@@ -63,6 +63,7 @@ def sheaf_of(camera: CameraFrame) -> Sheaf:
         camera.extent,
         -camera.image_distance,
         camera.extent + camera.image_distance,
+        None,
     )
 
 

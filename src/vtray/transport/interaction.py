@@ -170,7 +170,9 @@ def _fetch(
     packet[CURVED + hit] = 1.0 if surface.is_round else 0.0
     if has_width(footprint):
         packet[BEND + hit] = bend_at(surface, point)
-    packet[ERROR_SCALE + hit] = surface.error_scale
+    # What all rays have in common is added later.
+    own = 0.0 if sheaf.bounced is None else ray.error_scale
+    packet[ERROR_SCALE + hit] = surface.error_scale + own
     store(packet, TOWARDS, hit, ray.direction)
     if start_apart(sheaf):
         store(packet, START, hit, ray.origin)

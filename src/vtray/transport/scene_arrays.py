@@ -12,13 +12,17 @@ from vtray.transport.materials.material import Materials
 
 
 class SceneArrays(NamedTuple):
-    """A scene as kernels see it; its fog is None if there is none."""
+    """A scene as kernels see it; its fog is None if there is none.
+
+    So is the number of bounces over mirrors and glass, where these are not followed.
+    """
 
     camera: CameraFrame
     world: World
     lights: Lights
     materials: Materials
     fog: FogFrame | None = None
+    bounces: int | None = None
 
 
 class LitWorld(NamedTuple):

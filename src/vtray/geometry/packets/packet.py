@@ -62,6 +62,15 @@ WEIGHT = _fields.scalar()
 KEPT = _fields.scalar()
 """Integer: the place of what is kept of the ray."""
 
+START_DEPTH = _fields.scalar()
+START_SCALE = _fields.scalar()
+START_BOUND = _fields.scalar()
+"""``plane_depth``, ``error_scale`` and ``error_bound`` of the ray, if each has its own."""
+THROUGHPUT = _fields.vector()
+"""How much of the light along the ray is seen, where rays are followed over surfaces."""
+BOUNCES = _fields.scalar()
+"""Integer: how many surfaces lie between the ray and the camera."""
+
 # What they meet, by the same lanes.
 DISTANCE = _fields.scalar()
 PRIMITIVE = _fields.scalar()
@@ -206,12 +215,16 @@ class Sheaf(NamedTuple):
         own, in field ``ORIGIN``.
     plane_depth, error_scale
         As in `Ray`.
+    bounced
+        None for rays of a camera; else they come from surfaces, and have all that is in `Ray` in
+        fields of their own.
     """
 
     origin: Vec
     extent: float
     plane_depth: float
     error_scale: float
+    bounced: bool | None = None
 
 
 def new_packet() -> Packet:
@@ -222,7 +235,8 @@ def new_packet() -> Packet:
 @device
 def start_apart(sheaf: Sheaf) -> bool:
     """Tell whether rays start side by side, as in an orthographic view, not all at one place."""
-    return sheaf.extent > 0.0
+    # A field that is None is known to the compiler, which drops what depends on that alone.
+    return True if sheaf.bounced is not None else sheaf.extent > 0.0
 
 
 @device
@@ -260,6 +274,15 @@ def store(packet: Packet, field: int, lane: int, vector: Vec) -> None:
 @device
 def load_ray(packet: Packet, sheaf: Sheaf, lane: int) -> Ray:
     """Return a lane's ray, which starts exactly where it says."""
+    if sheaf.bounced is not None:
+        return Ray(
+            load(packet, ORIGIN, lane),
+            load(packet, DIRECTION, lane),
+            packet[START_DEPTH + lane],
+            packet[FORWARD + lane],
+            packet[START_SCALE + lane],
+            packet[START_BOUND + lane],
+        )
     origin = load(packet, ORIGIN, lane) if start_apart(sheaf) else sheaf.origin
     return Ray(
         origin,

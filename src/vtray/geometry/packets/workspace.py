@@ -9,6 +9,7 @@ from vtray.geometry.packets.cone import Touching, new_touching
 from vtray.geometry.packets.fan import FAN, MOST_RAYS, Fan, new_fan
 from vtray.geometry.packets.layer_notes import Layers, Walk, new_layers, new_walk
 from vtray.geometry.packets.packet import BLOCK, LANES
+from vtray.geometry.packets.pending import Pending, new_pending
 from vtray.geometry.packets.ray_bounds import Cones, new_cones
 from vtray.geometry.packets.stack import Stack, new_stack
 from vtray.geometry.world import NO_TREE, PLANE, World, body_count
@@ -105,6 +106,8 @@ class Workspace(NamedTuple):
         Notes on rays that many lights share.
     walk, layers
         The bodies that a ray goes through, and the layers of all lanes.
+    pending
+        The rays that go on from what the lanes meet.
     table, owner, member, size
         The hash table of what is hit: a number for each, what it is, which lanes hit it, how many.
     """
@@ -125,6 +128,7 @@ class Workspace(NamedTuple):
     shared: Shared
     walk: Walk
     layers: Layers
+    pending: Pending
     table: NDArray[np.int64]
     owner: NDArray[np.int64]
     member: NDArray[np.int64]
@@ -143,10 +147,10 @@ def curve_of_block() -> Pixels:
     return row * BLOCK + column
 
 
-def new_workspace(world: World, sharing: int = 0) -> Workspace:
+def new_workspace(world: World, sharing: int = 0, bounces: int = 0) -> Workspace:
     """Return the scratch memory of one thread for what rays can meet.
 
-    So many lights share their rays.
+    So many lights share their rays, and rays go on over so many surfaces.
     """
     groups = world.groups
     few = int(groups.end[(groups.kind != PLANE) & (groups.root == NO_TREE)].max(initial=0))
@@ -172,6 +176,7 @@ def new_workspace(world: World, sharing: int = 0) -> Workspace:
         shared=new_shared(sharing),
         walk=new_walk(body_count(world)),
         layers=new_layers(body_count(world)),
+        pending=new_pending(bounces),
         table=integers(TABLE),
         owner=integers(LANES),
         member=integers(LANES),

@@ -44,11 +44,20 @@ from vtray.transport.integrators.layered import (
 from vtray.transport.integrators.points import add_points
 from vtray.transport.integrators.soft import add_soft_lights, clear_noise
 from vtray.transport.integrators.soft_shared import add_shared_light
+from vtray.transport.integrators.whitted import (
+    begin_bounces,
+    bounced_sheaf,
+    end_bounces,
+    follow_rays,
+    mix_looks,
+    split_hits,
+)
 from vtray.transport.interaction import gather_interactions
 from vtray.transport.light_buffer import KeptLight
 from vtray.transport.lights.crowd import Crowd
 from vtray.transport.lights.light import points_of
 from vtray.transport.lights.soft_light import SoftLights
+from vtray.transport.materials.look import Looks
 from vtray.transport.sampling.adaptive import (
     find_patches,
     leave_mixed,
@@ -227,6 +236,7 @@ def _meet(
             find_mixed(packet, lanes)
             mix_lamps(packet, lanes, sheaf, footprint, lights.visible)
             mix_faded(packet, lanes, sheaf, footprint, scene.world, faded, work)
+            mix_looks(packet, lanes, scene.materials, scene.materials.looks)
             leave_mixed(packet, lanes)
 
 
@@ -266,6 +276,24 @@ def _light_lanes(
                     stop,
                 )
             see_all(packet, lanes)
+    if scene.bounces is not None:  # noqa: SIM102
+        if linear is not None:
+            if not has_width(sampling.footprint):
+                return _light_bounces(
+                    packet,
+                    lanes,
+                    scene,
+                    scene.materials.looks,
+                    scene.bounces,
+                    sampling,
+                    block,
+                    begin,
+                    first,
+                    last,
+                    film,
+                    work,
+                    stop,
+                )
     hits = _gather(packet, lanes, scene, sampling, film.mixed, work)
     keep_rays(packet, block, begin, end, first, last, work.pixels, film.kept, scene.fog)
     cast = _light_hits(packet, hits, scene, sampling, block, begin, first, last, film, work, stop)
@@ -303,6 +331,51 @@ def _light_layers(
             gather_light(packet, hits)
         skipped += AT_ONCE
     return end_layers(packet, lanes, work.layers), cast
+
+
+@device
+def _light_bounces(
+    packet: Packet,
+    lanes: int,
+    scene: SceneArrays,
+    looks: Looks | None,
+    bounces: int,
+    sampling: Sampling,
+    block: Block,
+    begin: int,
+    first: int,
+    last: int,
+    film: Film,
+    work: Workspace,
+    stop: NDArray[np.bool_],
+) -> tuple[int, int]:
+    """Find the light of all lanes over mirrors and glass; the result is that of `_light_lanes`."""
+    cast, sheaf, forward = 0, bounced_sheaf(), scene.camera.forward
+    begin_bounces(packet, lanes, work.pending)
+    hits = _gather(packet, lanes, scene, sampling, film.mixed, work)
+    if looks is not None:
+        while hits > 0 and not stop[0]:
+            split_hits(
+                packet, hits, scene.world, scene.materials, looks, forward, work.pending, bounces
+            )
+            cast += _light_hits(
+                packet, hits, scene, sampling, block, begin, first, last, film, work, stop
+            )
+            gather_light(packet, hits)
+            cast += follow_rays(packet, lanes, scene.world, scene.lights, work.pending, work)
+            hits = gather_interactions(
+                packet,
+                lanes,
+                sampling.rays,
+                sheaf,
+                sampling.footprint,
+                scene.world,
+                scene.materials,
+                forward,
+                work,
+            )
+    cast_rays(packet, lanes, scene.camera)
+    return end_bounces(packet, lanes), cast
 
 
 @device

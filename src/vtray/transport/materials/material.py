@@ -9,6 +9,7 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import CAP, SECOND
 from vtray.geometry.vector import Vec
 from vtray.transport.materials.lambert import lambert_light
+from vtray.transport.materials.look import Look, Looks, look_of
 
 Integers = NDArray[np.int64]
 
@@ -42,6 +43,8 @@ class Materials(NamedTuple):
         The colour of all that closes what clip planes cut, as light, negative if it is that of what
         is cut;
         None where nothing is cut.
+    looks
+        How mirrors and glass look; None where there are none, or they are not shown as such.
     """
 
     first: Integers
@@ -56,6 +59,7 @@ class Materials(NamedTuple):
     light: NDArray[np.float64]
     lambert: NDArray[np.float64]
     cap: Vec | None = None
+    looks: Looks | None = None
 
 
 class Material(NamedTuple):
@@ -73,17 +77,31 @@ class Power(NamedTuple):
 
 
 @device
-def load_material(materials: Materials, primitive: int, half: int) -> Material:
-    """Return the material of a primitive, or of that part of it that `half` says.
-
-    It is what stands in field ``HALF`` of a packet.
-    """
+def _range_of(materials: Materials, primitive: int) -> tuple[int, int]:
+    """Return the range of a primitive, and its place there."""
     k = materials.first.shape[0] - 1
     while primitive < materials.first[k]:
         k -= 1
     place = primitive - materials.first[k]
     if place >= materials.each[k]:
         place %= materials.each[k]
+    return k, place
+
+
+@device
+def load_look(materials: Materials, looks: Looks, primitive: int) -> Look:
+    """Return how a primitive looks."""
+    k, place = _range_of(materials, primitive)
+    return look_of(looks, k, place)
+
+
+@device
+def load_material(materials: Materials, primitive: int, half: int) -> Material:
+    """Return the material of a primitive, or of that part of it that `half` says.
+
+    It is what stands in field ``HALF`` of a packet.
+    """
+    k, place = _range_of(materials, primitive)
     row = materials.color_row[k] + place * materials.color_step[k]
     if half & SECOND:
         row = materials.end_row[k] + place * materials.end_step[k]

@@ -1,0 +1,99 @@
+"""Rays that wait to be followed: those into which mirrors and glass split the rays of a packet."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.packet import LANES
+from vtray.geometry.ray import Ray
+from vtray.geometry.vector import Vec
+
+NUMBERS = 14
+"""Numbers of a ray that waits: those of the ray, of how much is seen of it, and its bounces."""
+
+
+class Waiting(NamedTuple):
+    """A ray that waits.
+
+    Attributes
+    ----------
+    ray
+        The ray.
+    seen
+        How much of the light along it is seen, for red, green and blue, from 0 to 1.
+    bounces
+        How many surfaces lie between it and the camera.
+    """
+
+    ray: Ray
+    seen: Vec
+    bounces: int
+
+
+class Pending(NamedTuple):
+    """The rays that wait, a stack for each lane of a packet.
+
+    Attributes
+    ----------
+    numbers
+        All of them, (lanes * depth * ``NUMBERS``,).
+    count
+        How many wait in each lane, (lanes,).
+    depth
+        How many may wait in a lane.
+    """
+
+    numbers: NDArray[np.float64]
+    count: NDArray[np.int64]
+    depth: int
+
+
+def new_pending(bounces: int) -> Pending:
+    """Return the stacks for so many bounces, of which each leaves at most one ray behind."""
+    depth = bounces + 1 if bounces > 0 else 0
+    lanes = LANES if depth > 0 else 0
+    return Pending(np.zeros(lanes * depth * NUMBERS), np.zeros(lanes, np.int64), depth)
+
+
+@device
+def clear_pending(pending: Pending, lanes: int) -> None:
+    """Begin with no ray in any lane."""
+    for lane in range(lanes):
+        pending.count[lane] = 0
+
+
+@device
+def push_ray(pending: Pending, lane: int, waiting: Waiting) -> None:
+    """Let a ray wait in a lane."""
+    begin = (lane * pending.depth + pending.count[lane]) * NUMBERS
+    numbers, ray = pending.numbers, waiting.ray
+    for k in range(3):
+        numbers[begin + k] = ray.origin[k]
+        numbers[begin + 3 + k] = ray.direction[k]
+        numbers[begin + 6 + k] = waiting.seen[k]
+    numbers[begin + 9] = ray.plane_depth
+    numbers[begin + 10] = ray.forward
+    numbers[begin + 11] = ray.error_scale
+    numbers[begin + 12] = ray.error_bound
+    numbers[begin + 13] = waiting.bounces
+    pending.count[lane] += 1
+
+
+@device
+def pop_ray(pending: Pending, lane: int) -> Waiting:
+    """Take the ray that came last in a lane, in which at least one waits."""
+    pending.count[lane] -= 1
+    begin = (lane * pending.depth + pending.count[lane]) * NUMBERS
+    numbers = pending.numbers
+    ray = Ray(
+        (numbers[begin], numbers[begin + 1], numbers[begin + 2]),
+        (numbers[begin + 3], numbers[begin + 4], numbers[begin + 5]),
+        numbers[begin + 9],
+        numbers[begin + 10],
+        numbers[begin + 11],
+        numbers[begin + 12],
+    )
+    seen = numbers[begin + 6], numbers[begin + 7], numbers[begin + 8]
+    return Waiting(ray, seen, int(numbers[begin + 13]))

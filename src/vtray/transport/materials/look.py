@@ -1,0 +1,55 @@
+"""Surfaces that do more than scatter light: what kind each is, and its numbers."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.compiler.compiled import device
+
+MATT, MIRROR, GLASS = 0, 1, 2
+"""The kinds. A matt surface scatters light as Lambert says, and does no more."""
+
+VALUES = 4
+"""Numbers of a look: the index of refraction, and what its inside takes of red, green and blue."""
+
+
+class Looks(NamedTuple):
+    """How surfaces look, by the ranges of `Materials`.
+
+    Attributes
+    ----------
+    row, step
+        The rows of each range, as for colours, (ranges,).
+    kind
+        What each is, (rows,).
+    values
+        Their numbers, one row after the other, (rows * ``VALUES``,).
+    """
+
+    row: NDArray[np.int64]
+    step: NDArray[np.int64]
+    kind: NDArray[np.int64]
+    values: NDArray[np.float64]
+
+
+class Look(NamedTuple):
+    """How a surface looks.
+
+    Attributes
+    ----------
+    kind
+        What it is.
+    index
+        The index of refraction of glass.
+    """
+
+    kind: int
+    index: float
+
+
+@device
+def look_of(looks: Looks, k: int, place: int) -> Look:
+    """Return how a primitive looks, given its range and its place there."""
+    row = looks.row[k] + place * looks.step[k]
+    return Look(int(looks.kind[row]), looks.values[VALUES * row])
