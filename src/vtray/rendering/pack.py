@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.capacity import MAX_NUMBERS
+from vtray.base.compiler.compiled import input_array
 from vtray.geometry.bvh.tree import Frame, no_bvh
 from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.vector import Vec
@@ -31,6 +32,7 @@ from vtray.rendering.pack_lights import pack_lights, points_of
 from vtray.rendering.pack_skies import up_of
 from vtray.rendering.placed import Placed
 from vtray.rendering.rooms import Rooms
+from vtray.rendering.shape_kinds import look_numbers
 from vtray.scene.colors.color_light import light_of, light_of_numbers
 from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.light_types import Lamp, Light, RectangleLight, SphereLight
@@ -38,8 +40,10 @@ from vtray.scene.objects import Object
 from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.scene import Camera, Plane, Scene
+from vtray.scene.settings import RenderSettings
 from vtray.scene.style import Style
 from vtray.transport.camera_rays import CameraFrame
+from vtray.transport.materials.look import MATT, Looks
 from vtray.transport.materials.material import Materials
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -93,8 +97,10 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
         camera,
         _pack_world(scene.objects, kept, unit, (x, y, z)),
         pack_lights(scene.lights, origin, unit, camera, up_of(scene.camera), scene.render.tonemap),
-        _pack_materials(kept, planes, scene.render.tonemap),
+        _pack_materials(kept, planes, scene.render),
     )
+    if arrays.materials.looks is not None:
+        arrays = arrays._replace(bounces=int(scene.render.depth))
     return Packed(arrays, unit, scene.camera.focus - start_distance(scene.camera))
 
 
@@ -373,7 +379,9 @@ def _pack_to_boxes(frame: Frame, origin: Vec, unit: float) -> ToBoxes:
     return ToBoxes(ratio, (x * ratio - a, y * ratio - b, z * ratio - c), 0.0)
 
 
-def _pack_materials(kept: Acceleration, planes: list[Plane], tonemap: ToneMapName) -> Materials:
+def _pack_materials(
+    kept: Acceleration, planes: list[Plane], settings: RenderSettings
+) -> Materials:
     """Return the materials of all primitives, by ranges of their numbers."""
     sources = [shapes.source for shapes in (*kept.shapes, *kept.copied)]
     colors = [source.color for source in sources]
@@ -391,6 +399,12 @@ def _pack_materials(kept: Acceleration, planes: list[Plane], tonemap: ToneMapNam
     ranges = kept.ranges
     k = np.where(ranges.copied < 0, ranges.kind, len(kept.shapes) + ranges.copied)
     k, begin = np.append(k, len(sources)), np.append(ranges.begin, 0)
+    looks = [source.look for source in sources]
+    of_planes = [look_numbers(plane.material) for plane in planes]
+    looks.append(np.array(of_planes, np.float64).reshape(-1, 2))
+    look_row, look_step = rows_of(looks)
+    numbers, tonemap = joined(looks, np.float64), settings.tonemap
+    is_followed = settings.integrator == "whitted" and bool((numbers[:, 0] != MATT).any())
     return Materials(
         np.append(ranges.first, kept.count),
         np.append(ranges.each, MAX_NUMBERS),
@@ -404,6 +418,14 @@ def _pack_materials(kept: Acceleration, planes: list[Plane], tonemap: ToneMapNam
         light_of_numbers(tonemap),
         joined(lamberts, np.float64),
         _cap_color(kept.rooms, tonemap),
+        Looks(
+            look_row[k] + begin * look_step[k],
+            look_step[k],
+            input_array(numbers[:, 0], np.int64),
+            input_array(numbers[:, 1], np.float64),
+        )
+        if is_followed
+        else None,
     )
 
 

@@ -78,6 +78,8 @@ def render(
     denoise: bool | None = None,
     stops: float | None = None,
     tonemap: str | None = None,
+    integrator: str | None = None,
+    depth: int | None = None,
     outline: Any = None,  # noqa: ANN401 - all that `Style` takes
     fog: Any = None,  # noqa: ANN401
     eye_dome: Any = None,  # noqa: ANN401
@@ -136,6 +138,10 @@ def render(
         picture is then no longer the same on every machine; `Image.raw` is.
     stops
         How often the light is doubled after the exposure, 0 by default; below 0 it is halved.
+    integrator
+        "direct", the default: mirrors and glass look matt; "whitted": they are followed.
+    depth
+        Over how many mirrors and surfaces of glass light is followed, from 0 to 64; 8 by default.
     tonemap
         How light becomes the numbers of a file: ``"linear"``, the default, as it is; ``"srgb"``,
         ``"filmic"`` and ``"agx"`` encoded for monitors. For these, all colours that are given are
@@ -213,7 +219,10 @@ def render(
     lights = lights_of(scene)
     settings, style = overridden(settings_of(scene), locals()), overridden(scene.style, locals())
     shown = _snapshot(scene, lights, _camera(scene, settings))
-    shown.render = shown.render.replace(tonemap=settings.tonemap)  # which says what its colours are
+    # What colours are as light, and how mirrors and glass are shown.
+    shown.render = shown.render.replace(
+        tonemap=settings.tonemap, integrator=settings.integrator, depth=settings.depth
+    )
     style = fitted(style, shown.camera, lambda: ball_around(shown))
     if settings.denoise:
         load_library()  # before any work is done

@@ -49,6 +49,13 @@ Seed = Annotated[
 FilterName = Literal["box", "tent", "gaussian", "mitchell", "blackman-harris"]
 Exposure = Literal["max", "auto"] | Positive
 Stops = Annotated[float, Meta(ge=-100, le=100, description="a number from -100 to 100")]
+IntegratorName = Literal["direct", "whitted"]
+MAX_DEPTH = 64
+Depth = Annotated[
+    Annotated[int, Meta(ge=0, le=MAX_DEPTH)]
+    | Annotated[float, Meta(ge=0, le=MAX_DEPTH, multiple_of=1)],
+    Meta(description=f"an integer from 0 to {MAX_DEPTH}"),
+]
 Background = Literal["black", "transparent", "sky"] | Color
 
 FILTERS: tuple[str, ...] = get_args(FilterName)
@@ -114,6 +121,11 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
     tolerance: Annotated[
         Positive, Option("NUMBER", "how noisy soft light may be: the error of a pixel, 1 for white")
     ] = TOLERANCE
+    integrator: Annotated[
+        IntegratorName,
+        Option("NAME", "direct: mirrors and glass look matt; whitted: they are followed"),
+    ] = "direct"
+    depth: Annotated[Depth, Option("N", "over how many mirrors and surfaces of glass")] = 8
     denoise: Annotated[
         Annotated[bool, Meta(description="true or false")],
         Option("", "take the grain of soft light out by Open Image Denoise"),

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from vtray.scene.checks.checked import Frozen
 from vtray.scene.checks.limits import Fraction, NonNegative
+from vtray.scene.materials import Material, MaterialName
 from vtray.scene.vectors import Color, Direction, Vector
 
 if TYPE_CHECKING:
@@ -30,6 +31,8 @@ class Sphere(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type"
         Share of the light that the surface scatters, from 0 to 1.
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
+    material : Lambert, Mirror, Glass or str
+        What it is made of, or the name of that: "lambert" (the default), "mirror" or "glass".
     """
 
     center: Vector
@@ -37,6 +40,7 @@ class Sphere(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type"
     color: Color
     lambert: Fraction
     opacity: Fraction = 1.0
+    material: Material | MaterialName = "lambert"
 
     _in_code = _SURFACE
 
@@ -49,6 +53,7 @@ class Sphere(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type"
             color: "Color | Triple" = ...,
             lambert: float = 1.0,
             opacity: float = 1.0,
+            material: Material | MaterialName = "lambert",
         ) -> None: ...
 
     def hull(self) -> list[tuple[Vector, float, Vector | None]]:
@@ -75,6 +80,8 @@ class Cylinder(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="typ
         Share of the light that the surface scatters, from 0 to 1.
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
+    material : Lambert, Mirror, Glass or str
+        What it is made of, or the name of that: "lambert" (the default), "mirror" or "glass".
     """
 
     start: Vector
@@ -83,6 +90,7 @@ class Cylinder(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="typ
     color: Color
     lambert: Fraction
     opacity: Fraction = 1.0
+    material: Material | MaterialName = "lambert"
 
     _in_code = _SURFACE
 
@@ -96,6 +104,7 @@ class Cylinder(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="typ
             color: "Color | Triple" = ...,
             lambert: float = 1.0,
             opacity: float = 1.0,
+            material: Material | MaterialName = "lambert",
         ) -> None: ...
 
     def hull(self) -> list[tuple[Vector, float, Vector | None]]:
@@ -125,6 +134,8 @@ class Cone(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type", 
         Share of the light that the surface scatters, from 0 to 1.
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
+    material : Lambert, Mirror, Glass or str
+        What it is made of, or the name of that: "lambert" (the default), "mirror" or "glass".
     """
 
     start: Vector
@@ -134,6 +145,7 @@ class Cone(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type", 
     color: Color
     lambert: Fraction
     opacity: Fraction = 1.0
+    material: Material | MaterialName = "lambert"
 
     _in_code = MappingProxyType({"radius_end": 0.0, **_SURFACE})
 
@@ -148,6 +160,7 @@ class Cone(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type", 
             color: "Color | Triple" = ...,
             lambert: float = 1.0,
             opacity: float = 1.0,
+            material: Material | MaterialName = "lambert",
         ) -> None: ...
 
     def hull(self) -> list[tuple[Vector, float, Vector | None]]:
@@ -172,6 +185,8 @@ class Plane(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type",
         Share of the light that the surface scatters, from 0 to 1.
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
+    material : Lambert, Mirror, Glass or str
+        What it is made of, or the name of that: "lambert" (the default), "mirror" or "glass".
     """
 
     center: Vector
@@ -179,6 +194,7 @@ class Plane(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type",
     color: Color
     lambert: Fraction
     opacity: Fraction = 1.0
+    material: Material | MaterialName = "lambert"
 
     _in_code = _SURFACE
 
@@ -191,4 +207,5 @@ class Plane(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type",
             color: "Color | Triple" = ...,
             lambert: float = 1.0,
             opacity: float = 1.0,
+            material: Material | MaterialName = "lambert",
         ) -> None: ...

@@ -13,5 +13,6 @@ def object_as_written(item: Any) -> Any:  # noqa: ANN401
     """
     if item.opacity != OPAQUE:
         return item
-    default = type(item).__struct_defaults__[-1]
+    names, defaults = item.__struct_fields__, type(item).__struct_defaults__
+    default = defaults[names.index("opacity") - len(names)]
     return item if item.opacity is default else item.replace(opacity=default)

@@ -10,9 +10,6 @@ from vtray.base.compiler.compiled import device
 MATT, MIRROR, GLASS = 0, 1, 2
 """The kinds. A matt surface scatters light as Lambert says, and does no more."""
 
-VALUES = 4
-"""Numbers of a look: the index of refraction, and what its inside takes of red, green and blue."""
-
 
 class Looks(NamedTuple):
     """How surfaces look, by the ranges of `Materials`.
@@ -23,14 +20,14 @@ class Looks(NamedTuple):
         The rows of each range, as for colours, (ranges,).
     kind
         What each is, (rows,).
-    values
-        Their numbers, one row after the other, (rows * ``VALUES``,).
+    index
+        The indices of refraction of glass, (rows,).
     """
 
     row: NDArray[np.int64]
     step: NDArray[np.int64]
     kind: NDArray[np.int64]
-    values: NDArray[np.float64]
+    index: NDArray[np.float64]
 
 
 class Look(NamedTuple):
@@ -52,4 +49,4 @@ class Look(NamedTuple):
 def look_of(looks: Looks, k: int, place: int) -> Look:
     """Return how a primitive looks, given its range and its place there."""
     row = looks.row[k] + place * looks.step[k]
-    return Look(int(looks.kind[row]), looks.values[VALUES * row])
+    return Look(int(looks.kind[row]), looks.index[row])
