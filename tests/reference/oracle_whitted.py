@@ -65,7 +65,7 @@ class Floor(NamedTuple):
         steep = np.dot(way, self.normal)
         return [] if steep == 0 else [np.dot(self.center - start, self.normal) / steep]
 
-    def outward(self, point: Vec) -> Vec:  # noqa: ARG002
+    def outward(self, point: Vec) -> Vec:
         """Return its normal."""
         return self.normal
 
@@ -129,6 +129,12 @@ def seen(
     for direction, left in ways:
         if left.max() >= LEAST:
             total = total + seen(
-                view, shapes, lights, point, direction / np.linalg.norm(direction), left, bounces - 1
+                view,
+                shapes,
+                lights,
+                point,
+                direction / np.linalg.norm(direction),
+                left,
+                bounces - 1,
             )
     return total

@@ -379,9 +379,7 @@ def _pack_to_boxes(frame: Frame, origin: Vec, unit: float) -> ToBoxes:
     return ToBoxes(ratio, (x * ratio - a, y * ratio - b, z * ratio - c), 0.0)
 
 
-def _pack_materials(
-    kept: Acceleration, planes: list[Plane], settings: RenderSettings
-) -> Materials:
+def _pack_materials(kept: Acceleration, planes: list[Plane], settings: RenderSettings) -> Materials:
     """Return the materials of all primitives, by ranges of their numbers."""
     sources = [shapes.source for shapes in (*kept.shapes, *kept.copied)]
     colors = [source.color for source in sources]
@@ -400,8 +398,8 @@ def _pack_materials(
     k = np.where(ranges.copied < 0, ranges.kind, len(kept.shapes) + ranges.copied)
     k, begin = np.append(k, len(sources)), np.append(ranges.begin, 0)
     looks = [source.look for source in sources]
-    of_planes = [look_numbers(plane.material) for plane in planes]
-    looks.append(np.array(of_planes, np.float64).reshape(-1, 2))
+    flat = [look_numbers(plane.material) for plane in planes]
+    looks.append(np.array(flat, np.float64).reshape(-1, 2))
     look_row, look_step = rows_of(looks)
     numbers, tonemap = joined(looks, np.float64), settings.tonemap
     is_followed = settings.integrator == "whitted" and bool((numbers[:, 0] != MATT).any())

@@ -14,7 +14,8 @@ from vtray.transport.materials.material import Materials
 class SceneArrays(NamedTuple):
     """A scene as kernels see it; its fog is None if there is none.
 
-    So is the number of bounces over mirrors and glass, where these are not followed.
+    Over so many mirrors and surfaces of glass light is followed at the most;
+    -1 if it is not followed at all.
     """
 
     camera: CameraFrame
@@ -22,7 +23,7 @@ class SceneArrays(NamedTuple):
     lights: Lights
     materials: Materials
     fog: FogFrame | None = None
-    bounces: int | None = None
+    bounces: int = -1
 
 
 class LitWorld(NamedTuple):

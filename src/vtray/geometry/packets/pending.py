@@ -39,20 +39,23 @@ class Pending(NamedTuple):
     ----------
     numbers
         All of them, (lanes * depth * ``NUMBERS``,).
-    count
+    waiting
         How many wait in each lane, (lanes,).
     depth
         How many may wait in a lane.
     """
 
     numbers: NDArray[np.float64]
-    count: NDArray[np.int64]
+    waiting: NDArray[np.int64]
     depth: int
 
 
 def new_pending(bounces: int) -> Pending:
-    """Return the stacks for so many bounces, of which each leaves at most one ray behind."""
-    depth = bounces + 1 if bounces > 0 else 0
+    """Return the stacks for so many bounces, -1 for none at all.
+
+    Each bounce leaves at most one ray behind.
+    """
+    depth = bounces + 1
     lanes = LANES if depth > 0 else 0
     return Pending(np.zeros(lanes * depth * NUMBERS), np.zeros(lanes, np.int64), depth)
 
@@ -61,13 +64,13 @@ def new_pending(bounces: int) -> Pending:
 def clear_pending(pending: Pending, lanes: int) -> None:
     """Begin with no ray in any lane."""
     for lane in range(lanes):
-        pending.count[lane] = 0
+        pending.waiting[lane] = 0
 
 
 @device
 def push_ray(pending: Pending, lane: int, waiting: Waiting) -> None:
     """Let a ray wait in a lane."""
-    begin = (lane * pending.depth + pending.count[lane]) * NUMBERS
+    begin = (lane * pending.depth + pending.waiting[lane]) * NUMBERS
     numbers, ray = pending.numbers, waiting.ray
     for k in range(3):
         numbers[begin + k] = ray.origin[k]
@@ -78,14 +81,14 @@ def push_ray(pending: Pending, lane: int, waiting: Waiting) -> None:
     numbers[begin + 11] = ray.error_scale
     numbers[begin + 12] = ray.error_bound
     numbers[begin + 13] = waiting.bounces
-    pending.count[lane] += 1
+    pending.waiting[lane] += 1
 
 
 @device
 def pop_ray(pending: Pending, lane: int) -> Waiting:
     """Take the ray that came last in a lane, in which at least one waits."""
-    pending.count[lane] -= 1
-    begin = (lane * pending.depth + pending.count[lane]) * NUMBERS
+    pending.waiting[lane] -= 1
+    begin = (lane * pending.depth + pending.waiting[lane]) * NUMBERS
     numbers = pending.numbers
     ray = Ray(
         (numbers[begin], numbers[begin + 1], numbers[begin + 2]),

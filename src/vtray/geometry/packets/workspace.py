@@ -147,7 +147,7 @@ def curve_of_block() -> Pixels:
     return row * BLOCK + column
 
 
-def new_workspace(world: World, sharing: int = 0, bounces: int = 0) -> Workspace:
+def new_workspace(world: World, sharing: int = 0, bounces: int = -1) -> Workspace:
     """Return the scratch memory of one thread for what rays can meet.
 
     So many lights share their rays, and rays go on over so many surfaces.

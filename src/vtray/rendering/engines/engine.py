@@ -95,7 +95,7 @@ def trace(scene: SceneArrays, plan: Plan, tile: Tile) -> tuple[Film, Cast]:
 def trace_to(film: Film, scene: SceneArrays, sampling: Sampling, tile: Tile) -> Cast:
     """Trace one tile on its own, to a film that there is."""
     sharing = sharing_lights(scene.lights.crowd)
-    packet, work = new_packet(), new_workspace(scene.world, sharing, scene.bounces or 0)
+    packet, work = new_packet(), new_workspace(scene.world, sharing, scene.bounces)
     go_on = np.zeros(1, np.bool_)
     return Cast(*trace_tile(scene, sampling, *tile, film, packet, work, go_on))
 

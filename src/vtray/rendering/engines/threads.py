@@ -46,7 +46,10 @@ class Threads:
         canvas, flag = pinned(film), pinned(stop)
 
         def new_worker() -> Callable[[Tile], None]:
-            packet, work = pinned(new_packet()), pinned(new_workspace(scene.world, sharing, scene.bounces or 0))
+            packet, work = (
+                pinned(new_packet()),
+                pinned(new_workspace(scene.world, sharing, scene.bounces)),
+            )
 
             def trace_one(tile: Tile) -> None:
                 results.append(trace_tile(world, places, *tile, canvas, packet, work, flag))

@@ -150,6 +150,7 @@ def _trace_pixels(
             lanes,
             scene,
             scene.world.faded,
+            scene.materials.looks,
             sampling,
             block,
             begin,
@@ -246,6 +247,7 @@ def _light_lanes(
     lanes: int,
     scene: SceneArrays,
     faded: Faded | None,
+    looks: Looks | None,
     sampling: Sampling,
     block: Block,
     begin: int,
@@ -276,14 +278,14 @@ def _light_lanes(
                     stop,
                 )
             see_all(packet, lanes)
-    if scene.bounces is not None:  # noqa: SIM102
-        if linear is not None:
+    if looks is not None:  # noqa: SIM102
+        if linear is not None:  # noqa: SIM102
             if not has_width(sampling.footprint):
                 return _light_bounces(
                     packet,
                     lanes,
                     scene,
-                    scene.materials.looks,
+                    looks,
                     scene.bounces,
                     sampling,
                     block,
@@ -338,7 +340,7 @@ def _light_bounces(
     packet: Packet,
     lanes: int,
     scene: SceneArrays,
-    looks: Looks | None,
+    looks: Looks,
     bounces: int,
     sampling: Sampling,
     block: Block,
@@ -353,27 +355,26 @@ def _light_bounces(
     cast, sheaf, forward = 0, bounced_sheaf(), scene.camera.forward
     begin_bounces(packet, lanes, work.pending)
     hits = _gather(packet, lanes, scene, sampling, film.mixed, work)
-    if looks is not None:
-        while hits > 0 and not stop[0]:
-            split_hits(
-                packet, hits, scene.world, scene.materials, looks, forward, work.pending, bounces
-            )
-            cast += _light_hits(
-                packet, hits, scene, sampling, block, begin, first, last, film, work, stop
-            )
-            gather_light(packet, hits)
-            cast += follow_rays(packet, lanes, scene.world, scene.lights, work.pending, work)
-            hits = gather_interactions(
-                packet,
-                lanes,
-                sampling.rays,
-                sheaf,
-                sampling.footprint,
-                scene.world,
-                scene.materials,
-                forward,
-                work,
-            )
+    while hits > 0 and not stop[0]:
+        split_hits(
+            packet, hits, scene.world, scene.materials, looks, forward, work.pending, bounces
+        )
+        cast += _light_hits(
+            packet, hits, scene, sampling, block, begin, first, last, film, work, stop
+        )
+        gather_light(packet, hits)
+        cast += follow_rays(packet, lanes, scene.world, scene.lights, work.pending, work)
+        hits = gather_interactions(
+            packet,
+            lanes,
+            sampling.rays,
+            sheaf,
+            sampling.footprint,
+            scene.world,
+            scene.materials,
+            forward,
+            work,
+        )
     cast_rays(packet, lanes, scene.camera)
     return end_bounces(packet, lanes), cast
 

@@ -1,7 +1,7 @@
 """The whitted integrator: mirrors and smooth glass followed exactly, without chance.
 
-Each ray that meets a mirror goes on; each that meets glass goes on as two. All that they meet is lit
-as by the direct integrator. Rays of which less than ``LEAST`` would be seen are not followed.
+Each ray that meets a mirror goes on; each that meets glass goes on as two. What they meet is lit as
+by the direct integrator. Rays of which less than ``LEAST`` would be seen are not followed.
 
 References
 ----------
@@ -22,7 +22,6 @@ from vtray.geometry.packets.packet import (
     ERROR_SCALE,
     FORWARD,
     GATHERED,
-    LIGHT,
     MET,
     MIXED,
     NO_PRIMITIVE,
@@ -112,7 +111,7 @@ def split_hits(
     pending: Pending,
     most: int,
 ) -> None:
-    """Let the rays that go on from hits wait, and weigh the colours of hits by what is seen of them.
+    """Let the rays that go on from hits wait, and weigh the colours of hits by what is seen.
 
     Parameters
     ----------
@@ -147,7 +146,7 @@ def split_hits(
             _push(packet, hit, lane, way, tinted, bounces, forward, pending)
         if look.kind == GLASS:
             is_inner = _is_inner(packet, hit, lane, world)
-            ratio = 1.0 / look.index if is_inner else look.index
+            ratio = 1.0 / look.ior if is_inner else look.ior
             split = split_at(direction, normal, ratio)
             way, share = mirrored(direction, normal), split.reflected
             _push(packet, hit, lane, way, scale(share, seen), bounces, forward, pending)
@@ -207,7 +206,7 @@ def follow_rays(
     numbers, cast = packet.view(np.int64), 0
     for lane in range(lanes):
         numbers[PRIMITIVE + lane] = NO_PRIMITIVE
-        while pending.count[lane] > 0 and numbers[PRIMITIVE + lane] == NO_PRIMITIVE:
+        while pending.waiting[lane] > 0 and numbers[PRIMITIVE + lane] == NO_PRIMITIVE:
             ray, seen, bounces = pop_ray(pending, lane)
             hit, cast = nearest_hit(world, ray, work.stack), cast + 1
             lamp, distance = nearest_lamp(ray, hit.distance, lights.visible)

@@ -20,14 +20,14 @@ class Looks(NamedTuple):
         The rows of each range, as for colours, (ranges,).
     kind
         What each is, (rows,).
-    index
+    ior
         The indices of refraction of glass, (rows,).
     """
 
     row: NDArray[np.int64]
     step: NDArray[np.int64]
     kind: NDArray[np.int64]
-    index: NDArray[np.float64]
+    ior: NDArray[np.float64]
 
 
 class Look(NamedTuple):
@@ -37,16 +37,16 @@ class Look(NamedTuple):
     ----------
     kind
         What it is.
-    index
+    ior
         The index of refraction of glass.
     """
 
     kind: int
-    index: float
+    ior: float
 
 
 @device
 def look_of(looks: Looks, k: int, place: int) -> Look:
     """Return how a primitive looks, given its range and its place there."""
     row = looks.row[k] + place * looks.step[k]
-    return Look(int(looks.kind[row]), looks.index[row])
+    return Look(int(looks.kind[row]), looks.ior[row])

@@ -1,0 +1,97 @@
+"""Mirrors and glass as users get them, beside an oracle that follows rays by recursion."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from oracle_whitted import Ball, Floor, View, seen
+
+import vtray
+from vtray.scene.materials import Glass, Material
+
+A = np.array
+
+
+def room(kinds: tuple[Any, ...], size: tuple[int, int] = (20, 15)) -> vtray.Scene:
+    """Return a scene of three balls on a floor, and what each is made of."""
+    scene = vtray.Scene()
+    scene.objects = [
+        vtray.Sphere((-1.1, 0, 1), 1, (255, 240, 220), material=kinds[0]),
+        vtray.Sphere((1.1, 0, 1), 1, (200, 255, 255), material=kinds[1]),
+        vtray.Sphere((0, -1.2, 0.5), 0.5, (255, 99, 71), material=kinds[2]),
+        vtray.Plane((0, 0, 0), (0, 0, 1), (192, 200, 208), material=kinds[3]),
+    ]
+    scene.lights = [vtray.Light((4, -6, 8), 1), vtray.Light((-5, -3, 4), 0.5)]
+    scene.camera = vtray.Camera.look_at(
+        (0, -6, 2.2), target=(0, 0, 0.9), up=(0, 0, 1), fov_degrees=40, size=size
+    )
+    return scene
+
+
+def expected(scene: vtray.Scene, depth: int) -> Any:
+    """Return the light of a scene of balls and planes, as the oracle finds it."""
+
+    def vector(found: Any) -> Any:
+        return A([found.x, found.y, found.z])
+
+    def look(material: Material | str) -> tuple[str, float]:
+        if isinstance(material, Glass):
+            return "glass", material.ior
+        return ("matt" if material == "lambert" else str(material)), 1.5
+
+    shapes: list[Ball | Floor] = []
+    for item in scene.objects:
+        color = A([item.color.r, item.color.g, item.color.b], float)
+        if isinstance(item, vtray.Sphere):
+            ball = Ball(vector(item.center), item.radius, color, *look(item.material))
+            shapes.append(ball)
+        else:
+            normal = vector(item.normal) / np.linalg.norm(vector(item.normal))
+            shapes.append(Floor(vector(item.center), normal, color, *look(item.material)))
+    lights = [(vector(light.location), light.intensity) for light in scene.lights]
+    camera, (width, height) = scene.camera, scene.camera.size
+    forward = vector(camera.normal) / np.linalg.norm(vector(camera.normal))
+    right = np.cross(forward, vector(camera.up))
+    right /= np.linalg.norm(right)
+    down, center = np.cross(forward, right), vector(camera.center)
+    eye, view = center - camera.focus * forward, View(center, forward)
+    light = np.empty((height, width, 3))
+    for row in range(height):
+        for column in range(width):
+            across = (column - width / 2) * camera.resolution[0] * right
+            below = (row - height / 2) * camera.resolution[1] * down
+            way = across + below + camera.focus * forward
+            unit = way / np.linalg.norm(way)
+            light[row, column] = seen(view, shapes, lights, eye, unit, np.ones(3), depth)
+    return light
+
+
+@pytest.mark.parametrize("depth", [0, 1, 2, 6])
+@pytest.mark.parametrize(
+    "kinds",
+    [
+        ("mirror", "glass", "lambert", "lambert"),
+        (Glass(1.5), Glass(0.7), "mirror", "lambert"),
+        ("lambert", Glass(1.0), "glass", "mirror"),
+    ],
+)
+def test_light_is_that_of_the_oracle(kinds: tuple[Any, ...], depth: int) -> None:
+    scene = room(kinds)
+    found = vtray.render(scene, integrator="whitted", depth=depth)
+    assert np.abs(found.linear - expected(scene, depth)).max() < 1e-6
+
+
+def test_matt_scenes_are_those_of_the_direct_integrator() -> None:
+    scene = room(("lambert",) * 4)
+    direct, whitted = (vtray.render(scene, integrator=name) for name in ("direct", "whitted"))
+    assert direct.linear.tobytes() == whitted.linear.tobytes()
+
+
+@pytest.mark.parametrize("samples", [1, 4])
+def test_threads_and_tiles_change_nothing(samples: int) -> None:
+    scene = room(("mirror", "glass", "lambert", "lambert"), (40, 30))
+    one, other = (
+        vtray.render(scene, integrator="whitted", samples=samples, threads=n, tile=tile)
+        for n, tile in ((1, 64), (2, 16))
+    )
+    assert one.linear.tobytes() == other.linear.tobytes()
