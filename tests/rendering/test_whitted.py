@@ -95,3 +95,40 @@ def test_threads_and_tiles_change_nothing(samples: int) -> None:
         for n, tile in ((1, 64), (2, 16))
     )
     assert one.linear.tobytes() == other.linear.tobytes()
+
+
+def test_direct_says_what_it_does_not_show() -> None:
+    scene = room(("mirror", "glass", Glass(2), "lambert"))
+    words = "material: mirror and glass are shown as matt by the integrator direct"
+    with pytest.warns(UserWarning, match=words):
+        matt = vtray.render(scene)
+    plain = vtray.render(room(("lambert",) * 4))
+    assert matt.linear.tobytes() == plain.linear.tobytes()
+
+
+def test_what_does_not_go_together() -> None:
+    scene = room(("mirror", "lambert", "lambert", "lambert"))
+    with pytest.raises(vtray.RenderError, match="keep_lights: light over mirrors"):
+        vtray.render(scene, integrator="whitted", keep_lights=True)
+    scene.objects[1] = scene.objects[1].replace(opacity=0.5)
+    with pytest.raises(vtray.RenderError, match="opacity: not between 0 and 1"):
+        vtray.render(scene, integrator="whitted")
+
+
+@pytest.mark.parametrize(
+    ("kind", "value", "message"),
+    [
+        ("material", "gold", "expected an object"),
+        ("material", 3, "expected an object"),
+        ("material", None, "expected an object"),
+    ],
+)
+def test_wrong_materials(kind: str, value: Any, message: str) -> None:
+    with pytest.raises(vtray.SceneError, match=f"Sphere.{kind}: {message}"):
+        vtray.Sphere((0, 0, 0), 1, **{kind: value})
+
+
+@pytest.mark.parametrize("ior", [0, -1, 11, float("nan"), float("inf"), "thick"])
+def test_wrong_indices(ior: Any) -> None:
+    with pytest.raises(vtray.SceneError, match="Glass.ior: expected a .*number.*, got"):
+        Glass(ior)

@@ -29,6 +29,7 @@ from vtray.rendering.darkroom import Darkroom
 from vtray.rendering.denoising import Denoising
 from vtray.rendering.drawing import Drawing
 from vtray.rendering.fog import ball_around, fitted
+from vtray.rendering.followed import check_followed, matt_instead
 from vtray.rendering.growth import Growth
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
@@ -230,6 +231,7 @@ def render(
     clock, loaded = Stopwatch(), loading_seconds()
     kept = accelerate(scene, threads, _step_of(progress, "build"), style)
     loading = loading_seconds() - loaded
+    check_followed(kept, settings, keep_lights=keep_lights)
     for problem in _problems(shown, kept, keep_lights=keep_lights):
         (warn or _warn)(problem)
     clock.lap("build")
@@ -308,9 +310,12 @@ def _growth(
 
 
 def _problems(scene: Scene, kept: Acceleration, *, keep_lights: bool) -> list[str]:
-    """Say why nothing is seen, as far as that is known before."""
+    """Say why something is not seen, as far as that is known before."""
     nothing = NOTHING_LEFT if is_nothing_left(kept) else ""
-    return [words for words in (_darkness(scene, keep_lights=keep_lights), nothing) if words]
+    darkness = _darkness(scene, keep_lights=keep_lights)
+    return [
+        words for words in (darkness, nothing, matt_instead(scene.objects, scene.render)) if words
+    ]
 
 
 def _darkness(scene: Scene, *, keep_lights: bool) -> str:

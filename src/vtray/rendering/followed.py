@@ -1,0 +1,47 @@
+"""Mirrors and glass: who shows them, and what does not go with them yet."""
+
+from collections.abc import Iterator, Sequence
+
+from vtray.base.errors import RenderError
+from vtray.rendering.acceleration import Acceleration
+from vtray.scene.copies import Copies
+from vtray.scene.materials import Lambert, material_of
+from vtray.scene.objects import Object
+from vtray.scene.settings import RenderSettings
+
+
+def matt_instead(objects: Sequence[Object], settings: RenderSettings) -> str:
+    """Say which materials the integrator cannot show; "" if it shows all."""
+    found = [] if settings.integrator == "whitted" else [*dict.fromkeys(_names(objects))]
+    if not found:
+        return ""
+    words = 'shown as matt by the integrator direct; give integrator="whitted"'
+    return f"material: {' and '.join(found)} {'are' if len(found) > 1 else 'is'} {words}"
+
+
+def check_followed(kept: Acceleration, settings: RenderSettings, *, keep_lights: bool) -> None:
+    """Raise RenderError if something is asked for that does not go with following mirrors."""
+    if settings.integrator != "whitted":
+        return
+    if keep_lights:
+        message = (
+            "keep_lights: light over mirrors and glass is not kept for each light; leave it out, "
+            'or give integrator="direct"'
+        )
+        raise RenderError(message)
+    if kept.bodies is not None:
+        message = (
+            'opacity: not between 0 and 1 with integrator="whitted", which does not show what '
+            'fades; give material="glass" instead, or integrator="direct"'
+        )
+        raise RenderError(message)
+
+
+def _names(objects: Sequence[Object]) -> Iterator[str]:
+    """Give the materials of objects, and of what is copied, that are not matt."""
+    for item in objects:
+        if isinstance(item, Copies):
+            yield from _names(item.objects)
+        material = material_of(getattr(item, "material", "lambert"))
+        if not isinstance(material, Lambert):
+            yield type(material).__name__.lower()
