@@ -132,3 +132,23 @@ def test_wrong_materials(kind: str, value: Any, message: str) -> None:
 def test_wrong_indices(ior: Any) -> None:
     with pytest.raises(vtray.SceneError, match="Glass.ior: expected a .*number.*, got"):
         Glass(ior)
+
+
+def test_mirrors_show_skies() -> None:
+    """A mirror ball in an empty sky looks like the sky, tinted; so does glass as thin as air."""
+    scene = vtray.Scene()
+    scene.objects = [vtray.Sphere((0, 0, 5), 1, (255, 128, 0), material="mirror")]
+    scene.lights = [vtray.Sky(0.5, color=(200, 100, 50))]
+    scene.camera = vtray.Camera.fit(scene, direction=(0, 0, 1), size=(9, 9))
+    light = vtray.render(scene, integrator="whitted").linear[4, 4]
+    assert light == pytest.approx([100, 50 * 128 / 255, 0])
+    gradient = vtray.Gradient(zenith=(0, 0, 200), horizon=(100, 0, 0), ground=(0, 80, 0))
+    scene.lights = [vtray.Sky(1, gradient=gradient)]
+    scene.objects = [vtray.Sphere((0, 0, 5), 1, (255, 255, 255), material=Glass(1))]
+    scene.camera = vtray.Camera.fit(scene, direction=(0, 1, 0), up=(0, 0, 1), size=(9, 9))
+    known = {"exposure": 1, "background": "sky"}
+    through = vtray.render(scene, integrator="whitted", depth=2, **known).pixels
+    scene.objects = [vtray.Sphere((0, 0, 5), 0, (255, 255, 255))]
+    beside = vtray.render(scene, **known).pixels
+    assert np.abs(through.astype(int) - beside).max() <= 1
+    assert len(np.unique(beside)) > 9

@@ -30,6 +30,7 @@ from vtray.rendering.joined import joined, rows_of
 from vtray.rendering.pack_bodies import pack_bodies
 from vtray.rendering.pack_lights import pack_lights, points_of
 from vtray.rendering.pack_skies import up_of
+from vtray.rendering.pack_surroundings import pack_surroundings
 from vtray.rendering.placed import Placed
 from vtray.rendering.rooms import Rooms
 from vtray.rendering.shape_kinds import look_numbers
@@ -40,7 +41,6 @@ from vtray.scene.objects import Object
 from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.scene import Camera, Plane, Scene
-from vtray.scene.settings import RenderSettings
 from vtray.scene.style import Style
 from vtray.transport.camera_rays import CameraFrame
 from vtray.transport.materials.look import MATT, Looks
@@ -97,7 +97,7 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
         camera,
         _pack_world(scene.objects, kept, unit, (x, y, z)),
         pack_lights(scene.lights, origin, unit, camera, up_of(scene.camera), scene.render.tonemap),
-        _pack_materials(kept, planes, scene.render),
+        _pack_materials(kept, planes, scene),
     )
     if arrays.materials.looks is not None:
         arrays = arrays._replace(bounces=int(scene.render.depth))
@@ -379,7 +379,7 @@ def _pack_to_boxes(frame: Frame, origin: Vec, unit: float) -> ToBoxes:
     return ToBoxes(ratio, (x * ratio - a, y * ratio - b, z * ratio - c), 0.0)
 
 
-def _pack_materials(kept: Acceleration, planes: list[Plane], settings: RenderSettings) -> Materials:
+def _pack_materials(kept: Acceleration, planes: list[Plane], scene: Scene) -> Materials:
     """Return the materials of all primitives, by ranges of their numbers."""
     sources = [shapes.source for shapes in (*kept.shapes, *kept.copied)]
     colors = [source.color for source in sources]
@@ -401,8 +401,8 @@ def _pack_materials(kept: Acceleration, planes: list[Plane], settings: RenderSet
     flat = [look_numbers(plane.material) for plane in planes]
     looks.append(np.array(flat, np.float64).reshape(-1, 2))
     look_row, look_step = rows_of(looks)
-    numbers, tonemap = joined(looks, np.float64), settings.tonemap
-    is_followed = settings.integrator == "whitted" and bool((numbers[:, 0] != MATT).any())
+    numbers, tonemap = joined(looks, np.float64), scene.render.tonemap
+    is_followed = scene.render.integrator == "whitted" and bool((numbers[:, 0] != MATT).any())
     return Materials(
         np.append(ranges.first, kept.count),
         np.append(ranges.each, MAX_NUMBERS),
@@ -421,6 +421,7 @@ def _pack_materials(kept: Acceleration, planes: list[Plane], settings: RenderSet
             look_step[k],
             input_array(numbers[:, 0], np.int64),
             input_array(numbers[:, 1], np.float64),
+            pack_surroundings(scene),
         )
         if is_followed
         else None,

@@ -363,7 +363,9 @@ def _light_bounces(
             packet, hits, scene, sampling, block, begin, first, last, film, work, stop
         )
         gather_light(packet, hits)
-        cast += follow_rays(packet, lanes, scene.world, scene.lights, work.pending, work)
+        cast += follow_rays(
+            packet, lanes, scene.world, scene.lights, looks.surroundings, work.pending, work
+        )
         hits = gather_interactions(
             packet,
             lanes,

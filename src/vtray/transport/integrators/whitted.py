@@ -59,6 +59,7 @@ from vtray.transport.lights.light import Lights, lamp_light
 from vtray.transport.materials.look import GLASS, MATT, MIRROR, Looks
 from vtray.transport.materials.material import Materials, load_look
 from vtray.transport.materials.optics import mirrored, split_at
+from vtray.transport.surroundings import Surroundings, far_light
 
 LEAST = 2.0**-10
 """Rays of which no channel would be seen by more than that are not followed: less than a quarter of
@@ -196,12 +197,13 @@ def follow_rays(
     lanes: int,
     world: World,
     lights: Lights,
+    surroundings: Surroundings,
     pending: Pending,
     work: Workspace,
 ) -> int:
     """Let the next ray of each lane that meets a surface take the lane; return how many rays go.
 
-    The light of lamps that are met instead is added to that of the lane.
+    The light of lamps that are met instead, or of skies, is added to that of the lane.
     """
     numbers, cast = packet.view(np.int64), 0
     for lane in range(lanes):
@@ -211,8 +213,7 @@ def follow_rays(
             hit, cast = nearest_hit(world, ray, work.stack), cast + 1
             lamp, distance = nearest_lamp(ray, hit.distance, lights.visible)
             if lamp != NOTHING:
-                light = _times(seen, lamp_light(lights, lamp))
-                store(packet, GATHERED, lane, add(load(packet, GATHERED, lane), light))
+                _gather(packet, lane, _times(seen, lamp_light(lights, lamp)))
             elif hit.primitive != NOTHING:
                 packet[DISTANCE + lane] = distance
                 numbers[PRIMITIVE + lane] = hit.primitive
@@ -220,7 +221,15 @@ def follow_rays(
                 numbers[BOUNCES + lane] = bounces
                 store(packet, THROUGHPUT, lane, seen)
                 _store_ray(packet, lane, ray)
+            else:
+                _gather(packet, lane, _times(seen, far_light(surroundings, ray.direction)))
     return cast
+
+
+@device
+def _gather(packet: Packet, lane: int, light: Vec) -> None:
+    """Add light to that of a lane."""
+    store(packet, GATHERED, lane, add(load(packet, GATHERED, lane), light))
 
 
 @device

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.transport.surroundings import Surroundings
 
 MATT, MIRROR, GLASS = 0, 1, 2
 """The kinds. A matt surface scatters light as Lambert says, and does no more."""
@@ -22,12 +23,15 @@ class Looks(NamedTuple):
         What each is, (rows,).
     ior
         The indices of refraction of glass, (rows,).
+    surroundings
+        What rays see that meet nothing.
     """
 
     row: NDArray[np.int64]
     step: NDArray[np.int64]
     kind: NDArray[np.int64]
     ior: NDArray[np.float64]
+    surroundings: Surroundings
 
 
 class Look(NamedTuple):
