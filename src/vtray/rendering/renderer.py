@@ -23,7 +23,6 @@ from vtray.image.denoise import load_library
 from vtray.image.exposure import check_brightness, warm_up
 from vtray.image.image import Image
 from vtray.image.white import known_white, locked_white
-from vtray.rendering.acceleration import Acceleration
 from vtray.rendering.clipping import is_nothing_left
 from vtray.rendering.darkroom import Darkroom
 from vtray.rendering.denoising import Denoising
@@ -217,12 +216,12 @@ def render(
     style = fitted(style, shown.camera, lambda: ball_around(shown))
     if settings.denoise:
         load_library()  # before any work is done
+    _tell(_darkness(shown, keep_lights=keep_lights), warn)
     _check(shown, settings, is_shown=on_update is not None)
     clock, loaded = Stopwatch(), loading_seconds()
     kept = accelerate(scene, threads, _step_of(progress, "build"), style)
     loading = loading_seconds() - loaded
-    for problem in _problems(shown, kept, keep_lights=keep_lights):
-        (warn or _warn)(problem)
+    _tell(NOTHING_LEFT if is_nothing_left(kept) else "", warn)
     clock.lap("build")
     packed = styled(pack(shown, kept), style)
     clock.lap("pack")
@@ -298,12 +297,6 @@ def _growth(
     return Growth(lambda part: on_update(darkroom.part(part)), seconds)
 
 
-def _problems(scene: Scene, kept: Acceleration, *, keep_lights: bool) -> list[str]:
-    """Say why nothing is seen, as far as that is known before."""
-    nothing = NOTHING_LEFT if is_nothing_left(kept) else ""
-    return [words for words in (_darkness(scene, keep_lights=keep_lights), nothing) if words]
-
-
 def _darkness(scene: Scene, *, keep_lights: bool) -> str:
     """Say why all that is seen is black, if that is known before; "" if it is not."""
     seen = [item for item in scene.objects if not isinstance(item, Stars)]
@@ -317,11 +310,14 @@ def _darkness(scene: Scene, *, keep_lights: bool) -> str:
     return "lights: all have the intensity 0, so all that is seen is black; give one more than 0"
 
 
-def _warn(message: str) -> None:
-    """Warn in the name of the code that called `render`."""
-    import warnings
+def _tell(problem: str, warn: Warn | None) -> None:
+    """Warn of a problem, if there is one, in the name of the code that called `render`."""
+    if problem and warn is not None:
+        warn(problem)
+    elif problem:
+        import warnings
 
-    warnings.warn(message, stacklevel=4)
+        warnings.warn(problem, stacklevel=4)
 
 
 def _camera(scene: Scene, settings: RenderSettings) -> Camera:
