@@ -57,11 +57,6 @@ WRONG_USAGE = [
         )
         for bad in ("0", "-1", "1.5", "two", "", "1e3", "٣", "99999999999999999999")
     ),
-    (
-        ["--cap", "maybe", "SCENE", "a.png"],
-        'argument --cap: expected a name such as "red", a text such as "#ff8000", or three '
-        "numbers, got 'maybe'",
-    ),
     (["SCENE", "a.png", "-t"], "argument -t/--threads: expected one argument"),
     *(
         (

@@ -13,6 +13,7 @@ from vtray.commands.annotation_options import annotations_of
 from vtray.commands.data_options import joined
 from vtray.commands.data_scene import load_data
 from vtray.commands.options import parse
+from vtray.figures.annotations import Annotations
 from vtray.figures.painted.picture import share_beside
 from vtray.scene.scene import Scene
 
@@ -207,7 +208,9 @@ def test_particles_leave_room_for_what_stands_beside(water: Path, mark: str) -> 
     assert alone > 270
     scene = scene_of(*given, mark)
     legend = [("H", "white"), ("O", "red")] if mark == "--legend" else None
-    taken = share_beside(scene.objects, legend, mark == "--color-bar", (300, 300))
+    taken = share_beside(
+        scene.objects, Annotations(legend=legend, colorbar=mark == "--color-bar"), (300, 300)
+    )
     assert 0.1 < taken < 0.4
     assert beside <= 300 * (1 - taken) + 1
 

@@ -89,6 +89,15 @@ def add_annotations(parser: Parser) -> None:
     )
 
 
+def value_of(options: argparse.Namespace, name: str) -> Any:  # noqa: ANN401
+    """Return the value of an option of `KEYWORDS`, None if it was not given.
+
+    That of a bar without one is True.
+    """
+    value = getattr(options, name, None)
+    return True if value == "" and name in ("scalebar", "colorbar") else value
+
+
 def annotations_of(
     options: argparse.Namespace, of_data: Mapping[str, Any] = MappingProxyType({})
 ) -> dict[str, Any]:
@@ -106,15 +115,12 @@ def annotations_of(
     OutputError
         The file is not one for painted pixels.
     """
-    given = {name: getattr(options, name, None) for name in KEYWORDS}
+    given = {name: value_of(options, name) for name in KEYWORDS}
     found = {name: value for name, value in given.items() if value is not None}
     if options.label:
         found["labels"] = labels_of(options)[0]
     for name, value in of_data.items():
         found[name] = [*found["labels"], *value] if name == "labels" else value
-    for name in ("scalebar", "colorbar"):
-        if found.get(name) == "":
-            found[name] = True
     if found and options.pixel is None:
         from vtray.image.formats.image_format import check_plain_format
 

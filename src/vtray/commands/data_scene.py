@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
 from vtray.commands import data_options
-from vtray.commands.annotation_options import PointLabel, labels_of
+from vtray.commands.annotation_options import PointLabel, labels_of, value_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -107,12 +107,14 @@ def _share_beside(
     size: tuple[int, int],
 ) -> float:
     """Return the share of the picture's width that a legend and colour bars take."""
-    colorbar = options.colorbar
+    colorbar = value_of(options, "colorbar")
     if legend is None and colorbar is None:
         return 0.0
+    from vtray.figures.annotations import Annotations
     from vtray.figures.painted.picture import share_beside
 
-    return share_beside(scene.objects, legend, True if colorbar == "" else colorbar or False, size)
+    wanted = Annotations(legend=legend, colorbar=colorbar or False)
+    return share_beside(scene.objects, wanted, size)
 
 
 def _labels(drawn: "Drawn", particles: "Particles", name: str) -> list[PointLabel]:

@@ -4,7 +4,6 @@ import argparse
 import re
 import typing
 from collections.abc import Callable, Sequence
-from pathlib import Path
 from typing import Any, Literal
 
 import msgspec
@@ -83,8 +82,7 @@ def _can_be(settings: type[msgspec.Struct], name: str, argument: str) -> bool:
     try:
         taken(settings, name, argument, name)
     except SceneError:
-        # A word that names no file is a wrong value: names of pictures and of scenes have endings.
-        return bool(re.fullmatch(r"#?\w[\w,-]*", argument)) and not Path(argument).exists()
+        return False
     return True
 
 

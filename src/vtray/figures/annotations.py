@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from vtray.figures.legend import LegendGiven
     from vtray.figures.point_labels import LabelsGiven
+    from vtray.scene.objects import Object
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,14 +80,24 @@ def find_marks(image: Subject, wanted: Annotations) -> Marks:
     if not isinstance(title, (str, type(None))):
         message = f"title: expected a text or None, got {title!r}"
         raise FigureError(message)
-    scales = color_scales(image.scene.objects) if wanted.colorbar else []
-    return Marks(
-        title or "",
-        frame_caption(wanted.time, wanted.frame),
-        [] if wanted.legend is None else legend_entries(wanted.legend),
-        scales,
-        bar_labels(wanted.colorbar, len(scales)),
-        scale_bar(image, wanted.scalebar, wanted.at),
-        triad(image.scene.camera, wanted.axes),
-        shown_labels(image, wanted.labels, hide=wanted.hide_labels),
+    caption = frame_caption(wanted.time, wanted.frame)
+    return marks_beside(image.scene.objects, wanted)._replace(
+        title=title or "",
+        caption=caption,
+        scale_bar=scale_bar(image, wanted.scalebar, wanted.at),
+        triad=triad(image.scene.camera, wanted.axes),
+        labels=shown_labels(image, wanted.labels, hide=wanted.hide_labels),
     )
+
+
+def marks_beside(objects: "Sequence[Object]", wanted: Annotations) -> Marks:
+    """Return the legend and the colour bars of a picture of objects, and nothing else of `Marks`.
+
+    Raises
+    ------
+    FigureError
+        One of them is not right.
+    """
+    scales = color_scales(objects) if wanted.colorbar else []
+    entries = [] if wanted.legend is None else legend_entries(wanted.legend)
+    return Marks("", "", entries, scales, bar_labels(wanted.colorbar, len(scales)), None, [], [])

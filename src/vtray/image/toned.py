@@ -63,18 +63,8 @@ def develop_toned(
         Linear light, (height, width, 3).
     toning
         How it becomes numbers.
-    alpha
-        Gives how much of each pixel is covered, (height, width); called only where it matters.
-    threads
-        How many threads to use at the most.
-    overlays
-        What has colours of its own.
-
-    Returns
-    -------
-    array
-        The pixels, uint8 or uint16, (height, width, 3), or with alpha, not premultiplied,
-        (height, width, 4).
+    alpha, threads, overlays
+        As for `vtray.image.exposure.develop`, and so is what is returned.
     """
     background = toning.background
     cover = None if background in ("black", "sky") else alpha().clip(0.0, 1.0)

@@ -23,7 +23,6 @@ from vtray.image.denoise import load_library
 from vtray.image.exposure import check_brightness, warm_up
 from vtray.image.image import Image
 from vtray.image.white import known_white, locked_white
-from vtray.rendering.acceleration import Acceleration
 from vtray.rendering.clipping import is_nothing_left
 from vtray.rendering.darkroom import Darkroom
 from vtray.rendering.denoising import Denoising
@@ -219,21 +218,17 @@ def render(
     scene.check()
     lights = lights_of(scene)
     settings, style = overridden(settings_of(scene), locals()), overridden(scene.style, locals())
-    shown = _snapshot(scene, lights, _camera(scene, settings))
-    # What colours are as light, and how mirrors and glass are shown.
-    shown.render = shown.render.replace(
-        tonemap=settings.tonemap, integrator=settings.integrator, depth=settings.depth
-    )
+    shown = _shown(scene, lights, settings)
     style = fitted(style, shown.camera, lambda: ball_around(shown))
     if settings.denoise:
         load_library()  # before any work is done
+    _tell(warn, _darkness(shown, keep_lights=keep_lights), matt_instead(shown.objects, settings))
     _check(shown, settings, is_shown=on_update is not None)
     clock, loaded = Stopwatch(), loading_seconds()
     kept = accelerate(scene, threads, _step_of(progress, "build"), style)
     loading = loading_seconds() - loaded
     check_followed(kept, settings, keep_lights=keep_lights)
-    for problem in _problems(shown, kept, keep_lights=keep_lights):
-        (warn or _warn)(problem)
+    _tell(warn, NOTHING_LEFT if is_nothing_left(kept) else "")
     clock.lap("build")
     packed = styled(pack(shown, kept), style)
     clock.lap("pack")
@@ -247,7 +242,7 @@ def render(
     look = Look(shown, packed, threads)
     darkroom = Darkroom(
         shown,
-        _snapshot(scene, lights, scene.camera),
+        Scene(scene.camera, lights, list(scene.objects), scene.render, scene.style),
         settings,
         style,
         look,
@@ -309,15 +304,6 @@ def _growth(
     return Growth(lambda part: on_update(darkroom.part(part)), seconds)
 
 
-def _problems(scene: Scene, kept: Acceleration, *, keep_lights: bool) -> list[str]:
-    """Say why something is not seen, as far as that is known before."""
-    nothing = NOTHING_LEFT if is_nothing_left(kept) else ""
-    darkness = _darkness(scene, keep_lights=keep_lights)
-    return [
-        words for words in (darkness, nothing, matt_instead(scene.objects, scene.render)) if words
-    ]
-
-
 def _darkness(scene: Scene, *, keep_lights: bool) -> str:
     """Say why all that is seen is black, if that is known before; "" if it is not."""
     seen = [item for item in scene.objects if not isinstance(item, Stars)]
@@ -331,11 +317,15 @@ def _darkness(scene: Scene, *, keep_lights: bool) -> str:
     return "lights: all have the intensity 0, so all that is seen is black; give one more than 0"
 
 
-def _warn(message: str) -> None:
-    """Warn in the name of the code that called `render`."""
-    import warnings
+def _tell(warn: Warn | None, *problems: str) -> None:
+    """Warn of each problem that is not "", in the name of the code that called `render`."""
+    for problem in problems:
+        if problem and warn is not None:
+            warn(problem)
+        elif problem:
+            import warnings
 
-    warnings.warn(message, stacklevel=4)
+            warnings.warn(problem, stacklevel=4)
 
 
 def _camera(scene: Scene, settings: RenderSettings) -> Camera:
@@ -364,9 +354,11 @@ def _check_memory(scene: Scene, settings: RenderSettings, *, is_shown: bool) -> 
     check_memory(int(width), int(height), int(settings.samples), behind, more)
 
 
-def _snapshot(scene: Scene, lights: list[AnyLight], camera: Camera) -> Scene:
-    """Return the scene as it is now, with a camera."""
-    return Scene(camera, lights, list(scene.objects), scene.render, scene.style)
+def _shown(scene: Scene, lights: list[AnyLight], settings: RenderSettings) -> Scene:
+    """Return the scene as it is now and is to be shown: how large, in which light, how followed."""
+    names = ("tonemap", "integrator", "depth")
+    render = scene.render.replace(**{name: getattr(settings, name) for name in names})
+    return Scene(_camera(scene, settings), lights, list(scene.objects), render, scene.style)
 
 
 def _step_of(progress: Progress | None, step: str) -> StepProgress | None:

@@ -5,9 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from vtray.figures.annotations import Annotations, Marks, find_marks
-from vtray.figures.color_bar import bar_labels, color_scales
-from vtray.figures.legend import legend_entries
+from vtray.figures.annotations import Annotations, Marks, find_marks, marks_beside
 from vtray.figures.painted.canvas import Canvas
 from vtray.figures.painted.layout import MARGIN, Placed, arranged
 from vtray.figures.painted.letters import check_letters, letters
@@ -17,7 +15,6 @@ from vtray.figures.sheet import FigureError, check_number
 from vtray.figures.subject import Pixels, Subject
 
 if TYPE_CHECKING:
-    from vtray.figures.legend import LegendGiven
     from vtray.scene.scene import Object
 
 SHARE = 0.035
@@ -56,10 +53,9 @@ def annotated_pixels(image: Subject, wanted: Annotations, fontsize: float | None
     marks = _checked(find_marks(image, wanted))
     pixels = image.pixels
     height, width = pixels.shape[:2]
-    for em in _sizes(fontsize, width, height):
-        placed = arranged(marks, em, width, height)
-        if placed is not None:
-            return _painted(pixels, marks, placed, em)
+    found = _largest(marks, fontsize, width, height)
+    if found is not None:
+        return _painted(pixels, marks, *found)
     remedy = "render it larger, or ask for less"
     if fontsize is not None:
         remedy += ", or give a smaller fontsize"
@@ -67,20 +63,26 @@ def annotated_pixels(image: Subject, wanted: Annotations, fontsize: float | None
     raise FigureError(message)
 
 
-def share_beside(
-    objects: "Sequence[Object]",
-    legend: "LegendGiven | None",
-    colorbar: bool | str,
-    size: tuple[int, int],
-) -> float:
+def _largest(
+    marks: Marks, fontsize: float | None, width: int, height: int
+) -> tuple[list[Placed], int] | None:
+    """Return where marks stand, and the largest size of letters with which there is room."""
+    for em in _sizes(fontsize, width, height):
+        placed = arranged(marks, em, width, height)
+        if placed is not None:
+            return placed, em
+    return None
+
+
+def share_beside(objects: "Sequence[Object]", wanted: Annotations, size: tuple[int, int]) -> float:
     """Return the share of a picture's width that a legend and colour bars take on its right.
 
     Parameters
     ----------
     objects
         What is shown.
-    legend, colorbar
-        As for `vtray.Image.annotated`.
+    wanted
+        What to paint.
     size
         Width and height of the picture in pixels.
 
@@ -89,16 +91,12 @@ def share_beside(
     FigureError
         One of them is not right.
     """
-    scales = color_scales(objects) if colorbar else []
-    entries = [] if legend is None else legend_entries(legend)
-    labels = bar_labels(colorbar, len(scales))
-    marks = _checked(Marks("", "", entries, scales, labels, None, [], []))
     width, height = size
-    for em in _sizes(None, width, height):
-        placed = arranged(marks, em, width, height)
-        if placed:
-            return 1.0 - min(one.left for one in placed) / width + round(MARGIN * em) / width
-    return 0.0
+    found = _largest(_checked(marks_beside(objects, wanted)), None, width, height)
+    if found is None or not found[0]:
+        return 0.0
+    placed, em = found
+    return 1.0 - min(one.left for one in placed) / width + round(MARGIN * em) / width
 
 
 def _checked(marks: Marks) -> Marks:
