@@ -108,7 +108,7 @@ def test_direct_says_what_it_does_not_show() -> None:
 
 def test_what_does_not_go_together() -> None:
     scene = room(("mirror", "lambert", "lambert", "lambert"))
-    with pytest.raises(vtray.RenderError, match="keep_lights: light over mirrors"):
+    with pytest.raises(vtray.RenderError, match="keep_lights: light over many surfaces"):
         vtray.render(scene, integrator="whitted", keep_lights=True)
     scene.objects[1] = scene.objects[1].replace(opacity=0.5)
     with pytest.raises(vtray.RenderError, match="opacity: not between 0 and 1"):

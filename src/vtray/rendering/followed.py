@@ -12,27 +12,27 @@ from vtray.scene.settings import RenderSettings
 
 def matt_instead(objects: Sequence[Object], settings: RenderSettings) -> str:
     """Say which materials the integrator cannot show; "" if it shows all."""
-    found = [] if settings.integrator == "whitted" else [*dict.fromkeys(_names(objects))]
+    found = [*dict.fromkeys(_names(objects))] if settings.integrator == "direct" else []
     if not found:
         return ""
-    words = 'shown as matt by the integrator direct; give integrator="whitted"'
+    words = 'shown as matt by the integrator direct; give integrator="whitted" or "path"'
     return f"material: {' and '.join(found)} {'are' if len(found) > 1 else 'is'} {words}"
 
 
 def check_followed(kept: Acceleration, settings: RenderSettings, *, keep_lights: bool) -> None:
     """Raise RenderError if something is asked for that does not go with following mirrors."""
-    if settings.integrator != "whitted":
+    if settings.integrator == "direct":
         return
     if keep_lights:
         message = (
-            "keep_lights: light over mirrors and glass is not kept for each light; leave it out, "
-            'or give integrator="direct"'
+            "keep_lights: light over many surfaces is not kept for each light; leave it out, or "
+            'give integrator="direct"'
         )
         raise RenderError(message)
     if kept.bodies is not None:
         message = (
-            'opacity: not between 0 and 1 with integrator="whitted", which does not show what '
-            'fades; give material="glass" instead, or integrator="direct"'
+            f'opacity: not between 0 and 1 with integrator="{settings.integrator}", which does not '
+            'show what fades; give material="glass" instead, or integrator="direct"'
         )
         raise RenderError(message)
 

@@ -30,7 +30,7 @@ from vtray.rendering.joined import joined, rows_of
 from vtray.rendering.pack_bodies import pack_bodies
 from vtray.rendering.pack_lights import pack_lights, points_of
 from vtray.rendering.pack_skies import up_of
-from vtray.rendering.pack_surroundings import pack_surroundings
+from vtray.rendering.pack_surroundings import is_even, pack_surroundings
 from vtray.rendering.placed import Placed
 from vtray.rendering.rooms import Rooms
 from vtray.rendering.shape_kinds import look_numbers
@@ -93,14 +93,25 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
     camera = _pack_camera(scene.camera, unit)
     origin = points_of([scene.camera.center], unit)[0]
     x, y, z = map(float, origin)
+    materials = _pack_materials(kept, planes, scene)
+    has_looks, lights = materials.looks is not None, scene.lights
+    if scene.render.integrator == "path":
+        lights = [light for light in lights if not is_even(light)]
     arrays = SceneArrays(
         camera,
         _pack_world(scene.objects, kept, unit, (x, y, z)),
-        pack_lights(scene.lights, origin, unit, camera, up_of(scene.camera), scene.render.tonemap),
-        _pack_materials(kept, planes, scene),
+        pack_lights(
+            lights,
+            origin,
+            unit,
+            camera,
+            up_of(scene.camera),
+            scene.render.tonemap,
+            are_mirrored=has_looks,
+        ),
+        materials,
+        bounces=int(scene.render.depth) if has_looks else -1,
     )
-    if arrays.materials.looks is not None:
-        arrays = arrays._replace(bounces=int(scene.render.depth))
     return Packed(arrays, unit, scene.camera.focus - start_distance(scene.camera))
 
 
@@ -402,7 +413,8 @@ def _pack_materials(kept: Acceleration, planes: list[Plane], scene: Scene) -> Ma
     looks.append(np.array(flat, np.float64).reshape(-1, 2))
     look_row, look_step = rows_of(looks)
     numbers, tonemap = joined(looks, np.float64), scene.render.tonemap
-    is_followed = scene.render.integrator == "whitted" and bool((numbers[:, 0] != MATT).any())
+    integrator, is_matt = scene.render.integrator, not (numbers[:, 0] != MATT).any()
+    is_followed = integrator == "path" or (integrator == "whitted" and not is_matt)
     return Materials(
         np.append(ranges.first, kept.count),
         np.append(ranges.each, MAX_NUMBERS),

@@ -52,6 +52,8 @@ def pack_lights(
     camera: CameraFrame,
     up: Vec,
     tonemap: ToneMapName = "linear",
+    *,
+    are_mirrored: bool = False,
 ) -> Lights:
     """Return the arrays of all lights.
 
@@ -69,6 +71,8 @@ def pack_lights(
         What is up for skies that do not say it, a unit vector in world space.
     tonemap
         The tone map, which says what colours are as light.
+    are_mirrored
+        Whether rays from surfaces may meet them.
     """
     hard = [light for light in lights if isinstance(light, Light)]
     soft = [light for light in lights if not isinstance(light, Light)]
@@ -76,7 +80,8 @@ def pack_lights(
     x, y, z = _columns(points)
     ordered = *hard, *soft
     parts = [part for light in ordered for part in _components_of(light, tonemap)]
-    packed = _pack_soft(soft, len(hard), origin, unit, up, tonemap) if soft else None
+    are_rare = are_mirrored or any(map(_is_rare, soft))
+    packed = _pack_soft(soft, len(hard), origin, unit, up, tonemap, are_rare) if soft else None
     return Lights(
         x,
         y,
@@ -86,7 +91,8 @@ def pack_lights(
         points=len(hard) if hard or not soft else None,
         soft=packed,
         crowd=_pack_crowd(packed) if packed else None,
-        visible=_pack_visible(soft, packed) if packed else None,
+        visible=_pack_lamps(soft, packed, only_visible=True) if packed else None,
+        mirrored=_pack_lamps(soft, packed) if packed and are_mirrored else None,
         intensity=np.array([intensity for intensity, _ in parts], float),
         color=np.array([color for _, color in parts], float).reshape(-1, 3) / 255.0,
     )
@@ -108,6 +114,7 @@ def _pack_soft(
     unit: float,
     up: Vec,
     tonemap: ToneMapName,
+    are_rare: bool,
 ) -> SoftLights:
     """Return the arrays of the lights that are no points; `first` is the row of the first."""
     x, y, z, size, error_scale = np.zeros((5, len(lights)))
@@ -139,7 +146,6 @@ def _pack_soft(
     skies = [light for light in lights if isinstance(light, Sky) and changes_color(light)]
     changes = np.array([changes_color(light) for light in lights])
     counts = np.where(changes, 3, 1)
-    are_rare = any(map(_is_rare, lights))
     return SoftLights(
         kind,
         x,
@@ -173,13 +179,17 @@ def _pack_crowd(soft: SoftLights) -> Crowd | None:
     return Crowd(order_by_place(soft))
 
 
-def _pack_visible(lights: Sequence[AnyLight], soft: SoftLights) -> VisibleLamps | None:
-    """Return the lamps among the soft lights that the camera sees; None where nothing is rare."""
+def _pack_lamps(
+    lights: Sequence[AnyLight], soft: SoftLights, *, only_visible: bool = False
+) -> VisibleLamps | None:
+    """Return the lamps among the soft lights, or those that the camera sees; None if none are rare.
+
+    A lamp without a size is met by no ray.
+    """
     if soft.rectangles is None:
         return None
-    seen = np.array(
-        [k for k, light in enumerate(lights) if isinstance(light, Lamp) and light.visible], np.int64
-    )
+    lamps = [k for k, light in enumerate(lights) if isinstance(light, Lamp) and soft.size[k] > 0.0]
+    seen = np.array([k for k in lamps if lights[k].visible or not only_visible], np.int64)
     data = np.zeros((len(seen), LAMP_SIZE))
     for row, k in zip(data, seen, strict=True):
         row[:3] = soft.x[k], soft.y[k], soft.z[k]

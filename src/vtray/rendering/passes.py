@@ -21,7 +21,15 @@ from vtray.rendering.growth import DRAFT_TILE, Growth, draft_camera
 from vtray.scene.settings import RenderSettings
 from vtray.transport.film import Film, new_film
 from vtray.transport.light_buffer import KeptLight, new_kept_light
-from vtray.transport.sampling.fans import Noise, fans_of_middles, fans_of_samples, is_coarse
+from vtray.transport.sampling.fans import (
+    Fans,
+    Noise,
+    fans_of_middles,
+    fans_of_paths,
+    fans_of_samples,
+    is_coarse,
+)
+from vtray.transport.sampling.paths import Paths, paths_of
 from vtray.transport.sampling.pixel_samples import (
     Sampling,
     filter_footprint,
@@ -121,23 +129,23 @@ class Tracer:
         noise = self.noise(settings, white, keep=keep)
         # What rays see layer by layer is not kept.
         keep = keep and self._scene.world.faded is None
-        fans = None if noise is None else fans_of_middles(noise)
+        first, later = _plan(settings, noise)
         if samples == 1:
-            rays = middle_rays(fans=fans, seed=seed)
+            rays = middle_rays(fans=first.fans, seed=seed)._replace(paths=first.paths)
             found = self._middles(rays, keep, *one_ray(self._scene, self._more))
             return found._replace(film=_covered(found.film), noise=noise)
         self._passes = 2
         footprint = filter_footprint(settings, self._scene.camera)
         thickest = _thickest(self._scene.world)
-        middles = middle_rays(footprint, thickest, before_samples=True, fans=fans, seed=seed)
+        middles = middle_rays(footprint, thickest, before_samples=True, fans=first.fans, seed=seed)
+        middles = middles._replace(paths=first.paths)
         found = self._middles(middles, keep, *with_samples(self._scene, self._more))
         film, kept = found.film, found.kept
         marks = film.mixed.copy()  # the film is written anew
         if keep:
             kept = (*kept, self._keep(marks, samples))
             film = film._replace(kept=kept[-1])
-        fans = None if noise is None else fans_of_samples(samples, noise)
-        sampled = self._trace(filter_samples(settings, marks, fans), film)
+        sampled = self._trace(filter_samples(settings, marks, later.fans, later.paths), film)
         peak, cast = max(found.peak, sampled.peak), found.rays + sampled.rays
         return Traced(film, peak, cast, noise, kept)
 
@@ -150,6 +158,8 @@ class Tracer:
         soft = self._scene.lights.soft
         if soft is None:
             return None
+        if settings.integrator == "path":  # what the samples of a pixel differ by says how noisy
+            return self._noise_of_light(math.inf, settings)
         if keep:
             error, coarse = settings.tolerance * len(soft.kind), is_coarse(settings.tolerance)
             return Noise(error, by_light=False, is_coarse=coarse)
@@ -238,6 +248,26 @@ class Tracer:
         return tell
 
 
+class _Plan(NamedTuple):
+    """Which rays are cast from surfaces."""
+
+    fans: Fans | None
+    paths: Paths | None
+
+
+def _plan(settings: RenderSettings, noise: Noise | None) -> tuple[_Plan, _Plan]:
+    """Return which rays are cast from the surfaces that middle rays meet, and that samples do."""
+    samples = int(settings.samples)
+    if settings.integrator == "path":
+        fans = None if noise is None else fans_of_paths(samples, noise)
+        paths = _Plan(fans, paths_of(samples))
+        return paths, paths
+    if noise is None:
+        return _Plan(None, None), _Plan(None, None)
+    of_samples = fans_of_samples(samples, noise) if samples > 1 else None
+    return _Plan(fans_of_middles(noise), None), _Plan(of_samples, None)
+
+
 def one_ray(scene: SceneArrays, more: Sequence[str] = ()) -> tuple[str, ...]:
     """Return what is wanted of a picture with one ray a pixel."""
     wanted = ["linear", *more]
@@ -280,5 +310,6 @@ def compile_kernels(scene: SceneArrays, settings: RenderSettings, more: Sequence
     has_samples = settings.samples > 1
     soft = scene.lights.soft
     film = new_film(0, 0, *(with_samples if has_samples else one_ray)(scene, more))
-    fans = None if soft is None else fans_of_middles(Noise(math.inf, by_light=True))
-    trace_to(film, scene, middle_rays(before_samples=has_samples, fans=fans), Tile(0, 0, 0, 0))
+    first, _ = _plan(settings, None if soft is None else Noise(math.inf, by_light=True))
+    rays = middle_rays(before_samples=has_samples, fans=first.fans)._replace(paths=first.paths)
+    trace_to(film, scene, rays, Tile(0, 0, 0, 0))

@@ -49,7 +49,7 @@ Seed = Annotated[
 FilterName = Literal["box", "tent", "gaussian", "mitchell", "blackman-harris"]
 Exposure = Literal["max", "auto"] | Positive
 Stops = Annotated[float, Meta(ge=-100, le=100, description="a number from -100 to 100")]
-IntegratorName = Literal["direct", "whitted"]
+IntegratorName = Literal["direct", "whitted", "path"]
 MAX_DEPTH = 64
 Depth = Annotated[
     Annotated[int, Meta(ge=0, le=MAX_DEPTH)]
@@ -123,9 +123,9 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
     ] = TOLERANCE
     integrator: Annotated[
         IntegratorName,
-        Option("NAME", "direct: mirrors and glass look matt; whitted: they are followed"),
+        Option("NAME", "direct; whitted: mirrors and glass are followed; path: all light is"),
     ] = "direct"
-    depth: Annotated[Depth, Option("N", "over how many mirrors and surfaces of glass")] = 8
+    depth: Annotated[Depth, Option("N", "over how many surfaces light is followed")] = 8
     denoise: Annotated[
         Annotated[bool, Meta(description="true or false")],
         Option("", "take the grain of soft light out by Open Image Denoise"),

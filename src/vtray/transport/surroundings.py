@@ -1,4 +1,4 @@
-"""What mirrored rays see that meet nothing: the light of all skies."""
+"""What rays from surfaces see that meet nothing: the light of all skies."""
 
 from typing import NamedTuple
 
@@ -30,21 +30,33 @@ class Surroundings(NamedTuple):
 
 
 @device
-def far_light(surroundings: Surroundings, direction: Vec) -> Vec:
-    """Return the light that comes against a unit direction from far away."""
-    return _add_maps(surroundings, surroundings.skies, direction)
+def far_light(surroundings: Surroundings, direction: Vec, sees_lights: bool) -> Vec:
+    """Return the light that comes against a unit direction from far away.
+
+    That of one colour is seen by all rays, the other only by those that see lights.
+    """
+    return _with_maps(surroundings, surroundings.skies, direction, sees_lights)
 
 
 @device
-def _add_maps(surroundings: Surroundings, skies: Skies | None, direction: Vec) -> Vec:
-    """Return the light of all skies."""
+def _with_maps(
+    surroundings: Surroundings, skies: Skies | None, direction: Vec, sees_lights: bool
+) -> Vec:
+    """Return the light of all skies; see `far_light`."""
     red, green, blue = surroundings.even
     # An argument that is None is known to the compiler, which drops what depends on that alone.
-    if skies is not None:
-        color = surroundings.color
-        for sky in range(color.shape[0]):
-            light = light_towards(skies, sky, direction)
-            red += color[sky, 0] * light[0]
-            green += color[sky, 1] * light[1]
-            blue += color[sky, 2] * light[2]
+    if skies is not None:  # noqa: SIM102
+        if sees_lights:
+            color = surroundings.color
+            for sky in range(color.shape[0]):
+                light = light_towards(skies, sky, direction)
+                red += color[sky, 0] * light[0]
+                green += color[sky, 1] * light[1]
+                blue += color[sky, 2] * light[2]
     return red, green, blue
+
+
+@device
+def has_even_light(surroundings: Surroundings) -> bool:
+    """Tell whether there is light of one colour from everywhere."""
+    return max(surroundings.even[0], surroundings.even[1], surroundings.even[2]) > 0.0

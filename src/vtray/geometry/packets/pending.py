@@ -1,4 +1,4 @@
-"""Rays that wait to be followed: those into which mirrors and glass split the rays of a packet."""
+"""Rays that wait to be followed: those that go on from what the rays of a packet meet."""
 
 from typing import NamedTuple
 
@@ -10,8 +10,8 @@ from vtray.geometry.packets.packet import LANES
 from vtray.geometry.ray import Ray
 from vtray.geometry.vector import Vec
 
-NUMBERS = 14
-"""Numbers of a ray that waits: those of the ray, of how much is seen of it, and its bounces."""
+NUMBERS = 15
+"""Numbers of a ray that waits: those of the ray, and what `Waiting` says of it."""
 
 
 class Waiting(NamedTuple):
@@ -25,11 +25,14 @@ class Waiting(NamedTuple):
         How much of the light along it is seen, for red, green and blue, from 0 to 1.
     bounces
         How many surfaces lie between it and the camera.
+    sees_lights
+        Whether it sees lamps and skies; else their light was added where it comes from.
     """
 
     ray: Ray
     seen: Vec
     bounces: int
+    sees_lights: bool
 
 
 class Pending(NamedTuple):
@@ -81,6 +84,7 @@ def push_ray(pending: Pending, lane: int, waiting: Waiting) -> None:
     numbers[begin + 11] = ray.error_scale
     numbers[begin + 12] = ray.error_bound
     numbers[begin + 13] = waiting.bounces
+    numbers[begin + 14] = 1.0 if waiting.sees_lights else 0.0
     pending.waiting[lane] += 1
 
 
@@ -99,4 +103,4 @@ def pop_ray(pending: Pending, lane: int) -> Waiting:
         numbers[begin + 12],
     )
     seen = numbers[begin + 6], numbers[begin + 7], numbers[begin + 8]
-    return Waiting(ray, seen, int(numbers[begin + 13]))
+    return Waiting(ray, seen, int(numbers[begin + 13]), numbers[begin + 14] != 0.0)

@@ -29,6 +29,13 @@ from vtray.transport.film import (
     write_pixels,
 )
 from vtray.transport.fog import veil
+from vtray.transport.integrators.bounces import (
+    begin_bounces,
+    bounced_sheaf,
+    end_bounces,
+    follow_rays,
+    mix_looks,
+)
 from vtray.transport.integrators.lamps import mix_lamps, see_lamps
 from vtray.transport.integrators.layered import (
     begin_layers,
@@ -41,17 +48,11 @@ from vtray.transport.integrators.layered import (
     take_round,
     weigh_colors,
 )
+from vtray.transport.integrators.path import scatter_hits
 from vtray.transport.integrators.points import add_points
 from vtray.transport.integrators.soft import add_soft_lights, clear_noise
 from vtray.transport.integrators.soft_shared import add_shared_light
-from vtray.transport.integrators.whitted import (
-    begin_bounces,
-    bounced_sheaf,
-    end_bounces,
-    follow_rays,
-    mix_looks,
-    split_hits,
-)
+from vtray.transport.integrators.whitted import split_hits
 from vtray.transport.interaction import gather_interactions
 from vtray.transport.light_buffer import KeptLight
 from vtray.transport.lights.crowd import Crowd
@@ -65,6 +66,7 @@ from vtray.transport.sampling.adaptive import (
     note_seen,
 )
 from vtray.transport.sampling.fans import Fans
+from vtray.transport.sampling.paths import Paths, seed_of_step
 from vtray.transport.sampling.pixel_samples import Sampling, list_pixels, place_samples
 from vtray.transport.scene_arrays import SceneArrays, lit_world
 
@@ -237,7 +239,7 @@ def _meet(
             find_mixed(packet, lanes)
             mix_lamps(packet, lanes, sheaf, footprint, lights.visible)
             mix_faded(packet, lanes, sheaf, footprint, scene.world, faded, work)
-            mix_looks(packet, lanes, scene.materials, scene.materials.looks)
+            mix_looks(packet, lanes, scene.materials, scene.materials.looks, sampling.paths)
             leave_mixed(packet, lanes)
 
 
@@ -286,7 +288,7 @@ def _light_lanes(
                     lanes,
                     scene,
                     looks,
-                    scene.bounces,
+                    sampling.paths,
                     sampling,
                     block,
                     begin,
@@ -298,7 +300,9 @@ def _light_lanes(
                 )
     hits = _gather(packet, lanes, scene, sampling, film.mixed, work)
     keep_rays(packet, block, begin, end, first, last, work.pixels, film.kept, scene.fog)
-    cast = _light_hits(packet, hits, scene, sampling, block, begin, first, last, film, work, stop)
+    cast = _light_hits(
+        packet, hits, scene, sampling, block, begin, first, last, film, work, stop, 0
+    )
     veil(packet, lanes, hits, film.linear, film.error, scene.fog)
     return hits, cast
 
@@ -328,7 +332,7 @@ def _light_layers(
             hits = _gather(packet, lanes, scene, sampling, film.mixed, work)
             weigh_colors(packet, hits)
             cast += _light_hits(
-                packet, hits, scene, sampling, block, begin, first, last, film, work, stop
+                packet, hits, scene, sampling, block, begin, first, last, film, work, stop, 0
             )
             gather_light(packet, hits)
         skipped += AT_ONCE
@@ -341,7 +345,7 @@ def _light_bounces(
     lanes: int,
     scene: SceneArrays,
     looks: Looks,
-    bounces: int,
+    paths: Paths | None,
     sampling: Sampling,
     block: Block,
     begin: int,
@@ -351,20 +355,38 @@ def _light_bounces(
     work: Workspace,
     stop: NDArray[np.bool_],
 ) -> tuple[int, int]:
-    """Find the light of all lanes over mirrors and glass; the result is that of `_light_lanes`."""
-    cast, sheaf, forward = 0, bounced_sheaf(), scene.camera.forward
-    begin_bounces(packet, lanes, work.pending)
+    """Find the light of all lanes over many surfaces; the result is that of `_light_lanes`."""
+    cast, steps, sheaf, pending = 0, 0, bounced_sheaf(), work.pending
+    world, materials, forward = scene.world, scene.materials, scene.camera.forward
+    begin_bounces(packet, lanes, pending)
     hits = _gather(packet, lanes, scene, sampling, film.mixed, work)
     while hits > 0 and not stop[0]:
-        split_hits(
-            packet, hits, scene.world, scene.materials, looks, forward, work.pending, bounces
-        )
+        if paths is not None:
+            scatter_hits(
+                packet,
+                hits,
+                world,
+                materials,
+                looks,
+                forward,
+                pending,
+                scene.bounces,
+                last - first,
+                first,
+                block,
+                begin,
+                work.pixels,
+                paths,
+                sampling.seed,
+            )
+        else:
+            split_hits(packet, hits, world, materials, looks, forward, pending, scene.bounces)
         cast += _light_hits(
-            packet, hits, scene, sampling, block, begin, first, last, film, work, stop
+            packet, hits, scene, sampling, block, begin, first, last, film, work, stop, steps
         )
         gather_light(packet, hits)
         cast += follow_rays(
-            packet, lanes, scene.world, scene.lights, looks.surroundings, work.pending, work
+            packet, lanes, world, scene.lights, looks.surroundings, pending, scene.bounces, work
         )
         hits = gather_interactions(
             packet,
@@ -372,11 +394,12 @@ def _light_bounces(
             sampling.rays,
             sheaf,
             sampling.footprint,
-            scene.world,
-            scene.materials,
+            world,
+            materials,
             forward,
             work,
         )
+        steps += 1
     cast_rays(packet, lanes, scene.camera)
     return end_bounces(packet, lanes), cast
 
@@ -423,8 +446,12 @@ def _light_hits(
     film: Film,
     work: Workspace,
     stop: NDArray[np.bool_],
+    step: int,
 ) -> int:
-    """Add all lights to the hits of a packet; return how many shadow rays were cast."""
+    """Add all lights to the hits of a packet; return how many shadow rays were cast.
+
+    Between them and the camera are as many other surfaces as `step` says.
+    """
     if hits == 0:
         return 0
     is_wide = _is_wide(sampling, film.mixed)
@@ -435,7 +462,7 @@ def _light_hits(
         scene,
         scene.lights.soft,
         scene.lights.crowd,
-        sampling,
+        seed_of_step(sampling.seed, step),
         sampling.fans,
         block,
         begin,
@@ -479,7 +506,7 @@ def _add_soft_lights(
     scene: SceneArrays,
     soft: SoftLights | None,
     crowd: Crowd | None,
-    sampling: Sampling,
+    seed: int,
     fans: Fans | None,
     block: Block,
     begin: int,
@@ -498,7 +525,7 @@ def _add_soft_lights(
         return 0
     if soft is not None:  # noqa: SIM102 - by itself, it is known to the compiler
         if fans is not None:
-            lit, seed, samples = lit_world(scene), sampling.seed, last - first
+            lit, samples = lit_world(scene), last - first
             if crowd is not None:  # noqa: SIM102
                 if kept.cosines.shape[0] == 0:
                     return add_shared_light(

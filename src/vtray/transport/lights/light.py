@@ -42,6 +42,8 @@ class Lights(NamedTuple):
         The lights among which fans of rays are shared; None where each light has its own.
     visible
         Those that the camera sees; None where `SoftLights.skies` is, or there are no soft lights.
+    mirrored
+        All lamps with a size, which rays from mirrors may meet; None where there are no such rays.
     intensity
         The intensities of all components, (components,).
     color
@@ -57,6 +59,7 @@ class Lights(NamedTuple):
     soft: SoftLights | None
     crowd: Crowd | None
     visible: VisibleLamps | None
+    mirrored: VisibleLamps | None
     intensity: Floats
     color: Floats
 
@@ -93,7 +96,9 @@ def powers_of(lights: Lights) -> Powers:
 def no_lights() -> Lights:
     """Return no lights at all."""
     none = np.zeros(0)
-    return Lights(none, none, none, none, none, None, None, None, None, none, np.zeros((0, 3)))
+    return Lights(
+        none, none, none, none, none, None, None, None, None, None, none, np.zeros((0, 3))
+    )
 
 
 @device

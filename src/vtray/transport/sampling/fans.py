@@ -152,6 +152,14 @@ def fans_of_samples(samples: int, noise: Noise) -> Fans:
     return _fans(rays, max(MOST_FANS_OF_SAMPLES // samples, 1), samples, noise)
 
 
+def fans_of_paths(samples: int, noise: Noise) -> Fans:
+    """Return the fans of paths, of which pixels have so many: one fan, the same at each surface."""
+    rays = RUN
+    while 2 * rays * samples <= WHOLE_FAN:
+        rays *= 2
+    return _fans(rays, 1, samples, noise)
+
+
 def _fans(rays: int, fans: int, samples: int, noise: Noise) -> Fans:
     """Return fans of so many rays, so many for each of the samples of a pixel at the most."""
     levels, error = (samples - 1).bit_length(), noise.of_one(samples)

@@ -14,6 +14,7 @@ from vtray.scene.settings import RenderSettings
 from vtray.transport.camera_rays import CameraFrame
 from vtray.transport.sampling.fans import Fans
 from vtray.transport.sampling.filters import FILTERS, filter_places, place_in_filter
+from vtray.transport.sampling.paths import Paths
 from vtray.transport.sampling.sobol import IMAGE_PLACE, pixel_keys, scrambled, sobol_points
 
 WIDEST = 2.0**400
@@ -45,6 +46,8 @@ class Sampling(NamedTuple):
         The radius of the thickest solid, as kernels count, where that is asked.
     marks
         The pixels that are traced, (height, width), or (0, 0) for all.
+    paths
+        How paths choose; None where none are followed.
     """
 
     rays: int
@@ -56,6 +59,7 @@ class Sampling(NamedTuple):
     footprint: Footprint | None
     thickest: float
     marks: NDArray[np.bool_]
+    paths: Paths | None = None
 
 
 _NO_FOOTPRINT = Footprint(0.0, 0.0)
@@ -77,7 +81,10 @@ def middle_rays(
 
 
 def filter_samples(
-    settings: RenderSettings, marks: NDArray[np.bool_], fans: Fans | None
+    settings: RenderSettings,
+    marks: NDArray[np.bool_],
+    fans: Fans | None,
+    paths: Paths | None = None,
 ) -> Sampling:
     """Return the samples of the pixels that are marked."""
     return Sampling(
@@ -90,6 +97,7 @@ def filter_samples(
         _NO_FOOTPRINT,
         0.0,
         marks,
+        paths,
     )
 
 

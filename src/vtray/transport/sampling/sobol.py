@@ -29,6 +29,12 @@ FAN_ORDER = 1 << 24
 SHARED_FANS = 1 << 25
 """The purposes from here on: where rays aim that many lights share, one purpose for each sample."""
 
+PATH_ORDER = 1 << 26
+"""The purposes from here on: which sample gets which point for a step of a path."""
+
+PATHS = 1 << 27
+"""The purposes from here on: where paths go on, two purposes for each step."""
+
 BITS = (1 << 32) - 1
 
 UNIT = 2.0**-32

@@ -1,0 +1,236 @@
+"""Light over many surfaces: rays go on from what they meet, and all that they meet is lit.
+
+The rays of a camera are traced as packets. What each meets may let rays go on, which wait in their
+lane; the next of each is traced by itself, and what it meets becomes a hit of the same packet. So
+all hits are lit alike, by the same parts as the first ones. Which rays go on is what the
+integrators are about.
+"""
+
+import numpy as np
+
+from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.packet import (
+    BEHIND,
+    BEHIND_DISTANCE,
+    BEHIND_MET,
+    BOUNCES,
+    DIRECTION,
+    DISTANCE,
+    ERROR_SCALE,
+    FORWARD,
+    GATHERED,
+    MET,
+    MIXED,
+    NO_PRIMITIVE,
+    NOISE,
+    ORIGIN,
+    PLANE_DEPTH,
+    POINT,
+    PRIMITIVE,
+    SOURCE,
+    START_BOUND,
+    START_DEPTH,
+    START_SCALE,
+    THROUGHPUT,
+    TOWARDS,
+    VALUE,
+    VARIANCE,
+    Packet,
+    Sheaf,
+    join_met,
+    load,
+    split_met,
+    store,
+)
+from vtray.geometry.packets.pending import Pending, Waiting, clear_pending, pop_ray, push_ray
+from vtray.geometry.packets.workspace import Workspace
+from vtray.geometry.queries import NOTHING, nearest_hit
+from vtray.geometry.ray import Ray
+from vtray.geometry.rounding import ROUNDING
+from vtray.geometry.vector import Vec, add, dot, sub
+from vtray.geometry.world import World, load_group
+from vtray.transport.integrators.lamps import nearest_lamp
+from vtray.transport.interaction import surface_at
+from vtray.transport.lights.light import Lights, lamp_light
+from vtray.transport.materials.look import MATT, Looks
+from vtray.transport.materials.material import Materials, load_look
+from vtray.transport.sampling.paths import Paths
+from vtray.transport.surroundings import Surroundings, far_light
+
+
+@device
+def bounced_sheaf() -> Sheaf:
+    """Return what rays from surfaces have in common: nothing."""
+    return Sheaf((0.0, 0.0, 0.0), 0.0, 0.0, 0.0, True)
+
+
+@device
+def mix_looks(
+    packet: Packet,
+    lanes: int,
+    materials: Materials,
+    looks: Looks | None,
+    paths: Paths | None,
+) -> None:
+    """Set field ``MIXED`` of the lanes whose pixels get samples, as more is seen than surfaces.
+
+    That is where rays meet mirrors or glass; for paths, where they meet anything.
+    """
+    # Arguments that are None are known to the compiler, which drops what depends on them alone.
+    if looks is None:
+        return
+    numbers = packet.view(np.int64)
+    for lane in range(lanes):
+        met = numbers[PRIMITIVE + lane]
+        if met > NO_PRIMITIVE:
+            if paths is not None or load_look(materials, looks, met).kind != MATT:
+                packet[MIXED + lane] = 1.0
+
+
+@device
+def begin_bounces(packet: Packet, lanes: int, pending: Pending) -> None:
+    """Keep what the rays of the camera meet, and start with no light."""
+    numbers = packet.view(np.int64)
+    clear_pending(pending, lanes)
+    for lane in range(lanes):
+        packet[BEHIND_DISTANCE + lane] = packet[DISTANCE + lane]
+        numbers[BEHIND + lane] = numbers[PRIMITIVE + lane]
+        numbers[BEHIND_MET + lane] = numbers[MET + lane]
+        packet[VARIANCE + lane] = 0.0
+        numbers[BOUNCES + lane] = 0
+        store(packet, GATHERED, lane, (0.0, 0.0, 0.0))
+        store(packet, THROUGHPUT, lane, (1.0, 1.0, 1.0))
+
+
+@device
+def is_inner(packet: Packet, hit: int, lane: int, world: World) -> bool:
+    """Tell whether a ray meets a surface from within."""
+    row, slot = split_met(packet.view(np.int64)[MET + lane])
+    point, direction = load(packet, POINT, hit), load(packet, TOWARDS, hit)
+    surface = surface_at(world, load_group(world, row), slot, point, packet[ERROR_SCALE + hit])
+    outward = sub(point, surface.pole) if surface.is_round else surface.pole
+    return dot(outward, direction) > 0.0
+
+
+@device
+def push_from(
+    packet: Packet,
+    hit: int,
+    lane: int,
+    direction: Vec,
+    seen: Vec,
+    bounces: int,
+    sees_lights: bool,
+    forward: Vec,
+    pending: Pending,
+) -> None:
+    """Let a ray from a hit wait.
+
+    Parameters
+    ----------
+    packet, hit, lane
+        The hit, and its lane.
+    direction
+        The unit direction of the ray.
+    seen
+        How much of its light is seen.
+    bounces
+        How many surfaces are then between it and the camera.
+    sees_lights
+        Whether it sees lamps and skies; else their light was added at the hit.
+    forward
+        The unit direction in which the camera looks.
+    pending
+        Out: the ray.
+    """
+    error_scale = packet[ERROR_SCALE + hit]
+    ray = Ray(
+        load(packet, POINT, hit),
+        direction,
+        packet[PLANE_DEPTH + hit],
+        dot(direction, forward),
+        error_scale,
+        ROUNDING * error_scale,
+    )
+    push_ray(pending, lane, Waiting(ray, seen, bounces, sees_lights))
+
+
+@device
+def follow_rays(
+    packet: Packet,
+    lanes: int,
+    world: World,
+    lights: Lights,
+    surroundings: Surroundings,
+    pending: Pending,
+    most: int,
+    work: Workspace,
+) -> int:
+    """Let the next ray of each lane that meets a surface take the lane; return how many rays go.
+
+    The light of lamps that are met instead, or of skies, is added to that of the lane. What rays
+    meet after more than `most` surfaces is not followed.
+    """
+    numbers, cast = packet.view(np.int64), 0
+    for lane in range(lanes):
+        numbers[PRIMITIVE + lane] = NO_PRIMITIVE
+        while pending.waiting[lane] > 0 and numbers[PRIMITIVE + lane] == NO_PRIMITIVE:
+            ray, seen, bounces, sees_lights = pop_ray(pending, lane)
+            hit, cast = nearest_hit(world, ray, work.stack), cast + 1
+            lamp, distance = NOTHING, hit.distance
+            if sees_lights:
+                lamp, distance = nearest_lamp(ray, distance, lights.mirrored)
+            if lamp != NOTHING:
+                _gather(packet, lane, times(seen, lamp_light(lights, lamp)))
+            elif hit.primitive != NOTHING and bounces > most:
+                continue
+            elif hit.primitive != NOTHING:
+                packet[DISTANCE + lane] = distance
+                numbers[PRIMITIVE + lane] = hit.primitive
+                numbers[MET + lane] = join_met(hit.group, hit.slot)
+                numbers[BOUNCES + lane] = bounces
+                store(packet, THROUGHPUT, lane, seen)
+                _store_ray(packet, lane, ray)
+            else:
+                light = far_light(surroundings, ray.direction, sees_lights)
+                _gather(packet, lane, times(seen, light))
+    return cast
+
+
+@device
+def _gather(packet: Packet, lane: int, light: Vec) -> None:
+    """Add light to that of a lane."""
+    store(packet, GATHERED, lane, add(load(packet, GATHERED, lane), light))
+
+
+@device
+def _store_ray(packet: Packet, lane: int, ray: Ray) -> None:
+    """Set all that is known of a lane's ray."""
+    store(packet, ORIGIN, lane, ray.origin)
+    store(packet, DIRECTION, lane, ray.direction)
+    packet[FORWARD + lane] = ray.forward
+    packet[START_DEPTH + lane] = ray.plane_depth
+    packet[START_SCALE + lane] = ray.error_scale
+    packet[START_BOUND + lane] = ray.error_bound
+
+
+@device
+def end_bounces(packet: Packet, lanes: int) -> int:
+    """Make one hit of all that each lane sees; return how many there are."""
+    numbers, hits = packet.view(np.int64), 0
+    for lane in range(lanes):
+        packet[DISTANCE + lane] = packet[BEHIND_DISTANCE + lane]
+        numbers[PRIMITIVE + lane] = numbers[BEHIND + lane]
+        numbers[MET + lane] = numbers[BEHIND_MET + lane]
+        if numbers[BEHIND + lane] > NO_PRIMITIVE:
+            numbers[SOURCE + hits] = lane
+            store(packet, VALUE, hits, load(packet, GATHERED, lane))
+            packet[NOISE + hits] = packet[VARIANCE + lane]
+            hits += 1
+    return hits
+
+
+@device
+def times(one: Vec, other: Vec) -> Vec:
+    """Return the products of the parts of two vectors."""
+    return one[0] * other[0], one[1] * other[1], one[2] * other[2]
