@@ -174,8 +174,8 @@ class Acceleration:
         arrays += [array for placed in self.all_placed for array in placed.arrays]
         arrays += [array for columns in self.columns for array in columns]
         for one in (*self.shapes, *self.copied):
-            geometry, *rest = one.source
-            arrays += [*geometry, *(column for column in rest if column is not None)]
+            geometry, *rest, made = one.source
+            arrays += [*geometry, *(column for column in rest if column is not None), made.which]
         return sum(array.nbytes for array in arrays if array.base is None)
 
     def with_colors_of(self, objects: Sequence[Object]) -> "Acceleration":

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.capacity import MAX_NUMBERS
-from vtray.base.compiler.compiled import input_array
 from vtray.geometry.bvh.tree import Frame, no_bvh
 from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.vector import Vec
@@ -30,20 +29,20 @@ from vtray.rendering.joined import joined, rows_of
 from vtray.rendering.pack_bodies import pack_bodies
 from vtray.rendering.pack_lights import pack_lights, points_of
 from vtray.rendering.pack_skies import up_of
-from vtray.rendering.pack_surroundings import is_even, pack_surroundings
+from vtray.rendering.pack_looks import made_of, pack_looks
+from vtray.rendering.pack_surroundings import is_even
 from vtray.rendering.placed import Placed
 from vtray.rendering.rooms import Rooms
-from vtray.rendering.shape_kinds import look_numbers
 from vtray.scene.colors.color_light import light_of, light_of_numbers
 from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.light_types import Lamp, Light, RectangleLight, SphereLight
 from vtray.scene.objects import Object
+from vtray.scene.materials import material_of
 from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.scene import Camera, Plane, Scene
 from vtray.scene.style import Style
 from vtray.transport.camera_rays import CameraFrame
-from vtray.transport.materials.look import MATT, Looks
 from vtray.transport.materials.material import Materials
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -93,7 +92,7 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
     camera = _pack_camera(scene.camera, unit)
     origin = points_of([scene.camera.center], unit)[0]
     x, y, z = map(float, origin)
-    materials = _pack_materials(kept, planes, scene)
+    materials = _pack_materials(kept, planes, unit, scene)
     has_looks, lights = materials.looks is not None, scene.lights
     if scene.render.integrator == "path":
         lights = [light for light in lights if not is_even(light)]
@@ -390,7 +389,9 @@ def _pack_to_boxes(frame: Frame, origin: Vec, unit: float) -> ToBoxes:
     return ToBoxes(ratio, (x * ratio - a, y * ratio - b, z * ratio - c), 0.0)
 
 
-def _pack_materials(kept: Acceleration, planes: list[Plane], scene: Scene) -> Materials:
+def _pack_materials(
+    kept: Acceleration, planes: list[Plane], unit: float, scene: Scene
+) -> Materials:
     """Return the materials of all primitives, by ranges of their numbers."""
     sources = [shapes.source for shapes in (*kept.shapes, *kept.copied)]
     colors = [source.color for source in sources]
@@ -408,13 +409,8 @@ def _pack_materials(kept: Acceleration, planes: list[Plane], scene: Scene) -> Ma
     ranges = kept.ranges
     k = np.where(ranges.copied < 0, ranges.kind, len(kept.shapes) + ranges.copied)
     k, begin = np.append(k, len(sources)), np.append(ranges.begin, 0)
-    looks = [source.look for source in sources]
-    flat = [look_numbers(plane.material) for plane in planes]
-    looks.append(np.array(flat, np.float64).reshape(-1, 2))
-    look_row, look_step = rows_of(looks)
-    numbers, tonemap = joined(looks, np.float64), scene.render.tonemap
-    integrator, is_matt = scene.render.integrator, not (numbers[:, 0] != MATT).any()
-    is_followed = integrator == "path" or (integrator == "whitted" and not is_matt)
+    made = [source.made for source in sources]
+    made.append(made_of(material_of(plane.material) for plane in planes))
     return Materials(
         np.append(ranges.first, kept.count),
         np.append(ranges.each, MAX_NUMBERS),
@@ -425,18 +421,10 @@ def _pack_materials(kept: Acceleration, planes: list[Plane], scene: Scene) -> Ma
         lambert_row[k] + begin * lambert_step[k],
         lambert_step[k],
         joined([*colors, *ends], np.uint8),
-        light_of_numbers(tonemap),
+        light_of_numbers(scene.render.tonemap),
         joined(lamberts, np.float64),
-        _cap_color(kept.rooms, tonemap),
-        Looks(
-            look_row[k] + begin * look_step[k],
-            look_step[k],
-            input_array(numbers[:, 0], np.int64),
-            input_array(numbers[:, 1], np.float64),
-            pack_surroundings(scene),
-        )
-        if is_followed
-        else None,
+        _cap_color(kept.rooms, scene.render.tonemap),
+        pack_looks(made, k, begin, unit, scene),
     )
 
 

@@ -14,13 +14,13 @@ from vtray.geometry.shapes.cone_columns import GivenCones
 from vtray.geometry.shapes.cylinder_columns import GivenCylinders
 from vtray.geometry.shapes.sphere_columns import GivenSpheres
 from vtray.geometry.world import CONE, CYLINDER, SPHERE
+from vtray.rendering.pack_looks import MadeOf, joined_made, made_of
 from vtray.scene.arrays import Arrays
 from vtray.scene.cones import Cones
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.materials import Glass, Material, MaterialName, Mirror, material_of
+from vtray.scene.materials import material_of
 from vtray.scene.objects import Cone, Cylinder, Object, Sphere
 from vtray.scene.spheres import Spheres
-from vtray.transport.materials.look import GLASS, MATT, MIRROR
 
 
 class Given(Primitives, Protocol):
@@ -43,9 +43,8 @@ class Source(NamedTuple):
         Those of second halves, likewise; None if they are as the first.
     lambert, opacity
         (n,), or (1,).
-    look
-        What they are made of: a kind of `vtray.transport.materials.look`, and an index of
-        refraction, (n, 2), or (1, 2).
+    made
+        What they are made of.
     """
 
     geometry: tuple[NDArray[Any], ...]
@@ -53,7 +52,7 @@ class Source(NamedTuple):
     color_end: NDArray[np.uint8] | None
     lambert: NDArray[np.float64]
     opacity: NDArray[np.float64]
-    look: NDArray[np.float64]
+    made: MadeOf
 
 
 @dataclass(frozen=True)
@@ -134,8 +133,8 @@ def _from_objects(kind: Kind, items: list[Any]) -> Source:
     )
     color = np.stack([column(f"color.{channel}") for channel in "rgb"], axis=1).astype(np.uint8)
     geometry = (*points, *map(column, kind.radii))
-    looks = np.array([look_numbers(item.material) for item in items], np.float64).reshape(-1, 2)
-    return Source(geometry, color, None, column("lambert"), column("opacity"), _shared(looks))
+    made = made_of(material_of(item.material) for item in items)
+    return Source(geometry, color, None, column("lambert"), column("opacity"), made)
 
 
 def _from_arrays(kind: Kind, item: Any) -> Source:  # noqa: ANN401
@@ -150,21 +149,8 @@ def _from_arrays(kind: Kind, item: Any) -> Source:  # noqa: ANN401
         None if end is None else _row_by_row(np.atleast_2d(end)),
         _row_by_row(np.atleast_1d(item.lambert), np.float64),
         _row_by_row(np.atleast_1d(item.given_for("opacity")), np.float64),
-        np.array([look_numbers("lambert")]),
+        made_of([material_of("lambert")]),
     )
-
-
-def look_numbers(given: Material | MaterialName) -> tuple[float, float]:
-    """Return the kind of a material and its index of refraction, as in `Source`."""
-    material = material_of(given)
-    if isinstance(material, Glass):
-        return GLASS, material.ior
-    return (MIRROR if isinstance(material, Mirror) else MATT), 1.0
-
-
-def _shared(looks: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return one row for all where all are the same."""
-    return looks[:1] if len(looks) and (looks == looks[0]).all() else looks
 
 
 def _row_by_row(values: Any, dtype: type[np.generic] | None = None) -> NDArray[Any]:  # noqa: ANN401
@@ -185,7 +171,7 @@ def _join(parts: list[Source]) -> Source:
         None if all(part.color_end is None for part in parts) else _in_one(ends, counts, np.uint8),
         _in_one([part.lambert for part in parts], counts, np.float64),
         _in_one([part.opacity for part in parts], counts, np.float64),
-        _in_one([part.look for part in parts], counts, np.float64),
+        joined_made([part.made for part in parts], counts),
     )
 
 

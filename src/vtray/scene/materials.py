@@ -5,9 +5,11 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 from msgspec import Meta
 
 from vtray.scene.checks.checked import Frozen
+from vtray.scene.checks.limits import NonNegative
+from vtray.scene.metals import MetalName
 
 Index = Annotated[float, Meta(ge=0.1, le=10, description="a number from 0.1 to 10")]
-MaterialName = Literal["lambert", "mirror", "glass"]
+MaterialName = Literal["lambert", "mirror", "glass", "metal", "emissive"]
 
 
 class Lambert(Frozen, frozen=True, gc=False, tag_field="type", tag="lambert"):
@@ -31,18 +33,65 @@ class Glass(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type",
     ----------
     ior : float
         Its index of refraction, from 0.1 to 10, that of what is around it being 1; 1.5 by default.
+    absorption : tuple of float
+        How much of red, green and blue light it absorbs per scene unit, each ≥ 0: of light that
+        goes so far through it that much times the length is 1, 1/e is left (Beer's law). 0 by
+        default.
     """
 
     ior: Index = 1.5
+    absorption: tuple[NonNegative, NonNegative, NonNegative] = (0.0, 0.0, 0.0)
 
     if TYPE_CHECKING:
 
-        def __init__(self, ior: float = 1.5) -> None: ...
+        def __init__(
+            self, ior: float = 1.5, absorption: tuple[float, float, float] = (0.0, 0.0, 0.0)
+        ) -> None: ...
 
 
-Material: TypeAlias = Lambert | Mirror | Glass
+class Metal(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type", tag="metal"):
+    """A smooth metal, which mirrors more at grazing angles.
 
-_BY_NAME: dict[str, Material] = {"lambert": Lambert(), "mirror": Mirror(), "glass": Glass()}
+    Attributes
+    ----------
+    name : str, optional
+        Which metal, by measured indices of refraction; its light is then tinted by the colour of
+        the object. Without a name, that is what the metal mirrors of light that falls squarely.
+    """
+
+    name: MetalName | None = None
+
+    if TYPE_CHECKING:
+
+        def __init__(self, name: MetalName | None = None) -> None: ...
+
+
+class Emissive(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type", tag="emissive"):
+    """A surface that shines in the colour of the object, and neither scatters nor mirrors light.
+
+    Attributes
+    ----------
+    radiance : float
+        How bright it is, ≥ 0: at 1, the default, it looks as bright as a white surface that a light
+        of intensity 1 shines on squarely.
+    """
+
+    radiance: NonNegative = 1.0
+
+    if TYPE_CHECKING:
+
+        def __init__(self, radiance: float = 1.0) -> None: ...
+
+
+Material: TypeAlias = Lambert | Mirror | Glass | Metal | Emissive
+
+_BY_NAME: dict[str, Material] = {
+    "lambert": Lambert(),
+    "mirror": Mirror(),
+    "glass": Glass(),
+    "metal": Metal(),
+    "emissive": Emissive(),
+}
 
 
 def material_of(given: Material | MaterialName) -> Material:

@@ -70,6 +70,8 @@ THROUGHPUT = _fields.vector()
 """How much of the light along the ray is seen, where rays are followed over surfaces."""
 BOUNCES = _fields.scalar()
 """Integer: how many surfaces lie between the ray and the camera."""
+WITHIN = _fields.scalar()
+"""Integer: the row of the material within which the ray goes, -1 for none."""
 
 # What they meet, by the same lanes.
 DISTANCE = _fields.scalar()

@@ -10,7 +10,7 @@ from vtray.geometry.packets.packet import LANES
 from vtray.geometry.ray import Ray
 from vtray.geometry.vector import Vec
 
-NUMBERS = 15
+NUMBERS = 16
 """Numbers of a ray that waits: those of the ray, and what `Waiting` says of it."""
 
 
@@ -27,12 +27,15 @@ class Waiting(NamedTuple):
         How many surfaces lie between it and the camera.
     sees_lights
         Whether it sees lamps and skies; else their light was added where it comes from.
+    within
+        The row of the material within which it goes, -1 for none.
     """
 
     ray: Ray
     seen: Vec
     bounces: int
     sees_lights: bool
+    within: int
 
 
 class Pending(NamedTuple):
@@ -85,6 +88,7 @@ def push_ray(pending: Pending, lane: int, waiting: Waiting) -> None:
     numbers[begin + 12] = ray.error_bound
     numbers[begin + 13] = waiting.bounces
     numbers[begin + 14] = 1.0 if waiting.sees_lights else 0.0
+    numbers[begin + 15] = waiting.within
     pending.waiting[lane] += 1
 
 
@@ -103,4 +107,5 @@ def pop_ray(pending: Pending, lane: int) -> Waiting:
         numbers[begin + 12],
     )
     seen = numbers[begin + 6], numbers[begin + 7], numbers[begin + 8]
-    return Waiting(ray, seen, int(numbers[begin + 13]), numbers[begin + 14] != 0.0)
+    bounces, within = int(numbers[begin + 13]), int(numbers[begin + 15])
+    return Waiting(ray, seen, bounces, numbers[begin + 14] != 0.0, within)

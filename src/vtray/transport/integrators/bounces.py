@@ -35,6 +35,7 @@ from vtray.geometry.packets.packet import (
     TOWARDS,
     VALUE,
     VARIANCE,
+    WITHIN,
     Packet,
     Sheaf,
     join_met,
@@ -47,15 +48,25 @@ from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.queries import NOTHING, nearest_hit
 from vtray.geometry.ray import Ray
 from vtray.geometry.rounding import ROUNDING
-from vtray.geometry.vector import Vec, add, dot, sub
+from vtray.geometry.vector import Vec, add, dot, scale, sub
 from vtray.geometry.world import World, load_group
 from vtray.transport.integrators.lamps import nearest_lamp
 from vtray.transport.interaction import surface_at
 from vtray.transport.lights.light import Lights, lamp_light
-from vtray.transport.materials.look import MATT, Looks
+from vtray.transport.materials.absorption import transmitted
+from vtray.transport.materials.conductor import conductor_shares
+from vtray.transport.materials.look import (
+    EMPTY,
+    MATT,
+    METAL,
+    Look,
+    Looks,
+    first_number,
+    three_numbers,
+)
 from vtray.transport.materials.material import Materials, load_look
 from vtray.transport.sampling.paths import Paths
-from vtray.transport.surroundings import Surroundings, far_light
+from vtray.transport.surroundings import far_light
 
 
 @device
@@ -97,19 +108,46 @@ def begin_bounces(packet: Packet, lanes: int, pending: Pending) -> None:
         numbers[BEHIND + lane] = numbers[PRIMITIVE + lane]
         numbers[BEHIND_MET + lane] = numbers[MET + lane]
         packet[VARIANCE + lane] = 0.0
-        numbers[BOUNCES + lane] = 0
+        numbers[BOUNCES + lane], numbers[WITHIN + lane] = 0, EMPTY
         store(packet, GATHERED, lane, (0.0, 0.0, 0.0))
         store(packet, THROUGHPUT, lane, (1.0, 1.0, 1.0))
 
 
 @device
-def is_inner(packet: Packet, hit: int, lane: int, world: World) -> bool:
+def comes_from_within(packet: Packet, hit: int, lane: int, world: World) -> bool:
     """Tell whether a ray meets a surface from within."""
     row, slot = split_met(packet.view(np.int64)[MET + lane])
     point, direction = load(packet, POINT, hit), load(packet, TOWARDS, hit)
     surface = surface_at(world, load_group(world, row), slot, point, packet[ERROR_SCALE + hit])
     outward = sub(point, surface.pole) if surface.is_round else surface.pole
     return dot(outward, direction) > 0.0
+
+
+@device
+def mirrored_share(looks: Looks, look: Look, cosine: float, seen: Vec, tinted: Vec) -> Vec:
+    """Return how much is seen of the light that a mirror or a metal reflects.
+
+    Parameters
+    ----------
+    looks, look
+        What the surface is made of.
+    cosine
+        That of the angle between the ray and the normal.
+    seen, tinted
+        How much is seen of light from the surface, and that times its colour.
+    """
+    if look.kind != METAL:
+        return tinted
+    n, k = three_numbers(looks, look.row, 0), three_numbers(looks, look.row, 3)
+    if n[0] > 0.0:
+        return times(tinted, conductor_shares(cosine, n, k))
+    return tinted
+
+
+@device
+def shine(packet: Packet, lane: int, looks: Looks, look: Look, tinted: Vec) -> None:
+    """Add the light of what shines to that of a lane; `tinted` is as for `mirrored_share`."""
+    gather_at(packet, lane, scale(255.0 * first_number(looks, look), tinted))
 
 
 @device
@@ -121,6 +159,7 @@ def push_from(
     seen: Vec,
     bounces: int,
     sees_lights: bool,
+    within: int,
     forward: Vec,
     pending: Pending,
 ) -> None:
@@ -138,6 +177,8 @@ def push_from(
         How many surfaces are then between it and the camera.
     sees_lights
         Whether it sees lamps and skies; else their light was added at the hit.
+    within
+        The row of the material within which it goes, ``EMPTY`` for none.
     forward
         The unit direction in which the camera looks.
     pending
@@ -152,7 +193,7 @@ def push_from(
         error_scale,
         ROUNDING * error_scale,
     )
-    push_ray(pending, lane, Waiting(ray, seen, bounces, sees_lights))
+    push_ray(pending, lane, Waiting(ray, seen, bounces, sees_lights, within))
 
 
 @device
@@ -161,7 +202,7 @@ def follow_rays(
     lanes: int,
     world: World,
     lights: Lights,
-    surroundings: Surroundings,
+    looks: Looks,
     pending: Pending,
     most: int,
     work: Workspace,
@@ -175,30 +216,32 @@ def follow_rays(
     for lane in range(lanes):
         numbers[PRIMITIVE + lane] = NO_PRIMITIVE
         while pending.waiting[lane] > 0 and numbers[PRIMITIVE + lane] == NO_PRIMITIVE:
-            ray, seen, bounces, sees_lights = pop_ray(pending, lane)
+            ray, seen, bounces, sees_lights, within = pop_ray(pending, lane)
             hit, cast = nearest_hit(world, ray, work.stack), cast + 1
             lamp, distance = NOTHING, hit.distance
             if sees_lights:
                 lamp, distance = nearest_lamp(ray, distance, lights.mirrored)
+            if within != EMPTY:
+                seen = times(seen, transmitted(three_numbers(looks, within, 1), distance))
             if lamp != NOTHING:
-                _gather(packet, lane, times(seen, lamp_light(lights, lamp)))
+                gather_at(packet, lane, times(seen, lamp_light(lights, lamp)))
             elif hit.primitive != NOTHING and bounces > most:
                 continue
             elif hit.primitive != NOTHING:
                 packet[DISTANCE + lane] = distance
                 numbers[PRIMITIVE + lane] = hit.primitive
                 numbers[MET + lane] = join_met(hit.group, hit.slot)
-                numbers[BOUNCES + lane] = bounces
+                numbers[BOUNCES + lane], numbers[WITHIN + lane] = bounces, within
                 store(packet, THROUGHPUT, lane, seen)
                 _store_ray(packet, lane, ray)
             else:
-                light = far_light(surroundings, ray.direction, sees_lights)
-                _gather(packet, lane, times(seen, light))
+                light = far_light(looks.surroundings, ray.direction, sees_lights)
+                gather_at(packet, lane, times(seen, light))
     return cast
 
 
 @device
-def _gather(packet: Packet, lane: int, light: Vec) -> None:
+def gather_at(packet: Packet, lane: int, light: Vec) -> None:
     """Add light to that of a lane."""
     store(packet, GATHERED, lane, add(load(packet, GATHERED, lane), light))
 

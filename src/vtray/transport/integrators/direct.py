@@ -386,7 +386,7 @@ def _light_bounces(
         )
         gather_light(packet, hits)
         cast += follow_rays(
-            packet, lanes, world, scene.lights, looks.surroundings, pending, scene.bounces, work
+            packet, lanes, world, scene.lights, looks, pending, scene.bounces, work
         )
         hits = gather_interactions(
             packet,

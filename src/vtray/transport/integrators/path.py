@@ -26,6 +26,7 @@ from vtray.geometry.packets.packet import (
     SOURCE,
     THROUGHPUT,
     TOWARDS,
+    WITHIN,
     Block,
     Packet,
     load,
@@ -33,11 +34,17 @@ from vtray.geometry.packets.packet import (
 )
 from vtray.geometry.packets.pending import Pending
 from vtray.geometry.packets.workspace import Pixels
-from vtray.geometry.vector import Vec, scale
+from vtray.geometry.vector import Vec, dot, scale
 from vtray.geometry.world import World
-from vtray.transport.integrators.bounces import is_inner, push_from, times
+from vtray.transport.integrators.bounces import (
+    comes_from_within,
+    mirrored_share,
+    push_from,
+    shine,
+    times,
+)
 from vtray.transport.integrators.soft import sample_of
-from vtray.transport.materials.look import GLASS, MATT, Looks
+from vtray.transport.materials.look import EMISSIVE, EMPTY, GLASS, MATT, Looks, first_number
 from vtray.transport.materials.material import Materials, load_look
 from vtray.transport.materials.optics import mirrored, split_at
 from vtray.transport.sampling.paths import CHOICE, WAY, Paths, path_point
@@ -94,7 +101,10 @@ def scatter_hits(
         tinted = times(seen, scale(1.0 / 255.0, color))
         is_matt = look.kind == MATT
         store(packet, COLOR, hit, times(seen, color) if is_matt else (0.0, 0.0, 0.0))
-        step = numbers[BOUNCES + lane]
+        if look.kind == EMISSIVE:
+            shine(packet, lane, looks, look, tinted)
+            continue
+        step, within = numbers[BOUNCES + lane], numbers[WITHIN + lane]
         # After the last surface that is lit, a ray only looks for the light from everywhere.
         if step > most or (step == most and not (is_matt and looks_far)):
             continue
@@ -105,17 +115,23 @@ def scatter_hits(
             u, v = path_point(paths, WAY, column, row, sample, step, seed)
             way, seen = cosine_direction(u, v, normal), scale(packet[LAMBERT + hit], tinted)
         elif look.kind == GLASS:
-            ratio = 1.0 / look.ior if is_inner(packet, hit, lane, world) else look.ior
-            split = split_at(direction, normal, ratio)
+            is_inner = comes_from_within(packet, hit, lane, world)
+            ior = first_number(looks, look)
+            split = split_at(direction, normal, 1.0 / ior if is_inner else ior)
             is_mirrored = chance < split.reflected
             way = mirrored(direction, normal) if is_mirrored else split.refracted
             seen = seen if is_mirrored else tinted
+            beyond = EMPTY if is_inner else look.row
+            within = within if is_mirrored else beyond
         else:
-            way, seen = mirrored(direction, normal), tinted
+            way = mirrored(direction, normal)
+            seen = mirrored_share(looks, look, -dot(direction, normal), seen, tinted)
         goes_on = _chance_to_go_on(seen, step)
         if survival < goes_on:
-            seen = scale(1.0 / goes_on, seen)
-            push_from(packet, hit, lane, way, seen, step + 1, not is_matt, forward, pending)
+            seen, sees_lights = scale(1.0 / goes_on, seen), not is_matt
+            push_from(
+                packet, hit, lane, way, seen, step + 1, sees_lights, within, forward, pending
+            )
 
 
 @device

@@ -20,15 +20,22 @@ from vtray.geometry.packets.packet import (
     SOURCE,
     THROUGHPUT,
     TOWARDS,
+    WITHIN,
     Packet,
     load,
     store,
 )
 from vtray.geometry.packets.pending import Pending
-from vtray.geometry.vector import Vec, scale
+from vtray.geometry.vector import Vec, dot, scale
 from vtray.geometry.world import World
-from vtray.transport.integrators.bounces import is_inner, push_from, times
-from vtray.transport.materials.look import GLASS, MATT, MIRROR, Looks
+from vtray.transport.integrators.bounces import (
+    comes_from_within,
+    mirrored_share,
+    push_from,
+    shine,
+    times,
+)
+from vtray.transport.materials.look import EMISSIVE, EMPTY, GLASS, MATT, Looks, first_number
 from vtray.transport.materials.material import Materials, load_look
 from vtray.transport.materials.optics import mirrored, split_at
 
@@ -69,25 +76,27 @@ def split_hits(
         look = load_look(materials, looks, numbers[PRIMITIVE + lane])
         seen, color = load(packet, THROUGHPUT, lane), load(packet, COLOR, hit)
         packet[NOISE + hit] = 0.0
-        if look.kind == MATT:
-            store(packet, COLOR, hit, times(seen, color))
-            continue
-        store(packet, COLOR, hit, (0.0, 0.0, 0.0))
-        bounces = numbers[BOUNCES + lane] + 1
-        if bounces > most:
-            continue
+        is_matt = look.kind == MATT
+        store(packet, COLOR, hit, times(seen, color) if is_matt else (0.0, 0.0, 0.0))
         tinted = times(seen, scale(1.0 / 255.0, color))
+        if look.kind == EMISSIVE:
+            shine(packet, lane, looks, look, tinted)
+        bounces, within = numbers[BOUNCES + lane] + 1, numbers[WITHIN + lane]
+        if is_matt or look.kind == EMISSIVE or bounces > most:
+            continue
         direction, normal = load(packet, TOWARDS, hit), load(packet, NORMAL, hit)
-        if look.kind == MIRROR:
-            way = mirrored(direction, normal)
-            _push(packet, hit, lane, way, tinted, bounces, forward, pending)
         if look.kind == GLASS:
-            ratio = 1.0 / look.ior if is_inner(packet, hit, lane, world) else look.ior
-            split = split_at(direction, normal, ratio)
-            way, share = mirrored(direction, normal), split.reflected
-            _push(packet, hit, lane, way, scale(share, seen), bounces, forward, pending)
-            passed = scale(1.0 - share, tinted)
-            _push(packet, hit, lane, split.refracted, passed, bounces, forward, pending)
+            is_inner = comes_from_within(packet, hit, lane, world)
+            ior = first_number(looks, look)
+            split = split_at(direction, normal, 1.0 / ior if is_inner else ior)
+            way, share = mirrored(direction, normal), scale(split.reflected, seen)
+            passed, beyond = scale(1.0 - split.reflected, tinted), EMPTY if is_inner else look.row
+            _push(packet, hit, lane, way, share, bounces, within, forward, pending)
+            _push(packet, hit, lane, split.refracted, passed, bounces, beyond, forward, pending)
+        else:
+            share = mirrored_share(looks, look, -dot(direction, normal), seen, tinted)
+            way = mirrored(direction, normal)
+            _push(packet, hit, lane, way, share, bounces, within, forward, pending)
 
 
 @device
@@ -98,9 +107,10 @@ def _push(
     direction: Vec,
     seen: Vec,
     bounces: int,
+    within: int,
     forward: Vec,
     pending: Pending,
 ) -> None:
     """Let a ray from a hit wait, if enough of it would be seen; see `push_from`."""
     if max(seen[0], seen[1], seen[2]) >= LEAST:
-        push_from(packet, hit, lane, direction, seen, bounces, True, forward, pending)
+        push_from(packet, hit, lane, direction, seen, bounces, True, within, forward, pending)
