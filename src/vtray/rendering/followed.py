@@ -1,4 +1,4 @@
-"""Mirrors and glass: who shows them, and what does not go with them yet."""
+"""Light over many surfaces: who shows it, and what does not go with it."""
 
 from collections.abc import Iterator, Sequence
 
@@ -7,6 +7,7 @@ from vtray.rendering.acceleration import Acceleration
 from vtray.scene.copies import Copies
 from vtray.scene.materials import Lambert, material_of
 from vtray.scene.objects import Object
+from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 
 
@@ -33,6 +34,22 @@ def check_followed(kept: Acceleration, settings: RenderSettings, *, keep_lights:
         message = (
             f'opacity: not between 0 and 1 with integrator="{settings.integrator}", which does not '
             'show what fades; give material="glass" instead, or integrator="direct"'
+        )
+        raise RenderError(message)
+
+
+def shines(scene: Scene) -> bool:
+    """Tell whether any object of a scene shines, and is shown so."""
+    return scene.render.integrator != "direct" and "emissive" in _names(scene.objects)
+
+
+def check_told(objects: Sequence[Object], settings: RenderSettings, caller: str) -> None:
+    """Raise RenderError if the rays of a pixel cannot be told, as they go on from surfaces."""
+    is_matt = next(_names(objects), None) is None
+    if settings.integrator == "path" or (settings.integrator == "whitted" and not is_matt):
+        message = (
+            f'{caller}: rays that go on from surfaces are not told; give integrator="direct", got '
+            f'"{settings.integrator}"'
         )
         raise RenderError(message)
 

@@ -13,6 +13,7 @@ from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, scale
 from vtray.image.white import known_white
 from vtray.rendering.fog import ball_around, fitted
+from vtray.rendering.followed import check_told
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.numbering import number_objects
 from vtray.rendering.pack import Packed, pack
@@ -49,7 +50,7 @@ def trace_pixel(scene: "Scene | Image", x: SupportsIndex, y: SupportsIndex) -> R
     Raises
     ------
     RenderError
-        There is no such pixel.
+        There is no such pixel; or the integrator follows rays over surfaces.
     SceneError
         The scene is not valid.
 
@@ -80,11 +81,12 @@ def trace_rays(
         message = f"{caller}: expected 0,0 to {width - 1},{height - 1}, got {column},{row}"
         raise RenderError(message)
     settings = settings_of(scene) if image is None else image.settings
+    check_told(scene.objects, settings, caller)
     style = (
         fitted(scene.style, camera, lambda: ball_around(scene)) if image is None else image.style
     )
     kept = accelerate(scene, style=style)  # which the given scene may have already
-    render = scene.render.replace(tonemap=settings.tonemap)
+    render = scene.render.replace(tonemap=settings.tonemap, integrator="direct")
     scene = Scene(camera, lights_of(scene), list(scene.objects), render, style)
     packed, numbering = styled(pack(scene, kept), style), number_objects(scene.objects)
     noise = _noise(packed, settings) if image is None else image.noise

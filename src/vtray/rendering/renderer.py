@@ -28,7 +28,7 @@ from vtray.rendering.darkroom import Darkroom
 from vtray.rendering.denoising import Denoising
 from vtray.rendering.drawing import Drawing
 from vtray.rendering.fog import ball_around, fitted
-from vtray.rendering.followed import check_followed, matt_instead
+from vtray.rendering.followed import check_followed, matt_instead, shines
 from vtray.rendering.growth import Growth
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
@@ -307,7 +307,7 @@ def _growth(
 def _darkness(scene: Scene, *, keep_lights: bool) -> str:
     """Say why all that is seen is black, if that is known before; "" if it is not."""
     seen = [item for item in scene.objects if not isinstance(item, Stars)]
-    if not seen or any(strength_of(light) > 0 for light in scene.lights):
+    if not seen or any(strength_of(light) > 0 for light in scene.lights) or shines(scene):
         return ""
     if not scene.lights:
         remedy = "add one by scene.add_light, or some of vtray.lights; in a file, under that key"
