@@ -1,16 +1,50 @@
-"""stub"""
+"""How much light a smooth metal mirrors, in nothing but + - * / and roots."""
+
 import math
+
 from vtray.base.compiler.compiled import device
+from vtray.geometry.vector import Vec
+
+
 @device
-def _f(c, n, k):
-    c=min(max(c,0.0),1.0)
-    c2=c*c; s2=1-c2; e2=n*n; k2=k*k
-    t0=e2-k2-s2; a2b2=math.sqrt(t0*t0+4*e2*k2); t1=a2b2+c2
-    a=math.sqrt(max(0.5*(a2b2+t0),0.0)); t2=2*c*a
-    rs=(t1-t2)/(t1+t2)
-    t3=c2*a2b2+s2*s2; t4=t2*s2
-    rp=rs*(t3-t4)/(t3+t4)
-    return 0.5*(rs+rp)
+def conductor_shares(cosine: float, indices: Vec, extinctions: Vec) -> Vec:
+    """Return the shares of unpolarised red, green and blue light that a metal mirrors, 0 to 1.
+
+    Parameters
+    ----------
+    cosine
+        That of the angle between the light and the normal, from 0 to 1; rounding may take it
+        beyond.
+    indices, extinctions
+        The real and the imaginary parts of the metal's indices of refraction, relative to what is
+        around it; the first > 0, the second ≥ 0.
+    """
+    inside = min(max(cosine, 0.0), 1.0)
+    return (
+        conductor_share(inside, indices[0], extinctions[0]),
+        conductor_share(inside, indices[1], extinctions[1]),
+        conductor_share(inside, indices[2], extinctions[2]),
+    )
+
+
 @device
-def conductor_shares(cosine, n, k):
-    return _f(cosine,n[0],k[0]),_f(cosine,n[1],k[1]),_f(cosine,n[2],k[2])
+def conductor_share(cosine: float, index: float, extinction: float) -> float:
+    """Return the share of light that a metal mirrors; the parameters are those of one channel.
+
+    References
+    ----------
+    Fresnel's equations for a complex index n + ik, as in Born and Wolf, "Principles of Optics",
+    14.4, with a + ib for the root of (n + ik)**2 - sin(angle)**2.
+    """
+    cosine2 = cosine * cosine
+    sine2 = 1.0 - cosine2
+    real = index * index - extinction * extinction - sine2
+    imaginary = 2.0 * index * extinction
+    # The square of the length of a + ib.
+    length2 = math.sqrt(real * real + imaginary * imaginary)
+    a2 = max(0.5 * (length2 + real), 0.0)
+    mixed = 2.0 * math.sqrt(a2) * cosine
+    across = (length2 - mixed + cosine2) / (length2 + mixed + cosine2)
+    flat = cosine2 * length2 + sine2 * sine2
+    along = (flat - mixed * sine2) / (flat + mixed * sine2)
+    return 0.5 * across * (1.0 + along)
