@@ -221,6 +221,8 @@ def test_settings_of_the_picture_reach_the_render(
             "denoise": False,
             "stops": 0.0,
             "tonemap": "linear",
+            "integrator": "direct",
+            "depth": 8,
             **msgspec.structs.asdict(vtray.Style()),
         }
     ]

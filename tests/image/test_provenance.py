@@ -30,6 +30,8 @@ SETTINGS = {
     "denoise": True,
     "stops": 1.25,
     "tonemap": "filmic",
+    "integrator": "whitted",
+    "depth": 3,
 }
 
 

@@ -7,7 +7,7 @@ import pytest
 from oracle_whitted import Ball, Floor, View, seen
 
 import vtray
-from vtray.scene.materials import Glass, Material
+from vtray.scene.materials import AnyMaterial, Glass
 
 A = np.array
 
@@ -34,7 +34,7 @@ def expected(scene: vtray.Scene, depth: int) -> Any:
     def vector(found: Any) -> Any:
         return A([found.x, found.y, found.z])
 
-    def look(material: Material | str) -> tuple[str, float]:
+    def look(material: AnyMaterial) -> tuple[str, float]:
         if isinstance(material, Glass):
             return "glass", material.ior
         return ("matt" if material == "lambert" else str(material)), 1.5
@@ -118,9 +118,9 @@ def test_what_does_not_go_together() -> None:
 @pytest.mark.parametrize(
     ("kind", "value", "message"),
     [
-        ("material", "gold", "expected an object"),
-        ("material", 3, "expected an object"),
-        ("material", None, "expected an object"),
+        ("material", "gold", "expected a material: lambert, mirror, glass"),
+        ("material", 3, "expected a material: lambert, mirror, glass"),
+        ("material", None, "expected a material: lambert, mirror, glass"),
     ],
 )
 def test_wrong_materials(kind: str, value: Any, message: str) -> None:

@@ -161,13 +161,13 @@ def test_bad_values(place: str, value: object, problem: str) -> None:
             "render",
             3,
             "expected an object with the keys samples, filter, seed, size, exposure, "
-            "background, tolerance, denoise, stops and tonemap, got 3",
+            "background, tolerance, denoise, stops, tonemap, integrator and depth, got 3",
         ),
         (
             "render",
             None,
             "expected an object with the keys samples, filter, seed, size, exposure, "
-            "background, tolerance, denoise, stops and tonemap, got null",
+            "background, tolerance, denoise, stops, tonemap, integrator and depth, got null",
         ),
         ("render.size[1]", 0, "expected an integer from 1 to 2147483647, got 0"),
         ("render.background.g", 256, "expected an integer from 0 to 255, got 256"),

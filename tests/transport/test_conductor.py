@@ -9,7 +9,11 @@ from hypothesis import strategies as st
 
 from vtray.base.compiler.compiled import uncompiled
 from vtray.scene.metals import METALS
-from vtray.transport.materials.conductor import conductor_share, conductor_shares
+from vtray.transport.materials.conductor import (
+    conductor_share,
+    conductor_shares,
+    grazing_shares,
+)
 from vtray.transport.materials.optics import split_at
 
 
@@ -46,10 +50,17 @@ def test_all_is_mirrored_along_the_surface() -> None:
 
 def test_gold_is_golden_and_copper_red() -> None:
     red, green, blue = uncompiled(conductor_shares)(1.0, *METALS["gold"])
-    assert red > 0.9 > green > 0.6 > 0.5 > blue > 0.3
+    assert red > 0.9 > green > 0.6 > blue > 0.3
     red, green, blue = uncompiled(conductor_shares)(1.0, *METALS["copper"])
     assert red > 0.85 > green > blue > 0.4
     assert min(uncompiled(conductor_shares)(1.0, *METALS["silver"])) > 0.88
+
+
+def test_colored_metals_are_white_along_the_surface() -> None:
+    shares = uncompiled(grazing_shares)
+    assert shares(1.0, (0.9, 0.5, 0.1), (1.0, 1.0, 1.0)) == (0.9, 0.5, 0.1)
+    assert shares(0.0, (0.9, 0.5, 0.1), (1.0, 1.0, 1.0)) == pytest.approx((1, 1, 1))
+    assert shares(0.5, (0.5, 0.5, 0.0), (1.0, 0.5, 0.0)) == (0.515625, 0.5, 0.0)
 
 
 # What whole spectra give, in linear sRGB under D65, by the observer of Wyman, Sloan and Shirley

@@ -28,16 +28,16 @@ from vtray.rendering.acceleration import Acceleration, Shapes, used_places
 from vtray.rendering.joined import joined, rows_of
 from vtray.rendering.pack_bodies import pack_bodies
 from vtray.rendering.pack_lights import pack_lights, points_of
-from vtray.rendering.pack_skies import up_of
 from vtray.rendering.pack_looks import made_of, pack_looks
+from vtray.rendering.pack_skies import up_of
 from vtray.rendering.pack_surroundings import is_even
 from vtray.rendering.placed import Placed
 from vtray.rendering.rooms import Rooms
 from vtray.scene.colors.color_light import light_of, light_of_numbers
 from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.light_types import Lamp, Light, RectangleLight, SphereLight
-from vtray.scene.objects import Object
 from vtray.scene.materials import material_of
+from vtray.scene.objects import Object
 from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.scene import Camera, Plane, Scene

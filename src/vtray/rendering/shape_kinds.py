@@ -149,7 +149,7 @@ def _from_arrays(kind: Kind, item: Any) -> Source:  # noqa: ANN401
         None if end is None else _row_by_row(np.atleast_2d(end)),
         _row_by_row(np.atleast_1d(item.lambert), np.float64),
         _row_by_row(np.atleast_1d(item.given_for("opacity")), np.float64),
-        made_of([material_of("lambert")]),
+        made_of([material_of(item.material)]),
     )
 
 

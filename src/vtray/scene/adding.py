@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from vtray.scene.colors.color_scale import ColorMap
     from vtray.scene.colors.names import AnyColor
     from vtray.scene.copies import Part
+    from vtray.scene.materials import AnyMaterial
     from vtray.scene.vectors import Triple
 
 
@@ -39,6 +40,7 @@ class Adding:
         color: "AnyColor" = "white",
         lambert: float = 1.0,
         opacity: float = 1.0,
+        material: "AnyMaterial" = "lambert",
     ) -> Sphere:
         """Add a sphere to the objects.
 
@@ -54,6 +56,9 @@ class Adding:
             Share of the light that the surface scatters, from 0 to 1.
         opacity
             Share of the light that it takes on its way through, from 0 to 1.
+        material
+            What it is made of: "lambert", "mirror", "glass", "metal", "emissive", or one of these
+            with its numbers, such as `vtray.Glass` (1.6).
 
         Raises
         ------
@@ -61,7 +66,8 @@ class Adding:
             If an argument is not right.
         """
         place = argument("add_sphere", "center", center, Vector)
-        sphere = Sphere(place, radius, Color(*to_rgb(color, "add_sphere: color")), lambert, opacity)
+        rgb = Color(*to_rgb(color, "add_sphere: color"))
+        sphere = Sphere(place, radius, rgb, lambert, opacity, material)
         self.objects.append(sphere)
         return sphere
 
@@ -77,6 +83,7 @@ class Adding:
         clim: tuple[float, float] | None = None,
         nan_color: "AnyColor" = "gray",
         opacity: "ArrayLike | None" = None,
+        material: "AnyMaterial" = "lambert",
     ) -> Spheres:
         """Add many spheres to the objects.
 
@@ -108,6 +115,8 @@ class Adding:
         opacity
             Share of the light that each takes on its way through, from 0 to 1, (n,), or one for
             all; 1 by default. Those of one opacity that overlap are one body.
+        material
+            What all of them are made of, as for `add_sphere`.
 
         Returns
         -------
@@ -126,6 +135,7 @@ class Adding:
                 "radius": radius,
                 "lambert": lambert,
                 "opacity": opacity,
+                "material": material,
             },
             {"color": color},
             "add_spheres: ",
@@ -146,6 +156,7 @@ class Adding:
         color: "AnyColor" = "white",
         lambert: float = 1.0,
         opacity: float = 1.0,
+        material: "AnyMaterial" = "lambert",
     ) -> Cylinder:
         """Add a solid cylinder with flat caps to the objects.
 
@@ -161,6 +172,9 @@ class Adding:
             Share of the light that the surface scatters, from 0 to 1.
         opacity
             Share of the light that it takes on its way through, from 0 to 1.
+        material
+            What it is made of: "lambert", "mirror", "glass", "metal", "emissive", or one of these
+            with its numbers, such as `vtray.Glass` (1.6).
 
         Raises
         ------
@@ -170,7 +184,7 @@ class Adding:
         one = argument("add_cylinder", "start", start, Vector)
         other = argument("add_cylinder", "end", end, Vector)
         rgb = Color(*to_rgb(color, "add_cylinder: color"))
-        cylinder = Cylinder(one, other, radius, rgb, lambert, opacity)
+        cylinder = Cylinder(one, other, radius, rgb, lambert, opacity, material)
         self.objects.append(cylinder)
         return cylinder
 
@@ -188,6 +202,7 @@ class Adding:
         clim: tuple[float, float] | None = None,
         nan_color: "AnyColor" = "gray",
         opacity: "ArrayLike | None" = None,
+        material: "AnyMaterial" = "lambert",
     ) -> Cylinders:
         """Add many solid cylinders with flat caps to the objects: bonds, for instance.
 
@@ -208,7 +223,7 @@ class Adding:
             at `start`. By default, each cylinder has one colour.
         cmap, clim, nan_color
             As for `add_spheres`; `color` and `color_end` are both values, with common limits.
-        opacity
+        opacity, material
             As for `add_spheres`.
 
         Returns
@@ -223,7 +238,14 @@ class Adding:
             ``add_cylinders: end[17, 2]``.
         """
         cylinders = Cylinders.colored(
-            {"start": start, "end": end, "radius": radius, "lambert": lambert, "opacity": opacity},
+            {
+                "start": start,
+                "end": end,
+                "radius": radius,
+                "lambert": lambert,
+                "opacity": opacity,
+                "material": material,
+            },
             {"color": color, "color_end": color_end},
             "add_cylinders: ",
             cmap=cmap,
@@ -243,6 +265,7 @@ class Adding:
         color: "AnyColor" = "white",
         lambert: float = 1.0,
         opacity: float = 1.0,
+        material: "AnyMaterial" = "lambert",
     ) -> Cone:
         """Add a solid cone with flat caps to the objects.
 
@@ -260,6 +283,9 @@ class Adding:
             Share of the light that the surface scatters, from 0 to 1.
         opacity
             Share of the light that it takes on its way through, from 0 to 1.
+        material
+            What it is made of: "lambert", "mirror", "glass", "metal", "emissive", or one of these
+            with its numbers, such as `vtray.Glass` (1.6).
 
         Raises
         ------
@@ -269,7 +295,7 @@ class Adding:
         one = argument("add_cone", "start", start, Vector)
         other = argument("add_cone", "end", end, Vector)
         rgb = Color(*to_rgb(color, "add_cone: color"))
-        cone = Cone(one, other, radius, radius_end, rgb, lambert, opacity)
+        cone = Cone(one, other, radius, radius_end, rgb, lambert, opacity, material)
         self.objects.append(cone)
         return cone
 
@@ -288,6 +314,7 @@ class Adding:
         clim: tuple[float, float] | None = None,
         nan_color: "AnyColor" = "gray",
         opacity: "ArrayLike | None" = None,
+        material: "AnyMaterial" = "lambert",
     ) -> Cones:
         """Add many solid cones with flat caps to the objects.
 
@@ -303,7 +330,7 @@ class Adding:
             The colours, in any of the ways of `add_spheres`.
         lambert
             Share of the light that the surfaces scatter, from 0 to 1, (n,), or one for all.
-        color_end, cmap, clim, nan_color, opacity
+        color_end, cmap, clim, nan_color, opacity, material
             As for `add_cylinders`.
 
         Returns
@@ -319,7 +346,14 @@ class Adding:
         """
         radii = {"radius": radius, "radius_end": radius_end}
         cones = Cones.colored(
-            {"start": start, "end": end, **radii, "lambert": lambert, "opacity": opacity},
+            {
+                "start": start,
+                "end": end,
+                **radii,
+                "lambert": lambert,
+                "opacity": opacity,
+                "material": material,
+            },
             {"color": color, "color_end": color_end},
             "add_cones: ",
             cmap=cmap,
@@ -383,6 +417,7 @@ class Adding:
         color: "AnyColor" = "white",
         lambert: float = 1.0,
         opacity: float = 1.0,
+        material: "AnyMaterial" = "lambert",
     ) -> Plane:
         """Add a plane to the objects.
 
@@ -398,6 +433,9 @@ class Adding:
             Share of the light that the surface scatters, from 0 to 1.
         opacity
             Share of the light that it takes on its way through, from 0 to 1.
+        material
+            What it is made of: "lambert", "mirror", "glass", "metal", "emissive", or one of these
+            with its numbers, such as `vtray.Glass` (1.6).
 
         Raises
         ------
@@ -406,6 +444,7 @@ class Adding:
         """
         place = argument("add_plane", "point", point, Vector)
         square = argument("add_plane", "normal", normal, Direction)
-        plane = Plane(place, square, Color(*to_rgb(color, "add_plane: color")), lambert, opacity)
+        rgb = Color(*to_rgb(color, "add_plane: color"))
+        plane = Plane(place, square, rgb, lambert, opacity, material)
         self.objects.append(plane)
         return plane

@@ -9,6 +9,7 @@ from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.checks.checked import make_unchecked
 from vtray.scene.checks.columns import NO_NAMES, check_arrays, read_only
 from vtray.scene.checks.limits import Byte
+from vtray.scene.materials import checked_material, is_matt, material_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
     from vtray.scene.colors.color_scale import ColorMap, ColorScale
     from vtray.scene.colors.names import AnyColor
+    from vtray.scene.materials import AnyMaterial
 
     Floats = NDArray[np.float64] | NDArray[np.float32]
     Bytes = NDArray[np.uint8]
@@ -40,8 +42,11 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
     """Many objects of one kind, as arrays.
 
     A kind is a class that says its arrays twice: as `COLUMNS`, and as fields of the same names in
-    the same order.
+    the same order. After them comes the field `material`, which is one for all.
     """
+
+    if TYPE_CHECKING:
+        material: AnyMaterial
 
     EACH: ClassVar[str]
     """What one of them is called in messages about colours."""
@@ -64,7 +69,9 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
         called
             The names of arrays in messages, where they differ.
         """
-        made: Self = make_unchecked(cls, **check_arrays(cls.COLUMNS, values, place, called))
+        arrays = check_arrays(cls.COLUMNS, values, place, called)
+        material = checked_material(values.get("material", "lambert"), f"{place}material")
+        made: Self = make_unchecked(cls, **arrays, material=material)
         return made
 
     @classmethod
@@ -139,6 +146,8 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
             return False
         import numpy as np
 
+        if material_of(self.material) != material_of(other.material):
+            return False
         pairs = ((self.given_for(name), other.given_for(name)) for name in self.COLUMNS)
         return len(self) == 0 or all(bool(np.all(one == two)) for one, two in pairs)
 
@@ -148,6 +157,8 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
             for name, column in self.COLUMNS.items()
             if getattr(self, name) is not None or column.stand_in in self.COLUMNS
         ]
+        if not is_matt(self.material):
+            shown.append(f"material={self.material!r}")
         return f"{type(self).__name__}({', '.join(shown)})"
 
     def given_for(self, name: str) -> Any:  # noqa: ANN401

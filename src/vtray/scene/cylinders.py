@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from vtray.scene.arrays import Arrays, Bytes, Floats
 from vtray.scene.checks.columns import COLOR, LAMBERT, OPACITY, POINT, RADIUS
+from vtray.scene.materials import AnyMaterial
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -36,6 +37,9 @@ class Cylinders(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag=
     opacity : array (n,) or float, or None
         Share of the light that each takes on its way through, from 0 to 1, or one for all; float64
         or float32 as given. None for 1. Those of one opacity that overlap are one body.
+    material : Lambert, Mirror, Glass, Metal, Emissive or str
+        What they are made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
+        "emissive".
 
     Raises
     ------
@@ -57,6 +61,7 @@ lambert=1.0, color_end=<uint8 (3,)>)
     lambert: Floats | float
     color_end: Bytes | None = None
     opacity: Floats | float | None = None
+    material: AnyMaterial = "lambert"
 
     COLUMNS = MappingProxyType(
         {
@@ -87,4 +92,5 @@ lambert=1.0, color_end=<uint8 (3,)>)
             lambert: ArrayLike = 1.0,
             color_end: ArrayLike | None = None,
             opacity: ArrayLike | None = None,
+            material: AnyMaterial = "lambert",
         ) -> None: ...

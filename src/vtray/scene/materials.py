@@ -94,6 +94,32 @@ _BY_NAME: dict[str, Material] = {
 }
 
 
+AnyMaterial: TypeAlias = Annotated[
+    Material | MaterialName,
+    Meta(description=f"a material: {', '.join(_BY_NAME)}, or one of these with its numbers"),
+]
+"""A material, or the name of one as it is by default."""
+
+
 def material_of(given: Material | MaterialName) -> Material:
     """Return a material that may be given by its name."""
     return _BY_NAME[given] if isinstance(given, str) else given
+
+
+def is_matt(given: Material | MaterialName) -> bool:
+    """Tell whether a material is the one that everything is made of by default."""
+    return isinstance(material_of(given), Lambert)
+
+
+def checked_material(given: object, place: str) -> Material | MaterialName:
+    """Return a material that is given in code.
+
+    Raises
+    ------
+    SceneError
+        If it is none; the message begins with the place.
+    """
+    from vtray.scene.checks.scene_check import from_code
+
+    found: Material | MaterialName = from_code(given, AnyMaterial, place)
+    return found

@@ -51,6 +51,9 @@ Exposure = Literal["max", "auto"] | Positive
 Stops = Annotated[float, Meta(ge=-100, le=100, description="a number from -100 to 100")]
 IntegratorName = Literal["direct", "whitted", "path"]
 MAX_DEPTH = 64
+DEPTH = 8
+"""Over how many surfaces light is followed by default."""
+
 Depth = Annotated[
     Annotated[int, Meta(ge=0, le=MAX_DEPTH)]
     | Annotated[float, Meta(ge=0, le=MAX_DEPTH, multiple_of=1)],
@@ -121,17 +124,17 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
     tolerance: Annotated[
         Positive, Option("NUMBER", "how noisy soft light may be: the error of a pixel, 1 for white")
     ] = TOLERANCE
-    integrator: Annotated[
-        IntegratorName,
-        Option("NAME", "direct; whitted: mirrors and glass are followed; path: all light is"),
-    ] = "direct"
-    depth: Annotated[Depth, Option("N", "over how many surfaces light is followed")] = 8
     denoise: Annotated[
         Annotated[bool, Meta(description="true or false")],
         Option("", "take the grain of soft light out by Open Image Denoise"),
     ] = False
     stops: Annotated[Stops, Option("NUMBER", "twice as bright for each, after any exposure")] = 0.0
     tonemap: Annotated[ToneMapName, Option("NAME", ", ".join(get_args(ToneMapName)))] = "linear"
+    integrator: Annotated[
+        IntegratorName,
+        Option("NAME", "direct; whitted: mirrors and glass are followed; path: all light is"),
+    ] = "direct"
+    depth: Annotated[Depth, Option("N", "over how many surfaces light is followed")] = DEPTH
 
     def __post_init__(self) -> None:
         """Hold equal settings equally: integers as such, and the colour black as "black"."""
@@ -208,6 +211,12 @@ class RenderSettings(
     tonemap : str
         How light becomes the numbers of a file: "linear" as it is; "srgb", "filmic" and "agx"
         encoded for monitors, for which all colours that are given are taken for sRGB.
+    integrator : str
+        What light is followed: "direct", that which comes from lights straight to what is seen;
+        "whitted", also over mirrors, metal and glass; "path", all light, by paths that go on at
+        random from whatever they meet, which takes many samples.
+    depth : int
+        Over how many surfaces light is followed at the most, from 0 to 64; 8 by default.
     """
 
     if TYPE_CHECKING:  # what code may give, beside what the attributes hold
@@ -224,6 +233,8 @@ class RenderSettings(
             denoise: bool = False,
             stops: float = 0.0,
             tonemap: str = "linear",
+            integrator: str = "direct",
+            depth: int = 8,
         ) -> None: ...
 
     def replace(self, **changes: Any) -> Self:  # noqa: ANN401

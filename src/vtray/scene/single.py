@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from vtray.scene.checks.checked import Frozen
 from vtray.scene.checks.limits import Fraction, NonNegative
-from vtray.scene.materials import Material, MaterialName
+from vtray.scene.materials import AnyMaterial
 from vtray.scene.vectors import Color, Direction, Vector
 
 if TYPE_CHECKING:
@@ -31,8 +31,9 @@ class Sphere(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type"
         Share of the light that the surface scatters, from 0 to 1.
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
-    material : Lambert, Mirror, Glass or str
-        What it is made of, or the name of that: "lambert" (the default), "mirror" or "glass".
+    material : Lambert, Mirror, Glass, Metal, Emissive or str
+        What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
+        "emissive".
     """
 
     center: Vector
@@ -40,7 +41,7 @@ class Sphere(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type"
     color: Color
     lambert: Fraction
     opacity: Fraction = 1.0
-    material: Material | MaterialName = "lambert"
+    material: AnyMaterial = "lambert"
 
     _in_code = _SURFACE
 
@@ -53,7 +54,7 @@ class Sphere(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type"
             color: "Color | Triple" = ...,
             lambert: float = 1.0,
             opacity: float = 1.0,
-            material: Material | MaterialName = "lambert",
+            material: AnyMaterial = "lambert",
         ) -> None: ...
 
     def hull(self) -> list[tuple[Vector, float, Vector | None]]:
@@ -80,8 +81,9 @@ class Cylinder(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="typ
         Share of the light that the surface scatters, from 0 to 1.
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
-    material : Lambert, Mirror, Glass or str
-        What it is made of, or the name of that: "lambert" (the default), "mirror" or "glass".
+    material : Lambert, Mirror, Glass, Metal, Emissive or str
+        What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
+        "emissive".
     """
 
     start: Vector
@@ -90,7 +92,7 @@ class Cylinder(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="typ
     color: Color
     lambert: Fraction
     opacity: Fraction = 1.0
-    material: Material | MaterialName = "lambert"
+    material: AnyMaterial = "lambert"
 
     _in_code = _SURFACE
 
@@ -104,7 +106,7 @@ class Cylinder(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="typ
             color: "Color | Triple" = ...,
             lambert: float = 1.0,
             opacity: float = 1.0,
-            material: Material | MaterialName = "lambert",
+            material: AnyMaterial = "lambert",
         ) -> None: ...
 
     def hull(self) -> list[tuple[Vector, float, Vector | None]]:
@@ -134,8 +136,9 @@ class Cone(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type", 
         Share of the light that the surface scatters, from 0 to 1.
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
-    material : Lambert, Mirror, Glass or str
-        What it is made of, or the name of that: "lambert" (the default), "mirror" or "glass".
+    material : Lambert, Mirror, Glass, Metal, Emissive or str
+        What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
+        "emissive".
     """
 
     start: Vector
@@ -145,7 +148,7 @@ class Cone(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type", 
     color: Color
     lambert: Fraction
     opacity: Fraction = 1.0
-    material: Material | MaterialName = "lambert"
+    material: AnyMaterial = "lambert"
 
     _in_code = MappingProxyType({"radius_end": 0.0, **_SURFACE})
 
@@ -160,7 +163,7 @@ class Cone(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type", 
             color: "Color | Triple" = ...,
             lambert: float = 1.0,
             opacity: float = 1.0,
-            material: Material | MaterialName = "lambert",
+            material: AnyMaterial = "lambert",
         ) -> None: ...
 
     def hull(self) -> list[tuple[Vector, float, Vector | None]]:
@@ -185,8 +188,9 @@ class Plane(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type",
         Share of the light that the surface scatters, from 0 to 1.
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
-    material : Lambert, Mirror, Glass or str
-        What it is made of, or the name of that: "lambert" (the default), "mirror" or "glass".
+    material : Lambert, Mirror, Glass, Metal, Emissive or str
+        What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
+        "emissive".
     """
 
     center: Vector
@@ -194,7 +198,7 @@ class Plane(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type",
     color: Color
     lambert: Fraction
     opacity: Fraction = 1.0
-    material: Material | MaterialName = "lambert"
+    material: AnyMaterial = "lambert"
 
     _in_code = _SURFACE
 
@@ -207,5 +211,5 @@ class Plane(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type",
             color: "Color | Triple" = ...,
             lambert: float = 1.0,
             opacity: float = 1.0,
-            material: Material | MaterialName = "lambert",
+            material: AnyMaterial = "lambert",
         ) -> None: ...

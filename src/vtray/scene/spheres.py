@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from vtray.scene.arrays import Arrays, Bytes, Floats
 from vtray.scene.checks.columns import COLOR, LAMBERT, OPACITY, POINT, RADIUS
+from vtray.scene.materials import AnyMaterial
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -35,6 +36,9 @@ class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="s
     opacity : array (n,) or float, or None
         Share of the light that each takes on its way through, from 0 to 1, or one for all; float64
         or float32 as given. None for 1. Those of one opacity that overlap are one body.
+    material : Lambert, Mirror, Glass, Metal, Emissive or str
+        What they are made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
+        "emissive".
 
     Raises
     ------
@@ -53,6 +57,7 @@ class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="s
     color: Bytes
     lambert: Floats | float
     opacity: Floats | float | None = None
+    material: AnyMaterial = "lambert"
 
     COLUMNS = MappingProxyType(
         {
@@ -79,4 +84,5 @@ class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="s
             color: ArrayLike = ...,
             lambert: ArrayLike = 1.0,
             opacity: ArrayLike | None = None,
+            material: AnyMaterial = "lambert",
         ) -> None: ...

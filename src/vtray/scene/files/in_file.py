@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, TypeAlias
 import msgspec
 from msgspec import UNSET, Meta, UnsetType
 
+from vtray.base.errors import SceneError
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import Arrays
 from vtray.scene.camera import Camera
@@ -22,8 +23,9 @@ from vtray.scene.cones import Cones
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
 from vtray.scene.light_types import WHITE, Ambient, Light, RectangleLight, SphereLight, Sun
+from vtray.scene.materials import AnyMaterial
 from vtray.scene.objects import Cone, Cylinder, Plane, Sphere
-from vtray.scene.settings import RenderSettings
+from vtray.scene.settings import DEPTH, Depth, IntegratorName, RenderSettings
 from vtray.scene.sky_types import Gradient, check_one_of
 from vtray.scene.spheres import Spheres
 from vtray.scene.style import Style
@@ -72,6 +74,8 @@ class SpheresInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="ty
     opacity : float, optional
         Share of the light that they take on its way through, 1 if left out; for a .npz file, it
         may stand there.
+    material : Lambert, Mirror, Glass, Metal, Emissive or str, optional
+        What all of them are made of, or its name; lambert if left out.
     """
 
     data: DataPath
@@ -79,6 +83,7 @@ class SpheresInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="ty
     color: Color | UnsetType = UNSET
     lambert: Fraction | UnsetType = UNSET
     opacity: Fraction | UnsetType = UNSET
+    material: AnyMaterial | UnsetType = UNSET
 
     MADE = Spheres
     ONE = Sphere
@@ -108,6 +113,8 @@ class CylindersInFile(
     opacity : float, optional
         Share of the light that they take on its way through; it may stand in the file of arrays,
         and is 1 if left out.
+    material : Lambert, Mirror, Glass, Metal, Emissive or str, optional
+        What all of them are made of, or its name; lambert if left out.
     """
 
     data: NpzPath
@@ -116,6 +123,7 @@ class CylindersInFile(
     color_end: Color | UnsetType = UNSET
     lambert: Fraction | UnsetType = UNSET
     opacity: Fraction | UnsetType = UNSET
+    material: AnyMaterial | UnsetType = UNSET
 
     MADE = Cylinders
     ONE = Cylinder
@@ -144,6 +152,8 @@ class ConesInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="type
     opacity : float, optional
         Share of the light that they take on its way through; it may stand in the file of arrays,
         and is 1 if left out.
+    material : Lambert, Mirror, Glass, Metal, Emissive or str, optional
+        What all of them are made of, or its name; lambert if left out.
     """
 
     data: NpzPath
@@ -153,6 +163,7 @@ class ConesInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="type
     color_end: Color | UnsetType = UNSET
     lambert: Fraction | UnsetType = UNSET
     opacity: Fraction | UnsetType = UNSET
+    material: AnyMaterial | UnsetType = UNSET
 
     MADE = Cones
     ONE = Cone
@@ -246,6 +257,27 @@ class SkyInFile(msgspec.Struct, frozen=True, omit_defaults=True, tag_field="type
 LightInFile: TypeAlias = Light | Sun | SphereLight | RectangleLight | SkyInFile | Ambient
 
 
+class IntegratorInFile(msgspec.Struct, frozen=True, omit_defaults=True):
+    """What light is followed, and how far.
+
+    Attributes
+    ----------
+    type : str
+        "direct", "whitted" or "path", as in the settings of the render.
+    depth : int, optional
+        Over how many surfaces light is followed at the most; 8 if left out.
+    """
+
+    type: IntegratorName
+    depth: Depth = DEPTH
+
+
+AnyIntegrator: TypeAlias = Annotated[
+    IntegratorName | IntegratorInFile,
+    Meta(description='"direct", "whitted" or "path", or an object with the keys type and depth'),
+]
+
+
 class SceneInFile(msgspec.Struct, omit_defaults=True):
     """All that a picture is made from.
 
@@ -262,6 +294,8 @@ or CopiesInFile
         How the picture is taken.
     style : Style, optional
         How the picture is drawn, beside its light.
+    integrator : str or IntegratorInFile, optional
+        What light is followed; it stands here or in `render`.
     """
 
     camera: Camera
@@ -269,3 +303,34 @@ or CopiesInFile
     objects: list[ObjectInFile]
     render: RenderSettings | UnsetType = UNSET
     style: Style | UnsetType = UNSET
+    integrator: AnyIntegrator | UnsetType = UNSET
+
+
+def with_integrator(
+    render: RenderSettings | UnsetType, given: IntegratorName | IntegratorInFile | UnsetType
+) -> RenderSettings | UnsetType:
+    """Return settings with the integrator that a scene file names beside them.
+
+    Raises
+    ------
+    SceneError
+        If the settings name one, too.
+    """
+    if given is UNSET:
+        return render
+    found = IntegratorInFile(given) if isinstance(given, str) else given
+    before = RenderSettings() if render is UNSET else render
+    if (before.integrator, before.depth) != ("direct", DEPTH):
+        twice = "given here and in render; expected it in one of them"
+        raise SceneError(f"integrator: {twice}")
+    return before.replace(integrator=found.type, depth=found.depth)
+
+
+def without_integrator(
+    render: RenderSettings,
+) -> tuple[RenderSettings, IntegratorName | IntegratorInFile | UnsetType]:
+    """Return settings as they are written, and the integrator that is written beside them."""
+    rest, name = render.replace(integrator="direct", depth=DEPTH), render.integrator
+    if render == rest:
+        return rest, UNSET
+    return rest, name if render.depth == DEPTH else IntegratorInFile(name, render.depth)

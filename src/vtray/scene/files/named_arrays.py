@@ -80,7 +80,7 @@ class _Reader(NamedTuple):
     def _complete(self, item: ArraysInFile | CopiesInFile, place: str) -> ArrayHolder:
         """Return what a file says of many objects, or of copies, with its arrays."""
         if isinstance(item, ArraysInFile):
-            names = item.MADE.COLUMNS
+            names = [*item.MADE.COLUMNS, "material"]
             given = {name: getattr(item, name, UNSET) for name in names}
             given = {name: value for name, value in given.items() if value is not UNSET}
             made = self._read(item, given, place, MAX_SPHERES - self.counts[item.ONE])

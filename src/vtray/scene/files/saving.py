@@ -11,10 +11,17 @@ import msgspec
 from vtray.base.atomic_file import write_whole
 from vtray.base.errors import OutputError
 from vtray.scene.array_holder import ArrayHolder
+from vtray.scene.arrays import Arrays
 from vtray.scene.checks.limits import Byte
 from vtray.scene.copies import Copies
 from vtray.scene.default_light import lights_of
-from vtray.scene.files.in_file import HOLDERS_IN_FILE, HolderInFile, SceneInFile
+from vtray.scene.files.in_file import (
+    HOLDERS_IN_FILE,
+    HolderInFile,
+    SceneInFile,
+    without_integrator,
+)
+from vtray.scene.materials import is_matt
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_image import SkyImage
 from vtray.scene.style import Style
@@ -53,8 +60,9 @@ def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
     objects = [in_file(item) for item in scene.objects]
     lights: list[Any] = [as_written(light, write_image) for light in lights_of(scene)]
     found = SceneInFile(scene.camera, lights, objects)
-    if scene.render != RenderSettings():
-        found.render = scene.render
+    render, found.integrator = without_integrator(scene.render)
+    if render != RenderSettings():
+        found.render = render
     if scene.style != Style():
         found.style = scene.style
     data = msgspec.json.format(_encode(found, target), indent=2) + b"\n"
@@ -126,6 +134,8 @@ def _split(
             shared[key] = Color(*value.tolist())
         elif value is not None:
             arrays[key] = value
+    if isinstance(item, Arrays) and not is_matt(item.material):
+        shared["material"] = item.material
     return kind(data=name, **shared), arrays
 
 

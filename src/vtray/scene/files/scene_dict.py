@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from typing import Any, cast
 
 import msgspec
+from msgspec import UNSET
 
 from vtray.base.errors import SceneError
 from vtray.scene.arrays import Arrays
@@ -13,8 +14,10 @@ from vtray.scene.checks.limits import Byte
 from vtray.scene.checks.scene_words import Unknown, join, nearest, show
 from vtray.scene.copies import Copies
 from vtray.scene.default_light import lights_of
+from vtray.scene.files.in_file import without_integrator
 from vtray.scene.files.scene_file import Warn, loads
 from vtray.scene.light_types import AnyLight
+from vtray.scene.materials import AnyMaterial, is_matt
 from vtray.scene.objects import ARRAY_KINDS, Object
 from vtray.scene.scene import Scene
 from vtray.scene.sky_image import sky_image
@@ -121,8 +124,9 @@ def to_dict(scene: Scene) -> dict[str, Any]:
         "lights": [_light_to_dict(light) for light in lights_of(scene)],
         "objects": [_object_to_dict(item) for item in scene.objects],
     }
-    more = {"render": scene.render, "style": scene.style}
-    told = {key: msgspec.to_builtins(value) for key, value in more.items()}
+    render, integrator = without_integrator(scene.render)
+    more = {"render": render, "style": scene.style, "integrator": integrator}
+    told = {key: msgspec.to_builtins(value) for key, value in more.items() if value is not UNSET}
     return {**data, **{key: value for key, value in told.items() if value}}
 
 
@@ -148,6 +152,8 @@ def _object_to_dict(item: Object) -> dict[str, Any]:
             values[key] = dict(zip("rgb", value.tolist(), strict=True))
         elif value is not None:
             values[key] = value
+    if not is_matt(item.material):
+        values["material"] = msgspec.to_builtins(item.material)
     return values
 
 
@@ -211,7 +217,7 @@ def _from_dict(
     kind: type[Arrays], item: Mapping[str, Any], place: str, name: str, unknown: Unknown
 ) -> Arrays:
     """Make objects of the arrays in a dictionary; note the unknown keys."""
-    known = ["type", *kind.COLUMNS]
+    known = ["type", *kind.COLUMNS, "material"]
     strange = [key for key in item if key not in known]
     for key, column in kind.COLUMNS.items():
         if key not in item and not column.stand_in:
@@ -224,6 +230,8 @@ def _from_dict(
         is_color = kind.COLUMNS[key].kind is Byte and isinstance(value, Mapping)
         if is_color and set(value) == {"r", "g", "b"}:
             given[key] = [value[channel] for channel in "rgb"]
+    if "material" in item:
+        given["material"] = _material_of(item["material"], f"{name}: {place}.material")
     try:
         made = kind.from_arrays(given, f"{place}.")
     except SceneError as problem:
@@ -231,6 +239,16 @@ def _from_dict(
     for key in strange:
         unknown.add(join(place, str(key)), str(key), known)
     return made
+
+
+def _material_of(given: Any, place: str) -> Any:  # noqa: ANN401
+    """Return a material as a file says it, or as it is."""
+    if not isinstance(given, Mapping):
+        return given
+    try:
+        return msgspec.convert(given, AnyMaterial)
+    except msgspec.ValidationError as error:
+        raise SceneError(f"{place}: {error}") from None
 
 
 def _warn(message: str) -> None:

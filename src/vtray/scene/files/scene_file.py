@@ -17,7 +17,15 @@ from vtray.base.errors import SceneError, why_unreadable
 from vtray.base.input_file import is_given, read_input
 from vtray.scene.camera import Camera
 from vtray.scene.checks.checked import make_unchecked
-from vtray.scene.files.in_file import KINDS, HolderInFile, LightInFile, ObjectInFile, SceneInFile
+from vtray.scene.files.in_file import (
+    KINDS,
+    AnyIntegrator,
+    HolderInFile,
+    LightInFile,
+    ObjectInFile,
+    SceneInFile,
+    with_integrator,
+)
 from vtray.scene.files.light_reader import count_known, count_least, read_light, read_lights
 from vtray.scene.files.skies import names_images, with_skies
 from vtray.scene.light_types import AnyLight
@@ -25,7 +33,7 @@ from vtray.scene.objects import Object
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 from vtray.scene.style import Style
-from vtray.scene.vectors import Color, Direction, Vector
+from vtray.scene.vectors import Direction, Vector
 
 Warn = Callable[[str], None]
 
@@ -38,6 +46,7 @@ class _Found(msgspec.Struct):
     objects: list[ObjectInFile]
     render: RenderSettings | UnsetType = UNSET
     style: Style | UnsetType = UNSET
+    integrator: AnyIntegrator | UnsetType = UNSET
 
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
@@ -138,7 +147,9 @@ def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
         _explain(raw, name, warn)
         # The slow look should have raised; if it saw nothing, msgspec's own words have to do.
         raise SceneError(f"{name}: {error}") from None
-    keys, in_files = _count_keys(found.objects, may_be_faded=b'"opacity"' in raw)
+    keys, in_files = _count_keys(
+        found.objects, has_more=b'"opacity"' in raw or b'"material"' in raw
+    )
     others = raw.count(b":") - _count_others(found) - keys
     # A colon of a path that is written as an escape is not in the file, and one inside any other
     # string is that of an unknown key or its value.
@@ -150,7 +161,11 @@ def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
     if in_files:
         objects = _read_arrays(found, name, folder, warn)
     made = _read_skies(lights, name, folder)
-    parts = {"render": found.render, "style": found.style}
+    try:
+        render = with_integrator(found.render, found.integrator)
+    except SceneError as problem:
+        raise SceneError(f"{name}: {problem}") from None
+    parts = {"render": render, "style": found.style}
     parts = {key: value for key, value in parts.items() if value is not UNSET}
     scene: Scene = make_unchecked(Scene, camera=found.camera, lights=made, objects=objects, **parts)
     return scene
@@ -186,11 +201,11 @@ def _keys_within(cls: type[msgspec.Struct]) -> int:
 _KEYS_OF = {kind: _keys_within(kind) for kind in KINDS if not issubclass(kind, HolderInFile)}
 
 
-def _count_keys(objects: Sequence[Any], *, may_be_faded: bool = True) -> tuple[int, bool]:
+def _count_keys(objects: Sequence[Any], *, has_more: bool = True) -> tuple[int, bool]:
     """Count the colons of objects of a file, and tell whether any may name a file."""
     kinds = Counter(map(type, objects))
     keys = sum(_KEYS_OF.get(kind, 0) * count for kind, count in kinds.items())
-    if may_be_faded:
+    if has_more:
         keys += sum(_count_optional(item) for item in objects if type(item) in _KEYS_OF)
     in_files = any(issubclass(kind, HolderInFile) for kind in kinds)
     if in_files:
@@ -200,8 +215,10 @@ def _count_keys(objects: Sequence[Any], *, may_be_faded: bool = True) -> tuple[i
 
 def _count_optional(item: Any) -> int:  # noqa: ANN401
     """Count the optional keys of a single object; one that is given with its default is not."""
-    is_faded: bool = item.opacity != 1.0
-    return int(is_faded)
+    keys = int(item.opacity != 1.0)
+    if item.material != "lambert":
+        keys += 1 + _colons_in(msgspec.to_builtins(item.material))
+    return keys
 
 
 def _count_others(found: _Found) -> int:
@@ -212,7 +229,7 @@ def _count_others(found: _Found) -> int:
     """
     camera = found.camera
     keys = (camera.projection != "perspective") + (camera.up is not None) * (1 + _keys(Direction))
-    for value in (found.render, found.style):
+    for value in (found.render, found.style, found.integrator):
         if value is not UNSET:
             keys += 1 + _colons_in(msgspec.to_builtins(value))
     return _KEYS_ONCE + keys
@@ -232,8 +249,8 @@ def _count_within(value: object) -> int:
     if isinstance(value, list):
         is_place = bool(value) and isinstance(value[0], Vector)
         return len(value) * _keys(Vector) if is_place else _count_keys(value)[0]
-    if isinstance(value, Color):
-        return _keys(Color)
+    if isinstance(value, msgspec.Struct):
+        return _colons_in(msgspec.to_builtins(value))
     return value.count(":") if isinstance(value, str) else 0
 
 

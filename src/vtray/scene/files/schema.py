@@ -18,11 +18,13 @@ from vtray.scene.files.in_file import (
     ARRAYS_IN_FILE,
     KINDS,
     CopiesInFile,
+    IntegratorInFile,
     LightInFile,
     SceneInFile,
     SkyInFile,
 )
 from vtray.scene.light_types import Ambient, Lamp, Light
+from vtray.scene.materials import Glass, Material
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient
 from vtray.scene.style import EyeDome, Fog, Outline, Style
@@ -41,9 +43,17 @@ def scene_schema() -> dict[str, Any]:
         once, for instance, it cannot.
     """
     style = (Style, Outline, Fog, EyeDome, ClipPlane, Slice)
-    values = (RenderSettings, *style, Gradient, Vector, Direction, Color)
+    materials: tuple[type[msgspec.Struct], ...] = typing.get_args(Material)
+    values = (RenderSettings, *style, *materials, Gradient, Vector, Direction, Color)
     lights: tuple[type[msgspec.Struct], ...] = typing.get_args(LightInFile)
-    classes: list[type[msgspec.Struct]] = [SceneInFile, Camera, *lights, *KINDS, *values]
+    classes: list[type[msgspec.Struct]] = [
+        SceneInFile,
+        IntegratorInFile,
+        Camera,
+        *lights,
+        *KINDS,
+        *values,
+    ]
     (_, parts) = msgspec.json.schema_components(classes, ref_template="#/$defs/{name}")
     for cls in classes:
         _describe(parts[cls.__name__], inspect.getdoc(cls) or "")
@@ -78,6 +88,7 @@ def scene_schema() -> dict[str, Any]:
     del scene["properties"]["lights"]["items"]["discriminator"]
     # JSON has no tuples.
     parts[Style.__name__]["properties"]["clip"]["default"] = []
+    parts[Glass.__name__]["properties"]["absorption"]["default"] = [0.0, 0.0, 0.0]
     # JSON has no infinity.
     del parts[Ambient.__name__]["properties"]["distance"]["default"]
     return {

@@ -58,12 +58,11 @@ class MadeOf(NamedTuple):
 
 def written_out(item: Kind, places: "NDArray[np.float64]") -> Kind:
     """Return objects at several places, one after the other, each moved by a row of (m, 3)."""
-    import msgspec
     import numpy as np
 
     count, changed = len(places), {}
-    for name, value in msgspec.structs.asdict(item).items():
-        is_point = item.COLUMNS[name] is POINT
+    for name in item.COLUMNS:
+        value, is_point = getattr(item, name), item.COLUMNS[name] is POINT
         rank = 2 if is_point or item.COLUMNS[name].kind is Byte else 1
         if is_point:
             changed[name] = (places[:, None] + value).reshape(-1, 3)

@@ -54,7 +54,7 @@ from vtray.transport.integrators.lamps import nearest_lamp
 from vtray.transport.interaction import surface_at
 from vtray.transport.lights.light import Lights, lamp_light
 from vtray.transport.materials.absorption import transmitted
-from vtray.transport.materials.conductor import conductor_shares
+from vtray.transport.materials.conductor import conductor_shares, grazing_shares
 from vtray.transport.materials.look import (
     EMPTY,
     MATT,
@@ -93,7 +93,7 @@ def mix_looks(
     numbers = packet.view(np.int64)
     for lane in range(lanes):
         met = numbers[PRIMITIVE + lane]
-        if met > NO_PRIMITIVE:
+        if met > NO_PRIMITIVE:  # noqa: SIM102 - the look of nothing is not asked
             if paths is not None or load_look(materials, looks, met).kind != MATT:
                 packet[MIXED + lane] = 1.0
 
@@ -141,7 +141,7 @@ def mirrored_share(looks: Looks, look: Look, cosine: float, seen: Vec, tinted: V
     n, k = three_numbers(looks, look.row, 0), three_numbers(looks, look.row, 3)
     if n[0] > 0.0:
         return times(tinted, conductor_shares(cosine, n, k))
-    return tinted
+    return grazing_shares(cosine, tinted, seen)
 
 
 @device

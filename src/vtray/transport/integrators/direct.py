@@ -385,9 +385,7 @@ def _light_bounces(
             packet, hits, scene, sampling, block, begin, first, last, film, work, stop, steps
         )
         gather_light(packet, hits)
-        cast += follow_rays(
-            packet, lanes, world, scene.lights, looks, pending, scene.bounces, work
-        )
+        cast += follow_rays(packet, lanes, world, scene.lights, looks, pending, scene.bounces, work)
         hits = gather_interactions(
             packet,
             lanes,

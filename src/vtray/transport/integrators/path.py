@@ -129,9 +129,7 @@ def scatter_hits(
         goes_on = _chance_to_go_on(seen, step)
         if survival < goes_on:
             seen, sees_lights = scale(1.0 / goes_on, seen), not is_matt
-            push_from(
-                packet, hit, lane, way, seen, step + 1, sees_lights, within, forward, pending
-            )
+            push_from(packet, hit, lane, way, seen, step + 1, sees_lights, within, forward, pending)
 
 
 @device

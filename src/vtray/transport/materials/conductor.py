@@ -48,3 +48,23 @@ def conductor_share(cosine: float, index: float, extinction: float) -> float:
     flat = cosine2 * length2 + sine2 * sine2
     along = (flat - mixed * sine2) / (flat + mixed * sine2)
     return 0.5 * across * (1.0 + along)
+
+
+@device
+def grazing_shares(cosine: float, squarely: Vec, along: Vec) -> Vec:
+    """Return the shares that a metal mirrors, between those of light that comes squarely and along.
+
+    The parameters are that of the angle between the light and the normal, and both shares.
+
+    References
+    ----------
+    Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", Computer Graphics Forum 13
+    (3), 1994.
+    """
+    rest = 1.0 - min(max(cosine, 0.0), 1.0)
+    weight = (rest * rest) * (rest * rest) * rest
+    return (
+        squarely[0] + weight * (along[0] - squarely[0]),
+        squarely[1] + weight * (along[1] - squarely[1]),
+        squarely[2] + weight * (along[2] - squarely[2]),
+    )
