@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from vtray.scene.cylinders import Cylinders
     from vtray.scene.files.scene_dict import load_dict
     from vtray.scene.files.scene_file import load, loads
+    from vtray.scene.materials import Emissive, Glass, Lambert, Metal, Mirror
     from vtray.scene.particles.from_objects import from_ase, from_mdanalysis
     from vtray.scene.particles.particles import Particles
     from vtray.scene.readers.read import read, read_frames
@@ -63,11 +64,16 @@ __all__ = [
     "Cylinder",
     "Cylinders",
     "Direction",
+    "Emissive",
     "EyeDome",
     "Fog",
+    "Glass",
     "Gradient",
     "Image",
+    "Lambert",
     "Light",
+    "Metal",
+    "Mirror",
     "Outline",
     "OutputError",
     "Particles",
@@ -121,11 +127,16 @@ _MODULES = {
     "Cylinder": "scene.objects",
     "Cylinders": "scene.cylinders",
     "Direction": "scene.vectors",
+    "Emissive": "scene.materials",
     "EyeDome": "scene.style",
     "Fog": "scene.style",
+    "Glass": "scene.materials",
     "Gradient": "scene.sky_types",
     "Image": "image.image",
+    "Lambert": "scene.materials",
     "Light": "scene.light_types",
+    "Metal": "scene.materials",
+    "Mirror": "scene.materials",
     "Outline": "scene.style",
     "OutputError": "base.errors",
     "Particles": "scene.particles.particles",
