@@ -111,13 +111,25 @@ def test_metal_mirrors_what_its_measured_indices_say() -> None:
     from vtray.scene.metals import METALS
 
     for name, (indices, extinctions) in METALS.items():
-        ball = vtray.Sphere((0, 0, 0), 1.5, (255, 255, 255), material=Metal(name))
-        scene = looking_down([ball], [vtray.Sky(1)], size=9)
+        ball = vtray.Sphere((0, 0, 0), 1.5, WHITE, material=Metal(name))
+        scene = looking_down([ball], [vtray.Sky(1)], size=1)
+        scene.camera = scene.camera.replace(resolution=(1e-6, 1e-6))
         squarely = [
             ((n - 1) ** 2 + k**2) / ((n + 1) ** 2 + k**2)
             for n, k in zip(indices, extinctions, strict=True)
         ]
-        assert light_of(scene, integrator="whitted")[4, 4] == pytest.approx(squarely, rel=1e-3)
+        assert light_of(scene, integrator="whitted")[0, 0] == pytest.approx(squarely, rel=1e-3)
+
+
+@pytest.mark.parametrize("integrator", ["whitted", "path"])
+def test_mirrors_show_what_is_before_them(integrator: str) -> None:
+    """Not what lies on the way back of a ray: a lamp behind a mirror is not seen in it."""
+    mirror = vtray.Plane((0, 0, 0), (0, 0, 1), WHITE, material="mirror")
+    sides = (8, 0, 0), (0, 8, 0)
+    above, below = (vtray.RectangleLight((0, 0, z), sides, radiance=2) for z in (3, -3))
+    for lamp, seen in ((above, 2), (below, 0)):
+        light = light_of(looking_down([mirror], [lamp]), integrator=integrator)
+        assert light == pytest.approx(seen)
 
 
 def test_without_bounces_paths_see_what_direct_light_shows() -> None:

@@ -93,7 +93,7 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
     origin = points_of([scene.camera.center], unit)[0]
     x, y, z = map(float, origin)
     materials = _pack_materials(kept, planes, unit, scene)
-    has_looks, lights = materials.looks is not None, scene.lights
+    lights = scene.lights
     if scene.render.integrator == "path":
         lights = [light for light in lights if not is_even(light)]
     arrays = SceneArrays(
@@ -106,10 +106,9 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
             camera,
             up_of(scene.camera),
             scene.render.tonemap,
-            are_mirrored=has_looks,
+            are_mirrored=materials.looks is not None,
         ),
         materials,
-        bounces=int(scene.render.depth) if has_looks else -1,
     )
     return Packed(arrays, unit, scene.camera.focus - start_distance(scene.camera))
 

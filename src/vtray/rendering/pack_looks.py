@@ -86,6 +86,7 @@ def pack_looks(
         np.array([kind for kind, _ in looks], np.int64),
         input_array(numbers, np.float64),
         pack_surroundings(scene),
+        int(scene.render.depth),
     )
 
 

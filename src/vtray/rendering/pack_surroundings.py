@@ -20,11 +20,10 @@ def pack_surroundings(scene: Scene) -> Surroundings:
     def color_of(sky: AnyLight) -> list[float]:
         return [strength_of(sky) * channel for channel in light_of(sky.color, tonemap)]
 
-    even = np.array([color_of(sky) for sky in skies if is_even(sky)]).reshape(-1, 3)
     maps = [sky for sky in skies if isinstance(sky, Sky) and not is_even(sky)]
-    red, green, blue = (float(part) for part in even.sum(axis=0))
+    even = [color_of(sky) for sky in skies if is_even(sky)]
     return Surroundings(
-        (red, green, blue),
+        tuple(math.fsum(color[k] for color in even) for k in range(3)),
         pack_skies(maps, up_of(scene.camera), tonemap) if maps else None,
         input_array(np.array([color_of(sky) for sky in maps]).reshape(-1, 3), np.float64),
     )

@@ -47,6 +47,8 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
 
     if TYPE_CHECKING:
         material: AnyMaterial
+    else:
+        material: ClassVar[str] = "lambert"  # what has no such field is made of nothing
 
     EACH: ClassVar[str]
     """What one of them is called in messages about colours."""

@@ -12,18 +12,13 @@ from vtray.transport.materials.material import Materials
 
 
 class SceneArrays(NamedTuple):
-    """A scene as kernels see it; its fog is None if there is none.
-
-    Over so many mirrors and surfaces of glass light is followed at the most;
-    -1 if it is not followed at all.
-    """
+    """A scene as kernels see it; its fog is None if there is none."""
 
     camera: CameraFrame
     world: World
     lights: Lights
     materials: Materials
     fog: FogFrame | None = None
-    bounces: int = -1
 
 
 class LitWorld(NamedTuple):
@@ -56,3 +51,9 @@ def without_light(scene: SceneArrays) -> SceneArrays:
     So their kernel is the same whatever the lights.
     """
     return scene._replace(lights=no_lights(), fog=None)
+
+
+def depth_of(scene: SceneArrays) -> int:
+    """Return over how many surfaces rays are followed at the most; -1 if none is."""
+    looks = scene.materials.looks
+    return -1 if looks is None else looks.depth

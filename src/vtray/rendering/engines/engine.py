@@ -14,7 +14,7 @@ from vtray.transport.film import Film, new_film
 from vtray.transport.integrators.direct import trace_tile
 from vtray.transport.lights.crowd import sharing_lights
 from vtray.transport.sampling.pixel_samples import Sampling
-from vtray.transport.scene_arrays import SceneArrays
+from vtray.transport.scene_arrays import SceneArrays, depth_of
 
 Done = Callable[[Tile], object]
 """What is told that a tile is done."""
@@ -95,7 +95,7 @@ def trace(scene: SceneArrays, plan: Plan, tile: Tile) -> tuple[Film, Cast]:
 def trace_to(film: Film, scene: SceneArrays, sampling: Sampling, tile: Tile) -> Cast:
     """Trace one tile on its own, to a film that there is."""
     sharing = sharing_lights(scene.lights.crowd)
-    packet, work = new_packet(), new_workspace(scene.world, sharing, scene.bounces)
+    packet, work = new_packet(), new_workspace(scene.world, sharing, depth_of(scene))
     go_on = np.zeros(1, np.bool_)
     return Cast(*trace_tile(scene, sampling, *tile, film, packet, work, go_on))
 

@@ -14,7 +14,7 @@ from vtray.transport.film import Film
 from vtray.transport.integrators.direct import trace_tile
 from vtray.transport.lights.crowd import sharing_lights
 from vtray.transport.sampling.pixel_samples import Sampling
-from vtray.transport.scene_arrays import SceneArrays
+from vtray.transport.scene_arrays import SceneArrays, depth_of
 
 
 class Threads:
@@ -48,7 +48,7 @@ class Threads:
         def new_worker() -> Callable[[Tile], None]:
             packet, work = (
                 pinned(new_packet()),
-                pinned(new_workspace(scene.world, sharing, scene.bounces)),
+                pinned(new_workspace(scene.world, sharing, depth_of(scene))),
             )
 
             def trace_one(tile: Tile) -> None:

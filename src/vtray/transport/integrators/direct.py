@@ -370,7 +370,7 @@ def _light_bounces(
                 looks,
                 forward,
                 pending,
-                scene.bounces,
+                looks.depth,
                 last - first,
                 first,
                 block,
@@ -380,12 +380,12 @@ def _light_bounces(
                 sampling.seed,
             )
         else:
-            split_hits(packet, hits, world, materials, looks, forward, pending, scene.bounces)
+            split_hits(packet, hits, world, materials, looks, forward, pending, looks.depth)
         cast += _light_hits(
             packet, hits, scene, sampling, block, begin, first, last, film, work, stop, steps
         )
         gather_light(packet, hits)
-        cast += follow_rays(packet, lanes, world, scene.lights, looks, pending, scene.bounces, work)
+        cast += follow_rays(packet, lanes, world, scene.lights, looks, pending, looks.depth, work)
         hits = gather_interactions(
             packet,
             lanes,

@@ -134,7 +134,7 @@ def _panel_distance(panel: Panel, error_scale: float, ray: Ray) -> tuple[float, 
     )
     error_bound = ROUNDING * (abs(distance) + error_scale + ray.error_scale)
     before = distance * ray.forward + ray.plane_depth > error_bound
-    is_met = inside & before & (slope != 0.0)
+    is_met = inside & before & (slope != 0.0) & (distance > 0.0)
     return distance if is_met else math.inf, error_bound / abs(steep)
 
 

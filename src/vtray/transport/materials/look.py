@@ -36,6 +36,8 @@ class Looks(NamedTuple):
         What else is known of it, (materials, ``NUMBERS``).
     surroundings
         What rays see that meet nothing.
+    depth
+        Over how many surfaces rays are followed at the most.
     """
 
     row: NDArray[np.int64]
@@ -44,6 +46,7 @@ class Looks(NamedTuple):
     kind: NDArray[np.int64]
     numbers: NDArray[np.float64]
     surroundings: Surroundings
+    depth: int
 
 
 class Look(NamedTuple):
