@@ -113,7 +113,9 @@ def test_metal_mirrors_what_its_measured_indices_say() -> None:
     for name, (indices, extinctions) in METALS.items():
         ball = vtray.Sphere((0, 0, 0), 1.5, WHITE, material=Metal(name))
         scene = looking_down([ball], [vtray.Sky(1)], size=1)
-        scene.camera = scene.camera.replace(resolution=(1e-6, 1e-6))
+        scene.camera = vtray.Camera.look_at(
+            (0, 0, 9), target=(0, 0, 0), up=(0, 1, 0), fov_degrees=0.1, size=(1, 1)
+        )
         squarely = [
             ((n - 1) ** 2 + k**2) / ((n + 1) ** 2 + k**2)
             for n, k in zip(indices, extinctions, strict=True)
