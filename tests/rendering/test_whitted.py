@@ -118,9 +118,9 @@ def test_what_does_not_go_together() -> None:
 @pytest.mark.parametrize(
     ("kind", "value", "message"),
     [
-        ("material", "gold", "expected a material: lambert, mirror, glass"),
-        ("material", 3, "expected a material: lambert, mirror, glass"),
-        ("material", None, "expected a material: lambert, mirror, glass"),
+        ("material", "gold", "expected Lambert, Mirror, Glass, Metal, Emissive"),
+        ("material", 3, "expected Lambert, Mirror, Glass, Metal, Emissive"),
+        ("material", None, "expected Lambert, Mirror, Glass, Metal, Emissive"),
     ],
 )
 def test_wrong_materials(kind: str, value: Any, message: str) -> None:

@@ -94,10 +94,7 @@ _BY_NAME: dict[str, Material] = {
 }
 
 
-AnyMaterial: TypeAlias = Annotated[
-    Material | MaterialName,
-    Meta(description=f"a material: {', '.join(_BY_NAME)}, or one of these with its numbers"),
-]
+AnyMaterial: TypeAlias = Material | MaterialName
 """A material, or the name of one as it is by default."""
 
 

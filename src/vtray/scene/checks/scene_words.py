@@ -33,8 +33,7 @@ def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
         return either(map(repr if in_code else quoted, typing.get_args(kind)))
     structs = struct_kinds(kind)
     if not structs and len(options(kind)) > 1:
-        words = [expected(option, in_code=in_code) for option in options(kind)]
-        return either(word for option in words for word in option.split(" or ", 1))
+        return either(_words_of_options(kind, in_code=in_code))
     if not structs:
         return "a list" if in_code else "an array"
     if in_code:
@@ -50,6 +49,19 @@ def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
     *most, last = fields[: len(fields) - len(plain.__struct_defaults__)] or fields
     keys = f"an object with the keys {', '.join(most)} and {last}"
     return f"{keys}, or with {_tags_of(others)}" if others else keys
+
+
+def _words_of_options(kind: Any, *, in_code: bool) -> list[str]:  # noqa: ANN401
+    """Name what a union allows, to follow the word "expected": its Structs come last."""
+    structs = struct_options(kind)
+    words, names = [], []
+    for option in options(kind):
+        if option not in structs:
+            words += expected(option, in_code=in_code).replace(" or ", ", ").split(", ")
+            names += typing.get_args(option)
+    if structs and not in_code and tags(structs) == names:
+        return [*words, 'an object with one of these as its "type"']
+    return [*words, expected(typing.Union[structs], in_code=in_code)] if structs else words  # noqa: UP007
 
 
 def either(words: Iterable[str]) -> str:

@@ -272,10 +272,7 @@ class IntegratorInFile(msgspec.Struct, frozen=True, omit_defaults=True):
     depth: Depth = DEPTH
 
 
-AnyIntegrator: TypeAlias = Annotated[
-    IntegratorName | IntegratorInFile,
-    Meta(description='"direct", "whitted" or "path", or an object with the keys type and depth'),
-]
+AnyIntegrator: TypeAlias = IntegratorName | IntegratorInFile
 
 
 class SceneInFile(msgspec.Struct, omit_defaults=True):
