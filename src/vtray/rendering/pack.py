@@ -30,7 +30,7 @@ from vtray.rendering.pack_bodies import pack_bodies
 from vtray.rendering.pack_lights import pack_lights, points_of
 from vtray.rendering.pack_looks import made_of, pack_looks
 from vtray.rendering.pack_skies import up_of
-from vtray.rendering.pack_surroundings import is_even
+from vtray.rendering.pack_surroundings import is_even, pack_surroundings
 from vtray.rendering.placed import Placed
 from vtray.rendering.rooms import Rooms
 from vtray.scene.colors.color_light import light_of, light_of_numbers
@@ -106,7 +106,7 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
             camera,
             up_of(scene.camera),
             scene.render.tonemap,
-            are_mirrored=materials.looks is not None,
+            pack_surroundings(scene) if materials.looks is not None else None,
         ),
         materials,
     )

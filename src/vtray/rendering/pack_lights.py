@@ -32,6 +32,7 @@ from vtray.transport.lights.crowd import Crowd
 from vtray.transport.lights.light import Lights
 from vtray.transport.lights.rectangle import SIZE as RECTANGLE_SIZE
 from vtray.transport.lights.soft_light import AROUND, NO_SKY, RECTANGLE, SPHERE, SUN, SoftLights
+from vtray.transport.lights.surroundings import Surroundings
 from vtray.transport.lights.visible import SIZE as LAMP_SIZE
 from vtray.transport.lights.visible import VisibleLamps
 
@@ -52,8 +53,7 @@ def pack_lights(
     camera: CameraFrame,
     up: Vec,
     tonemap: ToneMapName = "linear",
-    *,
-    are_mirrored: bool = False,
+    surroundings: Surroundings | None = None,
 ) -> Lights:
     """Return the arrays of all lights.
 
@@ -71,8 +71,8 @@ def pack_lights(
         What is up for skies that do not say it, a unit vector in world space.
     tonemap
         The tone map, which says what colours are as light.
-    are_mirrored
-        Whether rays from surfaces may meet them.
+    surroundings
+        What rays from surfaces see far away; None where no such rays go.
     """
     hard = [light for light in lights if isinstance(light, Light)]
     soft = [light for light in lights if not isinstance(light, Light)]
@@ -80,6 +80,7 @@ def pack_lights(
     x, y, z = _columns(points)
     ordered = *hard, *soft
     parts = [part for light in ordered for part in _components_of(light, tonemap)]
+    are_mirrored = surroundings is not None
     are_rare = are_mirrored or any(map(_is_rare, soft))
     packed = _pack_soft(soft, len(hard), origin, unit, up, tonemap, are_rare) if soft else None
     return Lights(
@@ -93,6 +94,7 @@ def pack_lights(
         crowd=_pack_crowd(packed) if packed else None,
         visible=_pack_lamps(soft, packed, only_visible=True) if packed else None,
         mirrored=_pack_lamps(soft, packed) if packed and are_mirrored else None,
+        surroundings=surroundings,
         intensity=np.array([intensity for intensity, _ in parts], float),
         color=np.array([color for _, color in parts], float).reshape(-1, 3) / 255.0,
     )
@@ -188,8 +190,12 @@ def _pack_lamps(
     """
     if soft.rectangles is None:
         return None
-    lamps = [k for k, light in enumerate(lights) if isinstance(light, Lamp) and soft.size[k] > 0.0]
-    seen = np.array([k for k in lamps if lights[k].visible or not only_visible], np.int64)
+    rows = [
+        k
+        for k, light in enumerate(lights)
+        if isinstance(light, Lamp) and soft.size[k] > 0.0 and (light.visible or not only_visible)
+    ]
+    seen = np.array(rows, np.int64)
     data = np.zeros((len(seen), LAMP_SIZE))
     for row, k in zip(data, seen, strict=True):
         row[:3] = soft.x[k], soft.y[k], soft.z[k]

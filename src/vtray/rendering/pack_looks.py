@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import input_array
 from vtray.rendering.joined import joined, rows_of
-from vtray.rendering.pack_surroundings import pack_surroundings
 from vtray.scene.materials import Emissive, Glass, Lambert, Material, Metal, Mirror
 from vtray.scene.metals import METALS
 from vtray.scene.scene import Scene
@@ -85,7 +84,6 @@ def pack_looks(
         joined(which, np.int64),
         np.array([kind for kind, _ in looks], np.int64),
         input_array(numbers, np.float64),
-        pack_surroundings(scene),
         int(scene.render.depth),
     )
 

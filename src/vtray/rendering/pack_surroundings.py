@@ -9,7 +9,7 @@ from vtray.rendering.pack_skies import changes_color, pack_skies, up_of
 from vtray.scene.colors.color_light import light_of
 from vtray.scene.light_types import Ambient, AnyLight, Sky, strength_of
 from vtray.scene.scene import Scene
-from vtray.transport.surroundings import Surroundings
+from vtray.transport.lights.surroundings import Surroundings
 
 
 def pack_surroundings(scene: Scene) -> Surroundings:
@@ -22,8 +22,9 @@ def pack_surroundings(scene: Scene) -> Surroundings:
 
     maps = [sky for sky in skies if isinstance(sky, Sky) and not is_even(sky)]
     even = [color_of(sky) for sky in skies if is_even(sky)]
+    red, green, blue = (math.fsum(color[k] for color in even) for k in range(3))
     return Surroundings(
-        tuple(math.fsum(color[k] for color in even) for k in range(3)),
+        (red, green, blue),
         pack_skies(maps, up_of(scene.camera), tonemap) if maps else None,
         input_array(np.array([color_of(sky) for sky in maps]).reshape(-1, 3), np.float64),
     )

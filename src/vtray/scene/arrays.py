@@ -46,7 +46,10 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
     """
 
     if TYPE_CHECKING:
-        material: AnyMaterial
+
+        @property
+        def material(self) -> AnyMaterial:
+            """What all are made of."""
     else:
         material: ClassVar[str] = "lambert"  # what has no such field is made of nothing
 

@@ -293,7 +293,8 @@ def _convert_leaf(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401
             return msgspec.json.decode(found, type=kind)
         return msgspec.convert(found, kind)
     except (msgspec.MsgspecError, OverflowError):
-        raise wrong(place, kind, show(found)) from None
+        in_code = bool(struct_options(kind)) and not isinstance(found, Written)
+        raise wrong(place, kind, show(found), in_code=in_code) from None
 
 
 def _make(cls: Struct, values: dict[str, Any], place: str, found: object) -> Any:  # noqa: ANN401

@@ -52,16 +52,17 @@ def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
 
 
 def _words_of_options(kind: Any, *, in_code: bool) -> list[str]:  # noqa: ANN401
-    """Name what a union allows, to follow the word "expected": its Structs come last."""
-    structs = struct_options(kind)
-    words, names = [], []
-    for option in options(kind):
-        if option not in structs:
-            words += expected(option, in_code=in_code).replace(" or ", ", ").split(", ")
-            names += typing.get_args(option)
-    if structs and not in_code and tags(structs) == names:
-        return [*words, 'an object with one of these as its "type"']
-    return [*words, expected(typing.Union[structs], in_code=in_code)] if structs else words  # noqa: UP007
+    """Name what a union allows, with all its Structs in the place of the first."""
+    structs, found = struct_options(kind), options(kind)
+    names = [name for option in found for name in typing.get_args(option)]
+    if not in_code and names and tags(structs) == names:
+        return [*map(quoted, names), 'an object with one of these as its "type"']
+    words: list[str] = []
+    for option in found:
+        if option not in structs[1:]:
+            one = typing.Union[structs] if option in structs else option  # noqa: UP007
+            words += expected(one, in_code=in_code).split(" or ", 1)
+    return words
 
 
 def either(words: Iterable[str]) -> str:

@@ -44,6 +44,7 @@ def scene_schema() -> dict[str, Any]:
     """
     style = (Style, Outline, Fog, EyeDome, ClipPlane, Slice)
     materials: tuple[type[msgspec.Struct], ...] = typing.get_args(Material)
+    values: tuple[type[msgspec.Struct], ...]
     values = (RenderSettings, *style, *materials, Gradient, Vector, Direction, Color)
     lights: tuple[type[msgspec.Struct], ...] = typing.get_args(LightInFile)
     classes: list[type[msgspec.Struct]] = [

@@ -409,11 +409,12 @@ def _cylinders(
             np.stack([end, end], axis=1),
         ]
     )
-    colors: dict[str, Bytes] = {"color": found.colors}
+    first: Bytes = found.colors
+    last: Bytes | None = None
     if found.colors.ndim == 2:
         each = place[indices]
-        colors = {"color": found.colors[each[:, 0]], "color_end": found.colors[each[:, 1]]}
-    sticks = Cylinders(starts, ends, thick, **colors)
+        first, last = found.colors[each[:, 0]], found.colors[each[:, 1]]
+    sticks = Cylinders(starts, ends, thick, first, color_end=last)
     return remember(sticks, MadeOf(particles, indices, "bond"))
 
 

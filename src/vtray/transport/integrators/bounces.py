@@ -50,6 +50,7 @@ from vtray.geometry.ray import Ray
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, add, dot, scale, sub
 from vtray.geometry.world import World, load_group
+from vtray.transport.far_light import far_light
 from vtray.transport.integrators.lamps import nearest_lamp
 from vtray.transport.interaction import surface_at
 from vtray.transport.lights.light import Lights, lamp_light
@@ -66,7 +67,6 @@ from vtray.transport.materials.look import (
 )
 from vtray.transport.materials.material import Materials, load_look
 from vtray.transport.sampling.paths import Paths
-from vtray.transport.surroundings import far_light
 
 
 @device
@@ -235,7 +235,7 @@ def follow_rays(
                 store(packet, THROUGHPUT, lane, seen)
                 _store_ray(packet, lane, ray)
             else:
-                light = far_light(looks.surroundings, ray.direction, sees_lights)
+                light = far_light(lights.surroundings, ray.direction, sees_lights)
                 gather_at(packet, lane, times(seen, light))
     return cast
 

@@ -368,6 +368,7 @@ def _light_bounces(
                 world,
                 materials,
                 looks,
+                scene.lights.surroundings,
                 forward,
                 pending,
                 looks.depth,

@@ -44,12 +44,12 @@ from vtray.transport.integrators.bounces import (
     times,
 )
 from vtray.transport.integrators.soft import sample_of
+from vtray.transport.lights.surroundings import Surroundings, has_even_light
 from vtray.transport.materials.look import EMISSIVE, EMPTY, GLASS, MATT, Looks, first_number
 from vtray.transport.materials.material import Materials, load_look
 from vtray.transport.materials.optics import mirrored, split_at
 from vtray.transport.sampling.paths import CHOICE, WAY, Paths, path_point
 from vtray.transport.sampling.warps import cosine_direction
-from vtray.transport.surroundings import has_even_light
 
 SAFE = 3
 """Over so many surfaces no path ends by chance."""
@@ -62,6 +62,7 @@ def scatter_hits(
     world: World,
     materials: Materials,
     looks: Looks,
+    surroundings: Surroundings | None,
     forward: Vec,
     pending: Pending,
     most: int,
@@ -81,6 +82,8 @@ def scatter_hits(
         So many hits.
     world, materials, looks
         What they are on, and what that is made of.
+    surroundings
+        What shines from far away.
     forward
         The unit direction in which the camera looks.
     pending
@@ -92,7 +95,7 @@ def scatter_hits(
     paths, seed
         How paths choose.
     """
-    numbers, looks_far = packet.view(np.int64), has_even_light(looks.surroundings)
+    numbers, looks_far = packet.view(np.int64), has_even_light(surroundings)
     for hit in range(hits):
         lane = numbers[SOURCE + hit]
         look = load_look(materials, looks, numbers[PRIMITIVE + lane])

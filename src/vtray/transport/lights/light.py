@@ -11,6 +11,7 @@ from vtray.geometry.packets.packet import NO_PRIMITIVE
 from vtray.geometry.vector import Vec, pick
 from vtray.transport.lights.crowd import Crowd
 from vtray.transport.lights.soft_light import SoftLights, component_count
+from vtray.transport.lights.surroundings import Surroundings
 from vtray.transport.lights.visible import VisibleLamps
 from vtray.transport.materials.material import Material, Power, scattered
 
@@ -44,6 +45,8 @@ class Lights(NamedTuple):
         Those that the camera sees; None where `SoftLights.skies` is, or there are no soft lights.
     mirrored
         All lamps with a size, which rays from mirrors may meet; None where there are no such rays.
+    surroundings
+        What shines from far away, as rays from surfaces see it; None where there are no such rays.
     intensity
         The intensities of all components, (components,).
     color
@@ -60,6 +63,7 @@ class Lights(NamedTuple):
     crowd: Crowd | None
     visible: VisibleLamps | None
     mirrored: VisibleLamps | None
+    surroundings: Surroundings | None
     intensity: Floats
     color: Floats
 
@@ -97,7 +101,7 @@ def no_lights() -> Lights:
     """Return no lights at all."""
     none = np.zeros(0)
     return Lights(
-        none, none, none, none, none, None, None, None, None, None, none, np.zeros((0, 3))
+        none, none, none, none, none, None, None, None, None, None, None, none, np.zeros((0, 3))
     )
 
 

@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.vector import Vec
-from vtray.transport.surroundings import Surroundings
 
 MATT, MIRROR, GLASS, METAL, EMISSIVE = 0, 1, 2, 3, 4
 """The kinds. A matt surface scatters light as Lambert says, and does no more."""
@@ -34,8 +33,6 @@ class Looks(NamedTuple):
         What each material is, (materials,).
     numbers
         What else is known of it, (materials, ``NUMBERS``).
-    surroundings
-        What rays see that meet nothing.
     depth
         Over how many surfaces rays are followed at the most.
     """
@@ -45,7 +42,6 @@ class Looks(NamedTuple):
     which: NDArray[np.int64]
     kind: NDArray[np.int64]
     numbers: NDArray[np.float64]
-    surroundings: Surroundings
     depth: int
 
 
