@@ -26,6 +26,7 @@ from vtray.geometry.packets.packet import (
     WEIGHT,
     Block,
     Packet,
+    integers,
     load,
     store,
 )
@@ -205,7 +206,7 @@ def _cover_of(packet: Packet, lane: int, faded: Faded | None) -> float:
     if faded is not None:
         cover: float = packet[COVER + lane]
         return cover
-    return 1.0 if packet.view(np.int64)[PRIMITIVE + lane] != NO_PRIMITIVE else 0.0
+    return 1.0 if integers(packet)[PRIMITIVE + lane] != NO_PRIMITIVE else 0.0
 
 
 @device
@@ -220,7 +221,7 @@ def _fog_of(packet: Packet, lane: int, fog: FogFrame, faded: Faded | None) -> fl
 @device
 def _bring_back(packet: Packet, lanes: int, hits: int) -> None:
     """Bring the light of the hits back to the lanes of their rays; that of lamps is there."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for lane in range(lanes):
         if numbers[PRIMITIVE + lane] >= NO_PRIMITIVE:
             store(packet, LIGHT, lane, (0.0, 0.0, 0.0))
@@ -337,7 +338,7 @@ def _write_primitives(
     if primitive is None:
         return
     field = PRIMITIVE if mixed is None else SEEN
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for lane in range(end - begin):
         row, column = _place(block, pixels[begin + lane])
         primitive[row, column] = numbers[field + lane]
@@ -350,7 +351,7 @@ def _write_halves(
     """Write which half of a shape the rays hit."""
     if half is None:
         return
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for lane in range(end - begin):
         row, column = _place(block, pixels[begin + lane])
         is_hit = numbers[PRIMITIVE + lane] > NO_PRIMITIVE
@@ -438,7 +439,7 @@ def _write_light(
     peak = 0.0
     if linear is None:
         return peak
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     if hits < end - begin:
         _clear(block, begin, end, pixels, linear)
         for lane in range(end - begin):
@@ -476,7 +477,7 @@ def _write_normals(
     if normals is None:
         return
     _clear(block, begin, end, pixels, normals)
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for hit in range(hits):
         row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
         for axis in range(3):
@@ -496,7 +497,7 @@ def _write_noise(
     """Write the standard errors of the light of the hits, 0 for the others."""
     if error is None:
         return
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for lane in range(end - begin):
         row, column = _place(block, pixels[begin + lane])
         error[row, column] = 0.0

@@ -6,8 +6,6 @@ drops what depends on them alone.
 
 from typing import NamedTuple
 
-import numpy as np
-
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import (
     DISTANCE,
@@ -18,6 +16,7 @@ from vtray.geometry.packets.packet import (
     PRIMITIVE,
     VALUE,
     Packet,
+    integers,
     load,
     store,
 )
@@ -48,7 +47,7 @@ def fog_share(fog: FogFrame, distance: float) -> float:
 @device
 def lane_share(packet: Packet, lane: int, fog: FogFrame) -> float:
     """Return how much of what a ray meets is fog; 0 if it meets nothing."""
-    if packet.view(np.int64)[PRIMITIVE + lane] == NO_PRIMITIVE:
+    if integers(packet)[PRIMITIVE + lane] == NO_PRIMITIVE:
         return 0.0
     return fog_share(fog, packet[DISTANCE + lane])
 
@@ -73,7 +72,7 @@ def veil(
             for hit in range(hits):
                 clear = 1.0 - fog_share(fog, packet[LENGTH + hit])
                 store(packet, VALUE, hit, scale(clear, load(packet, VALUE, hit)))
-            numbers = packet.view(np.int64)
+            numbers = integers(packet)
             for lane in range(lanes):
                 if numbers[PRIMITIVE + lane] < NO_PRIMITIVE:
                     clear = 1.0 - lane_share(packet, lane, fog)

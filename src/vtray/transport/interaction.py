@@ -2,8 +2,6 @@
 
 from typing import NamedTuple
 
-import numpy as np
-
 from vtray.base.compiler.compiled import device, part
 from vtray.geometry.dispatch import with_any
 from vtray.geometry.packets.coherence import CLUSTER, cluster_hits, list_hits
@@ -30,6 +28,7 @@ from vtray.geometry.packets.packet import (
     VALUE,
     Packet,
     Sheaf,
+    integers,
     load,
     load_ray,
     split_met,
@@ -161,7 +160,7 @@ def _fetch(
     materials: Materials,
 ) -> None:
     """Bring together what a hit is made of."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     row, slot = split_met(numbers[MET + lane])
     ray, distance = load_ray(packet, sheaf, lane), packet[DISTANCE + lane]
     point, error_scale = ray_point(ray, distance), ray.error_scale + distance

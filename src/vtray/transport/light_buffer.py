@@ -20,6 +20,7 @@ from vtray.geometry.packets.packet import (
     SOURCE,
     WEIGHT,
     Packet,
+    integers,
 )
 from vtray.geometry.vector import Vec, add, scale
 from vtray.transport.fog import FogFrame, lane_share
@@ -78,7 +79,7 @@ def nothing_kept(*, has_fog: bool) -> KeptLight:
 @device
 def keep_ray(packet: Packet, lane: int, place: int, kept: KeptLight, fog: FogFrame | None) -> None:
     """Keep what a ray hits and what it counts for."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     numbers[KEPT + lane] = place
     kept.primitive[place] = numbers[PRIMITIVE + lane]
     kept.half[place] = numbers[HALF + lane]
@@ -101,7 +102,7 @@ def keep_cosines(
     """Keep the cosine of a light at the hits that it reaches, if it is kept."""
     if cosines.shape[0] == 0:
         return
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for hit in range(hits):
         place = numbers[KEPT + numbers[SOURCE + hit]]
         cosines[light, place] = arriving_cosine(packet, hit, target)

@@ -4,8 +4,8 @@ Numba optimizes each function together with all that it calls, and makes machine
 Python could call it. Here that is of use for a kernel alone, into which LLVM puts all device
 functions. They are only simplified, each by itself: without that, loops are not vectorised.
 
-A kernel takes its arguments as hundreds of machine words, and handing over so many takes 15
-microseconds. So machine code begins with an entry point that takes them from memory.
+A kernel takes its arguments from memory, word by word, for which its machine code begins with an
+entry point; tuples of arrays stay there (`in_memory`).
 
 Parts of kernels have machine code of their own. Where code calls them there is only a name, which
 the linker finds.
@@ -24,7 +24,10 @@ from numba.core import cgutils, typed_passes, untyped_passes
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 from numba.core.compiler_machinery import PassManager
+from numba.core.typing.context import Context
 from numba.core.typing.templates import make_intrinsic_template
+
+from vtray.base.compiler.in_memory import WORD, load, word_count
 
 ENTRY = "entry"
 """The name of the entry point: ``int entry(result *, exception **, const char *words)``."""
@@ -41,9 +44,6 @@ UNUSED = (
     typed_passes.NopythonRewrites,
 )
 """Passes over what kernels do without: closures, contexts, literals, expressions of arrays."""
-
-WORD_BITS = 64
-"""What lies in memory for each argument, which begins where its word does."""
 
 
 RETURNED: dict[object, Any] = {
@@ -156,24 +156,50 @@ class KernelLibrary(DeviceLibrary):
         """Return the names of what the code calls and does not hold."""
         return {each.name for each in self._final_module.functions if each.is_declaration}
 
-    def object_code(self, name: str, kind: ir.FunctionType) -> bytes:
+    def object_code(self, called: Any, context: Any) -> bytes:  # noqa: ANN401
         """Return an object file of this machine that begins with an entry point.
 
         Parameters
         ----------
-        name, kind
-            The function that the entry point calls, ``int name(result *, exception **, ...)``.
+        called, context
+            What Numba says of the function that the entry point calls, and of its compiler.
         """
         self._ensure_finalized()
         # Not before: the function would be put into its entry, and LLVM forget what arguments are.
         module = self._codegen._create_empty_module(ENTRY)  # noqa: SLF001
-        _write_entry(module, ir.Function(module, kind, name))
+        _write_entry(module, called, context)
         self._final_module.link_in(binding.parse_assembly(str(module)))
         return self._emitted()
 
     def _emitted(self) -> bytes:
         code: bytes = self._codegen._tm.emit_object(self._final_module)  # noqa: SLF001
         return code
+
+
+class _Remembering(Context):
+    """What Numba knows of types, with what it has found of numbers and arrays remembered.
+
+    It tries all that ``+`` may mean each time it sees one, also for types that it has seen, which
+    took a tenth of all compiling.
+    """
+
+    def __init__(self, context: Context) -> None:
+        self.__dict__ = context.__dict__
+
+    def resolve_function_type(self, func: Any, args: Any, kws: Any) -> Any:  # noqa: ANN401
+        """Return the signature of a function for arguments of some types."""
+        is_plain = not kws and isinstance(func, numba.types.Function)
+        if not is_plain or not all(isinstance(kind, _REMEMBERED) for kind in args):
+            return super().resolve_function_type(func, args, kws)
+        call = func, tuple(args)
+        if call not in _signatures:
+            _signatures[call] = super().resolve_function_type(func, args, kws)
+        return _signatures[call]
+
+
+_REMEMBERED = numba.types.Number, numba.types.Boolean, numba.types.Array
+
+_signatures: dict[tuple[Any, ...], Any] = {}
 
 
 class DevicePipeline(Compiler):
@@ -192,7 +218,7 @@ class DevicePipeline(Compiler):
         locals: Any,  # noqa: A002, ANN401
     ) -> None:
         made = self.library(targetctx.codegen(), "function")
-        super().__init__(typingctx, targetctx, made, args, return_type, flags, locals)
+        super().__init__(_Remembering(typingctx), targetctx, made, args, return_type, flags, locals)
 
     def define_pipelines(self) -> list[PassManager]:
         """Return Numba's passes but those for which kernels have nothing."""
@@ -250,16 +276,18 @@ def type_of_calls(
     return numba.types.Function(make(function, define, function.__name__))
 
 
-def _write_entry(module: ir.Module, function: ir.Function) -> None:
+def _write_entry(module: ir.Module, called: Any, context: Any) -> None:  # noqa: ANN401
     """Write the entry point of a function."""
-    kind, word = function.function_type, ir.IntType(WORD_BITS)
-    entry_kind = ir.FunctionType(kind.return_type, [*kind.args[:2], word.as_pointer()])
+    kind = context.call_conv.get_function_type(called.restype, called.argtypes)
+    function = ir.Function(module, kind, called.llvm_func_name)
+    entry_kind = ir.FunctionType(kind.return_type, [*kind.args[:2], WORD.as_pointer()])
     entry = ir.Function(module, entry_kind, ENTRY)
     entry.attributes.add("nounwind")
     builder = ir.IRBuilder(entry.append_basic_block())
     result, exception, words = entry.args
-    arguments = []
-    for number, argument in enumerate(kind.args[2:]):
-        place = builder.gep(words, [word(number)])
-        arguments.append(builder.load(builder.bitcast(place, argument.as_pointer()), align=1))
-    builder.ret(builder.call(function, [result, exception, *arguments]))
+    arguments, at = [], 0
+    for each in called.argtypes:
+        arguments.append(load(context, builder, each, builder.gep(words, [WORD(at)])))
+        at += word_count(each)
+    packed = context.get_arg_packer(called.argtypes).as_arguments(builder, arguments)
+    builder.ret(builder.call(function, [result, exception, *packed]))

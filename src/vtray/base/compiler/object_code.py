@@ -126,13 +126,13 @@ def compile_object(
     check_memory_of_compiler()
     import numba
 
+    from vtray.base.compiler.in_memory import in_memory
     from vtray.base.compiler.numba_pipeline import ENTRY
 
     typeof: Any = numba.typeof
-    result = _compile(function, tuple(map(typeof, arguments)), options)
-    described, convention = result.fndesc, result.target_context.call_conv
-    kind = convention.get_function_type(described.restype, described.argtypes)
-    code = result.library.object_code(described.llvm_func_name, kind)
+    types = tuple(in_memory(typeof(argument)) for argument in arguments)
+    result = _compile(function, types, options)
+    code = result.library.object_code(result.fndesc, result.target_context)
     return ObjectCode(ENTRY, _layout(result.signature.return_type), code, _parts_in(result))
 
 

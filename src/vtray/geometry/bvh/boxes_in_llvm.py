@@ -32,9 +32,7 @@ def write_boxes_met(
 
     def write(context: Any, builder: Any, signature: Any, values: Any) -> Any:
         bvh, first, near, far, start, end, entered = values
-        struct = signature.args[0]
-        field = struct.fields.index("sides")
-        sides = data_of(context, builder, struct[field], builder.extract_value(bvh, field))
+        sides = data_in(context, builder, signature.args[0], bvh, "sides")
 
         def narrowed(limit: Any, bounds: Any, order: str) -> Any:
             """Return a limit, or the bound of an axis that is nearer, for each box."""
@@ -71,6 +69,12 @@ def write_fetch_early(_: object, values: Any, at: Any) -> Code:
         return context.get_dummy_value()
 
     return types.none(values, at), write
+
+
+def data_in(context: Any, builder: Any, kind: Any, holder: Any, name: str) -> Any:
+    """Return the address of the first number of an array, by its name in a tuple."""
+    array = context.get_getattr(kind, name)(context, builder, kind, holder, name)
+    return data_of(context, builder, context.typing_context.resolve_getattr(kind, name), array)
 
 
 def data_of(context: Any, builder: Any, kind: Any, array: Any) -> Any:

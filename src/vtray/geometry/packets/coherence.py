@@ -1,9 +1,7 @@
 """Clusters of hits on the same shape: near each other, they go to the lights together."""
 
-import numpy as np
-
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.packet import NO_PRIMITIVE, PRIMITIVE, Packet
+from vtray.geometry.packets.packet import NO_PRIMITIVE, PRIMITIVE, Packet, integers
 from vtray.geometry.packets.workspace import TABLE, Workspace
 
 CLUSTER = 32
@@ -16,7 +14,7 @@ SPREAD = 40503
 @device
 def list_hits(packet: Packet, lanes: int, work: Workspace) -> int:
     """List the lanes with a hit; return how many there are."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     hits = 0
     for lane in range(lanes):
         if numbers[PRIMITIVE + lane] > NO_PRIMITIVE:
@@ -52,7 +50,7 @@ def cluster_hits(packet: Packet, lanes: int, most: int, work: Workspace) -> int:
 def _find_members(packet: Packet, lanes: int, work: Workspace) -> int:
     """Find what is hit, by which lanes, and by how many; return how many things are."""
     table, owner, member, size = work.table, work.owner, work.member, work.size
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for place in range(TABLE):
         table[place] = -1
     owners = 0

@@ -14,7 +14,7 @@ from typing import Any
 from llvmlite import ir
 from numba import types
 
-from vtray.geometry.bvh.boxes_in_llvm import ALIGNED_TO, SINGLES, data_of, in_all_lanes
+from vtray.geometry.bvh.boxes_in_llvm import ALIGNED_TO, SINGLES, data_in, data_of, in_all_lanes
 from vtray.geometry.bvh.tree import WIDTH
 from vtray.geometry.packets.beam import NEVER
 from vtray.geometry.packets.fan_rays import FAR_SHARE, SINGLE_ERROR
@@ -49,9 +49,7 @@ def write_balls_seen(_: object, bvh: Any, first: Any, view: Any, balls: Any) -> 
 
     def write(context: Any, builder: Any, signature: Any, values: Any) -> Any:
         bvh, first, view, balls = values
-        struct = signature.args[0]
-        field = struct.fields.index("sides")
-        sides = data_of(context, builder, struct[field], builder.extract_value(bvh, field))
+        sides = data_in(context, builder, signature.args[0], bvh, "sides")
         out = data_of(context, builder, signature.args[3], balls)
         add, sub, mul = builder.fadd, builder.fsub, builder.fmul
 

@@ -3,8 +3,6 @@
 import math
 from collections.abc import Callable
 
-import numpy as np
-
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bundle import Bundle, Crossing, image_plane_range
 from vtray.geometry.dispatch import with_bounded
@@ -24,6 +22,7 @@ from vtray.geometry.packets.packet import (
     RIVAL,
     Packet,
     Sheaf,
+    integers,
     join_met,
     load_ray,
 )
@@ -50,7 +49,7 @@ from vtray.geometry.world import Clip, Group, World
 @device
 def clear_hits(packet: Packet, lanes: int) -> None:
     """Start with no hit in any lane."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for lane in range(lanes):
         packet[DISTANCE + lane] = math.inf
         packet[POWER + lane] = 0.0
@@ -198,7 +197,7 @@ def _take_lanes(
     if clip is not None:
         _take_deepest(packet, begin, end, sheaf, met, number, shape, distance_to, power_at)
         return
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for lane in range(begin, end):
         distance = distance_to(shape, load_ray(packet, sheaf, lane))
         best = packet[DISTANCE + lane]
@@ -221,7 +220,7 @@ def _take_deepest(
     power_at: Callable[[Shape, Vec], float],
 ) -> None:
     """Let a shape take those of some lanes in which it is nearer, or as near and deeper."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for lane in range(begin, end):
         ray = load_ray(packet, sheaf, lane)
         distance = distance_to(shape, ray)

@@ -22,6 +22,7 @@ from vtray.geometry.packets.packet import (
     REACH,
     SOURCE,
     Packet,
+    integers,
     load,
     split_met,
 )
@@ -156,7 +157,7 @@ def own_sphere(packet: Packet, hits: int, world: World) -> int:
     outside, meets it only on its way towards the centre, and this one leads away by more than
     rounding could explain.
     """
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     met = numbers[MET + numbers[SOURCE]]
     row, slot = split_met(met)
     group = load_group(world, row)
@@ -185,7 +186,7 @@ def find_sides(packet: Packet, hits: int, world: World, work: Workspace) -> None
 @device
 def find_close_planes(packet: Packet, hits: int, world: World, work: Workspace) -> None:
     """Find the planes that the patches of a packet reach, and on which they are not."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for row in range(group_count(world)):
         group = load_group(world, row)
         if group.kind == PLANE:

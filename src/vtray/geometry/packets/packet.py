@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, written_in_llvm
 from vtray.geometry.ray import Ray
 from vtray.geometry.vector import Vec
 
@@ -241,7 +241,7 @@ def start_apart(sheaf: Sheaf) -> bool:
     return True if sheaf.bounced is not None else sheaf.extent > 0.0
 
 
-@device
+@written_in_llvm("vtray.geometry.packets.packet_in_llvm:write_integers")
 def integers(packet: Packet) -> NDArray[np.int64]:
     """Return the memory of a packet as integers."""
     return packet.view(np.int64)

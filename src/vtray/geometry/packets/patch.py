@@ -8,8 +8,6 @@ it is lit; else it may be lit in part. The result does not depend on the order o
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bundle import Bundle, Crossing
 from vtray.geometry.packets.packet import (
@@ -29,6 +27,7 @@ from vtray.geometry.packets.packet import (
     TOWARDS,
     UNEVEN,
     Packet,
+    integers,
     load,
 )
 from vtray.geometry.shapes.plane import PlaneShape, plane_crossing
@@ -101,7 +100,7 @@ def note_solid(
     crossing_of: Callable[[Any, Bundle], Crossing],
 ) -> None:
     """Note of the patches of some lanes what a solid does to the light that they are asked for."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for lane in range(begin, end):
         is_own = numbers[OWNER + lane] == number
         is_outside = is_outside_of(shape, load(packet, POINT, lane), load(packet, NORMAL, lane))
@@ -114,7 +113,7 @@ def note_solid(
 @device
 def note_plane(packet: Packet, hits: int, number: int, plane: PlaneShape) -> None:
     """Note of all patches what a plane does to the light that they are asked for."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for lane in range(hits):
         near, far = plane_crossing(plane, load_bundle(packet, lane, False))
         _note_lane(packet, lane, near, far, numbers[OWNER + lane] == number, True)

@@ -24,6 +24,7 @@ from vtray.geometry.packets.packet import (
     RIVAL,
     Packet,
     Sheaf,
+    integers,
     start_apart,
 )
 from vtray.geometry.ray import Footprint, has_width, reach_at
@@ -132,7 +133,7 @@ def find_farthest(
     If they do not, they never will, whatever is farther away.
     """
     # Doubles ≥ 0 are in the order of their bits, and a maximum of integers can be vectorised.
-    bits = packet.view(np.int64)
+    bits = integers(packet)
     for octet in range(first, first + count):
         far = 0
         begin = octet * OCTET & (LANES - 1)

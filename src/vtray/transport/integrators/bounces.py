@@ -6,8 +6,6 @@ all hits are lit alike, by the same parts as the first ones. Which rays go on is
 integrators are about.
 """
 
-import numpy as np
-
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import (
     BEHIND,
@@ -38,6 +36,7 @@ from vtray.geometry.packets.packet import (
     WITHIN,
     Packet,
     Sheaf,
+    integers,
     join_met,
     load,
     split_met,
@@ -90,7 +89,7 @@ def mix_looks(
     # Arguments that are None are known to the compiler, which drops what depends on them alone.
     if looks is None:
         return
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for lane in range(lanes):
         met = numbers[PRIMITIVE + lane]
         if met > NO_PRIMITIVE:  # noqa: SIM102 - the look of nothing is not asked
@@ -101,7 +100,7 @@ def mix_looks(
 @device
 def begin_bounces(packet: Packet, lanes: int, pending: Pending) -> None:
     """Keep what the rays of the camera meet, and start with no light."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     clear_pending(pending, lanes)
     for lane in range(lanes):
         packet[BEHIND_DISTANCE + lane] = packet[DISTANCE + lane]
@@ -116,7 +115,7 @@ def begin_bounces(packet: Packet, lanes: int, pending: Pending) -> None:
 @device
 def comes_from_within(packet: Packet, hit: int, lane: int, world: World) -> bool:
     """Tell whether a ray meets a surface from within."""
-    row, slot = split_met(packet.view(np.int64)[MET + lane])
+    row, slot = split_met(integers(packet)[MET + lane])
     point, direction = load(packet, POINT, hit), load(packet, TOWARDS, hit)
     surface = surface_at(world, load_group(world, row), slot, point, packet[ERROR_SCALE + hit])
     outward = sub(point, surface.pole) if surface.is_round else surface.pole
@@ -212,7 +211,7 @@ def follow_rays(
     The light of lamps that are met instead, or of skies, is added to that of the lane. What rays
     meet after more than `most` surfaces is not followed.
     """
-    numbers, cast = packet.view(np.int64), 0
+    numbers, cast = integers(packet), 0
     for lane in range(lanes):
         numbers[PRIMITIVE + lane] = NO_PRIMITIVE
         while pending.waiting[lane] > 0 and numbers[PRIMITIVE + lane] == NO_PRIMITIVE:
@@ -260,7 +259,7 @@ def _store_ray(packet: Packet, lane: int, ray: Ray) -> None:
 @device
 def end_bounces(packet: Packet, lanes: int) -> int:
     """Make one hit of all that each lane sees; return how many there are."""
-    numbers, hits = packet.view(np.int64), 0
+    numbers, hits = integers(packet), 0
     for lane in range(lanes):
         packet[DISTANCE + lane] = packet[BEHIND_DISTANCE + lane]
         numbers[PRIMITIVE + lane] = numbers[BEHIND + lane]

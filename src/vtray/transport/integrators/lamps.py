@@ -2,8 +2,6 @@
 
 import math
 
-import numpy as np
-
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import (
     DISTANCE,
@@ -14,6 +12,7 @@ from vtray.geometry.packets.packet import (
     PRIMITIVE,
     Packet,
     Sheaf,
+    integers,
     load_ray,
     store,
 )
@@ -66,7 +65,7 @@ def _see_lamp(
     k: int,
 ) -> None:
     """Let a lamp take the lanes in which it is nearer."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     light = lamp_light(lights, lamps.row[k])
     for lane in range(lanes):
         ray = load_ray(packet, sheaf, lane)
@@ -102,7 +101,7 @@ def _mix_lane(
 ) -> None:
     """Set field ``MIXED`` for one lane."""
     ray, distance = load_ray(packet, sheaf, lane), packet[DISTANCE + lane]
-    met = packet.view(np.int64)[PRIMITIVE + lane]
+    met = integers(packet)[PRIMITIVE + lane]
     if met < NO_PRIMITIVE:
         packet[MIXED + lane] = 1.0 if packet[NEAREST + lane] <= distance else 0.0
     for k in range(lamp_count(lamps)):

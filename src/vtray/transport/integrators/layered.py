@@ -4,8 +4,6 @@ Each layer of each ray is a hit. Its colour counts as much as light from there p
 before it, so that all that lights add to it is what is seen of that.
 """
 
-import numpy as np
-
 from vtray.base.compiler.compiled import device
 from vtray.geometry.faded.chords import End
 from vtray.geometry.faded.layers import Slot, list_layers
@@ -33,6 +31,7 @@ from vtray.geometry.packets.packet import (
     VARIANCE,
     Packet,
     Sheaf,
+    integers,
     load,
     load_ray,
     store,
@@ -79,7 +78,7 @@ def choose_surfaces(
     """Let the first layers that are opaque enough take the lanes."""
     if faded is None:
         return
-    numbers, layers = packet.view(np.int64), work.layers
+    numbers, layers = integers(packet), work.layers
     for lane in range(lanes):
         skipped, found = 0, AT_ONCE
         while skipped < found:
@@ -105,7 +104,7 @@ def see_all(packet: Packet, lanes: int) -> None:
 @device
 def begin_layers(packet: Packet, lanes: int) -> None:
     """Keep what is behind all layers, and start with no light."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for lane in range(lanes):
         packet[BEHIND_DISTANCE + lane] = packet[DISTANCE + lane]
         numbers[BEHIND + lane] = numbers[PRIMITIVE + lane]
@@ -127,7 +126,7 @@ def list_lanes(
     work: Workspace,
 ) -> int:
     """List the layers of all lanes after so many; return how many rounds it takes to see them."""
-    numbers, rounds = packet.view(np.int64), 0
+    numbers, rounds = integers(packet), 0
     for lane in range(lanes):
         if numbers[PASSED_LAYERS + lane] > skipped or skipped == 0:
             _restore(packet, lane)
@@ -151,7 +150,7 @@ def _list_lane(
     work: Workspace,
 ) -> int:
     """List the layers of a lane after so many; return how many there are."""
-    primitive = packet.view(np.int64)[PRIMITIVE + lane]
+    primitive = integers(packet)[PRIMITIVE + lane]
     ray, end = load_ray(packet, sheaf, lane), End(packet[DISTANCE + lane], primitive, 0.0)
     slot = Slot(work.layers, lane, skipped)
     return list_layers(world, faded, ray, end, slot, work.walk, work.stack)
@@ -160,7 +159,7 @@ def _list_lane(
 @device
 def _restore(packet: Packet, lane: int) -> None:
     """Bring back what is behind all layers of a lane."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     packet[DISTANCE + lane] = packet[BEHIND_DISTANCE + lane]
     numbers[PRIMITIVE + lane] = numbers[BEHIND + lane]
     numbers[MET + lane] = numbers[BEHIND_MET + lane]
@@ -171,7 +170,7 @@ def take_round(
     packet: Packet, lanes: int, skipped: int, k: int, layers: Layers, fog: FogFrame | None
 ) -> None:
     """Let the k-th of the layers that are listed take the lanes, or what is behind the last."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for lane in range(lanes):
         listed, found = layers.listed[lane], numbers[PASSED_LAYERS + lane]
         is_last = (found > skipped or skipped == 0) and found - skipped <= AT_ONCE
@@ -205,7 +204,7 @@ def _clear_share(packet: Packet, lane: int, share: float, fog: FogFrame | None) 
 @device
 def weigh_colors(packet: Packet, hits: int) -> None:
     """Let the colours of hits count as much as is seen of them."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for hit in range(hits):
         share = packet[SHARE + numbers[SOURCE + hit]]
         store(packet, COLOR, hit, scale(share, load(packet, COLOR, hit)))
@@ -215,7 +214,7 @@ def weigh_colors(packet: Packet, hits: int) -> None:
 @device
 def gather_light(packet: Packet, hits: int) -> None:
     """Add the light of hits to that of their lanes."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for hit in range(hits):
         lane = numbers[SOURCE + hit]
         light = add(load(packet, GATHERED, lane), load(packet, VALUE, hit))
@@ -226,7 +225,7 @@ def gather_light(packet: Packet, hits: int) -> None:
 @device
 def end_layers(packet: Packet, lanes: int, layers: Layers) -> int:
     """Make one hit of all that each lane sees; return how many there are."""
-    numbers, hits = packet.view(np.int64), 0
+    numbers, hits = integers(packet), 0
     for lane in range(lanes):
         _restore(packet, lane)
         passed, behind = layers.passed[lane], numbers[BEHIND + lane]

@@ -23,6 +23,7 @@ from vtray.geometry.packets.packet import (
     PRIMITIVE,
     ROW,
     Packet,
+    integers,
     load_ray,
     split_met,
 )
@@ -403,7 +404,7 @@ def _is_first(
     """Tell whether a ray between two pixels sees what the first of them sees."""
     below, beside = row + axis, column + 1 - axis
     one, two = seen.primitive[row, column], seen.primitive[below, beside]
-    found = packet.view(np.int64)[PRIMITIVE + lane]
+    found = integers(packet)[PRIMITIVE + lane]
     if one == two:
         return normal is not None and _leans_to_first(
             packet, lane, scene, normal, row, column, below, beside
@@ -425,7 +426,7 @@ def _leans_to_first(
     beside: int,
 ) -> bool:
     """Tell whether the normal that a ray finds is nearer to that of the first of two pixels."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     if numbers[PRIMITIVE + lane] <= NO_PRIMITIVE:
         return False
     group, slot = split_met(numbers[MET + lane])

@@ -13,8 +13,6 @@ Kajiya, "The Rendering Equation", SIGGRAPH 1986; Arvo, Kirk, "Particle Transport
 Synthesis", SIGGRAPH 1990 (Russian roulette).
 """
 
-import numpy as np
-
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import (
     BOUNCES,
@@ -29,6 +27,7 @@ from vtray.geometry.packets.packet import (
     WITHIN,
     Block,
     Packet,
+    integers,
     load,
     store,
 )
@@ -95,7 +94,7 @@ def scatter_hits(
     paths, seed
         How paths choose.
     """
-    numbers, looks_far = packet.view(np.int64), has_even_light(surroundings)
+    numbers, looks_far = integers(packet), has_even_light(surroundings)
     for hit in range(hits):
         lane = numbers[SOURCE + hit]
         look = load_look(materials, looks, numbers[PRIMITIVE + lane])

@@ -25,6 +25,7 @@ from vtray.geometry.packets.packet import (
     VALUE,
     Block,
     Packet,
+    integers,
     load,
     store,
 )
@@ -143,7 +144,7 @@ def add_soft_lights(
     cast = 0
     clear_noise(packet, hits)
     for hit in range(hits):
-        lane = packet.view(np.int64)[SOURCE + hit]
+        lane = integers(packet)[SOURCE + hit]
         column, row, sample = sample_of(lane, samples, first, block, begin, work.pixels)
         material, spent = Material(load(packet, COLOR, hit), packet[LAMBERT + hit]), 0.0
         own = fans_of_share(fans, _seen_share(packet, lane, lit.world.faded))
@@ -249,7 +250,7 @@ def _keep_share(
 ) -> None:
     """Keep what arrives of a component of a soft light at the hit of a lane, if that is kept."""
     if cosines.shape[0] > 0:
-        place = packet.view(np.int64)[KEPT + lane]
+        place = integers(packet)[KEPT + lane]
         cosines[row, place] = share
 
 

@@ -2,8 +2,6 @@
 
 import math
 
-import numpy as np
-
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bundle import Bundle
 from vtray.geometry.edges import LampView, has_edge
@@ -19,6 +17,7 @@ from vtray.geometry.packets.packet import (
     REACH,
     THICKEST,
     Packet,
+    integers,
     load,
 )
 from vtray.geometry.packets.patch import NEAR_END, crossed_share
@@ -78,7 +77,7 @@ def _view(
         _bundle(point, axis, reach, growth, 0.0),
         _bundle(point, axis, reach, growth, 4.0 * reach),
         load(packet, NORMAL, hit),
-        packet.view(np.int64)[OWNER + hit],
+        integers(packet)[OWNER + hit],
         reach,
         radius,
         length,

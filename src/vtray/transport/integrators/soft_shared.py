@@ -1,7 +1,5 @@
 """What many soft lights add to a hit: fans of rays that all of them share."""
 
-import numpy as np
-
 from vtray.base.compiler.compiled import device, part
 from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
 from vtray.geometry.packets.cone import CLOSED, Touching, find_touching
@@ -19,6 +17,7 @@ from vtray.geometry.packets.packet import (
     VALUE,
     Block,
     Packet,
+    integers,
     load,
     store,
 )
@@ -94,7 +93,7 @@ def add_shared_light(
     cast = 0
     clear_noise(packet, hits)
     for hit in range(hits):
-        lane = packet.view(np.int64)[SOURCE + hit]
+        lane = integers(packet)[SOURCE + hit]
         column, row, sample = sample_of(lane, samples, first, block, begin, work.pixels)
         cast += _light_hit(
             packet, hit, column, row, sample, lit, soft, crowd, fans, seed, is_wide, work

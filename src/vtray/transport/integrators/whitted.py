@@ -8,8 +8,6 @@ References
 Whitted, "An Improved Illumination Model for Shaded Display", Communications of the ACM 23, 1980.
 """
 
-import numpy as np
-
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import (
     BOUNCES,
@@ -22,6 +20,7 @@ from vtray.geometry.packets.packet import (
     TOWARDS,
     WITHIN,
     Packet,
+    integers,
     load,
     store,
 )
@@ -70,7 +69,7 @@ def split_hits(
     most
         How many bounces there are at the most.
     """
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for hit in range(hits):
         lane = numbers[SOURCE + hit]
         look = load_look(materials, looks, numbers[PRIMITIVE + lane])

@@ -22,8 +22,6 @@ Amanatides, "Ray Tracing with Cones", SIGGRAPH 1984 (what a pixel sees as a bund
 
 import math
 
-import numpy as np
-
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.occlusion import Target
 from vtray.geometry.packets.packet import (
@@ -52,6 +50,7 @@ from vtray.geometry.packets.packet import (
     UNEVEN,
     VALUE,
     Packet,
+    integers,
     load,
     store,
 )
@@ -79,7 +78,7 @@ light then differs from that in the middle by less than 4 of 255."""
 @device
 def note_seen(packet: Packet, lanes: int) -> None:
     """Note what rays hit, before some of it is left out."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for lane in range(lanes):
         numbers[SEEN + lane] = numbers[PRIMITIVE + lane]
 
@@ -87,7 +86,7 @@ def note_seen(packet: Packet, lanes: int) -> None:
 @device
 def leave_mixed(packet: Packet, lanes: int) -> None:
     """Leave out what rays hit whose pixels get samples: it is not looked at."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for lane in range(lanes):
         if packet[MIXED + lane] != 0.0:
             numbers[PRIMITIVE + lane] = NO_PRIMITIVE
@@ -96,7 +95,7 @@ def leave_mixed(packet: Packet, lanes: int) -> None:
 @device
 def find_patches(packet: Packet, hits: int, footprint: Footprint | None, thickest: float) -> None:
     """Set the patches of the hits of a packet; `thickest` is the radius of the thickest solid."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for hit in range(hits):
         width = width_at(footprint, packet[LENGTH + hit])
         cosine = -dot(load(packet, TOWARDS, hit), load(packet, NORMAL, hit))
@@ -139,7 +138,7 @@ def ask_of_light(packet: Packet, hits: int, target: Target) -> None:
 @device
 def mix_uneven(packet: Packet, hits: int) -> None:
     """Mark the lanes of hits whose patches may not look the same everywhere; their light is 0."""
-    numbers = packet.view(np.int64)
+    numbers = integers(packet)
     for hit in range(hits):
         if packet[UNEVEN + hit] != 0.0:
             packet[MIXED + numbers[SOURCE + hit]] = 1.0

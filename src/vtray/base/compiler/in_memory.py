@@ -1,0 +1,154 @@
+"""Arguments of kernels that stay in memory.
+
+A scene is a tuple of tuples of some seventy arrays. Numba hands over such a tuple word by word, and
+writes code that takes it apart and puts it together in each function that it goes through, which is
+more than half of all that LLVM is given. So a tuple with named items that holds arrays is an
+address to machine code: that of its words, which lie one after the other as `native_call` has put
+them there, and from where an item is loaded when it is asked for.
+
+Nobody writes to these words while a kernel runs, and LLVM is told so. What a kernel itself makes of
+a class is a value, as ever.
+"""
+
+# ruff: noqa: ANN401
+# mypy: allow-untyped-calls, allow-untyped-decorators
+
+from typing import Any
+
+import numba
+from blake3 import blake3
+from llvmlite import ir
+from numba.core.datamodel.models import PrimitiveModel
+from numba.core.extending import lower_getattr_generic
+from numba.core.typing.templates import AttributeTemplate
+from numba.extending import infer_getattr, register_model
+
+types: Any = numba.types
+
+WORD = ir.IntType(64)
+"""What there is in memory for a number, an address, or nothing."""
+
+_ITEMS, _ITEM_BYTES, _DATA, _SHAPE, _STRIDES = range(2, 7)
+"""The members of an array to Numba; in memory, the last two have a word for each dimension."""
+
+_NAME_BYTES = 12
+
+
+class InMemory(numba.types.Type):
+    """A tuple with named items that lies in memory, as the type of an argument.
+
+    Attributes
+    ----------
+    fields
+        The names of its items.
+    items
+        Their types.
+    places
+        The words at which they begin.
+    size
+        How many words there are.
+    """
+
+    def __init__(self, kind: Any) -> None:
+        self.fields: tuple[str, ...] = kind.fields
+        self.items = tuple(map(in_memory, kind.types))
+        sizes = [word_count(item) for item in self.items]
+        self.places = [sum(sizes[:k]) for k in range(len(sizes))]
+        self.size = sum(sizes)
+        # Names of functions hold those of their arguments, and some would be thousands long.
+        digest = blake3(str(kind).encode()).hexdigest(_NAME_BYTES)
+        super().__init__(f"{kind.instance_class.__name__}-{digest}")
+
+
+@register_model(InMemory)
+class _Address(PrimitiveModel):
+    """What such a tuple is to machine code."""
+
+    def __init__(self, manager: Any, kind: InMemory) -> None:
+        super().__init__(manager, kind, WORD.as_pointer())
+
+
+@infer_getattr
+class _Items(AttributeTemplate):
+    """Says what type an item has."""
+
+    key = InMemory
+
+    def generic_resolve(self, kind: InMemory, name: str) -> Any:  # type: ignore[override]
+        """Return the type of an item, None if there is none of the name."""
+        return kind.items[kind.fields.index(name)] if name in kind.fields else None
+
+
+def in_memory(kind: Any) -> Any:
+    """Return the type of an argument of a kernel, given what Numba says of its value."""
+    is_named = isinstance(kind, types.BaseNamedTuple)
+    return InMemory(kind) if is_named and _has_array(kind) else kind
+
+
+def word_count(kind: Any) -> int:
+    """Return how many words a value of a type takes in memory."""
+    if isinstance(kind, InMemory):
+        return kind.size
+    if isinstance(kind, types.BaseTuple):
+        return sum(word_count(item) for item in kind.types)
+    return _SHAPE + 2 * int(kind.ndim) if isinstance(kind, types.Array) else 1
+
+
+def load(context: Any, builder: Any, kind: Any, place: Any) -> Any:
+    """Write what loads a value from the words at a place; return the value."""
+    if isinstance(kind, InMemory):
+        return place
+    if isinstance(kind, types.NoneType):
+        return context.get_dummy_value()
+    if isinstance(kind, types.BaseTuple):
+        values = []
+        for item in kind.types:
+            values.append(load(context, builder, item, place))
+            place = _moved(builder, place, word_count(item))
+        return context.make_tuple(builder, kind, values)
+    if isinstance(kind, types.Array):
+        return _load_array(context, builder, kind, place)
+    word = _load_word(builder, context.get_data_type(kind), place)
+    return context.data_model_manager[kind].from_data(builder, word)
+
+
+@lower_getattr_generic(InMemory)
+def _load_item(context: Any, builder: Any, kind: InMemory, place: Any, name: str) -> Any:
+    number = kind.fields.index(name)
+    return load(context, builder, kind.items[number], _moved(builder, place, kind.places[number]))
+
+
+def _load_array(context: Any, builder: Any, kind: Any, place: Any) -> Any:
+    """Write what loads an array; what only Numba's counting of references needs is null."""
+    made = ir.Constant(context.get_value_type(kind), None)
+    item = context.get_data_type(kind.dtype)
+
+    def word(number: int, value_type: Any = WORD) -> Any:
+        return _load_word(builder, value_type, _moved(builder, place, number))
+
+    made = builder.insert_value(made, word(_ITEMS), _ITEMS)
+    made = builder.insert_value(made, WORD(context.get_abi_sizeof(item)), _ITEM_BYTES)
+    made = builder.insert_value(made, word(_DATA, item.as_pointer()), _DATA)
+    for axis in range(kind.ndim):
+        made = builder.insert_value(made, word(_SHAPE + axis), (_SHAPE, axis))
+        made = builder.insert_value(made, word(_SHAPE + kind.ndim + axis), (_STRIDES, axis))
+    return made
+
+
+def _moved(builder: Any, place: Any, words: int) -> Any:
+    """Write what moves a place by some words."""
+    return builder.gep(place, [WORD(words)]) if words else place
+
+
+def _load_word(builder: Any, kind: Any, place: Any) -> Any:
+    """Write what loads a value from the word at a place."""
+    loaded = builder.load(builder.bitcast(place, kind.as_pointer()), align=1)
+    loaded.set_metadata("invariant.load", builder.module.add_metadata([]))
+    return loaded
+
+
+def _has_array(kind: Any) -> bool:
+    """Tell whether a type holds an array, maybe deep within."""
+    if isinstance(kind, types.BaseTuple):
+        return any(map(_has_array, kind.types))
+    return isinstance(kind, types.Array)
