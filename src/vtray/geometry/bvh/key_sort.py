@@ -141,7 +141,7 @@ def count_parts(
     counts
         Out: how many of the range belong to each part, (PARTS,), 0 before.
     """
-    splitters, first = parts
+    splitters, first = parts.splitters, parts.first
     for k in range(begin, end):
         key = keys[k]
         cell = int(key >> np.uint64(64 - CELL_BITS))
