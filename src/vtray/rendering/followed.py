@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from vtray.base.errors import RenderError
 from vtray.rendering.acceleration import Acceleration
 from vtray.scene.copies import Copies
-from vtray.scene.materials import AnyMaterial, is_matt, material_of
+from vtray.scene.materials import is_matt, materials_of
 from vtray.scene.objects import Object
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
@@ -59,6 +59,6 @@ def _names(objects: Sequence[Object]) -> Iterator[str]:
     for item in objects:
         if isinstance(item, Copies):
             yield from _names(item.objects)
-        material: AnyMaterial = getattr(item, "material", "lambert")
-        if not is_matt(material):
-            yield type(material_of(material)).__name__.lower()
+        for material in materials_of(getattr(item, "material", "lambert")):
+            if not is_matt(material):
+                yield type(material).__name__.lower()

@@ -18,7 +18,7 @@ from vtray.rendering.pack_looks import MadeOf, joined_made, made_of
 from vtray.scene.arrays import Arrays
 from vtray.scene.cones import Cones
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.materials import material_of
+from vtray.scene.materials import material_of, materials_of
 from vtray.scene.objects import Cone, Cylinder, Object, Sphere
 from vtray.scene.spheres import Spheres
 
@@ -149,8 +149,16 @@ def _from_arrays(kind: Kind, item: Any) -> Source:  # noqa: ANN401
         None if end is None else _row_by_row(np.atleast_2d(end)),
         _row_by_row(np.atleast_1d(item.lambert), np.float64),
         _row_by_row(np.atleast_1d(item.given_for("opacity")), np.float64),
-        made_of([material_of(item.material)]),
+        _made_of_each(item),
     )
+
+
+def _made_of_each(item: Any) -> MadeOf:  # noqa: ANN401
+    """Return what shapes given as arrays are made of."""
+    materials = materials_of(item.material)
+    if len(set(materials)) == 1:
+        return made_of(materials[:1])
+    return MadeOf(materials, item.material_index.astype(np.int64))
 
 
 def _row_by_row(values: Any, dtype: type[np.generic] | None = None) -> NDArray[Any]:  # noqa: ANN401

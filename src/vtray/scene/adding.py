@@ -83,7 +83,8 @@ class Adding:
         clim: tuple[float, float] | None = None,
         nan_color: "AnyColor" = "gray",
         opacity: "ArrayLike | None" = None,
-        material: "AnyMaterial" = "lambert",
+        material: "AnyMaterial | Sequence[AnyMaterial]" = "lambert",
+        material_index: "ArrayLike | None" = None,
     ) -> Spheres:
         """Add many spheres to the objects.
 
@@ -116,7 +117,9 @@ class Adding:
             Share of the light that each takes on its way through, from 0 to 1, (n,), or one for
             all; 1 by default. Those of one opacity that overlap are one body.
         material
-            What all of them are made of, as for `add_sphere`.
+            What all of them are made of, as for `add_sphere`; or several materials.
+        material_index
+            Which of several materials each is made of: its number from 0, (n,).
 
         Returns
         -------
@@ -136,6 +139,7 @@ class Adding:
                 "lambert": lambert,
                 "opacity": opacity,
                 "material": material,
+                "material_index": material_index,
             },
             {"color": color},
             "add_spheres: ",
@@ -202,7 +206,8 @@ class Adding:
         clim: tuple[float, float] | None = None,
         nan_color: "AnyColor" = "gray",
         opacity: "ArrayLike | None" = None,
-        material: "AnyMaterial" = "lambert",
+        material: "AnyMaterial | Sequence[AnyMaterial]" = "lambert",
+        material_index: "ArrayLike | None" = None,
     ) -> Cylinders:
         """Add many solid cylinders with flat caps to the objects: bonds, for instance.
 
@@ -223,7 +228,7 @@ class Adding:
             at `start`. By default, each cylinder has one colour.
         cmap, clim, nan_color
             As for `add_spheres`; `color` and `color_end` are both values, with common limits.
-        opacity, material
+        opacity, material, material_index
             As for `add_spheres`.
 
         Returns
@@ -245,6 +250,7 @@ class Adding:
                 "lambert": lambert,
                 "opacity": opacity,
                 "material": material,
+                "material_index": material_index,
             },
             {"color": color, "color_end": color_end},
             "add_cylinders: ",
@@ -314,7 +320,8 @@ class Adding:
         clim: tuple[float, float] | None = None,
         nan_color: "AnyColor" = "gray",
         opacity: "ArrayLike | None" = None,
-        material: "AnyMaterial" = "lambert",
+        material: "AnyMaterial | Sequence[AnyMaterial]" = "lambert",
+        material_index: "ArrayLike | None" = None,
     ) -> Cones:
         """Add many solid cones with flat caps to the objects.
 
@@ -330,7 +337,7 @@ class Adding:
             The colours, in any of the ways of `add_spheres`.
         lambert
             Share of the light that the surfaces scatter, from 0 to 1, (n,), or one for all.
-        color_end, cmap, clim, nan_color, opacity, material
+        color_end, cmap, clim, nan_color, opacity, material, material_index
             As for `add_cylinders`.
 
         Returns
@@ -353,6 +360,7 @@ class Adding:
                 "lambert": lambert,
                 "opacity": opacity,
                 "material": material,
+                "material_index": material_index,
             },
             {"color": color, "color_end": color_end},
             "add_cones: ",

@@ -5,11 +5,12 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import msgspec
 
+from vtray.base.errors import SceneError
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.checks.checked import make_unchecked
 from vtray.scene.checks.columns import NO_NAMES, check_arrays, read_only
 from vtray.scene.checks.limits import Byte
-from vtray.scene.materials import checked_material, is_matt, material_of
+from vtray.scene.materials import checked_materials, is_matt, materials_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
     from vtray.scene.colors.color_scale import ColorMap, ColorScale
     from vtray.scene.colors.names import AnyColor
-    from vtray.scene.materials import AnyMaterial
+    from vtray.scene.materials import AnyMaterials
 
     Floats = NDArray[np.float64] | NDArray[np.float32]
     Bytes = NDArray[np.uint8]
@@ -42,16 +43,19 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
     """Many objects of one kind, as arrays.
 
     A kind is a class that says its arrays twice: as `COLUMNS`, and as fields of the same names in
-    the same order. After them comes the field `material`, which is one for all.
+    the same order. Besides there is the field `material`: what they are made of.
     """
 
     if TYPE_CHECKING:
 
         @property
-        def material(self) -> AnyMaterial:
-            """What all are made of."""
+        def material(self) -> AnyMaterials:
+            """What they are made of."""
     else:
         material: ClassVar[str] = "lambert"  # what has no such field is made of nothing
+
+    FIRST: ClassVar[int] = 0
+    """The number of the material of those of which none is said."""
 
     EACH: ClassVar[str]
     """What one of them is called in messages about colours."""
@@ -75,7 +79,8 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
             The names of arrays in messages, where they differ.
         """
         arrays = check_arrays(cls.COLUMNS, values, place, called)
-        material = checked_material(values.get("material", "lambert"), f"{place}material")
+        material = checked_materials(values.get("material", "lambert"), f"{place}material")
+        _check_index(arrays["material_index"], len(materials_of(material)), place)
         made: Self = make_unchecked(cls, **arrays, material=material)
         return made
 
@@ -151,7 +156,7 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
             return False
         import numpy as np
 
-        if material_of(self.material) != material_of(other.material):
+        if materials_of(self.material) != materials_of(other.material):
             return False
         pairs = ((self.given_for(name), other.given_for(name)) for name in self.COLUMNS)
         return len(self) == 0 or all(bool(np.all(one == two)) for one, two in pairs)
@@ -192,6 +197,18 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
 
     def _check_again(self, place: str) -> None:
         check_arrays(self.COLUMNS, msgspec.structs.asdict(self), f"{place}.")
+
+
+def _check_index(index: Any, count: int, place: str) -> None:  # noqa: ANN401
+    """Raise SceneError if shapes are made of materials that there are not."""
+    if index is None and count > 1:
+        words = f"expected the number of the material of each, as there are {count}"
+        raise SceneError(f"{place}material_index: missing; {words}")
+    if index is not None and len(index) and index.max() >= count:
+        wrong = int((index >= count).argmax())
+        there = f"as there are {count} materials" if count > 1 else "as there is one material"
+        words = f"expected an integer from 0 to {count - 1}, {there}, got {index[wrong]}"
+        raise SceneError(f"{place}material_index[{wrong}]: {words}")
 
 
 def _rebuild(kind: type[Arrays], values: tuple[Any, ...], scale: "ColorScale | None") -> Arrays:

@@ -4,11 +4,15 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from vtray.scene.arrays import Arrays, Bytes, Floats
-from vtray.scene.checks.columns import COLOR, LAMBERT, OPACITY, POINT, RADIUS
-from vtray.scene.materials import AnyMaterial
+from vtray.scene.checks.columns import COLOR, LAMBERT, MATERIAL_INDEX, OPACITY, POINT, RADIUS
+from vtray.scene.materials import AnyMaterials
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import ArrayLike
+
+    from vtray.scene.materials import AnyMaterial
 
 
 class Cylinders(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="cylinders"):
@@ -37,9 +41,11 @@ class Cylinders(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag=
     opacity : array (n,) or float, or None
         Share of the light that each takes on its way through, from 0 to 1, or one for all; float64
         or float32 as given. None for 1. Those of one opacity that overlap are one body.
-    material : Lambert, Mirror, Glass, Metal, Emissive or str
+    material_index : array (n,), or None
+        Which of the materials each is made of, from 0, as uint8. None for the first.
+    material : Lambert, Mirror, Glass, Metal, Emissive or str, or a tuple of these
         What they are made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
-        "emissive".
+        "emissive"; or several, of which `material_index` says who is made of which.
 
     Raises
     ------
@@ -61,7 +67,8 @@ lambert=1.0, color_end=<uint8 (3,)>)
     lambert: Floats | float
     color_end: Bytes | None = None
     opacity: Floats | float | None = None
-    material: AnyMaterial = "lambert"
+    material_index: Bytes | None = None
+    material: AnyMaterials = "lambert"
 
     COLUMNS = MappingProxyType(
         {
@@ -72,6 +79,7 @@ lambert=1.0, color_end=<uint8 (3,)>)
             "lambert": LAMBERT,
             "color_end": COLOR._replace(stand_in="color"),
             "opacity": OPACITY,
+            "material_index": MATERIAL_INDEX,
         }
     )
     EACH = "cylinder"
@@ -92,5 +100,6 @@ lambert=1.0, color_end=<uint8 (3,)>)
             lambert: ArrayLike = 1.0,
             color_end: ArrayLike | None = None,
             opacity: ArrayLike | None = None,
-            material: AnyMaterial = "lambert",
+            material_index: ArrayLike | None = None,
+            material: AnyMaterial | Sequence[AnyMaterial] = "lambert",
         ) -> None: ...

@@ -97,26 +97,43 @@ _BY_NAME: dict[str, Material] = {
 AnyMaterial: TypeAlias = Material | MaterialName
 """A material, or the name of one as it is by default."""
 
+AnyMaterials: TypeAlias = (
+    AnyMaterial
+    | Annotated[
+        tuple[AnyMaterial, ...], Meta(min_length=1, description="an array of such materials")
+    ]
+)
+"""A material for all of many objects, or those of which each is made of one."""
+
 
 def material_of(given: Material | MaterialName) -> Material:
     """Return a material that may be given by its name."""
     return _BY_NAME[given] if isinstance(given, str) else given
 
 
-def is_matt(given: Material | MaterialName) -> bool:
-    """Tell whether a material is the one that everything is made of by default."""
-    return isinstance(material_of(given), Lambert)
+def is_matt(given: AnyMaterials) -> bool:
+    """Tell whether all is made of the material that everything is made of by default."""
+    return all(isinstance(one, Lambert) for one in materials_of(given))
 
 
-def checked_material(given: object, place: str) -> Material | MaterialName:
-    """Return a material that is given in code.
+def materials_of(given: AnyMaterials) -> tuple[Material, ...]:
+    """Return the materials of which many objects are made, in the order of their numbers."""
+    return tuple(map(material_of, given)) if isinstance(given, tuple) else (material_of(given),)
+
+
+def checked_materials(given: object, place: str) -> AnyMaterials:
+    """Return a material that is given in code, or a sequence of them as a tuple.
 
     Raises
     ------
     SceneError
-        If it is none; the message begins with the place.
+        If one is none, or there are none; the message begins with the place.
     """
     from vtray.scene.checks.scene_check import from_code
 
-    found: Material | MaterialName = from_code(given, AnyMaterial, place)
+    found: AnyMaterials
+    if isinstance(given, (list, tuple)) and given:
+        found = tuple(from_code(one, AnyMaterial, f"{place}[{k}]") for k, one in enumerate(given))
+    else:
+        found = from_code(given, AnyMaterial, place)
     return found

@@ -4,11 +4,15 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from vtray.scene.arrays import Arrays, Bytes, Floats
-from vtray.scene.checks.columns import COLOR, LAMBERT, OPACITY, POINT, RADIUS
-from vtray.scene.materials import AnyMaterial
+from vtray.scene.checks.columns import COLOR, LAMBERT, MATERIAL_INDEX, OPACITY, POINT, RADIUS
+from vtray.scene.materials import AnyMaterials
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import ArrayLike
+
+    from vtray.scene.materials import AnyMaterial
 
 
 class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="spheres"):
@@ -36,9 +40,11 @@ class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="s
     opacity : array (n,) or float, or None
         Share of the light that each takes on its way through, from 0 to 1, or one for all; float64
         or float32 as given. None for 1. Those of one opacity that overlap are one body.
-    material : Lambert, Mirror, Glass, Metal, Emissive or str
+    material_index : array (n,), or None
+        Which of the materials each is made of, from 0, as uint8. None for the first.
+    material : Lambert, Mirror, Glass, Metal, Emissive or str, or a tuple of these
         What they are made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
-        "emissive".
+        "emissive"; or several, of which `material_index` says who is made of which.
 
     Raises
     ------
@@ -57,7 +63,8 @@ class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="s
     color: Bytes
     lambert: Floats | float
     opacity: Floats | float | None = None
-    material: AnyMaterial = "lambert"
+    material_index: Bytes | None = None
+    material: AnyMaterials = "lambert"
 
     COLUMNS = MappingProxyType(
         {
@@ -66,6 +73,7 @@ class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="s
             "color": COLOR,
             "lambert": LAMBERT,
             "opacity": OPACITY,
+            "material_index": MATERIAL_INDEX,
         }
     )
     EACH = "position"
@@ -84,5 +92,6 @@ class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="s
             color: ArrayLike = ...,
             lambert: ArrayLike = 1.0,
             opacity: ArrayLike | None = None,
-            material: AnyMaterial = "lambert",
+            material_index: ArrayLike | None = None,
+            material: AnyMaterial | Sequence[AnyMaterial] = "lambert",
         ) -> None: ...

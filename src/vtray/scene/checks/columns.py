@@ -21,7 +21,7 @@ from vtray.scene.checks.given_array import (
     show_array,
     show_shape,
 )
-from vtray.scene.checks.limits import Byte, Fraction, NonNegative, Real
+from vtray.scene.checks.limits import Byte, Fraction, MaterialNumber, NonNegative, Real
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -64,6 +64,10 @@ RADIUS = Column(NonNegative, (), "a number", ("radius",))
 COLOR = Column(Byte, (3,), "three integers", RED_GREEN_BLUE)
 LAMBERT = Column(Fraction, (), "a number", ("lambert",))
 OPACITY = Column(Fraction, (), "a number", ("opacity",), "OPAQUE")
+MATERIAL_INDEX = Column(MaterialNumber, (), "", ("material_index",), "FIRST")
+
+WHOLE = Byte, MaterialNumber
+"""The kinds of what is kept as uint8."""
 
 NO_NAMES: Mapping[str, str] = MappingProxyType({})
 
@@ -188,7 +192,7 @@ def _check_numbers(given: AnyArray, kind: Any, place: str) -> Any:  # noqa: ANN4
 
     with np.errstate(over="ignore", invalid="ignore"):
         array = given
-        if kind is not Byte and given.dtype not in (np.float32, np.float64):
+        if kind not in WHOLE and given.dtype not in (np.float32, np.float64):
             array = given.astype(np.float64)
         if not _are_right(array, kind):
             from vtray.scene.checks.scene_words import expected
@@ -197,7 +201,7 @@ def _check_numbers(given: AnyArray, kind: Any, place: str) -> Any:  # noqa: ANN4
             words = expected(kind if math.isfinite(array[index]) else Real)
             where = f"{place}[{', '.join(map(str, index))}]" if index else place
             raise SceneError(f"{where}: expected {words}, got {given[index]!s}")
-    if kind is Byte:
+    if kind in WHOLE:
         array = array.astype(np.uint8, copy=False)
     if array.ndim == 0:
         return float(array)
@@ -223,7 +227,7 @@ def _are_right(array: AnyArray, kind: Any) -> bool:  # noqa: ANN401
         msgspec.convert(extremes, list[kind])
     except msgspec.ValidationError:
         return False
-    return kind is not Byte or bool((array.astype("u1", copy=False) == array).all())
+    return kind not in WHOLE or bool((array.astype("u1", copy=False) == array).all())
 
 
 def _first_wrong(array: AnyArray, kind: Any) -> tuple[int, ...]:  # noqa: ANN401

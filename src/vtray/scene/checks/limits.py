@@ -19,6 +19,7 @@ Byte = Annotated[
     Annotated[int, Meta(ge=0, le=255)] | Annotated[float, Meta(ge=0, le=255, multiple_of=1)],
     Meta(description="an integer from 0 to 255"),
 ]
+MaterialNumber = Annotated[Byte, Meta(description="the number of a material, from 0 to 255")]
 MAX_SIZE = 2**31 - 1  # the largest side of a PNG
 Size = Annotated[
     Annotated[int, Meta(ge=1, le=MAX_SIZE)]

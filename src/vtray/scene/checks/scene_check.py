@@ -25,6 +25,7 @@ from vtray.scene.checks.scene_words import (
     is_optional,
     join,
     nearest,
+    options,
     quoted,
     show,
     struct_kinds,
@@ -65,8 +66,9 @@ class FileChecker:
         kind = given_kind(kind)
         if struct_options(kind) and isinstance(found, Members):
             return self._struct(found, struct_options(kind), place)
-        if origin_of(kind) in (list, tuple) and type(found) is list:
-            return self._array(found, kind, place)
+        arrays = [option for option in options(kind) if origin_of(option) in (list, tuple)]
+        if arrays and type(found) is list:
+            return self._array(found, arrays[0], place)
         if struct_kinds(kind) or not isinstance(found, Written):
             raise wrong(place, kind, show(found))
         self._check_range(found, place)

@@ -54,9 +54,15 @@ def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
 def _words_of_options(kind: Any, *, in_code: bool) -> list[str]:  # noqa: ANN401
     """Name what a union allows, with all its Structs in the place of the first."""
     structs, found = struct_options(kind), options(kind)
-    names = [name for option in found for name in typing.get_args(option)]
+    names = [
+        name
+        for option in found
+        if typing.get_origin(option) is typing.Literal
+        for name in typing.get_args(option)
+    ]
+    others = [expected(option) for option in found if hasattr(option, "__metadata__")]
     if not in_code and names and tags(structs) == names:
-        return [*map(quoted, names), 'an object with one of these as its "type"']
+        return [*map(quoted, names), 'an object with one of these as its "type"', *others]
     words: list[str] = []
     for option in found:
         if option not in structs[1:]:

@@ -23,7 +23,7 @@ from vtray.scene.cones import Cones
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
 from vtray.scene.light_types import WHITE, Ambient, Light, RectangleLight, SphereLight, Sun
-from vtray.scene.materials import AnyMaterial
+from vtray.scene.materials import AnyMaterials
 from vtray.scene.objects import Cone, Cylinder, Plane, Sphere
 from vtray.scene.settings import DEPTH, Depth, IntegratorName, RenderSettings
 from vtray.scene.sky_types import Gradient, check_one_of
@@ -75,7 +75,8 @@ class SpheresInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="ty
         Share of the light that they take on its way through, 1 if left out; for a .npz file, it
         may stand there.
     material : Lambert, Mirror, Glass, Metal, Emissive or str, optional
-        What all of them are made of, or its name; lambert if left out.
+        What all of them are made of, or its name; lambert if left out. Or an array of these, of
+        which the array material_index in the file of arrays says who is made of which, from 0.
     """
 
     data: DataPath
@@ -83,7 +84,7 @@ class SpheresInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="ty
     color: Color | UnsetType = UNSET
     lambert: Fraction | UnsetType = UNSET
     opacity: Fraction | UnsetType = UNSET
-    material: AnyMaterial | UnsetType = UNSET
+    material: AnyMaterials | UnsetType = UNSET
 
     MADE = Spheres
     ONE = Sphere
@@ -114,7 +115,8 @@ class CylindersInFile(
         Share of the light that they take on its way through; it may stand in the file of arrays,
         and is 1 if left out.
     material : Lambert, Mirror, Glass, Metal, Emissive or str, optional
-        What all of them are made of, or its name; lambert if left out.
+        What all of them are made of, or its name; lambert if left out. Or an array of these, of
+        which the array material_index in the file of arrays says who is made of which, from 0.
     """
 
     data: NpzPath
@@ -123,7 +125,7 @@ class CylindersInFile(
     color_end: Color | UnsetType = UNSET
     lambert: Fraction | UnsetType = UNSET
     opacity: Fraction | UnsetType = UNSET
-    material: AnyMaterial | UnsetType = UNSET
+    material: AnyMaterials | UnsetType = UNSET
 
     MADE = Cylinders
     ONE = Cylinder
@@ -153,7 +155,8 @@ class ConesInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="type
         Share of the light that they take on its way through; it may stand in the file of arrays,
         and is 1 if left out.
     material : Lambert, Mirror, Glass, Metal, Emissive or str, optional
-        What all of them are made of, or its name; lambert if left out.
+        What all of them are made of, or its name; lambert if left out. Or an array of these, of
+        which the array material_index in the file of arrays says who is made of which, from 0.
     """
 
     data: NpzPath
@@ -163,7 +166,7 @@ class ConesInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="type
     color_end: Color | UnsetType = UNSET
     lambert: Fraction | UnsetType = UNSET
     opacity: Fraction | UnsetType = UNSET
-    material: AnyMaterial | UnsetType = UNSET
+    material: AnyMaterials | UnsetType = UNSET
 
     MADE = Cones
     ONE = Cone

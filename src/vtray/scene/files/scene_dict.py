@@ -242,7 +242,9 @@ def _from_dict(
 
 
 def _material_of(given: Any, place: str) -> Any:  # noqa: ANN401
-    """Return a material as a file says it, or as it is."""
+    """Return materials as a file says them, or as they are."""
+    if isinstance(given, (list, tuple)):
+        return [_material_of(one, f"{place}[{k}]") for k, one in enumerate(given)]
     if not isinstance(given, Mapping):
         return given
     try:
