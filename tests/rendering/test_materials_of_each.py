@@ -143,6 +143,14 @@ def test_wrong_numbers(given: dict[str, Any], message: str) -> None:
         scene.add_spheres(PLACES, 0.6, **arguments)
 
 
+def test_numbers_that_have_changed_are_checked_again() -> None:
+    index = np.array(INDEX, np.uint8)
+    scene = lit(spheres(material_index=index))
+    index[2] = 4
+    with pytest.raises(vtray.SceneError, match=r"objects\[0\].material_index\[2\]: .*, got 4"):
+        light(scene)
+
+
 @pytest.mark.parametrize(
     ("material", "message"),
     [

@@ -80,7 +80,7 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
         """
         arrays = check_arrays(cls.COLUMNS, values, place, called)
         material = checked_materials(values.get("material", "lambert"), f"{place}material")
-        _check_index(arrays["material_index"], len(materials_of(material)), place)
+        _check_index(arrays.get("material_index"), len(materials_of(material)), place)
         made: Self = make_unchecked(cls, **arrays, material=material)
         return made
 
@@ -196,7 +196,8 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
         return [np.asarray(value) for value in values if value is not None]
 
     def _check_again(self, place: str) -> None:
-        check_arrays(self.COLUMNS, msgspec.structs.asdict(self), f"{place}.")
+        arrays = check_arrays(self.COLUMNS, msgspec.structs.asdict(self), f"{place}.")
+        _check_index(arrays.get("material_index"), len(materials_of(self.material)), f"{place}.")
 
 
 def _check_index(index: Any, count: int, place: str) -> None:  # noqa: ANN401
