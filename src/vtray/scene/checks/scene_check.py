@@ -34,6 +34,7 @@ from vtray.scene.checks.scene_words import (
     tags,
     untagged,
 )
+from vtray.scene.materials import Lambert
 
 # A type as an annotation says it: a class, a union, an Annotated, list[...] or tuple[...].
 Kind = Any
@@ -48,6 +49,8 @@ class FileChecker:
         Gives the line, counted from 1, of an offset in the file.
     ignored : int
         How many unknown keys there are in parts that are not read.
+    names : set of str
+        What may stand for a material, beside the names that all files know.
 
     Attributes
     ----------
@@ -55,8 +58,14 @@ class FileChecker:
         The keys that the format does not know.
     """
 
-    def __init__(self, line_of: Callable[[int], int], ignored: int = 0) -> None:
+    def __init__(
+        self,
+        line_of: Callable[[int], int],
+        ignored: int = 0,
+        names: frozenset[str] = frozenset(),
+    ) -> None:
         self.line_of = line_of
+        self.names = names
         self.unknown = Unknown("key", ignored)
 
     def check(self, found: Tree, kind: Kind, place: str = "") -> Any:  # noqa: ANN401
@@ -64,6 +73,8 @@ class FileChecker:
         if found is CLEAN or (found == b"null" and is_optional(kind)):
             return None
         kind = given_kind(kind)
+        if origin_of(kind) is dict and isinstance(found, Members):
+            return self._named(found, kind, place)
         if struct_options(kind) and isinstance(found, Members):
             return self._struct(found, struct_options(kind), place)
         arrays = [option for option in options(kind) if origin_of(option) in (list, tuple)]
@@ -72,7 +83,28 @@ class FileChecker:
         if struct_kinds(kind) or not isinstance(found, Written):
             raise wrong(place, kind, show(found))
         self._check_range(found, place)
+        if self.names and Lambert in struct_options(kind) and found[:1] == b'"':
+            return self._name(found, kind, place)
         return _convert_leaf(found, kind, place)
+
+    def _named(self, found: Members, kind: Kind, place: str) -> None:
+        """Check materials, of which none is named by another."""
+        self._check_repeated(found, place)
+        names, self.names = self.names, frozenset()
+        for key, _, value in found:
+            self.check(value, typing.get_args(plain_kind(kind))[1], join(place, key))
+        self.names = names
+
+    def _name(self, found: Written, kind: Kind, place: str) -> Any:  # noqa: ANN401
+        """Check the name of a material; return one that every file knows."""
+        name, known = msgspec.json.decode(found), tags(struct_options(kind))
+        own = sorted(self.names.difference(known))
+        if name not in (*own, *known):
+            close = nearest(name, [*own, *known], cutoff=0.6)
+            hint = f"; did you mean {close}?" if close else ""
+            words = ", ".join([*map(quoted, own), expected(kind)])
+            raise SceneError(f"{place}: expected {words}, got {show(found)}{hint}")
+        return known[0]
 
     def _struct(self, found: Members, structs: tuple[Struct, ...], place: str) -> Any:  # noqa: ANN401
         self._check_repeated(found, place)

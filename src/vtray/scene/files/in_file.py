@@ -23,7 +23,7 @@ from vtray.scene.cones import Cones
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
 from vtray.scene.light_types import WHITE, Ambient, Light, RectangleLight, SphereLight, Sun
-from vtray.scene.materials import AnyMaterials
+from vtray.scene.materials import AnyMaterial, AnyMaterials
 from vtray.scene.objects import Cone, Cylinder, Plane, Sphere
 from vtray.scene.settings import DEPTH, Depth, IntegratorName, RenderSettings
 from vtray.scene.sky_types import Gradient, check_one_of
@@ -276,6 +276,9 @@ class IntegratorInFile(msgspec.Struct, frozen=True, omit_defaults=True):
 
 
 AnyIntegrator: TypeAlias = IntegratorName | IntegratorInFile
+NamedMaterials: TypeAlias = Annotated[
+    dict[str, AnyMaterial], Meta(description="an object with a material for each name")
+]
 
 
 class SceneInFile(msgspec.Struct, omit_defaults=True):
@@ -296,6 +299,8 @@ or CopiesInFile
         How the picture is drawn, beside its light.
     integrator : str or IntegratorInFile, optional
         What light is followed; it stands here or in `render`.
+    materials : dict of str, optional
+        Materials by names of their own, by which objects may name theirs.
     """
 
     camera: Camera
@@ -304,6 +309,7 @@ or CopiesInFile
     render: RenderSettings | UnsetType = UNSET
     style: Style | UnsetType = UNSET
     integrator: AnyIntegrator | UnsetType = UNSET
+    materials: NamedMaterials | UnsetType = UNSET
 
 
 def with_integrator(

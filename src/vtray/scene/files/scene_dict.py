@@ -15,6 +15,7 @@ from vtray.scene.checks.scene_words import Unknown, join, nearest, show
 from vtray.scene.copies import Copies
 from vtray.scene.default_light import lights_of
 from vtray.scene.files.in_file import without_integrator
+from vtray.scene.files.named_materials import with_named
 from vtray.scene.files.scene_file import Warn, loads
 from vtray.scene.light_types import AnyLight
 from vtray.scene.materials import AnyMaterial, is_matt
@@ -76,7 +77,8 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
         _check(given, "", name)
         raise
     unknown = Unknown("key")
-    for index, item in enumerate(data["objects"]):
+    named = data.get("materials", {})
+    for index, item in enumerate(with_named(item, named) for item in data["objects"]):
         if _kind_of_arrays(item) is not None or _are_copies(item):
             place = f"objects[{index}]"
             scene.objects[index] = _with_arrays(scene.objects[index], item, place, name, unknown)

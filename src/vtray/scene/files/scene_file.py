@@ -27,6 +27,8 @@ from vtray.scene.files.in_file import (
     with_integrator,
 )
 from vtray.scene.files.light_reader import count_known, count_least, read_light, read_lights
+from vtray.scene.files.named_materials import KEY as NAMES_MATERIALS
+from vtray.scene.files.named_materials import in_their_places, names_in
 from vtray.scene.files.skies import names_images, with_skies
 from vtray.scene.light_types import AnyLight
 from vtray.scene.objects import Object
@@ -140,6 +142,10 @@ def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
     if not raw.isascii():
         _check_utf8(raw, name)
         raw = raw.removeprefix(_BYTE_ORDER_MARK)
+    is_explained = NAMES_MATERIALS in raw and bool(names_in(raw))
+    if is_explained:
+        _explain(raw, name, warn)
+        raw = in_their_places(raw)
     try:
         found = _DECODER.decode(raw)
         lights = read_lights(found.lights)
@@ -153,7 +159,9 @@ def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
     others = raw.count(b":") - _count_others(found) - keys
     # A colon of a path that is written as an escape is not in the file, and one inside any other
     # string is that of an unknown key or its value.
-    are_known = others == count_least(lights) or others == count_known(found.lights, lights)
+    are_known = (
+        is_explained or others == count_least(lights) or others == count_known(found.lights, lights)
+    )
     has_paths = in_files or names_images(lights)
     if not are_known or (has_paths and b"\\u003" in raw):
         _explain(raw, name, warn)
@@ -249,6 +257,8 @@ def _count_within(value: object) -> int:
     if isinstance(value, list):
         is_place = bool(value) and isinstance(value[0], Vector)
         return len(value) * _keys(Vector) if is_place else _count_keys(value)[0]
+    if isinstance(value, tuple):
+        return sum(map(_count_within, value))
     if isinstance(value, msgspec.Struct):
         return _colons_in(msgspec.to_builtins(value))
     return value.count(":") if isinstance(value, str) else 0
@@ -272,9 +282,11 @@ def _explain(raw: bytes, name: str, warn: Warn) -> None:
         )
         raise SceneError(f"{name}: {problem}")
     try:
-        clean, ignored = _clean_parts(raw)
+        names = names_in(raw)
+        # What names a material of the file looks wrong to who does not know the name.
+        clean, ignored = ({}, 0) if names else _clean_parts(raw)
         tree = JsonTree(raw, clean, SceneInFile.__struct_fields__)
-        checker = FileChecker(tree.line, ignored)
+        checker = FileChecker(tree.line, ignored, names)
         checker.check(tree.read(), SceneInFile)
     except SceneError as problem:
         raise SceneError(f"{name}: {problem}") from None

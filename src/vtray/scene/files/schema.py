@@ -90,6 +90,13 @@ def scene_schema() -> dict[str, Any]:
     # JSON has no tuples.
     parts[Style.__name__]["properties"]["clip"]["default"] = []
     parts[Glass.__name__]["properties"]["absorption"]["default"] = [0.0, 0.0, 0.0]
+    # A file may name materials of its own.
+    for part in parts.values():
+        kinds = part["properties"].get("material", {}).get("anyOf", [])
+        for kind in kinds:
+            if "enum" in kind:
+                kind |= {"type": "string"}
+                del kind["enum"]
     # JSON has no infinity.
     del parts[Ambient.__name__]["properties"]["distance"]["default"]
     return {
