@@ -24,6 +24,7 @@ from vtray.scene.checks.scene_words import (
     given_kind,
     is_optional,
     join,
+    may_be_named,
     nearest,
     options,
     quoted,
@@ -34,7 +35,6 @@ from vtray.scene.checks.scene_words import (
     tags,
     untagged,
 )
-from vtray.scene.materials import Lambert
 
 # A type as an annotation says it: a class, a union, an Annotated, list[...] or tuple[...].
 Kind = Any
@@ -83,7 +83,7 @@ class FileChecker:
         if struct_kinds(kind) or not isinstance(found, Written):
             raise wrong(place, kind, show(found))
         self._check_range(found, place)
-        if self.names and Lambert in struct_options(kind) and found[:1] == b'"':
+        if self.names and may_be_named(kind) and found[:1] == b'"':
             return self._name(found, kind, place)
         return _convert_leaf(found, kind, place)
 

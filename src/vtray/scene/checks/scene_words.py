@@ -54,15 +54,10 @@ def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
 def _words_of_options(kind: Any, *, in_code: bool) -> list[str]:  # noqa: ANN401
     """Name what a union allows, with all its Structs in the place of the first."""
     structs, found = struct_options(kind), options(kind)
-    names = [
-        name
-        for option in found
-        if typing.get_origin(option) is typing.Literal
-        for name in typing.get_args(option)
-    ]
-    others = [expected(option) for option in found if hasattr(option, "__metadata__")]
-    if not in_code and names and tags(structs) == names:
-        return [*map(quoted, names), 'an object with one of these as its "type"', *others]
+    if not in_code and may_be_named(kind):
+        others = [expected(option) for option in found if hasattr(option, "__metadata__")]
+        names = map(quoted, tags(structs))
+        return [*names, 'an object with one of these as its "type"', *others]
     words: list[str] = []
     for option in found:
         if option not in structs[1:]:
@@ -105,6 +100,12 @@ def struct_options(kind: Any) -> tuple[Struct, ...]:  # noqa: ANN401
     """Give the Structs that a kind allows, maybe beside other values."""
     found: tuple[Struct, ...] = options(kind)
     return tuple(item for item in found if isinstance(item, msgspec.StructMeta))
+
+
+def may_be_named(kind: Any) -> bool:  # noqa: ANN401
+    """Tell whether the names of types, which the Structs of a union say, may stand alone."""
+    names = tags(struct_options(kind))
+    return bool(names) and any(list(typing.get_args(option)) == names for option in options(kind))
 
 
 def tags(structs: Iterable[Struct]) -> list[str]:
