@@ -69,6 +69,17 @@ def test_may_be_named_like_those_that_all_files_know() -> None:
     assert found == [vtray.Glass(1.76), "metal"]
 
 
+def test_change_nothing_else() -> None:
+    given = scene("ruby", "water")
+    place = {"x": 0.1 + 0.2, "y": -0.0, "z": 123456789012345678901234567890}
+    given["objects"][0]["center"] = place
+    plain = written_out(given, given["materials"])
+    text = json.dumps(given).replace("-0.0", "-0e-7")
+    found, wanted = (vtray.loads(one).objects[0] for one in (text, json.dumps(plain)))
+    assert found == wanted
+    assert repr(found.center) == repr(wanted.center)
+
+
 def test_are_those_of_arrays_too(tmp_path: Path) -> None:
     np.savez(tmp_path / "balls.npz", center=np.eye(3), radius=1, material_index=[0, 1, 0])
     color = {"r": 1, "g": 2, "b": 3}

@@ -1,9 +1,13 @@
 """Puts the materials that a scene file names at its top in their places."""
 
+import json
 from collections.abc import Mapping
 from typing import Any
 
 import msgspec
+
+from vtray.scene.files.in_file import NamedMaterials
+from vtray.scene.materials import AnyMaterial
 
 KEY = b'"materials"'
 """What stands in a file that names materials, and seldom in any other."""
@@ -12,23 +16,46 @@ KEY = b'"materials"'
 class _Named(msgspec.Struct):
     """A scene file, as far as it names materials."""
 
-    materials: dict[str, msgspec.Raw] = {}
+    materials: NamedMaterials = {}
 
 
 def names_in(raw: bytes) -> frozenset[str]:
-    """Return the names of the materials at the top of a file; none if it is not right."""
+    """Return the names of the materials at the top of a file; none if it is no scene."""
     try:
-        return frozenset(msgspec.json.decode(raw, type=_Named).materials)
+        found = msgspec.json.decode(raw, type=dict[str, msgspec.Raw]).get("materials", b"{}")
+        return frozenset(msgspec.json.decode(found, type=dict[str, msgspec.Raw]))
     except (msgspec.MsgspecError, RecursionError):
         return frozenset()
 
 
-def in_their_places(raw: bytes) -> bytes:
-    """Return a file that is right with each material where it is named."""
+def in_their_places(raw: bytes) -> tuple[bytes, bool]:
+    """Put the materials of a file where they are named.
+
+    Returns
+    -------
+    raw : bytes
+        The file as it would be without names.
+    is_plain : bool
+        Whether it says nothing twice, and its materials nothing that the format does not know.
+
+    Raises
+    ------
+    msgspec.MsgspecError
+        If it cannot be done, as something is wrong.
+    """
+    materials = msgspec.json.decode(raw, type=_Named).materials
     scene = msgspec.json.decode(raw)
-    named = scene.pop("materials")
-    scene["objects"] = [with_named(item, named) for item in scene["objects"]]
-    return msgspec.json.encode(scene)
+    is_plain = json.dumps(scene).count(":") == raw.count(b":")
+    named = scene.pop("materials", {})
+    is_plain = is_plain and all(map(_is_known, named.values(), materials.values()))
+    if isinstance(scene.get("objects"), list):
+        scene["objects"] = [with_named(item, named) for item in scene["objects"]]
+    return json.dumps(scene).encode(), is_plain  # which, unlike msgspec, writes all integers
+
+
+def _is_known(given: Any, made: AnyMaterial) -> bool:  # noqa: ANN401
+    """Tell whether a material has no key that the format does not know."""
+    return isinstance(made, str) or given.keys() <= {"type", *made.__struct_fields__}
 
 
 def with_named(item: Any, named: Mapping[str, Any]) -> Any:  # noqa: ANN401

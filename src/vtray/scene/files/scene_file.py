@@ -142,28 +142,25 @@ def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
     if not raw.isascii():
         _check_utf8(raw, name)
         raw = raw.removeprefix(_BYTE_ORDER_MARK)
-    is_explained = NAMES_MATERIALS in raw and bool(names_in(raw))
-    if is_explained:
-        _explain(raw, name, warn)
-        raw = in_their_places(raw)
+    text, is_plain = raw, True
     try:
-        found = _DECODER.decode(raw)
+        if NAMES_MATERIALS in raw:
+            text, is_plain = in_their_places(raw)
+        found = _DECODER.decode(text)
         lights = read_lights(found.lights)
     except (msgspec.MsgspecError, RecursionError) as error:
         _explain(raw, name, warn)
         # The slow look should have raised; if it saw nothing, msgspec's own words have to do.
         raise SceneError(f"{name}: {error}") from None
     keys, in_files = _count_keys(
-        found.objects, has_more=b'"opacity"' in raw or b'"material"' in raw
+        found.objects, has_more=b'"opacity"' in text or b'"material"' in text
     )
-    others = raw.count(b":") - _count_others(found) - keys
+    others = text.count(b":") - _count_others(found) - keys
     # A colon of a path that is written as an escape is not in the file, and one inside any other
     # string is that of an unknown key or its value.
-    are_known = (
-        is_explained or others == count_least(lights) or others == count_known(found.lights, lights)
-    )
+    are_known = others == count_least(lights) or others == count_known(found.lights, lights)
     has_paths = in_files or names_images(lights)
-    if not are_known or (has_paths and b"\\u003" in raw):
+    if not is_plain or not are_known or (has_paths and b"\\u003" in raw):
         _explain(raw, name, warn)
     objects: list[Any] = found.objects
     if in_files:
