@@ -1,6 +1,5 @@
 """Puts the materials that a scene file names at its top in their places."""
 
-import json
 from collections.abc import Mapping
 from typing import Any
 
@@ -43,6 +42,8 @@ def in_their_places(raw: bytes) -> tuple[bytes, bool]:
     msgspec.MsgspecError
         If it cannot be done, as something is wrong.
     """
+    import json
+
     materials = msgspec.json.decode(raw, type=_Named).materials
     scene = msgspec.json.decode(raw)
     is_plain = json.dumps(scene).count(":") == raw.count(b":")
