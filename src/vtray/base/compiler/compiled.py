@@ -175,7 +175,11 @@ class Device:
         """The function as Numba's decorator returns it."""
         import numba
 
-        compiled: Callable[..., object] = numba.njit(self._function, **self._options)
+        from vtray.base.compiler.numba_pipeline import PythonPipeline
+
+        compiled: Callable[..., object] = numba.njit(
+            self._function, pipeline_class=PythonPipeline, **self._options
+        )
         return compiled
 
     @cached_property

@@ -28,7 +28,7 @@ types: Any = numba.types
 WORD = ir.IntType(64)
 """What there is in memory for a number, an address, or nothing."""
 
-_ITEMS, _ITEM_BYTES, _DATA, _SHAPE, _STRIDES = range(2, 7)
+_ITEMS, _ITEM_BYTES, DATA, _SHAPE, _STRIDES = range(2, 7)
 """The members of an array to Numba; in memory, the last two have a word for each dimension."""
 
 _NAME_BYTES = 12
@@ -128,7 +128,7 @@ def _load_array(context: Any, builder: Any, kind: Any, place: Any) -> Any:
 
     made = builder.insert_value(made, word(_ITEMS), _ITEMS)
     made = builder.insert_value(made, WORD(context.get_abi_sizeof(item)), _ITEM_BYTES)
-    made = builder.insert_value(made, word(_DATA, item.as_pointer()), _DATA)
+    made = builder.insert_value(made, word(DATA, item.as_pointer()), DATA)
     for axis in range(kind.ndim):
         made = builder.insert_value(made, word(_SHAPE + axis), (_SHAPE, axis))
         made = builder.insert_value(made, word(_SHAPE + kind.ndim + axis), (_STRIDES, axis))

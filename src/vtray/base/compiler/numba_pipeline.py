@@ -28,6 +28,7 @@ from numba.core.typing.context import Context
 from numba.core.typing.templates import make_intrinsic_template
 
 from vtray.base.compiler.in_memory import WORD, load, word_count
+from vtray.base.compiler.plain_calls import DeviceContext, KernelContext, context_of
 
 ENTRY = "entry"
 """The name of the entry point: ``int entry(result *, exception **, const char *words)``."""
@@ -42,8 +43,10 @@ UNUSED = (
     untyped_passes.LiteralPropagationSubPipelinePass,
     typed_passes.InlineOverloads,
     typed_passes.NopythonRewrites,
+    typed_passes.IRLegalization,
 )
-"""Passes over what kernels do without: closures, contexts, literals, expressions of arrays."""
+"""Passes over what kernels do without: closures, contexts, literals, expressions of arrays, and
+where variables end, which matters to who counts references."""
 
 
 RETURNED: dict[object, Any] = {
@@ -206,6 +209,7 @@ class DevicePipeline(Compiler):
     """Numba's usual way from a function in Python to one in LLVM's language."""
 
     library: type[DeviceLibrary] = DeviceLibrary
+    context: type[KernelContext] = DeviceContext
 
     def __init__(
         self,
@@ -218,7 +222,8 @@ class DevicePipeline(Compiler):
         locals: Any,  # noqa: A002, ANN401
     ) -> None:
         made = self.library(targetctx.codegen(), "function")
-        super().__init__(_Remembering(typingctx), targetctx, made, args, return_type, flags, locals)
+        context = context_of(self.context, targetctx)
+        super().__init__(_Remembering(typingctx), context, made, args, return_type, flags, locals)
 
     def define_pipelines(self) -> list[PassManager]:
         """Return Numba's passes but those for which kernels have nothing."""
@@ -233,12 +238,27 @@ class SeldomPipeline(DevicePipeline):
     """The same for a function that is never put into others."""
 
     library = SeldomLibrary
+    # LLVM would let it return its fourth number by way of the old unit for floats.
+    context = KernelContext
 
 
 class KernelPipeline(DevicePipeline):
     """The same for a kernel."""
 
     library = KernelLibrary
+    context = KernelContext
+
+
+class PythonPipeline(Compiler):
+    """Numba's way to a function that Python calls."""
+
+    def __init__(
+        self,
+        typingctx: Any,  # noqa: ANN401
+        targetctx: Any,  # noqa: ANN401
+        *others: Any,  # noqa: ANN401
+    ) -> None:
+        super().__init__(typingctx, context_of(KernelContext, targetctx), *others)
 
 
 def type_of_calls(
