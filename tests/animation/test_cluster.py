@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 import vtray
-from conftest import compiled_only
+from conftest import JIT, compiled_only
 from vtray.animation import cluster as cluster_module
 from vtray.animation.stored import Stored
 from vtray.base.errors import RenderError, SceneError
@@ -23,6 +23,7 @@ local_cluster = Path(__file__).parents[1] / "reference" / "local_cluster.py"
 VTRAY = Path(sys.executable).with_name("vtray")
 
 COUNT = 12
+SIZE = (14, 10) if JIT else (4, 3)
 FRAME = "3\nTime={}\nC {} 0 0\nO 1 {} 2\nH 0 1 {}\n"
 
 
@@ -96,7 +97,7 @@ def test_the_same_bytes(tmp_path: Path, client: Any) -> None:
 
 
 def test_the_same_bytes_of_a_trajectory(tmp_path: Path, client: Any, run_file: Path) -> None:
-    options = {"size": (14, 10), "samples": 1, "exposure": 1, "color": "x", "frames": "::-1"}
+    options = {"size": SIZE, "samples": 1, "exposure": 1, "color": "x", "frames": "::-1"}
     here, there = both(tmp_path, client, run_file, **options)
     assert len(here) == COUNT
     assert here == there
@@ -106,7 +107,7 @@ def test_particles_travel_where_the_file_is_not_seen(
     tmp_path: Path, client: Any, run_file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Stored, "_marks_here", lambda _: [(1, 1)])
-    here, there = both(tmp_path, client, run_file, size=(14, 10), samples=1)
+    here, there = both(tmp_path, client, run_file, size=SIZE, samples=1)
     assert len(here) == COUNT
     assert here == there
 

@@ -91,7 +91,7 @@ def test_file_that_cannot_be_made(tmp_path: Path) -> None:
 @compiled_only
 def test_second_command(tmp_path: Path) -> None:
     frame = "2\n\nC {} 0 0\nO 1 0 2\n"
-    (tmp_path / "run.xyz").write_text("".join(frame.format(k / 400) for k in range(400)))
+    (tmp_path / "run.xyz").write_text("".join(frame.format(k / 150) for k in range(150)))
     given = [str(Path(sys.executable).with_name("vtray")), "--size", "80x60", "-t1", "run.xyz"]
     environment = {k: v for k, v in os.environ.items() if k != "NUMBA_DISABLE_JIT"}
     with subprocess.Popen([*given, "a.gif"], cwd=tmp_path, env=environment) as first:
@@ -109,7 +109,7 @@ def test_second_command(tmp_path: Path) -> None:
     words = "is being made by another run; wait for that, or choose another name"
     assert (second.returncode, second.stderr) == (1, f"Error: a.gif: {words}\n")
     third = subprocess.run(
-        [*given, "--resume", "--frames", ":400", "a.gif"], cwd=tmp_path, env=environment, check=True
+        [*given, "--resume", "--frames", ":150", "a.gif"], cwd=tmp_path, env=environment, check=True
     )
     assert third.returncode == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.gif", "run.xyz"]

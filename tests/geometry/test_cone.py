@@ -14,9 +14,9 @@ from vtray.geometry.packets.fan import Start
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.ray import Segment
 from vtray.geometry.vector import add, dot, scale
+from vtray.geometry.warps import cone_direction
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
-from vtray.transport.sampling.warps import cone_direction
 
 CONES = 400 if JIT else 60
 RAYS = 64 if JIT else 16

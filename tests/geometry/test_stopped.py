@@ -32,10 +32,10 @@ from vtray.geometry.packets.fan_rays import View, balls_seen, count_bits, first_
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.stopped import Bundle, stop_by_all
 from vtray.geometry.vector import Vec, add, dot, magnitude, scale
+from vtray.geometry.warps import cosine_direction
 from vtray.rendering import hierarchy
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
-from vtray.transport.sampling.warps import cosine_direction
 
 FANS = 150 if JIT else 6
 RAYS = 64 if JIT else 16

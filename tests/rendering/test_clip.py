@@ -31,7 +31,7 @@ from vtray.transport.sampling.fans import fans_of_middles
 
 Scene = dict[str, Any]
 
-VIEW: Scene = {"size": [60, 45], "resolution": [0.1, 0.1]}
+VIEW: Scene = {"size": [40, 30], "resolution": [0.15, 0.15]}
 SMALL: Scene = {"size": [9, 7], "resolution": [0.6, 0.6]}
 PLANES = [((0.3, 0.1, -1), -3.6)]
 """What is nearer to the eye is left out."""

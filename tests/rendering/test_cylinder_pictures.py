@@ -42,7 +42,7 @@ def assert_same(one: vtray.Image, other: vtray.Image) -> None:
 
 
 @may_be_dark
-@settings(max_examples=100 if JIT else 10)
+@settings(max_examples=50 if JIT else 10)
 @given(cylinder_scenes())
 def test_is_near_the_oracle(document: Scene) -> None:
     if not JIT:

@@ -100,7 +100,10 @@ def test_code_says_it(given: dict[str, Any], style: Style) -> None:
         ({"clip": (1, 0, 0, float("nan"))}, "ClipPlane.distance: expected a finite number, got"),
         ({"slice": True}, "Style.slice: expected false, or a plane with a thickness, got True"),
         ({"slice": "1,0,0,1,0"}, "Slice.thickness: expected a number > 0, got 0"),
-        ({"cap": "whit"}, 'Style.cap: expected a name such as "red"'),
+        (
+            {"cap": "whit"},
+            "Style.cap: expected a colour such as red or #ff8000, or on or off, got whit",
+        ),
     ],
 )
 def test_code_says_it_wrong(given: dict[str, Any], problem: str) -> None:

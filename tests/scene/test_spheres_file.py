@@ -306,7 +306,7 @@ def test_unknown_arrays_are_warned_of() -> None:
     assert scene.objects[1] == Spheres(**columns())
     assert warnings == [
         f'room.json: {WHERE}: {name}: unknown array, ignored; the nearest known array is "{near}"'
-        for name, near in (("centre", "center"), ("charge", "color"))
+        for name, near in (("centre", "center"), ("charge", "roughness"))
     ]
     with pytest.warns(UserWarning, match="unknown array") as caught:
         load("room.json")

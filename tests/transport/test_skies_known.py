@@ -201,7 +201,7 @@ def test_means_over_many_seeds_come_to_the_integral() -> None:
     pixels = np.random.default_rng(6).lognormal(sigma=1.5, size=(6, 12, 3))
     scene = facing(UP, vtray.Sky(image=pixels, up=UP))
     scene.camera = scene.camera.replace(size=(8, 8))
-    means = [shares(scene, seed=seed) for seed in range(200)]
+    means = [shares(scene, seed=seed) for seed in range(100)]
     error = np.std(means, axis=0) / np.sqrt(len(means))
     difference = np.mean(means, axis=0) - irradiance(pixels)
     # The sum over cells is right to 1e-3.
