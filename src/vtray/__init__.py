@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     from vtray.scene.cylinders import Cylinders
     from vtray.scene.files.scene_dict import load_dict
     from vtray.scene.files.scene_file import load, loads
-    from vtray.scene.materials import Emissive, Glass, Lambert, Metal, Mirror
+    from vtray.scene.lens import Lens
+    from vtray.scene.materials import Blend, Emissive, Glass, Lambert, Metal, Mirror, Plastic
     from vtray.scene.particles.from_objects import from_ase, from_mdanalysis
     from vtray.scene.particles.particles import Particles
     from vtray.scene.readers.read import read, read_frames
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Ambient",
+    "Blend",
     "Camera",
     "ClipPlane",
     "Color",
@@ -71,6 +73,7 @@ __all__ = [
     "Gradient",
     "Image",
     "Lambert",
+    "Lens",
     "Light",
     "Metal",
     "Mirror",
@@ -78,6 +81,7 @@ __all__ = [
     "OutputError",
     "Particles",
     "Plane",
+    "Plastic",
     "Provenance",
     "ProvenanceError",
     "RectangleLight",
@@ -117,6 +121,7 @@ __all__ = [
 # not even what reads a scene, so that Ctrl-C is taken care of first.
 _MODULES = {
     "Ambient": "scene.light_types",
+    "Blend": "scene.materials",
     "Camera": "scene.camera",
     "ClipPlane": "scene.clip",
     "Color": "scene.vectors",
@@ -134,6 +139,7 @@ _MODULES = {
     "Gradient": "scene.sky_types",
     "Image": "image.image",
     "Lambert": "scene.materials",
+    "Lens": "scene.lens",
     "Light": "scene.light_types",
     "Metal": "scene.materials",
     "Mirror": "scene.materials",
@@ -141,6 +147,7 @@ _MODULES = {
     "OutputError": "base.errors",
     "Particles": "scene.particles.particles",
     "Plane": "scene.objects",
+    "Plastic": "scene.materials",
     "Provenance": "image.provenance",
     "ProvenanceError": "base.errors",
     "RectangleLight": "scene.light_types",

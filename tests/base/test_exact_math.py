@@ -1,4 +1,4 @@
-"""Sines, exponentials and lengths against the decimal module, digit by digit."""
+"""Sines, angles, exponentials and lengths against the decimal module, digit by digit."""
 
 import math
 import random
@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from vtray.base.exact_math import (
+    angle,
     cosine,
     exponential,
     hypotenuse,
@@ -63,6 +64,21 @@ def test_tangents() -> None:
             a, b = true_sines(degrees)
             assert abs(Decimal(tangent(degrees)) * b / a - 1) < Decimal(2.0**-50)
     assert tangent(0) == 0
+
+
+def test_angles() -> None:
+    degrees = np.array([DRAW.uniform(-180, 180) for _ in range(300)] + [179.999999, -90.0, 1e-7])
+    for length in (1.0, 1e-300, 1e300):
+        across, along = (np.array([f(x) * length for x in degrees]) for f in (sine, cosine))
+        found = angle(along, across)
+        np.testing.assert_allclose(found, np.arctan2(across, along), rtol=2e-15)
+
+
+def test_angles_along_the_axes() -> None:
+    along = np.array([0.0, 2.0, -2.0, -2.0, 0.0, 0.0, -1.0])
+    across = np.array([0.0, 0.0, 0.0, -0.0, 3.0, -3.0, 1e-250])
+    known = [0.0, 0.0, math.pi, -math.pi, math.pi / 2, -math.pi / 2, math.pi]
+    np.testing.assert_allclose(angle(along, across), known, rtol=1e-15)
 
 
 def test_series_of_numbers_and_of_arrays() -> None:

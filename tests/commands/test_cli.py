@@ -57,6 +57,15 @@ WRONG_USAGE = [
         )
         for bad in ("0", "-1", "1.5", "two", "", "1e3", "٣", "99999999999999999999")
     ),
+    (
+        ["--cap", "maybe", "SCENE", "a.png"],
+        "argument --cap: expected a colour such as red or #ff8000, or on or off, got maybe",
+    ),
+    (
+        ["--outline", "maybe", "SCENE", "a.png"],
+        "argument --outline: expected a width in pixels, or that and a colour such as 1.5,navy, "
+        "got maybe",
+    ),
     (["SCENE", "a.png", "-t"], "argument -t/--threads: expected one argument"),
     *(
         (

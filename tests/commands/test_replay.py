@@ -223,6 +223,7 @@ def test_settings_of_the_picture_reach_the_render(
             "tonemap": "linear",
             "integrator": "direct",
             "depth": 8,
+            "firefly": "off",
             **msgspec.structs.asdict(vtray.Style()),
         }
     ]

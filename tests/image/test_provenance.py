@@ -32,6 +32,7 @@ SETTINGS = {
     "tonemap": "filmic",
     "integrator": "whitted",
     "depth": 3,
+    "firefly": 2.5,
 }
 
 

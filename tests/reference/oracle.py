@@ -80,14 +80,24 @@ def render(scene: Scene, dtype: type = np.float64) -> Array:
     return look(scene, dtype=dtype).linear
 
 
-def look(scene: Scene, columns: Any = None, rows: Any = None, dtype: type = np.float64) -> Seen:
-    """Return what the rays through some places see; without places, those of all pixels."""
+def look(
+    scene: Scene,
+    columns: Any = None,
+    rows: Any = None,
+    dtype: type = np.float64,
+    lens: Any = None,
+) -> Seen:
+    """Return what the rays through some places see; without places, those of all pixels.
+
+    `lens` says where they go through the lens that the camera has then: how far to the right and
+    down of its middle, in parts of its radius, (..., 2). What is seen is right but for rounding.
+    """
     if columns is None:
         width, height = (int(n) for n in scene["camera"]["size"])
         rows, columns = np.mgrid[0:height, 0:width]
     columns, rows = np.broadcast_arrays(np.asarray(columns, dtype), np.asarray(rows, dtype))
     with np.errstate(all="ignore"):
-        return _Render(scene, dtype).look(columns, rows)
+        return _Render(scene, dtype, lens).look(columns, rows)
 
 
 def doubt(scene: Scene) -> Array:
@@ -175,9 +185,10 @@ def dot(a: Array, b: Array) -> Array:
 
 
 class _Render:
-    def __init__(self, scene: Scene, dtype: type) -> None:
+    def __init__(self, scene: Scene, dtype: type, lens: Any = None) -> None:
         self.dtype = dtype
         camera = scene["camera"]
+        self.places, self.lens = lens, camera.get("lens")
         self.width, self.height = (int(n) for n in camera["size"])
         self.pixel = [dtype(r) for r in camera["resolution"]]
         self.eye_distance = self.focus = dtype(camera["focus"])
@@ -265,7 +276,21 @@ class _Render:
         aside = u * self.pixel[0] * self.right + v * self.pixel[1] * self.down
         ray = aside + self.eye_distance * self.forward
         ray = np.broadcast_to(self.forward, aside.shape) if self.parallel else ray
-        return self.eye + beside, ray / np.sqrt(dot(ray, ray))[..., None]
+        ray = ray / np.sqrt(dot(ray, ray))[..., None]
+        if self.places is None:
+            return self.eye + beside, ray
+        return self.bent(self.eye + beside, ray)
+
+    def bent(self, starts: Array, rays: Array) -> tuple[Array, Array]:
+        """Return rays from places in the lens that meet given ones where these are sharp."""
+        distance = self.lens["focus_distance"]
+        left = (distance - self.eye_distance) + self.focus
+        sharp = starts + rays * (left / dot(rays, self.forward))[..., None]
+        right, down = self.places[..., :1], self.places[..., 1:]
+        radius = self.lens["radius"] * left / distance
+        starts = starts + radius * (right * self.right + down * self.down)
+        ways = sharp - starts
+        return starts, ways / np.sqrt(dot(ways, ways))[..., None]
 
     def nearest(self, starts: Array, rays: Array) -> tuple[Array, Array, Array]:
         """Return the distance, the number and the face of the nearest object for each ray."""

@@ -16,6 +16,12 @@ NEAR = 1e-9
 
 LEAST = 2.0**-10
 
+BLENDS = {
+    "glass on matt": [("glass", 0.25), ("matt", 0.75)],
+    "plastic on a mirror": [("plastic", 0.5), ("mirror", 0.5)],
+}
+"""What is made of two kinds, and their shares."""
+
 
 class View(NamedTuple):
     """The image plane: nothing on the near side of it exists."""
@@ -29,7 +35,7 @@ class View(NamedTuple):
 
 
 class Ball(NamedTuple):
-    """A sphere; `index` is None for no glass."""
+    """A sphere, and what it is made of."""
 
     center: Vec
     radius: float
@@ -97,44 +103,66 @@ def seen(
     point, outward = start + distance * way, shape.outward(start + distance * way)
     is_inner = np.dot(outward, way) > 0
     normal = -outward if is_inner else outward
-    if shape.kind == "matt":
-        light = np.zeros(3)
-        for place, intensity in lights:
-            to_light = place - point
-            length = np.linalg.norm(to_light)
-            cosine = np.dot(normal, to_light) / length
-            if cosine > 0 and nearest(view, shapes, point, to_light / length)[0] > length:
-                light += shape.color * cosine * intensity
-        return share * light
-    total = np.zeros(3)
-    if bounces == 0:
-        return total
+    light = matt_light(view, shapes, lights, point, normal, shape.color)
     tint, cosine = shape.color / 255, -np.dot(way, normal)
-    across = way + 2 * cosine * normal
-    ways = [(across, share * tint)]
-    if shape.kind == "glass":
-        eta = shape.index if is_inner else 1 / shape.index  # as in GLSL's refract
-        k = 1 - eta**2 * (1 - cosine**2)
-        reflected = 1.0
-        if k > 0:
-            one, two = (shape.index, 1.0) if is_inner else (1.0, shape.index)
-            other = math.sqrt(k)
-            s = ((one * cosine - two * other) / (one * cosine + two * other)) ** 2
-            p = ((one * other - two * cosine) / (one * other + two * cosine)) ** 2
-            reflected = (s + p) / 2
-            through = eta * way + (eta * cosine - other) * normal
-            ways = [(across, share * reflected), (through, share * (1 - reflected) * tint)]
+    across, ways = way + 2 * cosine * normal, []
+    total = np.zeros(3)
+    for kind, weight in BLENDS.get(shape.kind, [(shape.kind, 1.0)]):
+        own = weight * share
+        if kind == "matt":
+            total += own * light
+        elif kind in ("glass", "sheet", "plastic"):
+            eta = shape.index if is_inner and kind == "glass" else 1 / shape.index
+            reflected, through = passed(way, normal, cosine, eta)
+            if kind == "sheet":
+                reflected, through = sheet(reflected), way
+            ways.append((across, own * reflected))
+            if kind == "plastic":
+                total += (1 - reflected) * own * light
+            elif reflected < 1:
+                ways.append((through, own * (1 - reflected) * tint))
         else:
-            ways = [(across, share)]
+            ways.append((across, own * tint))
     for direction, left in ways:
-        if left.max() >= LEAST:
-            total = total + seen(
-                view,
-                shapes,
-                lights,
-                point,
-                direction / np.linalg.norm(direction),
-                left,
-                bounces - 1,
-            )
+        if bounces > 0 and left.max() >= LEAST:
+            unit = direction / np.linalg.norm(direction)
+            total = total + seen(view, shapes, lights, point, unit, left, bounces - 1)
     return total
+
+
+def matt_light(
+    view: View,
+    shapes: list[Shape],
+    lights: list[tuple[Vec, float]],
+    point: Vec,
+    normal: Vec,
+    color: Vec,
+) -> Vec:
+    """Return the light that a matt surface scatters."""
+    light = np.zeros(3)
+    for place, intensity in lights:
+        to_light = place - point
+        length = np.linalg.norm(to_light)
+        cosine = np.dot(normal, to_light) / length
+        if cosine > 0 and nearest(view, shapes, point, to_light / length)[0] > length:
+            light += color * cosine * intensity
+    return light
+
+
+def sheet(reflected: float) -> float:
+    """Return what a thin sheet mirrors, light going to and fro within, given that of one side.
+
+    That is R + (1 - R)**2 R + (1 - R)**2 R**3 + ...
+    """
+    return reflected + (1 - reflected) ** 2 * sum(reflected**k for k in range(1, 400, 2))
+
+
+def passed(way: Vec, normal: Vec, cosine: float, eta: float) -> tuple[float, Vec]:
+    """Return what share is mirrored, and where the rest goes; `eta` is as in GLSL's refract."""
+    k = 1 - eta**2 * (1 - cosine**2)
+    if k <= 0:
+        return 1.0, way
+    other = math.sqrt(k)
+    s = ((eta * cosine - other) / (eta * cosine + other)) ** 2
+    p = ((eta * other - cosine) / (eta * other + cosine)) ** 2
+    return (s + p) / 2, eta * way + (eta * cosine - other) * normal

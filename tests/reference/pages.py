@@ -35,7 +35,11 @@ DOCS = ROOT / "docs"
 PICTURES = DOCS / "images" / "pages"
 NOT_RUN = ("architecture", "benchmarks", "changelog", "gallery", "measured", "reference", "rules")
 PAGES = sorted(page for page in DOCS.glob("*.md") if page.stem not in NOT_RUN)
-NEEDED = {"eight-figures": ("MDAnalysisTests",), "movies": ("distributed",)}
+NEEDED = {
+    "eight-figures": ("MDAnalysisTests",),
+    "inside": ("MDAnalysisTests",),
+    "movies": ("distributed",),
+}
 """Packages that pages need, and without which they are not run."""
 
 _BLOCK = re.compile(r"^```(\w+)([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)

@@ -49,6 +49,43 @@ def sample_places(
     return Places(across + columns[..., None], below + rows[..., None], weights)
 
 
+def lens_places(
+    columns: np.ndarray, rows: np.ndarray, samples: int, blades: int = 0, seed: int = 0
+) -> np.ndarray:
+    """Return where samples go through a lens of radius 1, to the right and down, (..., samples, 2).
+
+    The opening is a disc, or a polygon of so many sides.
+    """
+    digits = (samples - 1).bit_length()
+    points = np.array(sobol(1 << digits), np.uint64)
+    found = np.zeros((columns.size, samples, 2))
+    for k, (x, y) in enumerate(zip(columns.flat, rows.flat, strict=True)):
+        deal, _ = pixel_keys(int(x), int(y), 2, seed)
+        # Owen's scrambling of the digits of the sample's number.
+        numbers = np.arange(samples, dtype=np.uint64) << np.uint64(32 - digits)
+        order = (owen(numbers, np.uint64(deal)) * 2**digits).astype(int) if digits else [0]
+        keys = np.array(pixel_keys(int(x), int(y), 1, seed), np.uint64)
+        found[k] = opening(*owen(points, keys[:, None])[:, order], blades)
+    return found.reshape(*columns.shape, samples, 2)
+
+
+def opening(u: np.ndarray, v: np.ndarray, blades: int = 0) -> np.ndarray:
+    """Return places in a disc or a polygon of radius 1 for points of the square, (..., 2)."""
+    if blades:
+        turns = 2 * np.pi * np.arange(blades + 1) / blades
+        corners = np.stack([np.sin(turns), -np.cos(turns)], axis=-1)
+        side = np.minimum((v * blades).astype(int), blades - 1)
+        along = (v * blades - side)[..., None]
+        return np.sqrt(u)[..., None] * ((1 - along) * corners[side] + along * corners[side + 1])
+    a, b = 2 * u - 1, 2 * v - 1
+    is_wide = np.abs(a) > np.abs(b)
+    radius = np.where(is_wide, a, b)
+    with np.errstate(invalid="ignore"):
+        ratio = np.nan_to_num(np.where(is_wide, b, a) / radius)
+    turn = np.where(is_wide, np.pi / 4 * ratio, np.pi / 2 - np.pi / 4 * ratio)
+    return np.stack([radius * np.cos(turn), radius * np.sin(turn)], axis=-1)
+
+
 def mean(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """Return weighted means of samples, (..., samples, 3), added up one after the other."""
     light, total = np.zeros((*values.shape[:-2], 3)), np.zeros(values.shape[:-2])

@@ -216,3 +216,12 @@ def test_guides_are_filtered_as_light(name: str) -> None:
 
 def test_library_is_asked_for_when_it_is_used() -> None:
     assert library.load_library().__name__ == "pyoidn"
+
+
+def test_light_through_a_lens_is_nearer_to_the_truth() -> None:
+    given = world()
+    given.camera = given.camera.replace(lens=vtray.Lens(0.6, 15))
+    many = [vtray.render(given, samples=8, seed=k).linear for k in range(1, 13)]
+    truth = np.mean(many, axis=0)
+    image = vtray.render(given, samples=4, tolerance=10, denoise=True)
+    assert error(image.linear, truth) < 0.8 * error(image.raw, truth)

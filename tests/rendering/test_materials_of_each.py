@@ -9,11 +9,13 @@ import numpy as np
 import pytest
 
 import vtray
+from conftest import JIT
 from vtray.scene.fingerprint import scene_hash
 
 PLACES = np.array([(-1.5, 0, 0), (0, 0, 0), (1.5, 0, 0), (0, 1.1, 0.5), (-0.8, -1, 0)], float)
 KINDS = ("glass", vtray.Metal("gold"), "lambert", "glass")
 INDEX = (0, 1, 2, 3, 1)
+SIZE = (14, 10) if JIT else (7, 5)
 
 
 def lit(*objects: Any) -> vtray.Scene:
@@ -24,7 +26,7 @@ def lit(*objects: Any) -> vtray.Scene:
         vtray.Sky(gradient=vtray.Gradient((255, 240, 220), (160, 180, 200), (40, 50, 60))),
         vtray.Light((2, 5, -6), 0.5),
     ]
-    scene.camera = vtray.Camera.look_at((0, 0.5, -7), target=(0, 0, 0), size=(14, 10))
+    scene.camera = vtray.Camera.look_at((0, 0.5, -7), target=(0, 0, 0), size=SIZE)
     return scene
 
 
@@ -81,6 +83,59 @@ def test_one_of_several_may_be_all_there_is() -> None:
     assert light(lit(alone)) == light(lit(spheres(material=KINDS[1], material_index=None)))
 
 
+ROUGH = (0.0, 0.5, 1.0, 0.2, 0.9)
+METAL = (0.0, 0.5, 1.0, 1.0, 0.2)
+PLAIN = (
+    vtray.Plastic(1.7),
+    vtray.Blend(vtray.Plastic(1.7, 0.5), vtray.Metal(roughness=0.5), 0.5),
+    vtray.Metal(roughness=1),
+    vtray.Metal(roughness=0.2),
+    vtray.Blend(vtray.Plastic(1.7, 0.9), vtray.Metal(roughness=0.9), 0.2),
+)
+
+
+def test_each_may_be_rough_and_metal_in_its_own_way() -> None:
+    item = vtray.Spheres(
+        PLACES, 0.6, material=vtray.Plastic(1.7), roughness=ROUGH, metalness=np.array(METAL)
+    )
+    single = [
+        vtray.Sphere(place, 0.6, material=material)
+        for place, material in zip(PLACES, PLAIN, strict=True)
+    ]
+    together, apart = (
+        vtray.render(lit(*objects), integrator="path", samples=2).linear.tobytes()
+        for objects in ([item], single)
+    )
+    assert together == apart
+
+
+@pytest.mark.parametrize("kind", [vtray.Cylinders, vtray.Cones])
+def test_roughness_is_that_of_the_materials_that_have_one(kind: Any) -> None:
+    ends = PLACES, np.add(PLACES, (0.2, 0.7, 0.1)), 0.4
+    kinds = vtray.Glass(roughness=0.3), vtray.Metal("gold"), "lambert", vtray.Plastic(1.4, 0.1)
+    rough = [vtray.Glass(roughness=0.6), vtray.Metal("gold", 0.6), "lambert"]
+    index = (0, 1, 2, 3, 1)
+    item = kind(*ends, material=kinds, material_index=index, roughness=0.6)
+    other = kind(*ends, material=(*rough, vtray.Plastic(1.4, 0.6)), material_index=index)
+    one, two = (vtray.render(lit(x), integrator="path", samples=2).linear for x in (item, other))
+    assert one.tobytes() == two.tobytes()
+    assert item != other
+    problems: list[str] = []
+    vtray.render(lit(item), integrator="whitted", warn=problems.append)
+    words = "material: glass and metal and plastic are shown as smooth by the integrator whitted"
+    assert any(problem.startswith(words) for problem in problems)
+
+
+def test_roughness_is_said_in_files(tmp_path: Path) -> None:
+    item = spheres(material="plastic", material_index=None, roughness=ROUGH, metalness=0.25)
+    scene = lit(item)
+    scene.save(tmp_path / "scene.json")
+    for same in (vtray.load(tmp_path / "scene.json"), vtray.load_dict(scene.to_dict())):
+        assert same == scene
+    assert lit(item.replace(roughness=None)) != scene
+    assert scene_hash(lit(item.replace(metalness=None))) != scene_hash(scene)
+
+
 def test_files_and_copies_keep_them(tmp_path: Path) -> None:
     scene = lit(spheres(), MANY[2])
     scene.save(tmp_path / "scene.json")
@@ -111,6 +166,7 @@ def test_what_shines_is_light() -> None:
     item = spheres(material=("lambert", vtray.Emissive(2)), material_index=(0, 1, 0, 0, 0))
     scene = lit(item)
     scene.lights = []
+    scene.camera = scene.camera.replace(size=(14, 10))
     problems: list[str] = []
     image = vtray.render(scene, integrator="whitted", warn=problems.append)
     assert problems == []
@@ -131,6 +187,9 @@ def test_what_shines_is_light() -> None:
         ({"material_index": (0, 1, 2, 3, np.nan)}, r"material_index\[4\]: .*, got nan"),
         ({"material_index": (0, 1, 2, 3, -1)}, r"material_index\[4\]: .* 0 to 255, got -1"),
         ({"material_index": (0, 1)}, r"material_index: .* of shape \(5,\).*, got shape \(2,\)"),
+        ({"roughness": (0, 1, 2, 0, 0)}, r"roughness\[2\]: expected a number from 0 to 1, got 2"),
+        ({"roughness": (0, 1)}, r"roughness: expected .*, got shape \(2,\)"),
+        ({"metalness": 0.5}, 'metalness: given for no material .*; expected "plastic"'),
         ({"material_index": 1}, r"material_index: expected an array .*, got shape \(\)"),
     ],
 )

@@ -88,8 +88,9 @@ def test_arrays_are_shared_and_read_only(kind: type[Arrays], wrap: Any, dtype: A
 @pytest.mark.parametrize("dtype", ["f2", ">f4", ">f8", "i1", "u2", "i8", "longdouble"])
 def test_other_dtypes_become_doubles(kind: type[Arrays], dtype: str) -> None:
     ones = {name: np.ones_like(array, dtype) for name, array in COLUMNS_OF[kind]().items()}
-    one_each = {name: np.ones(COUNT, dtype) for name in ("opacity", "material_index")}
-    made = kind(**ones, **one_each, material=("glass", "mirror"))
+    optional = "opacity", "roughness", "metalness", "material_index"
+    one_each = {name: np.ones(COUNT, dtype) for name in optional}
+    made = kind(**ones, **one_each, material=("plastic", "mirror"))
     bytes_ = "color", "color_end", "material_index"
     for name in kind.COLUMNS:
         assert getattr(made, name).dtype == (np.uint8 if name in bytes_ else np.float64)

@@ -63,6 +63,17 @@ def test_are_as_if_written_where_they_are_named() -> None:
     assert vtray.load_dict(given) == vtray.load_dict(plain)
 
 
+def test_are_those_of_blends_too() -> None:
+    blend = {"type": "blend", "first": "ruby", "second": "chrome", "weight": 0.25}
+    given = scene(blend, "speckled")
+    given["materials"]["speckled"] = {"type": "blend", "first": "glass", "second": "lambert"}
+    for read in (lambda: vtray.loads(json.dumps(given)), lambda: vtray.load_dict(given)):
+        one, other = (item.material for item in read().objects[:2])
+        assert one == vtray.Blend(vtray.Glass(1.76), "mirror", 0.25)
+        assert other == vtray.Blend("glass", "lambert")
+    jsonschema.validate(given, json.loads(SCHEMA.read_text(encoding="utf-8")))
+
+
 def test_may_be_named_like_those_that_all_files_know() -> None:
     given = scene("glass", "metal", materials={"glass": RUBY, "ruby": "mirror"})
     found = [item.material for item in vtray.loads(json.dumps(given)).objects[:2]]
@@ -105,7 +116,9 @@ def test_unknown_keys_are_told_once() -> None:
 
 def test_fit_the_schema() -> None:
     schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
-    jsonschema.validate(scene("ruby", RUBY), schema)
+    balls = {"type": "spheres", "data": "balls.npz", "material": ["ruby", "chrome", RUBY]}
+    given = scene("ruby", RUBY)
+    jsonschema.validate({**given, "objects": [*given["objects"], balls]}, schema)
     for wrong in ({"ruby": {"type": "glass", "ior": 0}}, {"ruby": 3}, ["ruby"]):
         with pytest.raises(jsonschema.ValidationError):
             jsonschema.validate(scene("ruby", materials=wrong), schema)
@@ -126,12 +139,31 @@ def _change(*path: Any, to: Any) -> Callable[[dict[str, Any]], None]:
         (
             _change("objects", 0, "material", to="rubi"),
             'objects[0].material: expected "chrome", "ruby", "water", "lambert", "mirror", '
-            '"glass", "metal", "emissive" or an object with one of these as its "type", '
+            '"glass", "metal", "plastic", "emissive" or an object with one of these or "blend" as '
+            'its "type", '
             'got "rubi"; did you mean "ruby"?',
         ),
         (_change("objects", 2, "objects", 0, "material", to="?"), "objects[2].objects[0].material"),
         (_change("objects", 1, "material", to=3), "objects[1].material: expected"),
         (_change("objects", 1, "radius", to=-1), "objects[1].radius: expected a number ≥ 0"),
+        (
+            _change("objects", 0, "material", to={"type": "blend", "first": "ruby"}),
+            "objects[0].material.second: missing",
+        ),
+        (
+            _change(
+                "objects", 0, "material", to={"type": "blend", "first": "rubi", "second": "glass"}
+            ),
+            'objects[0].material.first: expected "chrome", "ruby"',
+        ),
+        (
+            _change("materials", "ruby", to={"type": "glass", "thin": True, "roughness": 0.5}),
+            "materials.ruby.roughness: expected 0 for glass that is thin, got 0.5",
+        ),
+        (
+            _change("objects", 0, "material", to={"type": "metal", "roughness": 1.5}),
+            "objects[0].material.roughness: expected a number from 0 to 1, got 1.5",
+        ),
         (_change("materials", "ruby", "ior", to=0), "materials.ruby.ior: expected a number from"),
         (_change("materials", "ruby", to="water"), 'materials.ruby: expected "lambert", "mirror"'),
         (_change("materials", "ruby", to=None), 'materials.ruby: expected "lambert", "mirror"'),

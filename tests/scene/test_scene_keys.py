@@ -1,5 +1,6 @@
 """The optional keys `camera.up`, `camera.projection` and `render`, and dictionaries."""
 
+import ast
 import copy
 import json
 import subprocess
@@ -98,6 +99,7 @@ BACKGROUND = 'expected "black", "transparent", "sky" or an object with the keys 
 EXPOSURE = 'expected "max", "auto" or a number > 0, got'
 TONEMAP = 'expected "linear", "srgb", "filmic" or "agx", got'
 STOPS = "expected a number from -100 to 100, got"
+FIREFLY = 'expected "off" or a number > 0, got'
 BAD_VALUES: list[tuple[str, object, str]] = [
     ("camera.up", [0, 1, 0], "expected an object with the keys x, y and z, got [0, 1, 0]"),
     ("camera.up", "y", 'expected an object with the keys x, y and z, got "y"'),
@@ -107,9 +109,9 @@ BAD_VALUES: list[tuple[str, object, str]] = [
         {"x": 0, "y": 0, "z": 0},
         'expected numbers x, y and z that are not all zero, got {"x": 0, "y": 0, "z": 0}',
     ),
-    ("camera.projection", "iso", 'expected "perspective" or "orthographic", got "iso"'),
-    ("camera.projection", None, 'expected "perspective" or "orthographic", got null'),
-    ("camera.projection", 1, 'expected "perspective" or "orthographic", got 1'),
+    ("camera.projection", "iso", 'expected "perspective", "orthographic" or "panorama", got "iso"'),
+    ("camera.projection", None, 'expected "perspective", "orthographic" or "panorama", got null'),
+    ("camera.projection", 1, 'expected "perspective", "orthographic" or "panorama", got 1'),
     ("render.samples", 0, "expected an integer from 1 to 65536, got 0"),
     ("render.samples", 65537, "expected an integer from 1 to 65536, got 65537"),
     ("render.samples", 1.5, "expected an integer from 1 to 65536, got 1.5"),
@@ -161,13 +163,14 @@ def test_bad_values(place: str, value: object, problem: str) -> None:
             "render",
             3,
             "expected an object with the keys samples, filter, seed, size, exposure, "
-            "background, tolerance, denoise, stops, tonemap, integrator and depth, got 3",
+            "background, tolerance, denoise, stops, tonemap, integrator, depth and firefly, got 3",
         ),
         (
             "render",
             None,
             "expected an object with the keys samples, filter, seed, size, exposure, "
-            "background, tolerance, denoise, stops, tonemap, integrator and depth, got null",
+            "background, tolerance, denoise, stops, tonemap, integrator, depth and firefly, "
+            "got null",
         ),
         ("render.size[1]", 0, "expected an integer from 1 to 2147483647, got 0"),
         ("render.background.g", 256, "expected an integer from 0 to 255, got 256"),
@@ -233,6 +236,8 @@ CODE: list[tuple[dict[str, Any], str]] = [
     ({"tonemap": "aces"}, f"tonemap: {TONEMAP} 'aces'"),
     ({"tonemap": 2.2}, f"tonemap: {TONEMAP} 2.2"),
     ({"tonemap": float("nan")}, "tonemap: expected a finite number, got nan"),
+    ({"firefly": 0}, f"firefly: {FIREFLY} 0"),
+    ({"firefly": "on"}, f"firefly: {FIREFLY} 'on'"),
     ({"stops": "1"}, f"stops: {STOPS} '1'"),
     ({"stops": 101}, f"stops: {STOPS} 101"),
     ({"stops": float("nan")}, "stops: expected a finite number, got nan"),
@@ -299,7 +304,7 @@ def spheres_in_dictionaries() -> st.SearchStrategy[dict[str, Any]]:
 @given(
     scenes(),
     st.none() | directions(),
-    st.sampled_from(["perspective", "orthographic"]),
+    st.sampled_from(["perspective", "orthographic", "panorama"]),
     st.none() | settings_in_files(),
     st.lists(spheres_in_dictionaries(), max_size=3),
 )
@@ -518,6 +523,14 @@ def test_import_is_light() -> None:
     )
     assert "vtray.lights" in listed.stdout
     assert set(vtray.__all__) <= set(dir(vtray))
+
+
+def test_who_reads_types_finds_all_names() -> None:
+    """Editors, type checkers and the docs see what is imported for them alone."""
+    source = ast.parse(Path(str(vtray.__file__)).read_text("utf-8"))
+    (block,) = (node for node in source.body if isinstance(node, ast.If))
+    imports = (node for node in block.body if isinstance(node, ast.ImportFrom))
+    assert {name.name for node in imports for name in node.names} == set(vtray.__all__)
 
 
 @pytest.mark.parametrize(

@@ -8,11 +8,12 @@ import pytest
 
 import vtray
 from conftest import JIT
+from vtray.geometry.circle import cosine_sine_of_turn
 from vtray.rendering.pack_brightness import pack_brightness
 from vtray.rendering.pack_skies import pack_skies
 from vtray.transport.lights.sky import Skies, light_at
 from vtray.transport.sampling.sky_brightness import bright_density, bright_direction
-from vtray.transport.sampling.sky_map import cosine_sine_of_turn, direction_at, map_place
+from vtray.transport.sampling.sky_map import direction_at, map_place
 from vtray.transport.sampling.sky_map import eighths_of_turn as eighths
 from vtray.transport.sampling.table import find_part, linear_point
 

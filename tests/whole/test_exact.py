@@ -58,6 +58,7 @@ def test_machine_code_of_all_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
     vtray.render(scene)
     vtray.trace_pixel(scene, 4, 3)
     draw_all_ways()
+    follow_all_ways()
     seen: set[Path | None] = set()  # most parts are called by several kernels
     for item in kernels():
         files = [file for types in item._native if (file := item._file(types))]
@@ -105,6 +106,21 @@ def draw_all_ways() -> None:
         vtray.trace_pixel(scene, column, 3)
     scene.objects[0] = scene.objects[0].replace(opacity=1.0)
     vtray.render(scene, clip=(1, 1, 1), cap=True, outline=True, eye_dome=True, fog=True)
+
+
+def follow_all_ways() -> None:
+    """Use all kernels of light that goes on from surfaces."""
+    scene = vtray.Scene()
+    scene.objects = [
+        vtray.Sphere((-0.5, 0, 0.6), 0.5, material="glass"),
+        vtray.Plane((0, 0, 0), (0, 0, 1), (255, 255, 255)),
+    ]
+    scene.lights = [vtray.Sky(1)]
+    scene.camera = vtray.Camera.look_at((0, 0, 9), target=(0, 0, 0), up=(0, 1, 0), size=(5, 5))
+    vtray.render(scene, integrator="whitted")
+    vtray.render(scene, integrator="path", samples=2)
+    scene.objects[0] = vtray.Sphere((-0.5, 0, 0.6), 0.5, material=vtray.Metal(roughness=0.3))
+    vtray.render(scene, integrator="path", samples=2)
 
 
 MULTIPLY_ADD = "declare double @llvm.fma.f64(double, double, double)\n" + (

@@ -88,7 +88,7 @@ def test_pictures_are_small_files(folder: str) -> None:
         assert path.stat().st_size < MOST_BYTES, path.name
 
 
-@pytest.mark.parametrize("name", ["tour", "eight_figures"])
+@pytest.mark.parametrize("name", ["tour", "eight_figures", "inside"])
 def test_notebook_is_kept_without_outputs(name: str) -> None:
     nbformat = pytest.importorskip("nbformat")
     notebook = nbformat.read(EXAMPLES / f"{name}.ipynb", as_version=4)
@@ -99,7 +99,7 @@ def test_notebook_is_kept_without_outputs(name: str) -> None:
 
 
 @compiled_only
-@pytest.mark.parametrize(("name", "least"), [("tour", 7), ("eight_figures", 9)])
+@pytest.mark.parametrize(("name", "least"), [("tour", 7), ("eight_figures", 9), ("inside", 6)])
 def test_notebook_runs_from_start_to_end(name: str, least: int, tmp_path: Path) -> None:
     nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
     for module in pages.NEEDED.get(name.replace("_", "-"), ()):

@@ -8,6 +8,7 @@ import math
 
 from vtray.animation.keyframes import BEFORE, ApartError, part_way
 from vtray.scene.camera import Camera
+from vtray.scene.lens import Lens, sharp_distance
 from vtray.scene.placing.directions import Vec, along, dot
 from vtray.scene.placing.moved import axes_of
 from vtray.scene.vectors import Direction, Vector
@@ -31,7 +32,7 @@ def between_cameras(one: Camera, other: Camera, share: float, pivot: Vec) -> Cam
     Raises
     ------
     ApartError
-        They differ in size or projection.
+        They differ in size or projection, or in the shape of their lenses.
     """
     if (one.size, one.projection) != (other.size, other.projection):
         words = f"a {one.projection} camera of size {one.size}, as {BEFORE} is"
@@ -66,7 +67,31 @@ def between_cameras(one: Camera, other: Camera, share: float, pivot: Vec) -> Cam
         up=Direction(-down[0], -down[1], -down[2]),
         focus=focus,
         resolution=(across, below),
+        lens=_between_lenses(one, other, share),
     )
+
+
+def _between_lenses(one: Camera, other: Camera, share: float) -> Lens | None:
+    """Return the lens at a share of the way from one camera to another; a pinhole has radius 0."""
+    first, last = one.lens or other.lens, other.lens or one.lens
+    if first is None or last is None:
+        return None
+    if first.blades != last.blades:
+        words = f"a lens of {_blades(first)}, as {BEFORE} has"
+        raise ApartError(f"expected {words}, got one of {_blades(last)}")
+    start, stop = (camera.lens.radius if camera.lens else 0.0 for camera in (one, other))
+    radius = start + (stop - start) * share
+    if first.focus_on is not None and first.focus_on == last.focus_on:
+        return first.replace(radius=radius)
+    near = sharp_distance(first, one if one.lens else other)
+    far = sharp_distance(last, other if other.lens else one)
+    distance = part_way(near, far, share, _mean)
+    return first.replace(radius=min(radius, distance), focus_distance=distance, focus_on=None)
+
+
+def _blades(lens: Lens) -> str:
+    """Say of what shape an opening is."""
+    return f"{lens.blades} blades" if lens.blades else "a disc"
 
 
 def _seen(camera: Camera, axes: tuple[Vec, Vec, Vec], point: Vec) -> Vec:

@@ -11,6 +11,7 @@ from vtray.scene.placing.bounding_sphere import bounding_sphere
 from vtray.scene.placing.bounds import Balls, balls_of, middle_of
 from vtray.scene.placing.directions import Vec, along, dot, unit
 from vtray.scene.placing.moved import axes_of
+from vtray.scene.placing.panorama import check_flat
 from vtray.scene.vectors import Direction, Vector
 
 Floats = NDArray[np.float64]
@@ -43,13 +44,14 @@ def fit_around(subject: object, camera: Camera, zoom: float = 1.0) -> tuple[Came
     camera = upright(camera)
     axis, forward = unit(camera.up or Direction(*WORLD[0])), unit(camera.normal)
     width, height = map(int, camera.size)
+    check_flat(camera, "turntable", "take a camera that looks one way")
     parts = balls_of(subject, "turntable")
     x, y, z = map(float, middle_of(parts))
     found = Camera.fit(
         swept(parts, (x, y, z), axis),
         forward,
         up=axis,
-        projection=camera.projection,
+        projection="orthographic" if camera.projection == "orthographic" else "perspective",
         size=(width, height),
         zoom=zoom,
     )

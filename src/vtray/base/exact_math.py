@@ -1,4 +1,4 @@
-"""Sines, exponentials and lengths that are the same to the last bit on every machine.
+"""Sines, angles, exponentials and lengths that are the same to the last bit on every machine.
 
 IEEE 754 says what ``+ - * /`` and square roots give, to the last bit. What the library of C makes
 of a sine differs from machine to machine, and from version to version, in the last digit; NumPy's
@@ -139,6 +139,31 @@ def power(base: "NDArray[np.float64]", exponent: float) -> "NDArray[np.float64]"
     return np.where(base < 2.0**-60, 0.0, found)
 
 
+def angle(along: "NDArray[np.float64]", across: "NDArray[np.float64]") -> "NDArray[np.float64]":
+    """Return the angles of vectors (along, across) from (1, 0), from -pi to pi, in radians.
+
+    They are within 2e-15 of themselves; that of a vector of length 0 is 0. The tangent of half the
+    angle from the nearer end of the axis is that of a triangle; it is halved three times more,
+    until Taylor's series leaves out less than ``0.1**22 / 23`` of it.
+
+    Parameters
+    ----------
+    along, across
+        The vectors, of the same shape.
+    """
+    import numpy as np
+
+    longest = np.maximum(np.abs(along), np.abs(across))
+    scale = np.where(longest > 0.0, longest, 1.0)
+    x, y = along / scale, across / scale  # so that the squares are doubles
+    above = np.sqrt(x * x + y * y) + np.abs(x)
+    tangent = y / np.where(longest > 0.0, above, 1.0)
+    for _ in range(3):
+        tangent = tangent / (1.0 + np.sqrt(1.0 + tangent * tangent))
+    found = 16.0 * tangent * _series(tangent * tangent, _ARCTANGENT)
+    return np.where(along < 0.0, np.copysign(math.pi, across) - found, found)
+
+
 def hypotenuse(*parts: float) -> float:
     """Return the square root of the sum of the squares, rounded once; infinite if it is no double.
 
@@ -172,5 +197,6 @@ _SINE = [(1 - k % 2 * 2) / math.factorial(2 * k + 1) for k in range(8, 0, -1)]
 _COSINE = [(1 - k % 2 * 2) / math.factorial(2 * k) for k in range(8, 0, -1)]
 _EXPONENTIAL = [1.0 / math.factorial(k) for k in range(11, 0, -1)]
 _ARTANH = [1.0 / (2 * k + 1) for k in range(10, 0, -1)]
+_ARCTANGENT = [(1 - k % 2 * 2) / (2 * k + 1) for k in range(10, -1, -1)]
 _ROOT_OF_HALF = math.sqrt(0.5)
 _LOGARITHM_OF_2 = 0.6931471805599453

@@ -66,7 +66,8 @@ def shown_labels(image: Subject, labels: "LabelsGiven", *, hide: bool) -> list[L
     height, width = image.linear.shape[:2]
     with np.errstate(invalid="ignore"):
         inside = (column >= -0.5) & (column < width - 0.5) & (row >= -0.5) & (row < height - 0.5)
-    shown = np.flatnonzero(inside & (depth > camera.focus))
+    nearest = 0.0 if camera.projection == "panorama" else camera.focus
+    shown = np.flatnonzero(inside & (depth > nearest))
     if hide and len(shown):
         shown = shown[~_hidden(image, points[shown], column[shown], row[shown], depth[shown])]
     shown = shown[np.argsort(-depth[shown], kind="stable")]

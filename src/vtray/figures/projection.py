@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from vtray.scene.camera import Camera
 from vtray.scene.placing.moved import axes_of
+from vtray.scene.placing.panorama import around
 
 Floats = NDArray[np.float64]
 
@@ -20,7 +21,7 @@ class Places(NamedTuple):
         In pixels from the left and from the top, (n,); those of a pixel itself are integers. NaN
         where a point is not before the eye.
     depth
-        How far from the eye along z', in scene units, (n,).
+        How far from the eye along z', in scene units, (n,); along the ray in a panorama.
     """
 
     column: Floats
@@ -33,6 +34,8 @@ def project(camera: Camera, points: Floats) -> Places:
     center, focus = camera.center, camera.focus
     x, y, z = points[:, 0] - center.x, points[:, 1] - center.y, points[:, 2] - center.z
     across, down, ahead = (x * axis[0] + y * axis[1] + z * axis[2] for axis in axes_of(camera))
+    if camera.projection == "panorama":
+        return Places(*around(camera, across, down, ahead))
     depth = ahead + focus
     if camera.projection == "perspective":
         with np.errstate(divide="ignore", invalid="ignore"):

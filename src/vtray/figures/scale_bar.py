@@ -59,6 +59,9 @@ def scale_bar(image: Subject, scalebar: object, at: "ArrayLike | None") -> Scale
     if scalebar is False:
         return None
     camera = image.scene.camera
+    if camera.projection == "panorama":
+        message = "scalebar: lengths differ from place to place in a panorama; leave it out"
+        raise FigureError(message)
     own = isinstance(scalebar, str) and "{length}" in scalebar
     unit = "" if own or scalebar is True else f" {scalebar}"
     pattern = str(scalebar) if own else f"{{length}}{unit}"
@@ -146,9 +149,10 @@ def depth_along_view(camera: Camera, distance: Floats) -> Floats:
     camera
         The camera.
     distance
-        From the origin of each pixel's ray to its hit, (height, width).
+        From the origin of each pixel's ray to its hit, (height, width); in a panorama, that is
+        what is returned.
     """
-    if is_orthographic(camera):
+    if is_orthographic(camera) or camera.projection == "panorama":
         return distance
     height, width = distance.shape
     across = (np.arange(width) - width / 2) * (camera.resolution[0] / camera.focus)

@@ -14,7 +14,7 @@ import math
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.ray import Footprint, Ray
+from vtray.geometry.ray import EVERYWHERE, Footprint, Ray
 from vtray.geometry.vector import Vec, dot, scale, sub
 
 
@@ -85,12 +85,17 @@ class Passage(NamedTuple):
 
 @device
 def image_plane_range(ray: Ray, footprint: Footprint) -> tuple[float, float]:
-    """Return from where to where the rays of a pixel pass through the image plane."""
+    """Return from where to where the rays of a pixel pass through the image plane.
+
+    Without one, that is their start.
+    """
     height, descent = -ray.plane_depth, ray.forward
     spread = math.sqrt(max(1.0 - descent * descent, 0.0))
     least, most = descent - footprint.growth * spread, descent + footprint.growth * spread
     end = (height + footprint.width * spread) / least if least > 0.0 else math.inf
-    return (height - footprint.width * spread) / most, end
+    start = (height - footprint.width * spread) / most
+    has_plane = ray.plane_depth < EVERYWHERE
+    return start if has_plane else 0.0, end if has_plane else 0.0
 
 
 @device

@@ -42,6 +42,16 @@ def cosine_sine(eighths: float) -> tuple[float, float]:
 
 
 @device
+def cosine_sine_of_turn(eighths: float) -> tuple[float, float]:
+    """Return cosine and sine of so many eighths of a turn, ≥ 0."""
+    quarters = int(0.5 * (eighths + 1.0))
+    cosine, sine = cosine_sine(eighths - 2.0 * quarters)
+    if quarters % 2 == 1:
+        cosine, sine = -sine, cosine
+    return (-cosine, -sine) if quarters // 2 % 2 == 1 else (cosine, sine)
+
+
+@device
 def angle_of(along: float, across: float) -> float:
     """Return the angle of the vector (along, across) from (1, 0), from -pi to pi, in radians.
 

@@ -13,6 +13,10 @@ CORNER = 1.5
 """How far beyond its edges a shape reaches that is larger by 1 to all sides: more than √2."""
 
 
+EVERYWHERE = 2.0**500
+"""The plane depth of everything where there is no image plane: far more than any other."""
+
+
 class Ray(NamedTuple):
     """A half-line.
 

@@ -41,7 +41,7 @@ def load_library() -> ModuleType:
     return need("pyoidn", "denoise", "denoise")
 
 
-def denoise(light: Floats, albedo: Floats, normals: Floats, threads: int = 1) -> Floats:
+def denoise(light: Floats, albedo: Floats, normals: Floats | None, threads: int = 1) -> Floats:
     """Return the light of a picture without its grain.
 
     Parameters
@@ -51,7 +51,7 @@ def denoise(light: Floats, albedo: Floats, normals: Floats, threads: int = 1) ->
     albedo
         The share of light that surfaces scatter, from 0 to 1, (height, width, 3).
     normals
-        Their normals, 0 where nothing is, (height, width, 3).
+        Their normals, 0 where nothing is, (height, width, 3); None if light is all that is known.
     threads
         How many threads to use at the most.
 
@@ -73,11 +73,9 @@ def denoise(light: Floats, albedo: Floats, normals: Floats, threads: int = 1) ->
     if not peak > 0.0:
         return light.copy()
     scale = -math.frexp(peak)[1]
-    images = {
-        "color": np.ldexp(arriving, scale),
-        "albedo": np.ones_like(light),
-        "normal": normals,
-    }
+    images = {"color": np.ldexp(arriving, scale)}
+    if normals is not None:
+        images |= {"albedo": np.ones_like(light), "normal": normals}
     found = _filter(library, images, threads)
     clean = np.ldexp(found, -scale) * albedo
     return np.where(is_known, clean, light)

@@ -29,7 +29,7 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
     scene : str
         The hash of the scene.
     samples, filter, seed, tolerance, exposure, background, denoise, stops,
-    tonemap, integrator, depth
+    tonemap, integrator, depth, firefly
         As in the settings of the render, those that were left out too.
     size : tuple of int or None
         Width and height of the picture in pixels; None for those of the camera.
@@ -71,7 +71,16 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
         return msgspec.json.encode(told).decode("ascii")
 
 
-_SELDOM = ("denoise", "stops", "tonemap", "integrator", "depth", "style", "partial")
+_SELDOM = (
+    "denoise",
+    "stops",
+    "tonemap",
+    "integrator",
+    "depth",
+    "firefly",
+    "style",
+    "partial",
+)
 """What is told only where it is not as usual: older versions refuse what they do not know."""
 
 _USUAL = Provenance(version="", scene="0" * 16)

@@ -51,6 +51,9 @@ class Denoising:
             Its light, (height, width, 3).
         """
         arrays = pack(scene, self._kept.with_colors_of(scene.objects)).arrays
+        if arrays.camera.lens is not None and self._settings.samples > 1:
+            # Surfaces are sharper than their light, and would lead astray.
+            return denoise(light, np.ones_like(light), None, self._threads)
         guides = find_guides(arrays, self._settings, self._threads)
         clean = denoise(light, guides.albedo, guides.normals, self._threads)
         if self._coverage is not None:

@@ -46,16 +46,20 @@ class Drawing:
     @property
     def wanted(self) -> tuple[str, ...]:
         """What is wanted of the rays that find light, by the names of a film's rows."""
-        if self._sees_layers:
+        if self._looks_apart:
             return ()
         if self._outline is not None:
             return ("primitive", "distance")
         return () if self._eye_dome is None else ("distance",)
 
     @property
-    def _sees_layers(self) -> bool:
-        """Whether the rays that find light see layers, and not the one surface that is drawn."""
-        return self._packed.arrays.world.faded is not None
+    def _looks_apart(self) -> bool:
+        """Whether the rays that find light do not tell which surface is drawn.
+
+        They may see layers, and not one surface; or only samples are cast, through a lens.
+        """
+        arrays = self._packed.arrays
+        return arrays.world.faded is not None or arrays.camera.lens is not None
 
     def _surfaces(self) -> Film:
         """Return the surfaces that are drawn."""
@@ -63,7 +67,7 @@ class Drawing:
 
     def warm_up(self) -> None:
         """Load the kernels, or compile them."""
-        if self._sees_layers:
+        if self._looks_apart:
             return
         nothing = new_film(0, 0, *self.wanted)
         self.lines(nothing)
@@ -74,7 +78,7 @@ class Drawing:
         if self._outline is None:
             return None
         normal = None
-        if self._sees_layers:
+        if self._looks_apart:
             film = self._surfaces()
             normal = film.normal if self._outline.normals else None
         elif self._outline.normals:
@@ -93,7 +97,7 @@ class Drawing:
         """Return how much of its light each pixel keeps in eye-dome lighting, if there is any."""
         if self._eye_dome is None:
             return None
-        film = self._surfaces() if self._sees_layers else film
+        film = self._surfaces() if self._looks_apart else film
         strength, around = float(self._eye_dome.strength), surroundings(self._eye_dome.radius)
         size, growth = pixel_size(self._scene.camera, self._packed)
         shade = np.empty(film.distance.shape, np.float32)

@@ -77,6 +77,7 @@ def _distance(camera: Camera, point: Vec) -> float:
     x, y, z = unit(camera.normal)
     center, focus = camera.center, camera.focus
     way = (point[0] - center.x, point[1] - center.y, point[2] - center.z)
+    focus = 0.0 if camera.projection == "panorama" else focus
     along = way[0] * x + way[1] * y + way[2] * z + focus
     if camera.projection == "orthographic":
         return along

@@ -1,23 +1,29 @@
 """Light over many surfaces: who shows it, and what does not go with it."""
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 from vtray.base.errors import RenderError
 from vtray.rendering.acceleration import Acceleration
+from vtray.scene.camera import Camera
 from vtray.scene.copies import Copies
-from vtray.scene.materials import is_matt, materials_of
+from vtray.scene.materials import blended_in, is_matt, materials_of
 from vtray.scene.objects import Object
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 
 
-def matt_instead(objects: Sequence[Object], settings: RenderSettings) -> str:
-    """Say which materials the integrator cannot show; "" if it shows all."""
-    found = [*dict.fromkeys(_names(objects))] if settings.integrator == "direct" else []
-    if not found:
+def simpler_looks(objects: Sequence[Object], settings: RenderSettings) -> str:
+    """Say which materials the integrator shows as simpler ones; "" if it shows all as they are."""
+    simpler = {"direct": "matt", "whitted": "smooth", "path": ""}[settings.integrator]
+    better = {"direct": '"whitted" or "path"', "whitted": '"path"', "path": ""}
+    is_direct = settings.integrator == "direct"
+    found = [*dict.fromkeys(name for name, rough in _kinds(objects) if is_direct or rough)]
+    if not found or not simpler:
         return ""
-    words = 'shown as matt by the integrator direct; give integrator="whitted" or "path"'
-    return f"material: {' and '.join(found)} {'are' if len(found) > 1 else 'is'} {words}"
+    which = f"{' and '.join(found)} {'are' if len(found) > 1 else 'is'}"
+    words = f"shown as {simpler} by the integrator {settings.integrator}"
+    return f"material: {which} {words}; give integrator={better[settings.integrator]}"
 
 
 def check_followed(kept: Acceleration, settings: RenderSettings, *, keep_lights: bool) -> None:
@@ -40,12 +46,12 @@ def check_followed(kept: Acceleration, settings: RenderSettings, *, keep_lights:
 
 def shines(scene: Scene) -> bool:
     """Tell whether any object of a scene shines, and is shown so."""
-    return scene.render.integrator != "direct" and "emissive" in _names(scene.objects)
+    return scene.render.integrator != "direct" and "emissive" in dict(_kinds(scene.objects))
 
 
 def check_told(objects: Sequence[Object], settings: RenderSettings, caller: str) -> None:
     """Raise RenderError if the rays of a pixel cannot be told, as they go on from surfaces."""
-    is_matt = next(_names(objects), None) is None
+    is_matt = next(_kinds(objects), None) is None
     if settings.integrator == "path" or (settings.integrator == "whitted" and not is_matt):
         message = (
             f'{caller}: rays that go on from surfaces are not told; give integrator="direct", got '
@@ -54,11 +60,32 @@ def check_told(objects: Sequence[Object], settings: RenderSettings, caller: str)
         raise RenderError(message)
 
 
-def _names(objects: Sequence[Object]) -> Iterator[str]:
-    """Give the materials of objects, and of what is copied, that are not matt."""
+def check_image_plane(camera: Camera, caller: str) -> None:
+    """Raise RenderError if the rays of a pixel cannot be told, as there is no image plane."""
+    if camera.projection == "panorama":
+        message = f"{caller}: the rays of a panorama are not told; give another projection"
+        raise RenderError(message)
+
+
+def _kinds(objects: Sequence[Object]) -> Iterator[tuple[str, bool]]:
+    """Give the materials of objects, and of what is copied, that are not matt.
+
+    Yields
+    ------
+    name, is_rough
+        The name of each, and whether its surface is rough.
+    """
     for item in objects:
         if isinstance(item, Copies):
-            yield from _names(item.objects)
+            yield from _kinds(item.objects)
         for material in materials_of(getattr(item, "material", "lambert")):
-            if not is_matt(material):
-                yield type(material).__name__.lower()
+            for one in blended_in(material) or (material,):
+                if not is_matt(one):
+                    own, each = (getattr(x, "roughness", None) for x in (one, item))
+                    is_rough = own is not None and _is_some(own if each is None else each)
+                    yield type(one).__name__.lower(), is_rough
+
+
+def _is_some(values: Any) -> bool:  # noqa: ANN401
+    """Tell whether a number is above 0, or one of many."""
+    return bool(values > 0) if isinstance(values, (int, float)) else bool((values > 0).any())

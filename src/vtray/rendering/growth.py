@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.tiles import Tile
-from vtray.transport.camera_rays import CameraFrame
+from vtray.transport.camera_rays import CameraFrame, turned_by
 from vtray.transport.film import Film
 
 STEP = 8
@@ -188,6 +188,7 @@ def draft_camera(camera: CameraFrame) -> CameraFrame:
     return camera._replace(
         pixel=(STEP * across, STEP * down, distance),
         shift=(STEP * camera.shift[0], STEP * camera.shift[1]),
+        turn=turned_by(camera.turn, STEP),
         width=camera.width // STEP + 1,
         height=camera.height // STEP + 1,
     )

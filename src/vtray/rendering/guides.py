@@ -16,7 +16,7 @@ from vtray.geometry.packets.packet import CAP, SECOND
 from vtray.rendering.engines.engine import Plan, trace
 from vtray.rendering.passes import SURFACES
 from vtray.scene.settings import RenderSettings
-from vtray.transport.camera_rays import CameraFrame
+from vtray.transport.camera_rays import CameraFrame, turned_by
 from vtray.transport.film import Film
 from vtray.transport.materials.material import Materials
 from vtray.transport.sampling.filters import FILTERS
@@ -145,6 +145,7 @@ def _finer(camera: CameraFrame, side: int) -> CameraFrame:
     return camera._replace(
         pixel=(across / side, down / side, distance),
         shift=(camera.shift[0] / side, camera.shift[1] / side),
+        turn=turned_by(camera.turn, 1.0 / side),
         width=side * camera.width,
         height=side * camera.height,
     )

@@ -14,6 +14,7 @@ from vtray.image.strokes import draw_strokes
 from vtray.rendering.numbering import number_objects
 from vtray.rendering.pack import Packed
 from vtray.scene.camera import Camera
+from vtray.scene.placing.panorama import pixel_angle
 from vtray.scene.scene import Scene
 from vtray.scene.style import Outline
 from vtray.transport.integrators.outlines import Pen, Seen, find_crossings, new_crossings
@@ -26,6 +27,8 @@ at that distance."""
 
 def pixel_size(camera: Camera, packed: Packed) -> tuple[float, float]:
     """Return the larger side of a pixel as kernels count: at a distance of 0, and its growth."""
+    if camera.projection == "panorama":
+        return 0.0, pixel_angle(camera)
     side = max(map(float, camera.resolution))
     if camera.projection == "orthographic":
         return side / packed.unit, 0.0

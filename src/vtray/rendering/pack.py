@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vtray.base.capacity import MAX_NUMBERS
 from vtray.geometry.bvh.tree import Frame, no_bvh
+from vtray.geometry.ray import EVERYWHERE
 from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.vector import Vec
 from vtray.geometry.world import (
@@ -27,6 +28,7 @@ from vtray.geometry.world import (
 from vtray.rendering.acceleration import Acceleration, Shapes, used_places
 from vtray.rendering.joined import joined, rows_of
 from vtray.rendering.pack_bodies import pack_bodies
+from vtray.rendering.pack_lens import pack_lens
 from vtray.rendering.pack_lights import pack_lights, points_of
 from vtray.rendering.pack_looks import made_of, pack_looks
 from vtray.rendering.pack_skies import up_of
@@ -42,7 +44,7 @@ from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.scene import Camera, Plane, Scene
 from vtray.scene.style import Style
-from vtray.transport.camera_rays import CameraFrame
+from vtray.transport.camera_rays import CameraFrame, TurnFrame
 from vtray.transport.materials.material import Materials
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -110,7 +112,9 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
         ),
         materials,
     )
-    return Packed(arrays, unit, scene.camera.focus - start_distance(scene.camera))
+    is_panorama = scene.camera.projection == "panorama"
+    before = 0.0 if is_panorama else scene.camera.focus - start_distance(scene.camera)
+    return Packed(arrays, unit, before)
 
 
 def _pack_world(objects: Sequence[Object], kept: Acceleration, unit: float, origin: Vec) -> World:
@@ -316,13 +320,16 @@ def _unit_length(scene: Scene, planes: list[Plane], kept: Acceleration) -> float
     # A plane that cuts nothing may be anywhere.
     lengths += [kept.rooms.largest] if kept.rooms and (planes or kept.is_cut) else []
     coordinates = max(max(abs(p.x), abs(p.y), abs(p.z), *lengths) for p in places)
-    highest = max(_start_exponent(camera), _exponent(coordinates), _exponent(kept.largest))
+    lens = _exponent(camera.lens.radius if camera.lens else 0.0)
+    highest = max(_start_exponent(camera), lens, _exponent(coordinates), _exponent(kept.largest))
     # The unit itself and its inverse must be ordinary doubles.
     return math.ldexp(1.0, max(highest - 200, -1000))
 
 
 def _start_exponent(camera: Camera) -> int:
     """Return an e with all coordinates below 2**e at which rays start, and not far below."""
+    if camera.projection == "panorama":
+        return _exponent(0.0)
     start = start_distance(camera)
     together = camera.projection != "orthographic" and start == camera.focus
     return _exponent(start) if together else max(_exponent(start), _view_exponent(camera))
@@ -343,6 +350,8 @@ def _pack_camera(camera: Camera, unit: float) -> CameraFrame:
         right, down = camera_axes(forward)
     else:
         right, down = view_axes(forward, unit_vector(camera.up))
+    if camera.projection == "panorama":
+        return _pack_panorama(camera, right, down, forward)
     start = start_distance(camera)
     image_distance = start / unit
     width, height = camera.resolution
@@ -369,6 +378,29 @@ def _pack_camera(camera: Camera, unit: float) -> CameraFrame:
         extent=extent,
         width=int(camera.size[0]),
         height=int(camera.size[1]),
+        lens=pack_lens(camera, start, unit),
+    )
+
+
+def _pack_panorama(camera: Camera, right: Vec, down: Vec, forward: Vec) -> CameraFrame:
+    """Return the frame of a panorama with these axes."""
+    width, height = map(int, camera.size)
+    across, below = 8.0 / width, 4.0 / height
+    nowhere = 0.0, 0.0, 0.0
+    return CameraFrame(
+        eye=nowhere,
+        right=right,
+        down=down,
+        forward=nowhere,
+        image_distance=0.0,
+        pixel=(0.0, 0.0, 1.0),
+        shift=(0.0, 0.0),
+        extent=0.0,
+        width=width,
+        height=height,
+        turn=TurnFrame(forward, across, below, 0.5 * across, 0.5 * below),
+        middle_depth=EVERYWHERE,
+        unbounded=True,
     )
 
 

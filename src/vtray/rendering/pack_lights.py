@@ -87,7 +87,7 @@ def pack_lights(
         x,
         y,
         z,
-        plane_depth=_dot((x, y, z), camera.forward),
+        plane_depth=_dot((x, y, z), camera.forward) + camera.middle_depth,
         error_scale=_magnitude(x, y, z) + _magnitude(*origin),
         points=len(hard) if hard or not soft else None,
         soft=packed,
@@ -201,7 +201,7 @@ def _pack_lamps(
         row[:3] = soft.x[k], soft.y[k], soft.z[k]
         row[3] = soft.size[k]
         row[4:] = soft.rectangles.data[RECTANGLE_SIZE * k : RECTANGLE_SIZE * (k + 1)]
-    return VisibleLamps(soft.row[seen], data.reshape(-1), soft.error_scale[seen])
+    return VisibleLamps(soft.row[seen], data.reshape(-1), soft.error_scale[seen], seen)
 
 
 def points_of(places: list[Vector], unit: float) -> Floats:

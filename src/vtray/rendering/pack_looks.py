@@ -1,6 +1,8 @@
 """From the materials of objects to what kernels know of them."""
 
+import math
 from collections.abc import Iterable, Sequence
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -8,11 +10,38 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import input_array
 from vtray.rendering.joined import joined, rows_of
-from vtray.scene.materials import Emissive, Glass, Lambert, Material, Metal, Mirror
+from vtray.scene.materials import (
+    Blend,
+    Emissive,
+    Glass,
+    Lambert,
+    Material,
+    Metal,
+    Mirror,
+    Plastic,
+    blended_in,
+)
 from vtray.scene.metals import METALS
 from vtray.scene.scene import Scene
-from vtray.transport.materials.look import EMISSIVE, GLASS, MATT, METAL, MIRROR, NUMBERS, Looks
+from vtray.transport.materials.albedo import NODES, mean_albedo, measure_albedo
+from vtray.transport.materials.conductor import mean_shares
+from vtray.transport.materials.facets import SMOOTH
+from vtray.transport.materials.look import (
+    BLEND,
+    EMISSIVE,
+    GLASS,
+    MATT,
+    MEANS,
+    METAL,
+    MIRROR,
+    NUMBERS,
+    PLASTIC,
+    SPREAD,
+    THIN,
+    Looks,
+)
 
+Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
@@ -76,30 +105,77 @@ def pack_looks(
     row, step = rows_of([one.which for one in parts])
     first = np.cumsum([0, *(len(one.materials) for one in parts)])
     which = [one.which + at for one, at in zip(parts, first, strict=False)]
-    looks = [_look_of(material, unit) for material in materials]
-    numbers = np.array([values for _, values in looks], np.float64).reshape(-1, NUMBERS)
+    blended = [part for material in materials for part in blended_in(material)]
+    looks = [_look_of(material, unit) for material in [*materials, *blended]]
+    after = len(materials)
+    for material, (_, values) in zip(materials, looks, strict=False):
+        if isinstance(material, Blend):
+            values[:3] = [after, after + 1, material.weight]
+            after += 2
     return Looks(
         row[part] + begin * step[part],
         step[part],
         joined(which, np.int64),
         np.array([kind for kind, _ in looks], np.int64),
-        input_array(numbers, np.float64),
+        input_array(np.array([values for _, values in looks]).reshape(-1, NUMBERS), np.float64),
         int(scene.render.depth),
+        _brightest(scene),
+        _albedos(looks),
     )
 
 
 def _look_of(material: Material, unit: float) -> tuple[int, list[float]]:
     """Return the kind of a material and its numbers; see `Looks`."""
     values = [0.0] * NUMBERS
+    roughness = getattr(material, "roughness", 0.0)
+    values[SPREAD] = roughness * roughness if roughness * roughness >= SMOOTH else 0.0
     if isinstance(material, Glass):
         values[:4] = [material.ior, *(unit * share for share in material.absorption)]
+        values[THIN] = 1.0 if material.thin else 0.0
         return GLASS, values
     if isinstance(material, Metal):
         if material.name is not None:
             n, k = METALS[material.name]
             values[:6] = [*n, *k]
+            values[MEANS:] = mean_shares(n, k)
         return METAL, values
+    if isinstance(material, Plastic):
+        values[0] = material.ior
+        return PLASTIC, values
     if isinstance(material, Emissive):
         values[0] = material.radiance
         return EMISSIVE, values
-    return (MIRROR if isinstance(material, Mirror) else MATT), values
+    plain = {Lambert: MATT, Mirror: MIRROR, Blend: BLEND}
+    return plain[type(material)], values
+
+
+def _brightest(scene: Scene) -> float:
+    """Return the brightest light of a path, 255 for white."""
+    firefly = scene.render.firefly
+    is_cut = scene.render.integrator == "path" and firefly != "off"
+    return 255.0 * float(firefly) if is_cut else math.inf
+
+
+def _albedos(looks: Sequence[tuple[int, list[float]]]) -> Floats | None:
+    """Return the tables of what rough surfaces and coats mirror; None if all are smooth.
+
+    There are two for each material: what is met from outside, and from within.
+    """
+    if all(kind not in (PLASTIC, BLEND) and values[SPREAD] == 0.0 for kind, values in looks):
+        return None
+    tables = np.zeros((2 * len(looks), NODES + 2))
+    for k, (kind, values) in enumerate(looks):
+        if kind in (PLASTIC, METAL, GLASS):
+            index = 1.0 if kind == METAL else values[0]
+            tables[2 * k] = _table(kind, index, values[SPREAD])
+            tables[2 * k + 1] = _table(kind, 1.0 / index, values[SPREAD])
+    return input_array(tables, np.float64)
+
+
+@cache
+def _table(kind: int, ratio: float, spread: float) -> Floats:
+    """Return the albedos of one surface, and their mean."""
+    table = np.zeros(NODES + 2)
+    measure_albedo(kind, ratio, spread, table)
+    table[NODES + 1] = mean_albedo(table)
+    return table

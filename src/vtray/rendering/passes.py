@@ -31,12 +31,14 @@ from vtray.transport.sampling.fans import (
 )
 from vtray.transport.sampling.paths import Paths, paths_of
 from vtray.transport.sampling.pixel_samples import (
+    WIDEST,
     Sampling,
     filter_footprint,
     filter_samples,
+    lens_points,
     middle_rays,
 )
-from vtray.transport.scene_arrays import SceneArrays
+from vtray.transport.scene_arrays import SceneArrays, with_pinhole
 
 SURFACES = ("distance", "normal", "primitive", "half")
 """What is recorded of the surfaces that middle rays hit."""
@@ -131,9 +133,12 @@ class Tracer:
         keep = keep and self._scene.world.faded is None
         first, later = _plan(settings, noise)
         if samples == 1:
+            self._scene = with_pinhole(self._scene)
             rays = middle_rays(fans=first.fans, seed=seed)._replace(paths=first.paths)
             found = self._middles(rays, keep, *one_ray(self._scene, self._more))
             return found._replace(film=_covered(found.film), noise=noise)
+        if self._scene.camera.lens is not None:
+            return self._through_lens(settings, first, later, keep=keep)._replace(noise=noise)
         self._passes = 2
         footprint = filter_footprint(settings, self._scene.camera)
         thickest = _thickest(self._scene.world)
@@ -142,12 +147,34 @@ class Tracer:
         found = self._middles(middles, keep, *with_samples(self._scene, self._more))
         film, kept = found.film, found.kept
         marks = film.mixed.copy()  # the film is written anew
+        if self._scene.camera.turn is not None and footprint.growth == WIDEST:
+            marks.fill(True)  # rays of a pixel may turn away from each other
         if keep:
             kept = (*kept, self._keep(marks, samples))
             film = film._replace(kept=kept[-1])
         sampled = self._trace(filter_samples(settings, marks, later.fans, later.paths), film)
         peak, cast = max(found.peak, sampled.peak), found.rays + sampled.rays
         return Traced(film, peak, cast, noise, kept)
+
+    def _through_lens(
+        self, settings: RenderSettings, first: "_Plan", later: "_Plan", *, keep: bool
+    ) -> Traced:
+        """Trace the samples of all pixels: none sees one thing only, as far as is known."""
+        samples, seed = int(settings.samples), int(settings.seed)
+        lens = lens_points(self._scene.camera, samples)
+        wanted = with_samples(self._scene, self._more)
+        if self._growth is not None:
+            rays = middle_rays(before_samples=True, fans=first.fans, seed=seed)
+            self._draft(self._growth, rays._replace(paths=first.paths, lens=lens), *wanted)
+        film = new_film(*self._size, *wanted)
+        film.mixed.fill(True)
+        marks = film.mixed.copy()
+        kept: tuple[KeptLight, ...] = ()
+        if keep:
+            kept = self._keep(~marks, 1), self._keep(marks, samples)
+            film = film._replace(kept=kept[-1])
+        sampled = filter_samples(settings, marks, later.fans, later.paths, lens)
+        return self._trace(sampled, film)._replace(kept=kept)
 
     def noise(self, settings: RenderSettings, white: float | None, *, keep: bool) -> Noise | None:
         """Return how noisy soft light may be, if there is any; the parameters are those of `light`.
@@ -179,6 +206,7 @@ class Tracer:
         has_samples = settings.samples > 1
         fans = fans_of_middles(self._noise_of_light(math.inf, settings))
         rays = middle_rays(before_samples=has_samples, fans=fans, seed=int(settings.seed))
+        rays = rays._replace(lens=lens_points(self._scene.camera, int(settings.samples)))
         film = new_film(
             *self._size, *(with_samples if has_samples else one_ray)(self._scene, self._more)
         )
@@ -308,8 +336,10 @@ def _thickest(world: World) -> float:
 def compile_kernels(scene: SceneArrays, settings: RenderSettings, more: Sequence[str] = ()) -> None:
     """Compile what is needed to trace a scene, or load it from disk; see `Tracer.light`."""
     has_samples = settings.samples > 1
+    scene = scene if has_samples else with_pinhole(scene)
     soft = scene.lights.soft
     film = new_film(0, 0, *(with_samples if has_samples else one_ray)(scene, more))
     first, _ = _plan(settings, None if soft is None else Noise(math.inf, by_light=True))
-    rays = middle_rays(before_samples=has_samples, fans=first.fans)._replace(paths=first.paths)
+    rays = middle_rays(before_samples=has_samples, fans=first.fans)
+    rays = rays._replace(paths=first.paths, lens=lens_points(scene.camera, int(settings.samples)))
     trace_to(film, scene, rays, Tile(0, 0, 0, 0))

@@ -13,7 +13,7 @@ from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, scale
 from vtray.image.white import known_white
 from vtray.rendering.fog import ball_around, fitted
-from vtray.rendering.followed import check_told
+from vtray.rendering.followed import check_image_plane, check_told
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.numbering import number_objects
 from vtray.rendering.pack import Packed, pack
@@ -80,6 +80,7 @@ def trace_rays(
     if not (0 <= column < width and 0 <= row < height):
         message = f"{caller}: expected 0,0 to {width - 1},{height - 1}, got {column},{row}"
         raise RenderError(message)
+    check_image_plane(camera, caller)
     settings = settings_of(scene) if image is None else image.settings
     check_told(scene.objects, settings, caller)
     style = (

@@ -28,7 +28,7 @@ from vtray.rendering.darkroom import Darkroom
 from vtray.rendering.denoising import Denoising
 from vtray.rendering.drawing import Drawing
 from vtray.rendering.fog import ball_around, fitted
-from vtray.rendering.followed import check_followed, matt_instead, shines
+from vtray.rendering.followed import check_followed, shines, simpler_looks
 from vtray.rendering.growth import Growth
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
@@ -80,6 +80,7 @@ def render(
     tonemap: str | None = None,
     integrator: str | None = None,
     depth: int | None = None,
+    firefly: Literal["off"] | float | None = None,
     outline: Any = None,  # noqa: ANN401 - all that `Style` takes
     fog: Any = None,  # noqa: ANN401
     eye_dome: Any = None,  # noqa: ANN401
@@ -139,9 +140,14 @@ def render(
     stops
         How often the light is doubled after the exposure, 0 by default; below 0 it is halved.
     integrator
-        "direct", the default: mirrors and glass look matt; "whitted": they are followed.
+        ``"direct"``, the default: mirrors and glass look matt; ``"whitted"``: they are followed;
+        ``"path"``: all light is, by paths that go on at random, which takes many samples.
     depth
-        Over how many mirrors and surfaces of glass light is followed, from 0 to 64; 8 by default.
+        Over how many surfaces light is followed, from 0 to 64; 8 by default.
+    firefly
+        The brightest light that one path may bring to a pixel with ``integrator="path"``, 1 for
+        white: specks of light become darker, and so does the picture, which is then biased.
+        ``"off"`` by default.
     tonemap
         How light becomes the numbers of a file: ``"linear"``, the default, as it is; ``"srgb"``,
         ``"filmic"`` and ``"agx"`` encoded for monitors. For these, all colours that are given are
@@ -222,7 +228,7 @@ def render(
     style = fitted(style, shown.camera, lambda: ball_around(shown))
     if settings.denoise:
         load_library()  # before any work is done
-    _tell(warn, _darkness(shown, keep_lights=keep_lights), matt_instead(shown.objects, settings))
+    _tell(warn, *_problems(shown, settings, keep_lights=keep_lights))
     _check(shown, settings, is_shown=on_update is not None)
     clock, loaded = Stopwatch(), loading_seconds()
     kept = accelerate(scene, threads, _step_of(progress, "build"), style)
@@ -304,6 +310,12 @@ def _growth(
     return Growth(lambda part: on_update(darkroom.part(part)), seconds)
 
 
+def _problems(scene: Scene, settings: RenderSettings, *, keep_lights: bool) -> tuple[str, ...]:
+    """Say what will not be seen as it may be meant; "" for what will."""
+    darkness = _darkness(scene, keep_lights=keep_lights)
+    return darkness, simpler_looks(scene.objects, settings), _sharpness(scene.camera, settings)
+
+
 def _darkness(scene: Scene, *, keep_lights: bool) -> str:
     """Say why all that is seen is black, if that is known before; "" if it is not."""
     seen = [item for item in scene.objects if not isinstance(item, Stars)]
@@ -315,6 +327,13 @@ def _darkness(scene: Scene, *, keep_lights: bool) -> str:
     if keep_lights:  # to be relit with other intensities
         return ""
     return "lights: all have the intensity 0, so all that is seen is black; give one more than 0"
+
+
+def _sharpness(camera: Camera, settings: RenderSettings) -> str:
+    """Say why nothing is blurred though there is a lens; "" if it is, or if there is none."""
+    if camera.lens is None or camera.lens.radius == 0 or settings.samples > 1:
+        return ""
+    return "camera.lens: all is sharp with one ray a pixel; give samples, such as 64"
 
 
 def _tell(warn: Warn | None, *problems: str) -> None:
@@ -356,7 +375,7 @@ def _check_memory(scene: Scene, settings: RenderSettings, *, is_shown: bool) -> 
 
 def _shown(scene: Scene, lights: list[AnyLight], settings: RenderSettings) -> Scene:
     """Return the scene as it is now and is to be shown: how large, in which light, how followed."""
-    names = ("tonemap", "integrator", "depth")
+    names = ("tonemap", "integrator", "depth", "firefly")
     render = scene.render.replace(**{name: getattr(settings, name) for name in names})
     return Scene(_camera(scene, settings), lights, list(scene.objects), render, scene.style)
 

@@ -14,7 +14,12 @@ from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 from vtray.transport.backdrop import see_sky
 from vtray.transport.camera_rays import CameraFrame
-from vtray.transport.sampling.pixel_samples import Sampling, filter_samples, middle_rays
+from vtray.transport.sampling.pixel_samples import (
+    Sampling,
+    filter_samples,
+    lens_points,
+    middle_rays,
+)
 
 Floats = NDArray[np.float64]
 
@@ -42,12 +47,13 @@ class SeenSky:
     """
 
     def __init__(self, camera: CameraFrame, settings: RenderSettings, threads: int) -> None:
-        self._camera = camera
+        many = settings.samples > 1
+        self._camera = camera if many else camera._replace(lens=None)
         self._is_seen = settings.background == "sky"
         self._threads = threads
-        many = settings.samples > 1
+        lens = lens_points(camera, int(settings.samples))
         self._sampling: Sampling = (
-            filter_samples(settings, NO_MARKS, None) if many else middle_rays()
+            filter_samples(settings, NO_MARKS, None, lens=lens) if many else middle_rays()
         )
 
     def __call__(self, scene: Scene, cover: Floats) -> Floats:

@@ -18,7 +18,7 @@ from vtray.rendering.pack_looks import MadeOf, joined_made, made_of
 from vtray.scene.arrays import Arrays
 from vtray.scene.cones import Cones
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.materials import material_of, materials_of
+from vtray.scene.materials import material_of, materials_of, varied
 from vtray.scene.objects import Cone, Cylinder, Object, Sphere
 from vtray.scene.spheres import Spheres
 
@@ -153,12 +153,34 @@ def _from_arrays(kind: Kind, item: Any) -> Source:  # noqa: ANN401
     )
 
 
+STEPS = 50
+"""In so many steps roughness and metalness of each go from 0 to 1."""
+
+
 def _made_of_each(item: Any) -> MadeOf:  # noqa: ANN401
     """Return what shapes given as arrays are made of."""
     materials = materials_of(item.material)
-    if len(set(materials)) == 1:
-        return made_of(materials[:1])
-    return MadeOf(materials, item.material_index.astype(np.int64))
+    is_one = len(set(materials)) == 1
+    which = np.zeros(1, np.int64) if is_one else item.material_index.astype(np.int64)
+    if item.roughness is None and item.metalness is None:
+        return made_of(materials[:1]) if is_one else MadeOf(materials, which)
+    rough, metal = (
+        np.rint(np.atleast_1d(np.asarray(item.given_for(name), float)) * STEPS).astype(np.int64)
+        for name in ("roughness", "metalness")
+    )
+    # One number for each combination that there may be, those of a material itself being below 0.
+    kinds = STEPS + 2
+    rough, metal = np.maximum(rough, -1) + 1, np.maximum(metal, -1) + 1
+    found, which = np.unique((which * kinds + rough) * kinds + metal, return_inverse=True)
+    made = [
+        varied(
+            materials[k // (kinds * kinds)],
+            (k // kinds % kinds - 1) / STEPS,
+            (k % kinds - 1) / STEPS,
+        )
+        for k in map(int, found)
+    ]
+    return MadeOf(tuple(made), which.reshape(-1).astype(np.int64))
 
 
 def _row_by_row(values: Any, dtype: type[np.generic] | None = None) -> NDArray[Any]:  # noqa: ANN401

@@ -43,7 +43,10 @@ def has_stars(scene: Scene) -> bool:
 
 
 def check_stars(scene: Scene, settings: RenderSettings) -> None:
-    """Raise RenderError if points that shine shall be seen on a transparent background."""
+    """Raise RenderError if points that shine cannot be seen as they should be."""
+    if scene.camera.projection == "panorama" and has_stars(scene):
+        words = "points that shine are drawn flat, and not for a panorama"
+        raise RenderError(f"camera.projection: {words}; give another one, or spheres instead")
     if settings.background == "transparent" and has_stars(scene):
         words = "the light of stars is added to what is behind it"
         message = f'background: "transparent" cannot hold stars, as {words}; choose "black"'

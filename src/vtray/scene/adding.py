@@ -85,6 +85,8 @@ class Adding:
         opacity: "ArrayLike | None" = None,
         material: "AnyMaterial | Sequence[AnyMaterial]" = "lambert",
         material_index: "ArrayLike | None" = None,
+        roughness: "ArrayLike | None" = None,
+        metalness: "ArrayLike | None" = None,
     ) -> Spheres:
         """Add many spheres to the objects.
 
@@ -120,6 +122,10 @@ class Adding:
             What all of them are made of, as for `add_sphere`; or several materials.
         material_index
             Which of several materials each is made of: its number from 0, (n,).
+        roughness, metalness
+            How rough each is, if it is of metal, plastic or glass, and how much it is metal of its
+            colour, if it is of plastic, from 0 to 1, (n,), or one for all; by default, what the
+            material says.
 
         Returns
         -------
@@ -140,6 +146,8 @@ class Adding:
                 "opacity": opacity,
                 "material": material,
                 "material_index": material_index,
+                "roughness": roughness,
+                "metalness": metalness,
             },
             {"color": color},
             "add_spheres: ",
@@ -208,6 +216,8 @@ class Adding:
         opacity: "ArrayLike | None" = None,
         material: "AnyMaterial | Sequence[AnyMaterial]" = "lambert",
         material_index: "ArrayLike | None" = None,
+        roughness: "ArrayLike | None" = None,
+        metalness: "ArrayLike | None" = None,
     ) -> Cylinders:
         """Add many solid cylinders with flat caps to the objects: bonds, for instance.
 
@@ -228,7 +238,7 @@ class Adding:
             at `start`. By default, each cylinder has one colour.
         cmap, clim, nan_color
             As for `add_spheres`; `color` and `color_end` are both values, with common limits.
-        opacity, material, material_index
+        opacity, material, material_index, roughness, metalness
             As for `add_spheres`.
 
         Returns
@@ -251,6 +261,8 @@ class Adding:
                 "opacity": opacity,
                 "material": material,
                 "material_index": material_index,
+                "roughness": roughness,
+                "metalness": metalness,
             },
             {"color": color, "color_end": color_end},
             "add_cylinders: ",
@@ -322,6 +334,8 @@ class Adding:
         opacity: "ArrayLike | None" = None,
         material: "AnyMaterial | Sequence[AnyMaterial]" = "lambert",
         material_index: "ArrayLike | None" = None,
+        roughness: "ArrayLike | None" = None,
+        metalness: "ArrayLike | None" = None,
     ) -> Cones:
         """Add many solid cones with flat caps to the objects.
 
@@ -337,7 +351,7 @@ class Adding:
             The colours, in any of the ways of `add_spheres`.
         lambert
             Share of the light that the surfaces scatter, from 0 to 1, (n,), or one for all.
-        color_end, cmap, clim, nan_color, opacity, material, material_index
+        color_end, cmap, clim, nan_color, opacity, material, material_index, roughness, metalness
             As for `add_cylinders`.
 
         Returns
@@ -361,6 +375,8 @@ class Adding:
                 "opacity": opacity,
                 "material": material,
                 "material_index": material_index,
+                "roughness": roughness,
+                "metalness": metalness,
             },
             {"color": color, "color_end": color_end},
             "add_cones: ",

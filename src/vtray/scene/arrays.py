@@ -10,7 +10,8 @@ from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.checks.checked import make_unchecked
 from vtray.scene.checks.columns import NO_NAMES, check_arrays, read_only
 from vtray.scene.checks.limits import Byte
-from vtray.scene.materials import checked_materials, is_matt, materials_of
+from vtray.scene.checks.scene_words import either
+from vtray.scene.materials import VARIED, Material, checked_materials, is_matt, materials_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -57,6 +58,9 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
     FIRST: ClassVar[int] = 0
     """The number of the material of those of which none is said."""
 
+    OWN: ClassVar[float] = -1.0
+    """Stands for the roughness or the metalness of a material itself, where none is said."""
+
     EACH: ClassVar[str]
     """What one of them is called in messages about colours."""
 
@@ -81,6 +85,9 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
         arrays = check_arrays(cls.COLUMNS, values, place, called)
         material = checked_materials(values.get("material", "lambert"), f"{place}material")
         _check_index(arrays.get("material_index"), len(materials_of(material)), place)
+        for name, kinds in VARIED.items():
+            if arrays.get(name) is not None:
+                _check_varied(name, kinds, materials_of(material), place)
         made: Self = make_unchecked(cls, **arrays, material=material)
         return made
 
@@ -196,8 +203,7 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
         return [np.asarray(value) for value in values if value is not None]
 
     def _check_again(self, place: str) -> None:
-        arrays = check_arrays(self.COLUMNS, msgspec.structs.asdict(self), f"{place}.")
-        _check_index(arrays.get("material_index"), len(materials_of(self.material)), f"{place}.")
+        self.from_arrays(msgspec.structs.asdict(self), f"{place}.")
 
 
 def _check_index(index: Any, count: int, place: str) -> None:  # noqa: ANN401
@@ -210,6 +216,15 @@ def _check_index(index: Any, count: int, place: str) -> None:  # noqa: ANN401
         there = f"as there are {count} materials" if count > 1 else "as there is one material"
         words = f"expected an integer from 0 to {count - 1}, {there}, got {index[wrong]}"
         raise SceneError(f"{place}material_index[{wrong}]: {words}")
+
+
+def _check_varied(
+    name: str, kinds: tuple[type[Material], ...], materials: tuple[Material, ...], place: str
+) -> None:
+    """Raise SceneError if there is no material for which an array says anything."""
+    if not any(isinstance(material, kinds) for material in materials):
+        words = either(f'"{kind.__name__.lower()}"' for kind in kinds)
+        raise SceneError(f"{place}{name}: given for no material that it is of; expected {words}")
 
 
 def _rebuild(kind: type[Arrays], values: tuple[Any, ...], scale: "ColorScale | None") -> Arrays:

@@ -6,10 +6,19 @@ import msgspec
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.checked import Frozen
-from vtray.scene.checks.limits import FieldError, Positive, PositivePair, Projection, SizePair
+from vtray.scene.checks.limits import (
+    FieldError,
+    FlatProjection,
+    Positive,
+    PositivePair,
+    Projection,
+    SizePair,
+)
 from vtray.scene.checks.unknown_names import explain_unknown
+from vtray.scene.lens import Lens, check_lens
 from vtray.scene.placing import look_at as views
 from vtray.scene.placing.directions import are_parallel, unit
+from vtray.scene.placing.panorama import looking_around
 from vtray.scene.vectors import Direction, Vector
 
 if TYPE_CHECKING:
@@ -46,7 +55,12 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         parallel. Without it, the axes are those of the first rule of the picture.
     projection : str, optional
         "perspective": all rays start in the eye. "orthographic": each ray runs along `normal`, from
-        the plane through the eye through its pixel.
+        the plane through the eye through its pixel. "panorama": all directions around `center`,
+        where the eye is then; the picture is a turn wide and half a turn high, `focus` and
+        `resolution` say nothing, and there is no image plane, so that everything exists.
+    lens : Lens, optional
+        A lens in the place of the pinhole, which blurs what is not at the distance of its focus.
+        The picture needs `samples`.
     """
 
     center: Vector
@@ -56,6 +70,7 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
     resolution: PositivePair
     up: Direction | None = None
     projection: Projection = "perspective"
+    lens: Lens | None = None
 
     if TYPE_CHECKING:  # what code may give, beside what the attributes hold
 
@@ -68,14 +83,17 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
             resolution: tuple[float, float],
             up: "Direction | Vector | Triple | None" = None,
             projection: Projection = "perspective",
+            lens: Lens | None = None,
         ) -> None: ...
 
     def __post_init__(self) -> None:
-        """Hold the size as integers, also where it was written as 256.0, and look at `up`."""
+        """Hold the size as integers, also where it was written as 256.0, and look at the rest."""
         width, height = self.size
         msgspec.structs.force_setattr(self, "size", (int(width), int(height)))
         if self.up is not None and are_parallel(unit(self.up), unit(self.normal)):
             raise FieldError("up", "a direction that is not parallel to normal")
+        if self.lens is not None:
+            check_lens(self.lens, self)
 
     @classmethod
     @explain_unknown
@@ -86,6 +104,8 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         up: "Direction | Vector | Triple" = (0, 1, 0),
         fov_degrees: float = 40.0,
         size: tuple[int, int] = (800, 600),
+        *,
+        lens: Lens | None = None,
     ) -> "Camera":
         """Return a camera that looks from one point to another, in perspective.
 
@@ -103,6 +123,8 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
             from the eye, in degrees, > 0 and < 180.
         size
             Width and height of the picture in pixels.
+        lens
+            Its lens, for depth of field.
 
         Returns
         -------
@@ -116,7 +138,8 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         SceneError
             If an argument is not right.
         """
-        return cls(**views.looking("Camera.look_at", eye, target, up, size, fov_degrees, None))
+        fields = views.looking("Camera.look_at", eye, target, up, size, fov_degrees, None)
+        return cls(**fields, lens=lens)
 
     @classmethod
     @explain_unknown
@@ -127,6 +150,8 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         height: float,
         up: "Direction | Vector | Triple" = (0, 1, 0),
         size: tuple[int, int] = (800, 600),
+        *,
+        lens: Lens | None = None,
     ) -> "Camera":
         """Return a camera whose rays are parallel: what is far looks as large as what is near.
 
@@ -142,13 +167,49 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
             What points up in the picture; not parallel to the line from eye to target.
         size
             Width and height of the picture in pixels.
+        lens
+            Its lens, for depth of field.
 
         Raises
         ------
         SceneError
             If an argument is not right.
         """
-        return cls(**views.looking("Camera.orthographic", eye, target, up, size, None, height))
+        fields = views.looking("Camera.orthographic", eye, target, up, size, None, height)
+        return cls(**fields, lens=lens)
+
+    @classmethod
+    @explain_unknown
+    def panorama(
+        cls,
+        eye: "Vector | Triple",
+        target: "Vector | Triple",
+        up: "Direction | Vector | Triple" = (0, 1, 0),
+        size: tuple[int, int] = (1600, 800),
+    ) -> "Camera":
+        """Return a camera that sees all directions around a point.
+
+        Its picture is equirectangular: columns are angles to the right of the target, from -180
+        degrees at the left edge to 180 at the right, rows are angles above and below, from 90
+        degrees at the top to -90 at the bottom.
+
+        Parameters
+        ----------
+        eye
+            Where the camera is, in world space.
+        target
+            What is in the middle of the picture.
+        up
+            What points up; not parallel to the line from eye to target.
+        size
+            Width and height of the picture in pixels, best twice as wide as high.
+
+        Raises
+        ------
+        SceneError
+            If an argument is not right.
+        """
+        return cls(**looking_around("Camera.panorama", eye, target, up, size))
 
     @classmethod
     @explain_unknown
@@ -158,12 +219,13 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         direction: "Direction | Vector | Triple" = AHEAD,
         up: "Direction | Vector | Triple | None" = None,
         margin: float | tuple[float, float, float, float] = 0.05,
-        projection: Projection = "perspective",
+        projection: FlatProjection = "perspective",
         fov_degrees: float = 40.0,
         size: tuple[int, int] = (800, 600),
         *,
         view: str | tuple[float, float] | None = None,
         zoom: float = 1.0,
+        lens: Lens | None = None,
     ) -> "Camera":
         """Return the camera that shows all objects as large as the picture allows.
 
@@ -203,6 +265,9 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
             longest horizontal. `up` is then that of the view unless it is given.
         zoom
             How many times as large as that, about the middle of the picture, from 1e-9 to 1e9.
+        lens
+            Its lens, for depth of field; best with a `focus_on`, as the camera stands where it
+            must. What is blurred may reach into the margin.
 
         Returns
         -------
@@ -226,7 +291,8 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
                 raise SceneError(f"Camera.fit: view: {words}, got {view!r}")
             direction, upward = view_of(subject, view, "Camera.fit")
             up = upward if up is None else up
-        camera = cls(**fitting(subject, direction, up, margin, projection, fov_degrees, size))
+        fields = fitting(subject, direction, up, margin, projection, fov_degrees, size)
+        camera = cls(**fields, lens=lens)
         if zoom != 1.0:
             from vtray.scene.placing.moved import zoomed
 

@@ -4,7 +4,16 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from vtray.scene.arrays import Arrays, Bytes, Floats
-from vtray.scene.checks.columns import COLOR, LAMBERT, MATERIAL_INDEX, OPACITY, POINT, RADIUS
+from vtray.scene.checks.columns import (
+    COLOR,
+    LAMBERT,
+    MATERIAL_INDEX,
+    METALNESS,
+    OPACITY,
+    POINT,
+    RADIUS,
+    ROUGHNESS,
+)
 from vtray.scene.materials import AnyMaterials
 
 if TYPE_CHECKING:
@@ -41,9 +50,13 @@ class Cylinders(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag=
     opacity : array (n,) or float, or None
         Share of the light that each takes on its way through, from 0 to 1, or one for all; float64
         or float32 as given. None for 1. Those of one opacity that overlap are one body.
+    roughness, metalness : array (n,) or float, or None
+        How rough each is, from 0 to 1, and how much it is metal of its colour, from 0 to 1, as in
+        glTF; float64 or float32 as given. None for what its material says: metal, plastic and glass
+        may be rough, and plastic may be metal.
     material_index : array (n,), or None
         Which of the materials each is made of, from 0, as uint8. None for the first.
-    material : Lambert, Mirror, Glass, Metal, Emissive or str, or a tuple of these
+    material : Lambert, Mirror, Glass, Metal, Plastic, Emissive, Blend or str, or a tuple of these
         What they are made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
         "emissive"; or several, of which `material_index` says who is made of which.
 
@@ -67,6 +80,8 @@ lambert=1.0, color_end=<uint8 (3,)>)
     lambert: Floats | float
     color_end: Bytes | None = None
     opacity: Floats | float | None = None
+    roughness: Floats | float | None = None
+    metalness: Floats | float | None = None
     material_index: Bytes | None = None
     material: AnyMaterials = "lambert"
 
@@ -79,6 +94,8 @@ lambert=1.0, color_end=<uint8 (3,)>)
             "lambert": LAMBERT,
             "color_end": COLOR._replace(stand_in="color"),
             "opacity": OPACITY,
+            "roughness": ROUGHNESS,
+            "metalness": METALNESS,
             "material_index": MATERIAL_INDEX,
         }
     )
@@ -100,6 +117,8 @@ lambert=1.0, color_end=<uint8 (3,)>)
             lambert: ArrayLike = 1.0,
             color_end: ArrayLike | None = None,
             opacity: ArrayLike | None = None,
+            roughness: ArrayLike | None = None,
+            metalness: ArrayLike | None = None,
             material_index: ArrayLike | None = None,
             material: AnyMaterial | Sequence[AnyMaterial] = "lambert",
         ) -> None: ...

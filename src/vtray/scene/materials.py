@@ -5,11 +5,12 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 from msgspec import Meta
 
 from vtray.scene.checks.checked import Frozen
-from vtray.scene.checks.limits import NonNegative
+from vtray.scene.checks.limits import FieldError, NonNegative, YesOrNo
 from vtray.scene.metals import MetalName
 
 Index = Annotated[float, Meta(ge=0.1, le=10, description="a number from 0.1 to 10")]
-MaterialName = Literal["lambert", "mirror", "glass", "metal", "emissive"]
+Share = Annotated[float, Meta(ge=0, le=1, description="a number from 0 to 1")]
+MaterialName = Literal["lambert", "mirror", "glass", "metal", "plastic", "emissive"]
 
 
 class Lambert(Frozen, frozen=True, gc=False, tag_field="type", tag="lambert"):
@@ -25,7 +26,7 @@ class Mirror(Frozen, frozen=True, gc=False, tag_field="type", tag="mirror"):
 
 
 class Glass(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type", tag="glass"):
-    """Smooth, clear glass, which mirrors a part of the light and refracts the rest.
+    """Clear glass, which mirrors a part of the light and refracts the rest.
 
     What passes its surface is tinted by the colour of the object.
 
@@ -37,33 +38,76 @@ class Glass(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type",
         How much of red, green and blue light it absorbs per scene unit, each ≥ 0: of light that
         goes so far through it that much times the length is 1, 1/e is left (Beer's law). 0 by
         default.
+    roughness : float
+        From 0, smooth, the default, to 1: how rough its surface is, as frosted glass is. The
+        whitted integrator takes it for smooth.
+    thin : bool
+        Whether the surface is a thin sheet with nothing within, as a bubble is; False by default.
+        Then light goes straight through, and there is neither absorption nor roughness.
     """
 
     ior: Index = 1.5
     absorption: tuple[NonNegative, NonNegative, NonNegative] = (0.0, 0.0, 0.0)
+    roughness: Share = 0.0
+    thin: YesOrNo = False
+
+    def __post_init__(self) -> None:
+        for name, value in (("absorption", max(self.absorption)), ("roughness", self.roughness)):
+            if self.thin and value > 0:
+                raise FieldError(name, "0 for glass that is thin")
 
     if TYPE_CHECKING:
 
         def __init__(
-            self, ior: float = 1.5, absorption: tuple[float, float, float] = (0.0, 0.0, 0.0)
+            self,
+            ior: float = 1.5,
+            absorption: tuple[float, float, float] = (0.0, 0.0, 0.0),
+            roughness: float = 0.0,
+            thin: bool = False,
         ) -> None: ...
 
 
 class Metal(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type", tag="metal"):
-    """A smooth metal, which mirrors more at grazing angles.
+    """A metal, which mirrors more at grazing angles.
 
     Attributes
     ----------
     name : str, optional
         Which metal, by measured indices of refraction; its light is then tinted by the colour of
         the object. Without a name, that is what the metal mirrors of light that falls squarely.
+    roughness : float
+        From 0, smooth, the default, to 1: how rough its surface is, as brushed or cast metal is.
+        The whitted integrator takes it for smooth.
     """
 
     name: MetalName | None = None
+    roughness: Share = 0.0
 
     if TYPE_CHECKING:
 
-        def __init__(self, name: MetalName | None = None) -> None: ...
+        def __init__(self, name: MetalName | None = None, roughness: float = 0.0) -> None: ...
+
+
+class Plastic(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type", tag="plastic"):
+    """A clear coat over a matt surface of the object's colour.
+
+    The coat mirrors white light; the surface below scatters what it does not mirror.
+
+    Attributes
+    ----------
+    ior : float
+        The coat's index of refraction, from 0.1 to 10; 1.5 by default.
+    roughness : float
+        From 0, smooth, the default, to 1: how rough the coat is. The whitted integrator takes it
+        for smooth.
+    """
+
+    ior: Index = 1.5
+    roughness: Share = 0.0
+
+    if TYPE_CHECKING:
+
+        def __init__(self, ior: float = 1.5, roughness: float = 0.0) -> None: ...
 
 
 class Emissive(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type", tag="emissive"):
@@ -83,13 +127,46 @@ class Emissive(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="typ
         def __init__(self, radiance: float = 1.0) -> None: ...
 
 
-Material: TypeAlias = Lambert | Mirror | Glass | Metal | Emissive
+Single: TypeAlias = Lambert | Mirror | Glass | Metal | Plastic | Emissive
+"""A material that is no blend."""
+
+
+class Blend(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type", tag="blend"):
+    """Two materials in one, as dust on metal is.
+
+    Attributes
+    ----------
+    first, second : Lambert, Mirror, Glass, Metal, Plastic, Emissive or str
+        The two, none of them a blend.
+    weight : float
+        The share of the second, from 0 to 1; 0.5 by default.
+    """
+
+    first: Single | MaterialName
+    second: Single | MaterialName
+    weight: Share = 0.5
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self, first: Single | MaterialName, second: Single | MaterialName, weight: float = 0.5
+        ) -> None: ...
+
+
+Material: TypeAlias = Single | Blend
+
+VARIED: dict[str, tuple[type[Material], ...]] = {
+    "roughness": (Metal, Plastic, Glass),
+    "metalness": (Plastic,),
+}
+"""What may differ among many objects of one material, and of which."""
 
 _BY_NAME: dict[str, Material] = {
     "lambert": Lambert(),
     "mirror": Mirror(),
     "glass": Glass(),
     "metal": Metal(),
+    "plastic": Plastic(),
     "emissive": Emissive(),
 }
 
@@ -119,6 +196,23 @@ def is_matt(given: AnyMaterials) -> bool:
 def materials_of(given: AnyMaterials) -> tuple[Material, ...]:
     """Return the materials of which many objects are made, in the order of their numbers."""
     return tuple(map(material_of, given)) if isinstance(given, tuple) else (material_of(given),)
+
+
+def blended_in(material: Material) -> tuple[Material, ...]:
+    """Return the two materials of a blend; nothing for others."""
+    if not isinstance(material, Blend):
+        return ()
+    return material_of(material.first), material_of(material.second)
+
+
+def varied(material: Material, roughness: float, metalness: float) -> Material:
+    """Return a material with a roughness and a metalness of its own; below 0, as it is."""
+    if roughness >= 0 and isinstance(material, VARIED["roughness"]):
+        material = material.replace(roughness=roughness)
+    if metalness > 0 and isinstance(material, Plastic):
+        metal = Metal(roughness=material.roughness)
+        return metal if metalness == 1 else Blend(material, metal, metalness)
+    return material
 
 
 def checked_materials(given: object, place: str) -> AnyMaterials:

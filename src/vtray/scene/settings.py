@@ -50,6 +50,7 @@ FilterName = Literal["box", "tent", "gaussian", "mitchell", "blackman-harris"]
 Exposure = Literal["max", "auto"] | Positive
 Stops = Annotated[float, Meta(ge=-100, le=100, description="a number from -100 to 100")]
 IntegratorName = Literal["direct", "whitted", "path"]
+Firefly = Literal["off"] | Positive
 MAX_DEPTH = 64
 DEPTH = 8
 """Over how many surfaces light is followed by default."""
@@ -135,6 +136,10 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
         Option("NAME", "direct; whitted: mirrors and glass are followed; path: all light is"),
     ] = "direct"
     depth: Annotated[Depth, Option("N", "over how many surfaces light is followed")] = DEPTH
+    firefly: Annotated[
+        Firefly,
+        Option("off|NUMBER", "the brightest light of one path, 1 for white: less grain, too dark"),
+    ] = "off"
 
     def __post_init__(self) -> None:
         """Hold equal settings equally: integers as such, and the colour black as "black"."""
@@ -217,6 +222,9 @@ class RenderSettings(
         random from whatever they meet, which takes many samples.
     depth : int
         Over how many surfaces light is followed at the most, from 0 to 64; 8 by default.
+    firefly : "off" or float
+        The brightest channel that one path of `integrator="path"` may bring to a pixel, > 0, 1 for
+        white: specks of light become darker, and so does the picture. "off" by default.
     """
 
     if TYPE_CHECKING:  # what code may give, beside what the attributes hold
@@ -235,6 +243,7 @@ class RenderSettings(
             tonemap: str = "linear",
             integrator: str = "direct",
             depth: int = 8,
+            firefly: Literal["off"] | float = "off",
         ) -> None: ...
 
     def replace(self, **changes: Any) -> Self:  # noqa: ANN401

@@ -31,7 +31,7 @@ class Sphere(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type"
         Share of the light that the surface scatters, from 0 to 1.
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
-    material : Lambert, Mirror, Glass, Metal, Emissive or str
+    material : Lambert, Mirror, Glass, Metal, Plastic, Emissive, Blend or str
         What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
         "emissive".
     """
@@ -81,7 +81,7 @@ class Cylinder(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="typ
         Share of the light that the surface scatters, from 0 to 1.
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
-    material : Lambert, Mirror, Glass, Metal, Emissive or str
+    material : Lambert, Mirror, Glass, Metal, Plastic, Emissive, Blend or str
         What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
         "emissive".
     """
@@ -136,7 +136,7 @@ class Cone(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type", 
         Share of the light that the surface scatters, from 0 to 1.
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
-    material : Lambert, Mirror, Glass, Metal, Emissive or str
+    material : Lambert, Mirror, Glass, Metal, Plastic, Emissive, Blend or str
         What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
         "emissive".
     """
@@ -188,7 +188,7 @@ class Plane(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type",
         Share of the light that the surface scatters, from 0 to 1.
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
-    material : Lambert, Mirror, Glass, Metal, Emissive or str
+    material : Lambert, Mirror, Glass, Metal, Plastic, Emissive, Blend or str
         What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
         "emissive".
     """

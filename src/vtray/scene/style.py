@@ -198,7 +198,14 @@ def _numbers(given: Any, place: str, numbers: int, words: str) -> list[Any]:  # 
 
 def _cap(given: Any, place: str) -> Color:  # noqa: ANN401
     """Return the colour of caps."""
-    return Color(*to_rgb(given, place))
+    try:
+        return Color(*to_rgb(given, place))
+    except SceneError as error:
+        if not isinstance(given, str):
+            raise
+        hint = "".join(str(error).partition("; ")[1:])
+        words = "a colour such as red or #ff8000, or on or off"
+        raise SceneError(f"{_wrong(given, place, words)}{hint}") from None
 
 
 def _direction(normal: list[Any], place: str, words: str, given: Any) -> Direction:  # noqa: ANN401

@@ -4,10 +4,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
-from vtray.geometry.packets.packet import COLUMN, LANES, ROW, WEIGHT, Block, Packet
+from vtray.geometry.packets.packet import LANES, WEIGHT, Block, Packet
 from vtray.geometry.packets.workspace import Pixels
 from vtray.geometry.vector import Vec, add, scale
-from vtray.transport.camera_rays import CameraFrame, camera_ray
+from vtray.transport.camera_rays import CameraFrame, sample_ray
 from vtray.transport.lights.sky import Skies
 from vtray.transport.sampling.pixel_samples import Sampling, place_samples
 from vtray.transport.sampling.sky_map import light_towards
@@ -71,9 +71,9 @@ def _light_of_pixel(
     light, total = (0.0, 0.0, 0.0), 0.0
     for first in range(0, sampling.rays, LANES):
         last = min(first + LANES, sampling.rays)
-        place_samples(packet, block, 0, 1, sampling, first, last, pixels)
+        place_samples(packet, block, 0, 1, sampling, first, last, pixels, camera.lens)
         for lane in range(last - first):
-            direction = camera_ray(camera, packet[COLUMN + lane], packet[ROW + lane]).direction
+            direction = sample_ray(camera, packet, lane).direction
             weight = packet[WEIGHT + lane]
             light = add(light, scale(weight, light_towards(skies, sky, direction)))
             total += weight

@@ -121,6 +121,7 @@ def gather_interactions(
     world: World,
     materials: Materials,
     forward: Vec,
+    middle_depth: float,
     work: Workspace,
 ) -> int:
     """Bring the hits of a packet together, as interactions with no light yet; return how many.
@@ -145,7 +146,7 @@ def gather_interactions(
         store(packet, NORMAL, hit, normal)
         packet[ERROR_SCALE + hit] = packet[ERROR_SCALE + hit] + sheaf.error_scale + length
         store(packet, VALUE, hit, (0.0, 0.0, 0.0))
-        packet[PLANE_DEPTH + hit] = dot(point, forward)
+        packet[PLANE_DEPTH + hit] = dot(point, forward) + middle_depth
     return hits
 
 

@@ -46,11 +46,16 @@ def lit_world(scene: SceneArrays) -> LitWorld:
 
 
 def without_light(scene: SceneArrays) -> SceneArrays:
-    """Return the same without lights and fog, where only surfaces are asked for.
+    """Return the same without lights, fog and a lens, where only surfaces are asked for.
 
     So their kernel is the same whatever the lights.
     """
-    return scene._replace(lights=no_lights(), fog=None)
+    return with_pinhole(scene)._replace(lights=no_lights(), fog=None)
+
+
+def with_pinhole(scene: SceneArrays) -> SceneArrays:
+    """Return the same with a pinhole in the place of the lens, where all is sharp."""
+    return scene._replace(camera=scene.camera._replace(lens=None))
 
 
 def depth_of(scene: SceneArrays) -> int:

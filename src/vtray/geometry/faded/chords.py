@@ -13,6 +13,7 @@ from vtray.geometry.packets.stack import Stack, push_met
 from vtray.geometry.queries import beam_of_ray
 from vtray.geometry.ray import Ray
 from vtray.geometry.rounding import MARGIN, ROUNDING
+from vtray.geometry.shapes.stay import Stay, no_stay
 from vtray.geometry.shapes.verbs import Shape, Verbs
 from vtray.geometry.world import (
     Faded,
@@ -195,13 +196,22 @@ def add_chord(
     chords, row
         The list.
     """
+    near, far = chord_of(shape, verbs, number, ray, end)
+    is_after = near > after.near or (near == after.near and number > after.number)
+    if near <= far and is_after:
+        _insert(chords, row, near, far, number, met)
+
+
+@device
+def chord_of(shape: Shape, verbs: Verbs, number: int, ray: Ray, end: End) -> Stay:
+    """Return the chord of a shape up to the end of a ray; infinite to minus infinite for none."""
     near, far = verbs.stay(shape, _with_bound(ray, shape.error_scale))
     bound = ROUNDING * (shape.error_scale + end.error_scale) if end.error_scale > 0.0 else 0.0
     last = end.distance - bound
     is_before = near < last or (near == last and number < end.number)
-    is_after = near > after.near or (near == after.near and number > after.number)
-    if near <= far and is_before and is_after:
-        _insert(chords, row, near, far if far < last else math.inf, number, met)
+    if near <= far and is_before:
+        return Stay(near, far if far < last else math.inf)
+    return no_stay()
 
 
 @device
@@ -267,7 +277,9 @@ def _collect_in_tree(
     """
     ratio = hierarchy.to_boxes.ratio
     beam = beam_of_ray(hierarchy.to_boxes, ray)
-    start = lower_limit(beam, max(-ray.plane_depth, 0.0) * ratio * (1.0 - MARGIN))
+    # Boxes that end before the place have only chords that come before it.
+    begins = max(-ray.plane_depth, after.near, 0.0)
+    start = lower_limit(beam, begins * ratio * (1.0 - MARGIN))
     stack.node[base] = hierarchy.root
     stack.enter[base] = start
     waiting = base + 1

@@ -4,17 +4,16 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.faded.fan_chords import can_go_together, collect_fan
 from vtray.geometry.faded.layers import passed_share, share_of_list
 from vtray.geometry.faded.nearby import Tube, touches_faded
+from vtray.geometry.faded.shadow_rays import dim_some, list_open
 from vtray.geometry.packets.cone import Cone
 from vtray.geometry.packets.fan import BLOCKED as RAY_BLOCKED
 from vtray.geometry.packets.fan import Start, fan_segment
-from vtray.geometry.packets.layer_notes import MOST, Walk
+from vtray.geometry.packets.layer_notes import MOST, SIDE_BY_SIDE, Walk
 from vtray.geometry.packets.occlusion import Target
 from vtray.geometry.packets.packet import (
     AIM,
     AIM_LENGTH,
-    BLOCKED,
     ERROR_SCALE,
-    PLANE_DEPTH,
     POINT,
     REACH,
     UNEVEN,
@@ -63,19 +62,13 @@ def _dim_points(
 ) -> None:
     # An argument that is None is known to the compiler, which drops what depends on that alone.
     if faded is not None:
-        for hit in range(hits):
-            if packet[BLOCKED + hit] == 0.0:
-                segment = Segment(
-                    load(packet, POINT, hit),
-                    target.place,
-                    packet[PLANE_DEPTH + hit],
-                    target.plane_depth,
-                    packet[ERROR_SCALE + hit],
-                    target.error_scale,
-                )
-                passed = passed_share(world, faded, segment, work.walk, work.stack)
-                packet[BLOCKED + hit] = 1.0 - passed
-                _ask_around(packet, hit, world, faded, is_wide, work.stack)
+        waiting = work.walk.beside.hit
+        count = list_open(packet, hits, target, work.walk.beside)
+        for begin in range(0, count, SIDE_BY_SIDE):
+            rays = min(SIDE_BY_SIDE, count - begin)
+            dim_some(packet, begin, rays, world, faded, target, work.walk, work.stack)
+        for k in range(count):
+            _ask_around(packet, waiting[k], world, faded, is_wide, work.stack)
 
 
 @device

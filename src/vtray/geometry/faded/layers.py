@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.faded.chords import End, Key, collect_chords
-from vtray.geometry.packets.layer_notes import ALONE, AT_ONCE, MOST, Layers, Walk
+from vtray.geometry.packets.layer_notes import ALONE, AT_ONCE, MOST, Chords, Layers, Walk
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.vector import dot, scale, sub
@@ -126,7 +126,7 @@ def _walk_through(
     passed, after, count = Passed(0, 1.0, 0), Key(-math.inf, -1), MOST
     while count == MOST and passed.share >= LEAST:
         count = collect_chords(world, faded, ray, end, after, chords, stack)
-        passed = _pass_chords(bodies, passed, ALONE, count, slot, walk)
+        passed = _pass_chords(bodies, passed, chords, ALONE * MOST, count, slot, walk)
         if count == MOST:
             after = Key(chords.near[last], chords.number[last])
     return _after_all(bodies, passed, slot, walk)
@@ -135,20 +135,33 @@ def _walk_through(
 @device
 def share_of_list(bodies: Bodies, row: int, walk: Walk) -> float:
     """Return which share of light passes the bodies of a list of all chords of a ray."""
+    chords = walk.chords
+    return share_of_chords(bodies, chords, row * MOST, chords.found[row], walk)
+
+
+@device
+def share_of_chords(bodies: Bodies, chords: Chords, begin: int, count: int, walk: Walk) -> float:
+    """Return which share of light passes the bodies of all chords of a ray, in their order."""
     walk.rays[0] += 1
-    passed = _pass_chords(bodies, Passed(0, 1.0, 0), row, walk.chords.found[row], None, walk)
+    passed = _pass_chords(bodies, Passed(0, 1.0, 0), chords, begin, count, None, walk)
     _, share = _after_all(bodies, passed, None, walk)
     return share
 
 
 @device
 def _pass_chords(
-    bodies: Bodies, passed: Passed, row: int, count: int, slot: Slot | None, walk: Walk
+    bodies: Bodies,
+    passed: Passed,
+    chords: Chords,
+    begin: int,
+    count: int,
+    slot: Slot | None,
+    walk: Walk,
 ) -> Passed:
     """Let a ray come to its next chords, as long as enough light passes."""
-    for k in range(row * MOST, row * MOST + count):
-        passed = _leave_bodies(bodies, passed, walk.chords.near[k], slot, walk)
-        passed = _add_chord(bodies, passed, k, slot, walk)
+    for k in range(begin, begin + count):
+        passed = _leave_bodies(bodies, passed, chords.near[k], slot, walk)
+        passed = _add_chord(bodies, passed, chords, k, slot, walk)
         if passed.share < LEAST:
             return passed
     return passed
@@ -163,9 +176,10 @@ def _after_all(bodies: Bodies, passed: Passed, slot: Slot | None, walk: Walk) ->
 
 
 @device
-def _add_chord(bodies: Bodies, passed: Passed, k: int, slot: Slot | None, walk: Walk) -> Passed:
+def _add_chord(
+    bodies: Bodies, passed: Passed, chords: Chords, k: int, slot: Slot | None, walk: Walk
+) -> Passed:
     """Let a ray come to the chord in a place."""
-    chords = walk.chords
     near, far, number = chords.near[k], chords.far[k], chords.number[k]
     body = load_body(bodies, number)
     is_within = walk.ray[body] == walk.rays[0] and near <= walk.leaves[body]

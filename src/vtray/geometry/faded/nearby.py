@@ -103,18 +103,19 @@ def _touches_slots(
 ) -> bool:
     """Tell whether shapes of a range of slots do, by their balls."""
     for slot in range(begin, end):  # noqa: SIM110 - no generators in kernels
-        if with_bounded(world, group, slot, _touches_ball, tube):
+        if with_bounded(world, group, slot, touches_ball, tube):
             return True
     return False
 
 
 @device
-def _touches_ball(
+def touches_ball(
     shape: Shape,
     verbs: Verbs,  # noqa: ARG001
     number: int,  # noqa: ARG001
     tube: Tube,
 ) -> bool:
+    """Tell whether the ball around a shape may reach into a tube."""
     way = sub(shape.center, tube.origin)
     ahead = dot(way, tube.direction)
     approach = sub(way, scale(ahead, tube.direction))

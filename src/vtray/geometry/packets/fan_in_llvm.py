@@ -8,19 +8,22 @@ https://llvm.org/docs/LangRef.html
 # ruff: noqa: ANN401
 # mypy: allow-untyped-calls
 
-from collections.abc import Callable
 from typing import Any
 
 from llvmlite import ir
 from numba import types
 
-from vtray.geometry.bvh.boxes_in_llvm import ALIGNED_TO, SINGLES, data_in, data_of, in_all_lanes
+from vtray.geometry.bvh.boxes_in_llvm import (
+    ALIGNED_TO,
+    SINGLES,
+    Code,
+    data_in,
+    data_of,
+    in_all_lanes,
+)
 from vtray.geometry.bvh.tree import WIDTH
 from vtray.geometry.packets.beam import NEVER
 from vtray.geometry.packets.fan_rays import FAR_SHARE, SINGLE_ERROR
-
-Code = tuple[Any, Callable[[Any, Any, Any, Any], Any]]
-"""What an intrinsic is: its signature, and what writes it."""
 
 
 def write_octet_within(

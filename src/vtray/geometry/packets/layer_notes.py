@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vtray.geometry.packets.fan import FAN
 from vtray.geometry.packets.packet import LANES
 
-MOST = 32
+MOST = 64
 """So many chords are collected at once; what is farther is asked for when these are done with."""
 
 ALONE = FAN
@@ -16,6 +16,18 @@ ALONE = FAN
 
 AT_ONCE = 32
 """So many layers of a ray are listed at once."""
+
+SIDE_BY_SIDE = 16
+"""So many rays go through a hierarchy side by side, at the most: fewer bits than an integer has."""
+
+STRIPS, CELLS = 16, 32
+"""Of what a light sees: so many strips at the most, each of so many cells."""
+
+FIELDS = 11
+"""Numbers of each of these."""
+
+ROOM = 256
+"""So many chords of each of these are collected; rays that have more go alone."""
 
 
 class Chords(NamedTuple):
@@ -42,6 +54,34 @@ class Chords(NamedTuple):
     found: NDArray[np.int64]
 
 
+class SideBySide(NamedTuple):
+    """Rays that go through a hierarchy side by side.
+
+    Attributes
+    ----------
+    rays
+        Their fields, one after the other, as those of a packet; see `side_by_side`.
+    hit
+        The hits of a packet that they start from, or will, when it is their turn, (``LANES``,).
+    sorted, cell
+        Scratch memory to sort these, (``LANES``,).
+    begins
+        Where those of each cell begin, (``STRIPS * CELLS + 1``,).
+    chords
+        Their chords, a list of ``ROOM`` for each ray, in no order.
+    body
+        The bodies of the chords of one of them, (``ROOM``,).
+    """
+
+    rays: NDArray[np.float64]
+    hit: NDArray[np.int64]
+    sorted: NDArray[np.int64]
+    cell: NDArray[np.int64]
+    begins: NDArray[np.int64]
+    chords: Chords
+    body: NDArray[np.int64]
+
+
 class Walk(NamedTuple):
     """A thread's notes on the bodies that a ray goes through.
 
@@ -49,6 +89,8 @@ class Walk(NamedTuple):
     ----------
     chords
         The chords of the ray.
+    beside
+        Those of rays that go side by side.
     leaves
         Where it leaves each body, (bodies,).
     number, met
@@ -62,6 +104,7 @@ class Walk(NamedTuple):
     """
 
     chords: Chords
+    beside: SideBySide
     leaves: NDArray[np.float64]
     number: NDArray[np.int64]
     met: NDArray[np.int64]
@@ -97,12 +140,26 @@ class Layers(NamedTuple):
 
 def new_walk(bodies: int) -> Walk:
     """Return the scratch memory of one thread for so many bodies, little where there are none."""
-    lists = ALONE + 1 if bodies else 0
-    near, far = np.zeros((2, lists * MOST))
-    of_chords = np.zeros((2, lists * MOST), np.int64)
-    chords = Chords(near, far, of_chords[0], of_chords[1], np.zeros(lists, np.int64))
     number, met, ray, inside = np.zeros((4, bodies), np.int64)
-    return Walk(chords, np.zeros(bodies), number, met, ray, inside, np.zeros(1, np.int64))
+    chords = _new_chords(ALONE + 1 if bodies else 0, MOST)
+    rays = SIDE_BY_SIDE if bodies else 0
+    beside = SideBySide(
+        np.zeros(FIELDS * rays),
+        np.zeros(LANES, np.int64),
+        np.zeros(LANES, np.int64),
+        np.zeros(LANES, np.int64),
+        np.zeros(STRIPS * CELLS + 1, np.int64),
+        _new_chords(rays, ROOM),
+        np.zeros(ROOM, np.int64),
+    )
+    return Walk(chords, beside, np.zeros(bodies), number, met, ray, inside, np.zeros(1, np.int64))
+
+
+def _new_chords(lists: int, most: int) -> Chords:
+    """Return the memory of so many lists of so many chords."""
+    near, far = np.zeros((2, lists * most))
+    number, met = np.zeros((2, lists * most), np.int64)
+    return Chords(near, far, number, met, np.zeros(lists, np.int64))
 
 
 def new_layers(bodies: int) -> Layers:

@@ -59,6 +59,9 @@ ROW = _fields.scalar()
 """The place in the image that the ray goes through, in pixels."""
 WEIGHT = _fields.scalar()
 """What the ray counts for its pixel."""
+LENS_RIGHT = _fields.scalar()
+LENS_DOWN = _fields.scalar()
+"""The place in the lens that the ray goes through, in parts of its radius, if there is a lens."""
 KEPT = _fields.scalar()
 """Integer: the place of what is kept of the ray."""
 
@@ -107,6 +110,8 @@ BEHIND_MET = _fields.scalar()
 """``PRIMITIVE``, ``DISTANCE`` and ``MET`` of what is behind all layers."""
 PASSED_LAYERS = _fields.scalar()
 """Integer: how many layers there are."""
+NEXT_LAYER = _fields.scalar()
+"""Integer: how many of those that are listed were seen."""
 SHARE = _fields.scalar()
 """How much light passes from a layer to the start of the ray, times how opaque it is."""
 GATHERED = _fields.vector()
@@ -218,8 +223,8 @@ class Sheaf(NamedTuple):
     plane_depth, error_scale
         As in `Ray`.
     bounced
-        None for rays of a camera; else they come from surfaces, and have all that is in `Ray` in
-        fields of their own.
+        None for most rays of a camera; else they come from surfaces, or there is no image plane,
+        and they have all that is in `Ray` in fields of their own.
     """
 
     origin: Vec
@@ -294,3 +299,14 @@ def load_ray(packet: Packet, sheaf: Sheaf, lane: int) -> Ray:
         sheaf.error_scale,
         0.0,
     )
+
+
+@device
+def store_ray(packet: Packet, lane: int, ray: Ray) -> None:
+    """Set all that is known of a lane's ray, where each has its own."""
+    store(packet, ORIGIN, lane, ray.origin)
+    store(packet, DIRECTION, lane, ray.direction)
+    packet[FORWARD + lane] = ray.forward
+    packet[START_DEPTH + lane] = ray.plane_depth
+    packet[START_SCALE + lane] = ray.error_scale
+    packet[START_BOUND + lane] = ray.error_bound

@@ -3,16 +3,13 @@
 # ruff: noqa: ANN401
 # mypy: allow-untyped-calls
 
-from collections.abc import Callable
 from typing import Any
 
 from llvmlite import ir
 from numba import types
 
-Code = tuple[Any, Callable[[Any, Any, Any, Any], Any]]
-"""What an intrinsic is: its signature, and what writes it."""
-
-_DATA = 4
+from vtray.base.compiler.in_memory import DATA
+from vtray.geometry.bvh.boxes_in_llvm import Code
 
 
 def write_integers(_: object, packet: Any) -> Code:
@@ -23,7 +20,7 @@ def write_integers(_: object, packet: Any) -> Code:
         made = ir.Constant(context.get_value_type(signature.return_type), None)
         for number, kind in enumerate(made.type.elements):
             value = builder.extract_value(array, number)
-            value = builder.bitcast(value, kind) if number == _DATA else value
+            value = builder.bitcast(value, kind) if number == DATA else value
             made = builder.insert_value(made, value, number)
         return made
 

@@ -10,7 +10,7 @@ from vtray.geometry.packets.packet import LANES
 from vtray.geometry.ray import Ray
 from vtray.geometry.vector import Vec
 
-NUMBERS = 16
+NUMBERS = 20
 """Numbers of a ray that waits: those of the ray, and what `Waiting` says of it."""
 
 
@@ -29,6 +29,11 @@ class Waiting(NamedTuple):
         Whether it sees lamps and skies; else their light was added where it comes from.
     within
         The row of the material within which it goes, -1 for none.
+    density
+        That with which its direction was chosen, where light that it meets is looked for by shadow
+        rays, too; else 0.
+    normal
+        The unit normal of the surface that it comes from.
     """
 
     ray: Ray
@@ -36,6 +41,8 @@ class Waiting(NamedTuple):
     bounces: int
     sees_lights: bool
     within: int
+    density: float
+    normal: Vec
 
 
 class Pending(NamedTuple):
@@ -59,9 +66,9 @@ class Pending(NamedTuple):
 def new_pending(bounces: int) -> Pending:
     """Return the stacks for so many bounces, -1 for none at all.
 
-    Each bounce leaves at most one ray behind.
+    Each bounce leaves at most three rays behind, that on a blend of two glasses.
     """
-    depth = bounces + 1
+    depth = 3 * bounces + 1 if bounces >= 0 else 0
     lanes = LANES if depth > 0 else 0
     return Pending(np.zeros(lanes * depth * NUMBERS), np.zeros(lanes, np.int64), depth)
 
@@ -82,6 +89,7 @@ def push_ray(pending: Pending, lane: int, waiting: Waiting) -> None:
         numbers[begin + k] = ray.origin[k]
         numbers[begin + 3 + k] = ray.direction[k]
         numbers[begin + 6 + k] = waiting.seen[k]
+        numbers[begin + 17 + k] = waiting.normal[k]
     numbers[begin + 9] = ray.plane_depth
     numbers[begin + 10] = ray.forward
     numbers[begin + 11] = ray.error_scale
@@ -89,6 +97,7 @@ def push_ray(pending: Pending, lane: int, waiting: Waiting) -> None:
     numbers[begin + 13] = waiting.bounces
     numbers[begin + 14] = 1.0 if waiting.sees_lights else 0.0
     numbers[begin + 15] = waiting.within
+    numbers[begin + 16] = waiting.density
     pending.waiting[lane] += 1
 
 
@@ -108,4 +117,6 @@ def pop_ray(pending: Pending, lane: int) -> Waiting:
     )
     seen = numbers[begin + 6], numbers[begin + 7], numbers[begin + 8]
     bounces, within = int(numbers[begin + 13]), int(numbers[begin + 15])
-    return Waiting(ray, seen, bounces, numbers[begin + 14] != 0.0, within)
+    normal = numbers[begin + 17], numbers[begin + 18], numbers[begin + 19]
+    sees_lights = numbers[begin + 14] != 0.0
+    return Waiting(ray, seen, bounces, sees_lights, within, numbers[begin + 16], normal)

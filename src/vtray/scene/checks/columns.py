@@ -64,6 +64,8 @@ RADIUS = Column(NonNegative, (), "a number", ("radius",))
 COLOR = Column(Byte, (3,), "three integers", RED_GREEN_BLUE)
 LAMBERT = Column(Fraction, (), "a number", ("lambert",))
 OPACITY = Column(Fraction, (), "a number", ("opacity",), "OPAQUE")
+ROUGHNESS = Column(Fraction, (), "a number", ("roughness",), "OWN")
+METALNESS = Column(Fraction, (), "a number", ("metalness",), "OWN")
 MATERIAL_INDEX = Column(MaterialNumber, (), "", ("material_index",), "FIRST")
 
 WHOLE = Byte, MaterialNumber

@@ -29,7 +29,8 @@ Size = Annotated[
 SizePair = Annotated[tuple[Size, Size], Meta(description="an array of two integers > 0")]
 PositivePair = Annotated[tuple[Positive, Positive], Meta(description="an array of two numbers > 0")]
 YesOrNo = Annotated[bool, Meta(description="true or false")]
-Projection = Literal["perspective", "orthographic"]
+Projection = Literal["perspective", "orthographic", "panorama"]
+FlatProjection = Literal["perspective", "orthographic"]
 Margin = Annotated[float, Meta(ge=0, lt=0.5, description="a number from 0 to less than 0.5")]
 AngularSize = Annotated[float, Meta(ge=0, le=180, description="a number of degrees from 0 to 180")]
 # Infinite only in code: JSON has no infinity.

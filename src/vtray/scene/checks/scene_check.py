@@ -25,9 +25,11 @@ from vtray.scene.checks.scene_words import (
     is_optional,
     join,
     may_be_named,
+    names_alone,
     nearest,
     options,
     quoted,
+    required_keys,
     show,
     struct_kinds,
     struct_options,
@@ -97,7 +99,7 @@ class FileChecker:
 
     def _name(self, found: Written, kind: Kind, place: str) -> Any:  # noqa: ANN401
         """Check the name of a material; return one that every file knows."""
-        name, known = msgspec.json.decode(found), tags(struct_options(kind))
+        name, known = msgspec.json.decode(found), names_alone(struct_options(kind))
         own = sorted(self.names.difference(known))
         if name not in (*own, *known):
             close = nearest(name, [*own, *known], cutoff=0.6)
@@ -244,12 +246,6 @@ def hints_of(cls: Struct) -> dict[str, Kind]:
     return {name: limits_alone(hints[name]) for name in cls.__struct_fields__}
 
 
-@functools.cache
-def required_keys(cls: Struct) -> frozenset[str]:
-    """Give the keys of a Struct's fields that a file must have."""
-    return frozenset(field.encode_name for field in msgspec.structs.fields(cls) if field.required)
-
-
 def plain_kind(kind: Kind) -> Kind:
     """Give the type inside an Annotated."""
     return typing.get_args(kind)[0] if hasattr(kind, "__metadata__") else kind
@@ -327,6 +323,7 @@ def _convert_leaf(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401
             return msgspec.json.decode(found, type=kind)
         return msgspec.convert(found, kind)
     except (msgspec.MsgspecError, OverflowError):
+        # Only what may be an object has other words in code: the types that code makes it with.
         in_code = bool(struct_options(kind)) and not isinstance(found, Written)
         raise wrong(place, kind, show(found), in_code=in_code) from None
 
@@ -339,7 +336,7 @@ def _make(cls: Struct, values: dict[str, Any], place: str, found: object) -> Any
         cause = error.__cause__
         if isinstance(cause, FieldError):
             place = join(place, cause.field)
-            if isinstance(found, Members) and cause.field not in values:
+            if cause.field not in values:
                 raise SceneError(f"{place}: missing; expected {cause}") from None
             found = _field_of(found, cause.field, values)
             raise SceneError(f"{place}: expected {cause}, got {show(found)}") from None

@@ -1,5 +1,6 @@
 """The words for places, values and expectations in the messages about scenes."""
 
+import functools
 import re
 import types
 import typing
@@ -48,6 +49,8 @@ def expected(kind: Any, *, in_code: bool = False) -> str:  # noqa: ANN401
     fields = plain.__struct_fields__
     *most, last = fields[: len(fields) - len(plain.__struct_defaults__)] or fields
     keys = f"an object with the keys {', '.join(most)} and {last}"
+    if not most:
+        keys = f"an object with the key {last}"
     return f"{keys}, or with {_tags_of(others)}" if others else keys
 
 
@@ -56,8 +59,10 @@ def _words_of_options(kind: Any, *, in_code: bool) -> list[str]:  # noqa: ANN401
     structs, found = struct_options(kind), options(kind)
     if not in_code and may_be_named(kind):
         others = [expected(option) for option in found if hasattr(option, "__metadata__")]
-        names = map(quoted, tags(structs))
-        return [*names, 'an object with one of these as its "type"', *others]
+        names = list(map(quoted, names_alone(structs)))
+        more = [name for name in map(quoted, tags(structs)) if name not in names]
+        which = either(["one of these", *more])
+        return [*names, f'an object with {which} as its "type"', *others]
     words: list[str] = []
     for option in found:
         if option not in structs[1:]:
@@ -104,8 +109,19 @@ def struct_options(kind: Any) -> tuple[Struct, ...]:  # noqa: ANN401
 
 def may_be_named(kind: Any) -> bool:  # noqa: ANN401
     """Tell whether the names of types, which the Structs of a union say, may stand alone."""
-    names = tags(struct_options(kind))
+    names = names_alone(struct_options(kind))
     return bool(names) and any(list(typing.get_args(option)) == names for option in options(kind))
+
+
+def names_alone(structs: Iterable[Struct]) -> list[str]:
+    """Give the tags of the Structs that need nothing else."""
+    return tags(cls for cls in structs if not required_keys(cls))
+
+
+@functools.cache
+def required_keys(cls: Struct) -> frozenset[str]:
+    """Give the keys of a Struct's fields that a file must have."""
+    return frozenset(field.encode_name for field in msgspec.structs.fields(cls) if field.required)
 
 
 def tags(structs: Iterable[Struct]) -> list[str]:

@@ -74,7 +74,10 @@ class SpheresInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="ty
     opacity : float, optional
         Share of the light that they take on its way through, 1 if left out; for a .npz file, it
         may stand there.
-    material : Lambert, Mirror, Glass, Metal, Emissive or str, optional
+    roughness, metalness : float, optional
+        How rough they are, and how much metal of their colour, instead of what their material says;
+        these may stand in the file of arrays.
+    material : Lambert, Mirror, Glass, Metal, Plastic, Emissive, Blend or str, optional
         What all of them are made of, or its name; lambert if left out. Or an array of these, of
         which the array material_index in the file of arrays says who is made of which, from 0.
     """
@@ -84,6 +87,8 @@ class SpheresInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="ty
     color: Color | UnsetType = UNSET
     lambert: Fraction | UnsetType = UNSET
     opacity: Fraction | UnsetType = UNSET
+    roughness: Fraction | UnsetType = UNSET
+    metalness: Fraction | UnsetType = UNSET
     material: AnyMaterials | UnsetType = UNSET
 
     MADE = Spheres
@@ -114,7 +119,10 @@ class CylindersInFile(
     opacity : float, optional
         Share of the light that they take on its way through; it may stand in the file of arrays,
         and is 1 if left out.
-    material : Lambert, Mirror, Glass, Metal, Emissive or str, optional
+    roughness, metalness : float, optional
+        How rough they are, and how much metal of their colour, instead of what their material says;
+        these may stand in the file of arrays.
+    material : Lambert, Mirror, Glass, Metal, Plastic, Emissive, Blend or str, optional
         What all of them are made of, or its name; lambert if left out. Or an array of these, of
         which the array material_index in the file of arrays says who is made of which, from 0.
     """
@@ -125,6 +133,8 @@ class CylindersInFile(
     color_end: Color | UnsetType = UNSET
     lambert: Fraction | UnsetType = UNSET
     opacity: Fraction | UnsetType = UNSET
+    roughness: Fraction | UnsetType = UNSET
+    metalness: Fraction | UnsetType = UNSET
     material: AnyMaterials | UnsetType = UNSET
 
     MADE = Cylinders
@@ -154,7 +164,10 @@ class ConesInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="type
     opacity : float, optional
         Share of the light that they take on its way through; it may stand in the file of arrays,
         and is 1 if left out.
-    material : Lambert, Mirror, Glass, Metal, Emissive or str, optional
+    roughness, metalness : float, optional
+        How rough they are, and how much metal of their colour, instead of what their material says;
+        these may stand in the file of arrays.
+    material : Lambert, Mirror, Glass, Metal, Plastic, Emissive, Blend or str, optional
         What all of them are made of, or its name; lambert if left out. Or an array of these, of
         which the array material_index in the file of arrays says who is made of which, from 0.
     """
@@ -166,6 +179,8 @@ class ConesInFile(ArraysInFile, frozen=True, omit_defaults=True, tag_field="type
     color_end: Color | UnsetType = UNSET
     lambert: Fraction | UnsetType = UNSET
     opacity: Fraction | UnsetType = UNSET
+    roughness: Fraction | UnsetType = UNSET
+    metalness: Fraction | UnsetType = UNSET
     material: AnyMaterials | UnsetType = UNSET
 
     MADE = Cones

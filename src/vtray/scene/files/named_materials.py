@@ -72,7 +72,12 @@ def with_named(item: Any, named: Mapping[str, Any]) -> Any:  # noqa: ANN401
 
 
 def _named_by(given: Any, named: Mapping[str, Any]) -> Any:  # noqa: ANN401
-    """Return the material of a name, or those of several; anything else as it is."""
+    """Return the material of a name, or those of several, or of a blend; else what is given."""
     if isinstance(given, (list, tuple)):
         return [_named_by(one, named) for one in given]
+    if isinstance(given, Mapping):
+        return {
+            key: _named_by(one, named) if key in ("first", "second") else one
+            for key, one in given.items()
+        }
     return named.get(given, given) if isinstance(given, str) else given

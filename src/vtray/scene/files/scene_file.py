@@ -234,6 +234,8 @@ def _count_others(found: _Found) -> int:
     """
     camera = found.camera
     keys = (camera.projection != "perspective") + (camera.up is not None) * (1 + _keys(Direction))
+    if camera.lens is not None:
+        keys += 1 + _colons_in(msgspec.to_builtins(camera.lens))
     for value in (found.render, found.style, found.integrator):
         if value is not UNSET:
             keys += 1 + _colons_in(msgspec.to_builtins(value))

@@ -23,6 +23,7 @@ from vtray.scene.files.in_file import (
     SceneInFile,
     SkyInFile,
 )
+from vtray.scene.lens import Lens
 from vtray.scene.light_types import Ambient, Lamp, Light
 from vtray.scene.materials import Glass, Material
 from vtray.scene.settings import RenderSettings
@@ -51,6 +52,7 @@ def scene_schema() -> dict[str, Any]:
         SceneInFile,
         IntegratorInFile,
         Camera,
+        Lens,
         *lights,
         *KINDS,
         *values,
@@ -75,6 +77,11 @@ def scene_schema() -> dict[str, Any]:
     either = {name: {"type": "null"} for name in colors["required"]}
     absent = [{"properties": {name: null}} for name, null in either.items()]
     parts[SkyInFile.__name__] |= {"if": colors, "then": {"anyOf": absent}}
+    # What Lens.__post_init__ checks, but for the radius.
+    focus = {key: {"not": {"type": "null"}} for key in ("focus_distance", "focus_on")}
+    parts[Lens.__name__]["oneOf"] = [
+        {"properties": {key: kind}, "required": [key]} for key, kind in focus.items()
+    ]
     # What CopiesInFile.__post_init__ checks.
     places = [key for key in CopiesInFile.__struct_fields__ if key != "objects"]
     parts[CopiesInFile.__name__]["oneOf"] = [{"required": [key]} for key in places]
@@ -92,11 +99,8 @@ def scene_schema() -> dict[str, Any]:
     parts[Glass.__name__]["properties"]["absorption"]["default"] = [0.0, 0.0, 0.0]
     # A file may name materials of its own.
     for part in parts.values():
-        kinds = part["properties"].get("material", {}).get("anyOf", [])
-        for kind in kinds:
-            if "enum" in kind:
-                kind |= {"type": "string"}
-                del kind["enum"]
+        for key in ("material", "first", "second"):
+            _allow_names(part["properties"].get(key, {}))
     # JSON has no infinity.
     del parts[Ambient.__name__]["properties"]["distance"]["default"]
     return {
@@ -105,6 +109,16 @@ def scene_schema() -> dict[str, Any]:
         "title": "vtray scene",
         "$defs": parts,
     }
+
+
+def _allow_names(kind: dict[str, Any]) -> None:
+    """Allow any string where a name of those that are built in, or an array of them, may stand."""
+    if kind.pop("enum", None):
+        kind["type"] = "string"
+    for one in kind.get("anyOf", []):
+        _allow_names(one)
+    if "items" in kind:
+        _allow_names(kind["items"])
 
 
 def _describe(part: dict[str, Any], doc: str) -> None:

@@ -13,6 +13,7 @@ from vtray.scene.checks.scene_words import either, nearest, quoted, show
 from vtray.scene.particles.elements import RADII
 from vtray.scene.particles.radii import FILLED, mean_spacing, radii_of
 from vtray.scene.placing.directions import dot, unit
+from vtray.scene.placing.panorama import pixel_angle
 
 if TYPE_CHECKING:
     from vtray.scene.particles.particles import Particles
@@ -162,6 +163,8 @@ def screen_radii(
     places
         Translations of copies, (m, 3): the radius is that for the one farthest away.
     """
+    if camera.projection == "panorama":
+        return _radii_around(positions, camera, pixels, places)
     pixel = pixels * max(camera.resolution)
     if camera.projection == "orthographic":
         return pixel
@@ -175,3 +178,13 @@ def screen_radii(
     distance = np.maximum(ahead + (camera.focus + farthest), camera.focus)
     radii: Floats = distance * (pixel / camera.focus)
     return radii
+
+
+def _radii_around(positions: NDArray[Any], camera: Camera, pixels: float, places: Floats) -> Floats:
+    """Return such radii for a panorama."""
+    center = camera.center
+    farthest = np.zeros(len(positions))
+    for place in places:
+        x, y, z = (positions + place - (center.x, center.y, center.z)).T
+        np.maximum(farthest, np.sqrt(x * x + y * y + z * z), out=farthest)
+    return farthest * (pixels * pixel_angle(camera))

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
-from vtray.scene.checks.limits import FieldOfView, Margin, Projection, SizePair
+from vtray.scene.checks.limits import FieldOfView, FlatProjection, Margin, SizePair
 from vtray.scene.checks.scene_words import show
 from vtray.scene.placing.bounds import balls_of, middle_of, ups_of_planes
 from vtray.scene.placing.directions import Vec, along, are_parallel, unit, view_axes
@@ -59,7 +59,7 @@ def fitting(
     call = "Camera.fit"
     forward = unit(argument(call, "direction", direction, Direction))
     free = _margins(call, margin)
-    kind = argument(call, "projection", projection, Projection)
+    kind = argument(call, "projection", projection, FlatProjection)
     fov = argument(call, "fov_degrees", fov_degrees, FieldOfView)
     width, height = pixels = argument(call, "size", size, SizePair)
     parts = balls_of(subject, call)

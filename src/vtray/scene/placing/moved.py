@@ -20,6 +20,7 @@ from vtray.scene.placing.directions import (
     view_axes,
 )
 from vtray.scene.placing.look_at import NEAR, argument
+from vtray.scene.placing.panorama import around, check_flat
 from vtray.scene.vectors import Direction, Vector
 
 if TYPE_CHECKING:
@@ -91,6 +92,7 @@ def side_by_side(
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return the fields of the cameras of `Camera.stereo` that change."""
     call = "Camera.stereo"
+    check_flat(camera, call, "take cameras that look one way, by Camera.look_at")
     apart = argument(call, "separation", separation, Positive)
     target = _target(camera, about, call)
     right, down, forward = axes_of(camera)
@@ -113,6 +115,7 @@ def zoomed(camera: HasView, factor: object, place: str) -> dict[str, Any]:
     """Return the fields that change of a camera whose picture shows all so many times as large."""
     from vtray.scene.checks.scene_check import from_code
 
+    check_flat(camera, place.partition(":")[0], "take a camera that looks one way")
     ratio = from_code(factor, Zoom, place)
     width, height = camera.resolution
     return {"resolution": (width / ratio, height / ratio)}
@@ -133,6 +136,10 @@ def projected(camera: HasView, points: "ArrayLike") -> "NDArray[np.float64]":
     center = camera.center
     x, y, z = (given[..., k] - c for k, c in enumerate((center.x, center.y, center.z)))
     across, below, ahead = (x * a + y * b + z * c for a, b, c in (right, down, forward))
+    if camera.projection == "panorama":
+        places = np.stack(around(camera, across, below, ahead), axis=-1)
+        places[~(places[..., 2] > 0)] = np.nan
+        return places
     with np.errstate(all="ignore"):
         if camera.projection == "perspective":
             far = ahead + camera.focus
@@ -149,6 +156,8 @@ def projected(camera: HasView, points: "ArrayLike") -> "NDArray[np.float64]":
 
 def _target(camera: HasView, about: object, call: str) -> Vec:
     """Return the point that a camera looks at, or that is given, or the middle of what is."""
+    if about is None and camera.projection == "panorama":
+        return along(_vec(camera.center), camera.focus / NEAR, unit(camera.normal))
     if about is None:
         return along(_vec(camera.center), camera.focus / NEAR - camera.focus, unit(camera.normal))
     if hasattr(about, "objects") or hasattr(about, "hull"):

@@ -6,29 +6,27 @@ all hits are lit alike, by the same parts as the first ones. Which rays go on is
 integrators are about.
 """
 
+import numpy as np
+from numpy.typing import NDArray
+
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import (
     BEHIND,
     BEHIND_DISTANCE,
     BEHIND_MET,
     BOUNCES,
-    DIRECTION,
     DISTANCE,
     ERROR_SCALE,
-    FORWARD,
     GATHERED,
     MET,
     MIXED,
     NO_PRIMITIVE,
     NOISE,
-    ORIGIN,
+    NORMAL,
     PLANE_DEPTH,
     POINT,
     PRIMITIVE,
     SOURCE,
-    START_BOUND,
-    START_DEPTH,
-    START_SCALE,
     THROUGHPUT,
     TOWARDS,
     VALUE,
@@ -41,15 +39,17 @@ from vtray.geometry.packets.packet import (
     load,
     split_met,
     store,
+    store_ray,
 )
 from vtray.geometry.packets.pending import Pending, Waiting, clear_pending, pop_ray, push_ray
 from vtray.geometry.packets.workspace import Workspace
-from vtray.geometry.queries import NOTHING, nearest_hit
+from vtray.geometry.queries import NOTHING, Hit, nearest_hit
 from vtray.geometry.ray import Ray
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, add, dot, scale, sub
 from vtray.geometry.world import World, load_group
 from vtray.transport.far_light import far_light
+from vtray.transport.integrators.glossy_light import light_met
 from vtray.transport.integrators.lamps import nearest_lamp
 from vtray.transport.interaction import surface_at
 from vtray.transport.lights.light import Lights, lamp_light
@@ -159,6 +159,7 @@ def push_from(
     bounces: int,
     sees_lights: bool,
     within: int,
+    density: float,
     forward: Vec,
     pending: Pending,
 ) -> None:
@@ -178,6 +179,8 @@ def push_from(
         Whether it sees lamps and skies; else their light was added at the hit.
     within
         The row of the material within which it goes, ``EMPTY`` for none.
+    density
+        As in `Waiting`.
     forward
         The unit direction in which the camera looks.
     pending
@@ -192,7 +195,8 @@ def push_from(
         error_scale,
         ROUNDING * error_scale,
     )
-    push_ray(pending, lane, Waiting(ray, seen, bounces, sees_lights, within))
+    normal = load(packet, NORMAL, hit)
+    push_ray(pending, lane, Waiting(ray, seen, bounces, sees_lights, within, density, normal))
 
 
 @device
@@ -215,13 +219,14 @@ def follow_rays(
     for lane in range(lanes):
         numbers[PRIMITIVE + lane] = NO_PRIMITIVE
         while pending.waiting[lane] > 0 and numbers[PRIMITIVE + lane] == NO_PRIMITIVE:
-            ray, seen, bounces, sees_lights, within = pop_ray(pending, lane)
+            ray, seen, bounces, sees_lights, within, density, normal = pop_ray(pending, lane)
             hit, cast = nearest_hit(world, ray, work.stack), cast + 1
             lamp, distance = NOTHING, hit.distance
             if sees_lights:
                 lamp, distance = nearest_lamp(ray, distance, lights.mirrored)
             if within != EMPTY:
                 seen = times(seen, transmitted(three_numbers(looks, within, 1), distance))
+            _gather_met(packet, lane, looks.albedos, lights, ray, seen, normal, hit, density)
             if lamp != NOTHING:
                 gather_at(packet, lane, times(seen, lamp_light(lights, lamp)))
             elif hit.primitive != NOTHING and bounces > most:
@@ -232,11 +237,31 @@ def follow_rays(
                 numbers[MET + lane] = join_met(hit.group, hit.slot)
                 numbers[BOUNCES + lane], numbers[WITHIN + lane] = bounces, within
                 store(packet, THROUGHPUT, lane, seen)
-                _store_ray(packet, lane, ray)
+                store_ray(packet, lane, ray)
             else:
                 light = far_light(lights.surroundings, ray.direction, sees_lights)
                 gather_at(packet, lane, times(seen, light))
     return cast
+
+
+@device
+def _gather_met(
+    packet: Packet,
+    lane: int,
+    albedos: NDArray[np.float64] | None,
+    lights: Lights,
+    ray: Ray,
+    seen: Vec,
+    normal: Vec,
+    hit: Hit,
+    density: float,
+) -> None:
+    """Add the light of lamps and skies that shadow rays find, too, to that of a lane, in part."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if albedos is not None:  # noqa: SIM102
+        if density > 0.0:
+            light = light_met(lights, ray, normal, hit.distance, density)
+            gather_at(packet, lane, times(seen, light))
 
 
 @device
@@ -246,19 +271,11 @@ def gather_at(packet: Packet, lane: int, light: Vec) -> None:
 
 
 @device
-def _store_ray(packet: Packet, lane: int, ray: Ray) -> None:
-    """Set all that is known of a lane's ray."""
-    store(packet, ORIGIN, lane, ray.origin)
-    store(packet, DIRECTION, lane, ray.direction)
-    packet[FORWARD + lane] = ray.forward
-    packet[START_DEPTH + lane] = ray.plane_depth
-    packet[START_SCALE + lane] = ray.error_scale
-    packet[START_BOUND + lane] = ray.error_bound
+def end_bounces(packet: Packet, lanes: int, brightest: float) -> int:
+    """Make one hit of all that each lane sees; return how many there are.
 
-
-@device
-def end_bounces(packet: Packet, lanes: int) -> int:
-    """Make one hit of all that each lane sees; return how many there are."""
+    No channel is brighter than `brightest`: what is, becomes darker as a whole.
+    """
     numbers, hits = integers(packet), 0
     for lane in range(lanes):
         packet[DISTANCE + lane] = packet[BEHIND_DISTANCE + lane]
@@ -266,7 +283,11 @@ def end_bounces(packet: Packet, lanes: int) -> int:
         numbers[MET + lane] = numbers[BEHIND_MET + lane]
         if numbers[BEHIND + lane] > NO_PRIMITIVE:
             numbers[SOURCE + hits] = lane
-            store(packet, VALUE, hits, load(packet, GATHERED, lane))
+            light = load(packet, GATHERED, lane)
+            peak = max(light[0], light[1], light[2])
+            store(
+                packet, VALUE, hits, scale(brightest / peak, light) if peak > brightest else light
+            )
             packet[NOISE + hits] = packet[VARIANCE + lane]
             hits += 1
     return hits

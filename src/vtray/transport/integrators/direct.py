@@ -145,7 +145,8 @@ def _trace_pixels(
         clear_sums(work.sums, end - begin, film.coverage)
     for first in range(0, sampling.rays, LANES):
         last = min(first + LANES, sampling.rays)
-        lanes = place_samples(packet, block, begin, end, sampling, first, last, work.pixels)
+        lens = scene.camera.lens
+        lanes = place_samples(packet, block, begin, end, sampling, first, last, work.pixels, lens)
         _meet(packet, lanes, scene, scene.world.faded, sampling, film.linear, film.mixed, work)
         hits, cast = _light_lanes(
             packet,
@@ -323,12 +324,13 @@ def _light_layers(
     stop: NDArray[np.bool_],
 ) -> tuple[int, int]:
     """Find the light of all lanes layer by layer; the result is that of `_light_lanes`."""
-    sheaf, cast, skipped, rounds = sheaf_of(scene.camera), 0, 0, 1
+    sheaf, cast, skipped, listed = sheaf_of(scene.camera), 0, 0, 1
     begin_layers(packet, lanes)
-    while rounds > 0 and not stop[0]:
-        rounds = list_lanes(packet, lanes, skipped, sheaf, scene.world, faded, work)
-        for k in range(rounds):
-            take_round(packet, lanes, skipped, k, work.layers, scene.fog)
+    while listed > 0 and not stop[0]:
+        listed = list_lanes(packet, lanes, skipped, sheaf, scene.world, faded, work)
+        waiting = listed
+        while waiting > 0 and not stop[0]:
+            waiting -= take_round(packet, lanes, skipped, work.layers, scene.fog)
             hits = _gather(packet, lanes, scene, sampling, film.mixed, work)
             weigh_colors(packet, hits)
             cast += _light_hits(
@@ -362,23 +364,18 @@ def _light_bounces(
     hits = _gather(packet, lanes, scene, sampling, film.mixed, work)
     while hits > 0 and not stop[0]:
         if paths is not None:
-            scatter_hits(
+            cast += scatter_hits(
                 packet,
                 hits,
-                world,
-                materials,
+                scene,
                 looks,
-                scene.lights.surroundings,
-                forward,
-                pending,
-                looks.depth,
                 last - first,
                 first,
                 block,
                 begin,
-                work.pixels,
                 paths,
                 sampling.seed,
+                work,
             )
         else:
             split_hits(packet, hits, world, materials, looks, forward, pending, looks.depth)
@@ -396,11 +393,12 @@ def _light_bounces(
             world,
             materials,
             forward,
+            scene.camera.middle_depth,
             work,
         )
         steps += 1
     cast_rays(packet, lanes, scene.camera)
-    return end_bounces(packet, lanes), cast
+    return end_bounces(packet, lanes, looks.brightest), cast
 
 
 @device
@@ -423,6 +421,7 @@ def _gather(
         scene.world,
         scene.materials,
         scene.camera.forward,
+        scene.camera.middle_depth,
         work,
     )
     if mixed is not None:  # noqa: SIM102

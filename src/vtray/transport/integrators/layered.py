@@ -4,6 +4,8 @@ Each layer of each ray is a hit. Its colour counts as much as light from there p
 before it, so that all that lights add to it is what is seen of that.
 """
 
+import math
+
 from vtray.base.compiler.compiled import device
 from vtray.geometry.faded.chords import End
 from vtray.geometry.faded.layers import Slot, list_layers
@@ -21,6 +23,7 @@ from vtray.geometry.packets.packet import (
     LIGHT,
     MET,
     MIXED,
+    NEXT_LAYER,
     NO_PRIMITIVE,
     NOISE,
     PASSED_LAYERS,
@@ -38,6 +41,7 @@ from vtray.geometry.packets.packet import (
 )
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Footprint, growth_of, width_at
+from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import add, scale
 from vtray.geometry.world import Faded, World, load_body
 from vtray.transport.fog import FogFrame, lane_share
@@ -125,18 +129,22 @@ def list_lanes(
     faded: Faded,
     work: Workspace,
 ) -> int:
-    """List the layers of all lanes after so many; return how many rounds it takes to see them."""
-    numbers, rounds = integers(packet), 0
+    """List the layers of all lanes after so many; return how many there are, with what is behind.
+
+    What is behind the layers of a lane is one more where all of them are listed.
+    """
+    numbers, waiting = integers(packet), 0
     for lane in range(lanes):
+        numbers[NEXT_LAYER + lane] = 0
         if numbers[PASSED_LAYERS + lane] > skipped or skipped == 0:
             _restore(packet, lane)
             found = _list_lane(packet, lane, skipped, sheaf, world, faded, work)
             numbers[PASSED_LAYERS + lane] = found
             is_last = found - skipped <= AT_ONCE
-            rounds = max(rounds, work.layers.listed[lane] + (1 if is_last else 0))
+            waiting += work.layers.listed[lane] + (1 if is_last else 0)
         else:
             work.layers.listed[lane] = 0
-    return rounds
+    return waiting
 
 
 @device
@@ -167,20 +175,36 @@ def _restore(packet: Packet, lane: int) -> None:
 
 @device
 def take_round(
-    packet: Packet, lanes: int, skipped: int, k: int, layers: Layers, fog: FogFrame | None
-) -> None:
-    """Let the k-th of the layers that are listed take the lanes, or what is behind the last."""
-    numbers = integers(packet)
+    packet: Packet, lanes: int, skipped: int, layers: Layers, fog: FogFrame | None
+) -> int:
+    """Let the next of what is listed take some lanes, or what is behind the last of it.
+
+    These are the lanes in which that is nearer than on average: so what takes them is near each
+    other, and so are the shadow rays from there.
+
+    Returns
+    -------
+    int
+        How many lanes were taken.
+    """
+    numbers, taken = integers(packet), 0
+    farthest = _mean_distance(packet, lanes, skipped, layers)
     for lane in range(lanes):
-        listed, found = layers.listed[lane], numbers[PASSED_LAYERS + lane]
-        is_last = (found > skipped or skipped == 0) and found - skipped <= AT_ONCE
+        k, listed = numbers[NEXT_LAYER + lane], layers.listed[lane]
+        distance = _next_distance(packet, lane, layers)
+        is_now = distance <= farthest or distance == math.inf
+        if not (is_now and _is_waiting(packet, lane, skipped, layers)):
+            numbers[PRIMITIVE + lane] = NO_PRIMITIVE
+            continue
+        taken += 1
+        numbers[NEXT_LAYER + lane] = k + 1
         if k < listed:
             place = lane * AT_ONCE + k
             packet[DISTANCE + lane] = layers.distance[place]
             numbers[PRIMITIVE + lane] = layers.number[place]
             numbers[MET + lane] = layers.met[place]
             packet[SHARE + lane] = _clear_share(packet, lane, layers.share[place], fog)
-        elif k == listed and is_last and layers.passed[lane] > 0.0:
+        elif layers.passed[lane] > 0.0:
             _restore(packet, lane)
             packet[SHARE + lane] = _clear_share(packet, lane, layers.passed[lane], fog)
             if numbers[PRIMITIVE + lane] < NO_PRIMITIVE:
@@ -188,6 +212,42 @@ def take_round(
                 store(packet, GATHERED, lane, add(load(packet, GATHERED, lane), light))
         else:
             numbers[PRIMITIVE + lane] = NO_PRIMITIVE
+    return taken
+
+
+@device
+def _is_waiting(packet: Packet, lane: int, skipped: int, layers: Layers) -> bool:
+    """Tell whether any of what is listed of a lane, or what is behind, is not yet seen."""
+    numbers = integers(packet)
+    k, listed = numbers[NEXT_LAYER + lane], layers.listed[lane]
+    found = numbers[PASSED_LAYERS + lane]
+    is_last = (found > skipped) | (skipped == 0) and found - skipped <= AT_ONCE
+    return bool((k < listed) | ((k == listed) & is_last))
+
+
+@device
+def _next_distance(packet: Packet, lane: int, layers: Layers) -> float:
+    """Return how far the next of what is listed of a lane is, or what is behind."""
+    k = integers(packet)[NEXT_LAYER + lane]
+    if k < layers.listed[lane]:
+        distance: float = layers.distance[lane * AT_ONCE + k]
+        return distance
+    behind: float = packet[BEHIND_DISTANCE + lane]
+    return behind
+
+
+@device
+def _mean_distance(packet: Packet, lanes: int, skipped: int, layers: Layers) -> float:
+    """Return how far what is next in the lanes is on average, which is not nearer than all."""
+    total, count, most = 0.0, 0, 0.0
+    for lane in range(lanes):
+        if _is_waiting(packet, lane, skipped, layers):
+            distance = _next_distance(packet, lane, layers)
+            if distance < math.inf:
+                total += distance
+                most = max(most, distance)
+                count += 1
+    return min(total / max(count, 1) * (1.0 + MARGIN), most)
 
 
 @device

@@ -1,8 +1,9 @@
 """The path integrator: all light, by paths that go on at random from whatever they meet.
 
 From each surface one ray goes on: from a matt one in a direction drawn by the cosine, from glass by
-chance mirrored or refracted. What lamps and skies shed on a matt surface is added there, by shadow
-rays; so the ray that goes on from it does not see them, which would count them twice. Light of one
+chance mirrored or refracted, from a rough one as its facets stand. What lamps and skies shed on a
+matt surface is added there, by shadow rays; so the ray that goes on from it does not see them,
+which would count them twice. For a glossy one both see them, and each counts in part. Light of one
 colour from everywhere needs no shadow rays: the rays that go on find it as often as it is worth.
 Mirrors and glass show all lamps and skies as they are. From the third surface on, paths of which
 little is seen end by chance, and the others count for them: no light is lost on average.
@@ -13,13 +14,22 @@ Kajiya, "The Rendering Equation", SIGGRAPH 1986; Arvo, Kirk, "Particle Transport
 Synthesis", SIGGRAPH 1990 (Russian roulette).
 """
 
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
 from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.fan import Start
 from vtray.geometry.packets.packet import (
     BOUNCES,
     COLOR,
+    ERROR_SCALE,
     LAMBERT,
     NOISE,
     NORMAL,
+    PLANE_DEPTH,
+    POINT,
     PRIMITIVE,
     SOURCE,
     THROUGHPUT,
@@ -31,73 +41,110 @@ from vtray.geometry.packets.packet import (
     load,
     store,
 )
-from vtray.geometry.packets.pending import Pending
-from vtray.geometry.packets.workspace import Pixels
+from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.vector import Vec, dot, scale
-from vtray.geometry.world import World
+from vtray.geometry.warps import cosine_direction
 from vtray.transport.integrators.bounces import (
     comes_from_within,
+    gather_at,
     mirrored_share,
     push_from,
     shine,
     times,
 )
+from vtray.transport.integrators.glossy_light import Place, light_gloss
 from vtray.transport.integrators.soft import sample_of
-from vtray.transport.lights.surroundings import Surroundings, has_even_light
-from vtray.transport.materials.look import EMISSIVE, EMPTY, GLASS, MATT, Looks, first_number
-from vtray.transport.materials.material import Materials, load_look
-from vtray.transport.materials.optics import mirrored, split_at
-from vtray.transport.sampling.paths import CHOICE, WAY, Paths, path_point
-from vtray.transport.sampling.warps import cosine_direction
+from vtray.transport.lights.surroundings import has_even_light
+from vtray.transport.materials.frosted import Passed, pass_facet
+from vtray.transport.materials.gloss import gloss_of, scatter_gloss
+from vtray.transport.materials.look import (
+    EMISSIVE,
+    EMPTY,
+    GLASS,
+    MATT,
+    METAL,
+    PLASTIC,
+    Look,
+    Looks,
+    index_ratio,
+    is_thin,
+    part_of_blend,
+    spread_of,
+)
+from vtray.transport.materials.material import load_look
+from vtray.transport.materials.optics import mirrored, split_at, through_both
+from vtray.transport.sampling.paths import BLEND, CHOICE, WAY, Paths, path_point
+from vtray.transport.scene_arrays import SceneArrays, lit_world
 
 SAFE = 3
 """Over so many surfaces no path ends by chance."""
+
+
+class Onward(NamedTuple):
+    """How a path goes on.
+
+    Attributes
+    ----------
+    way
+        The unit direction.
+    seen
+        How much is seen of the light from there.
+    sees_lights, within, density
+        As in `Waiting`.
+    cast
+        How many shadow rays were cast.
+    """
+
+    way: Vec
+    seen: Vec
+    sees_lights: bool
+    within: int
+    density: float
+    cast: int
 
 
 @device
 def scatter_hits(
     packet: Packet,
     hits: int,
-    world: World,
-    materials: Materials,
+    scene: SceneArrays,
     looks: Looks,
-    surroundings: Surroundings | None,
-    forward: Vec,
-    pending: Pending,
-    most: int,
     samples: int,
     first: int,
     block: Block,
     begin: int,
-    pixels: Pixels,
     paths: Paths,
     seed: int,
-) -> None:
+    work: Workspace,
+) -> int:
     """Let a ray go on from each hit, and weigh the colours of hits by what is seen.
 
     Parameters
     ----------
     packet, hits
         So many hits.
-    world, materials, looks
+    scene, looks
         What they are on, and what that is made of.
-    surroundings
-        What shines from far away.
-    forward
-        The unit direction in which the camera looks.
-    pending
-        Out: the rays.
-    most
-        How many bounces there are at the most.
-    samples, first, block, begin, pixels
+    samples, first, block, begin
         Which samples of which pixels the lanes belong to, as in `soft.add_soft_lights`.
     paths, seed
         How paths choose.
+    work
+        Scratch memory; out: the rays that wait.
+
+    Returns
+    -------
+    rays
+        How many shadow rays were cast: those of glossy surfaces.
     """
-    numbers, looks_far = integers(packet), has_even_light(surroundings)
+    numbers, looks_far, cast = integers(packet), has_even_light(scene.lights.surroundings), 0
     for hit in range(hits):
         lane = numbers[SOURCE + hit]
-        look = load_look(materials, looks, numbers[PRIMITIVE + lane])
+        step, within = numbers[BOUNCES + lane], numbers[WITHIN + lane]
+        column, row, sample = sample_of(lane, samples, first, block, begin, work.pixels)
+        at = Place(column, row, sample, step)
+        look = load_look(scene.materials, looks, numbers[PRIMITIVE + lane])
+        look = _of_blend(looks, looks.albedos, look, at, paths, seed)
         seen, color = load(packet, THROUGHPUT, lane), load(packet, COLOR, hit)
         packet[NOISE + hit] = 0.0
         tinted = times(seen, scale(1.0 / 255.0, color))
@@ -106,32 +153,158 @@ def scatter_hits(
         if look.kind == EMISSIVE:
             shine(packet, lane, looks, look, tinted)
             continue
-        step, within = numbers[BOUNCES + lane], numbers[WITHIN + lane]
-        # After the last surface that is lit, a ray only looks for the light from everywhere.
-        if step > most or (step == most and not (is_matt and looks_far)):
+        # After the last surface that is lit, a ray only looks for what shines far away.
+        is_last, is_glossy = step == looks.depth, _is_glossy(looks, looks.albedos, look)
+        if step > looks.depth or (is_last and not (is_glossy or (is_matt and looks_far))):
             continue
-        column, row, sample = sample_of(lane, samples, first, block, begin, pixels)
         chance, survival = path_point(paths, CHOICE, column, row, sample, step, seed)
-        direction, normal = load(packet, TOWARDS, hit), load(packet, NORMAL, hit)
         if is_matt:
             u, v = path_point(paths, WAY, column, row, sample, step, seed)
-            way, seen = cosine_direction(u, v, normal), scale(packet[LAMBERT + hit], tinted)
+            way = cosine_direction(u, v, load(packet, NORMAL, hit))
+            onward = Onward(way, scale(packet[LAMBERT + hit], tinted), False, within, 0.0, 0)
+        elif is_glossy:
+            onward = _from_gloss(
+                packet,
+                hit,
+                lane,
+                scene,
+                looks,
+                looks.albedos,
+                look,
+                scale(1.0 / 255.0, color),
+                at,
+                chance,
+                paths,
+                seed,
+                work,
+            )
+            if is_last and onward.density == 0.0:
+                continue
         elif look.kind == GLASS:
-            is_inner = comes_from_within(packet, hit, lane, world)
-            ior = first_number(looks, look)
-            split = split_at(direction, normal, 1.0 / ior if is_inner else ior)
-            is_mirrored = chance < split.reflected
-            way = mirrored(direction, normal) if is_mirrored else split.refracted
-            seen = seen if is_mirrored else tinted
-            beyond = EMPTY if is_inner else look.row
-            within = within if is_mirrored else beyond
+            is_inner = comes_from_within(packet, hit, lane, scene.world)
+            direction, normal = load(packet, TOWARDS, hit), load(packet, NORMAL, hit)
+            passed = _pass_glass(
+                looks, looks.albedos, look, is_inner, direction, normal, at, chance, paths, seed
+            )
+            beyond = EMPTY if is_inner or is_thin(looks, look) else look.row
+            onward = Onward(
+                passed.way,
+                scale(passed.share, seen if passed.is_mirrored else tinted),
+                True,
+                within if passed.is_mirrored else beyond,
+                0.0,
+                0,
+            )
         else:
-            way = mirrored(direction, normal)
+            direction, normal = load(packet, TOWARDS, hit), load(packet, NORMAL, hit)
             seen = mirrored_share(looks, look, -dot(direction, normal), seen, tinted)
-        goes_on = _chance_to_go_on(seen, step)
+            onward = Onward(mirrored(direction, normal), seen, True, within, 0.0, 0)
+        cast += onward.cast
+        goes_on = _chance_to_go_on(onward.seen, step)
         if survival < goes_on:
-            seen, sees_lights = scale(1.0 / goes_on, seen), not is_matt
-            push_from(packet, hit, lane, way, seen, step + 1, sees_lights, within, forward, pending)
+            push_from(
+                packet,
+                hit,
+                lane,
+                onward.way,
+                scale(1.0 / goes_on, onward.seen),
+                step + 1,
+                onward.sees_lights,
+                onward.within,
+                onward.density,
+                scene.camera.forward,
+                work.pending,
+            )
+    return cast
+
+
+@device
+def _of_blend(
+    looks: Looks,
+    albedos: NDArray[np.float64] | None,
+    look: Look,
+    at: Place,
+    paths: Paths,
+    seed: int,
+) -> Look:
+    """Return how a surface looks to a path: as one of both materials of a blend."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if albedos is None:
+        return look
+    chance, _ = path_point(paths, BLEND, at.column, at.row, at.sample, at.step, seed)
+    return part_of_blend(looks, look, chance)
+
+
+@device
+def _is_glossy(looks: Looks, albedos: NDArray[np.float64] | None, look: Look) -> bool:
+    """Tell whether a surface has a coat of its own over a base: plastic, and rough metal."""
+    if albedos is None:
+        return False
+    return look.kind == PLASTIC or (look.kind == METAL and spread_of(looks, look) > 0.0)
+
+
+@device
+def _from_gloss(
+    packet: Packet,
+    hit: int,
+    lane: int,
+    scene: SceneArrays,
+    looks: Looks,
+    albedos: NDArray[np.float64] | None,
+    look: Look,
+    color: Vec,
+    at: Place,
+    chance: float,
+    paths: Paths,
+    seed: int,
+    work: Workspace,
+) -> Onward:
+    """Light a glossy surface, and return how the path goes on from it."""
+    seen, direction = load(packet, THROUGHPUT, lane), load(packet, TOWARDS, hit)
+    within = integers(packet)[WITHIN + lane]
+    if albedos is None:
+        return Onward(direction, seen, True, within, 0.0, 0)
+    u, v = path_point(paths, WAY, at.column, at.row, at.sample, at.step, seed)
+    lambert, normal = packet[LAMBERT + hit], load(packet, NORMAL, hit)
+    gloss = gloss_of(looks, albedos, look, color, lambert, direction, normal)
+    start = Start(load(packet, POINT, hit), packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
+    light, cast = light_gloss(
+        looks, albedos, gloss, start, lit_world(scene), scene.lights, at, paths, seed, work.stack
+    )
+    gather_at(packet, lane, times(seen, light))
+    onward = scatter_gloss(looks, albedos, gloss, u, v, chance)
+    is_sharp = onward.density == 0.0
+    return Onward(onward.way, times(seen, onward.share), is_sharp, within, onward.density, cast)
+
+
+@device
+def _pass_glass(
+    looks: Looks,
+    albedos: NDArray[np.float64] | None,
+    look: Look,
+    is_inner: bool,
+    direction: Vec,
+    normal: Vec,
+    at: Place,
+    chance: float,
+    paths: Paths,
+    seed: int,
+) -> Passed:
+    """Return how a path goes on at glass, which it meets from within or from outside."""
+    ratio = index_ratio(looks, look, is_inner)
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if albedos is not None:
+        spread = spread_of(looks, look)
+        if spread > 0.0:
+            u, v = path_point(paths, WAY, at.column, at.row, at.sample, at.step, seed)
+            table = 2 * look.row + (1 if is_inner else 0)
+            return pass_facet(albedos, table, spread, ratio, direction, normal, u, v, chance)
+    split = split_at(direction, normal, ratio)
+    if is_thin(looks, look):
+        split = through_both(split, direction)
+    is_mirrored = chance < split.reflected
+    way = mirrored(direction, normal) if is_mirrored else split.refracted
+    return Passed(way, 1.0, is_mirrored)
 
 
 @device

@@ -19,8 +19,8 @@ from vtray.geometry.packets.workspace import Shared
 from vtray.geometry.queries import NOTHING, Hit, nearest_hit
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
-from vtray.geometry.vector import Vec, add, dot, scale, sub
-from vtray.transport.camera_rays import camera_ray
+from vtray.geometry.vector import Vec, add, scale, sub
+from vtray.transport.camera_rays import camera_ray, plane_depth_of
 from vtray.transport.integrators.lamps import nearest_lamp
 from vtray.transport.integrators.soft_shared import decide_by_cones
 from vtray.transport.interaction import Interaction, interact
@@ -163,7 +163,7 @@ def light_hit(
     """
     found, value = interact(scene.world, ray, hit.distance, hit.group, hit.slot), (0.0, 0.0, 0.0)
     material = seen_material(scene, hit.primitive, found.half, share)
-    plane_depth = dot(found.point, scene.camera.forward)
+    plane_depth = plane_depth_of(scene.camera, found.point)
     for light in range(light_count(scene.lights)):
         target = light_target(scene.lights, light)
         error_bound = ROUNDING * (found.error_scale + target.error_scale)
@@ -237,7 +237,7 @@ def _trace_fan(
     """
     fans = fans_of_share(fans, traced.share)
     point, normal, error_scale, _ = traced.interaction
-    start = Start(point, dot(point, scene.camera.forward), error_scale)
+    start = Start(point, plane_depth_of(scene.camera, point), error_scale)
     aim = aim_at(soft, light, start, normal)
     keys, forward = fan_keys(column, row, light, seed), scene.camera.forward
     place = place_of(fans.levels, 0, column, row, light, seed)
@@ -353,7 +353,7 @@ def _trace_shared_fan(
     """
     point, normal, error_scale, half = traced.interaction
     material = seen_material(scene, traced.primitive, half, traced.share)
-    start = Start(point, dot(point, scene.camera.forward), error_scale)
+    start = Start(point, plane_depth_of(scene.camera, point), error_scale)
     keys, first = shared_keys(column, row, 0, seed), number * fans.rays
     spread_among(
         fan,
@@ -432,7 +432,7 @@ def trace_crowd(
     """
     point, normal, error_scale, half = traced.interaction
     material = seen_material(scene, traced.primitive, half, traced.share)
-    start = Start(point, dot(point, scene.camera.forward), error_scale)
+    start = Start(point, plane_depth_of(scene.camera, point), error_scale)
     lit, value, estimate = lit_world(scene), traced.value, no_shared_estimate()
     most = weigh_lights(lit.powers, soft, crowd, start, normal, material, shared.sums)
     if not most > 0.0:

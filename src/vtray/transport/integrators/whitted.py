@@ -1,7 +1,8 @@
 """The whitted integrator: mirrors and smooth glass followed exactly, without chance.
 
 Each ray that meets a mirror goes on; each that meets glass goes on as two. What they meet is lit as
-by the direct integrator. Rays of which less than ``LEAST`` would be seen are not followed.
+by the direct integrator: so is the base of plastic by what its coat does not mirror. Rough surfaces
+are taken for smooth ones. Rays of which less than ``LEAST`` would be seen are not followed.
 
 References
 ----------
@@ -25,7 +26,7 @@ from vtray.geometry.packets.packet import (
     store,
 )
 from vtray.geometry.packets.pending import Pending
-from vtray.geometry.vector import Vec, dot, scale
+from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.geometry.world import World
 from vtray.transport.integrators.bounces import (
     comes_from_within,
@@ -34,9 +35,28 @@ from vtray.transport.integrators.bounces import (
     shine,
     times,
 )
-from vtray.transport.materials.look import EMISSIVE, EMPTY, GLASS, MATT, Looks, first_number
+from vtray.transport.materials.look import (
+    EMISSIVE,
+    EMPTY,
+    GLASS,
+    MATT,
+    PLASTIC,
+    Look,
+    Looks,
+    first_number,
+    index_ratio,
+    is_thin,
+    nth_of_blend,
+    parts_of,
+)
 from vtray.transport.materials.material import Materials, load_look
-from vtray.transport.materials.optics import mirrored, split_at
+from vtray.transport.materials.optics import (
+    Split,
+    mirrored,
+    mirrored_part,
+    split_at,
+    through_both,
+)
 
 LEAST = 2.0**-10
 """Rays of which no channel would be seen by more than that are not followed: less than a quarter of
@@ -75,27 +95,60 @@ def split_hits(
         look = load_look(materials, looks, numbers[PRIMITIVE + lane])
         seen, color = load(packet, THROUGHPUT, lane), load(packet, COLOR, hit)
         packet[NOISE + hit] = 0.0
-        is_matt = look.kind == MATT
-        store(packet, COLOR, hit, times(seen, color) if is_matt else (0.0, 0.0, 0.0))
-        tinted = times(seen, scale(1.0 / 255.0, color))
-        if look.kind == EMISSIVE:
-            shine(packet, lane, looks, look, tinted)
-        bounces, within = numbers[BOUNCES + lane] + 1, numbers[WITHIN + lane]
-        if is_matt or look.kind == EMISSIVE or bounces > most:
-            continue
-        direction, normal = load(packet, TOWARDS, hit), load(packet, NORMAL, hit)
-        if look.kind == GLASS:
-            is_inner = comes_from_within(packet, hit, lane, world)
-            ior = first_number(looks, look)
-            split = split_at(direction, normal, 1.0 / ior if is_inner else ior)
-            way, share = mirrored(direction, normal), scale(split.reflected, seen)
-            passed, beyond = scale(1.0 - split.reflected, tinted), EMPTY if is_inner else look.row
-            _push(packet, hit, lane, way, share, bounces, within, forward, pending)
-            _push(packet, hit, lane, split.refracted, passed, bounces, beyond, forward, pending)
+        matt = (0.0, 0.0, 0.0)
+        for part in range(parts_of(look)):
+            one, share = nth_of_blend(looks, look, part)
+            scattered = _split_part(
+                packet, hit, world, looks, one, scale(share, seen), color, forward, pending, most
+            )
+            matt = add(matt, times(scattered, color))
+        store(packet, COLOR, hit, matt)
+
+
+@device
+def _split_part(
+    packet: Packet,
+    hit: int,
+    world: World,
+    looks: Looks,
+    look: Look,
+    seen: Vec,
+    color: Vec,
+    forward: Vec,
+    pending: Pending,
+    most: int,
+) -> Vec:
+    """Let the rays that go on from one material wait; return how much is seen of it as matt."""
+    numbers = integers(packet)
+    lane, nothing = numbers[SOURCE + hit], (0.0, 0.0, 0.0)
+    if look.kind == MATT:
+        return seen
+    tinted = times(seen, scale(1.0 / 255.0, color))
+    if look.kind == EMISSIVE:
+        shine(packet, lane, looks, look, tinted)
+        return nothing
+    direction, normal = load(packet, TOWARDS, hit), load(packet, NORMAL, hit)
+    cosine, matt = -dot(direction, normal), nothing
+    bounces, within = numbers[BOUNCES + lane] + 1, numbers[WITHIN + lane]
+    if look.kind == PLASTIC:
+        coat = mirrored_part(cosine, first_number(looks, look))
+        matt, share = scale(1.0 - coat, seen), scale(coat, seen)
+    else:
+        share = mirrored_share(looks, look, cosine, seen, tinted)
+    split, beyond, passed = Split(1.0, direction), within, nothing
+    if look.kind == GLASS:
+        is_inner = comes_from_within(packet, hit, lane, world)
+        split = split_at(direction, normal, index_ratio(looks, look, is_inner))
+        if is_thin(looks, look):
+            split = through_both(split, direction)
         else:
-            share = mirrored_share(looks, look, -dot(direction, normal), seen, tinted)
-            way = mirrored(direction, normal)
-            _push(packet, hit, lane, way, share, bounces, within, forward, pending)
+            beyond = EMPTY if is_inner else look.row
+        share, passed = scale(split.reflected, seen), scale(1.0 - split.reflected, tinted)
+    if bounces <= most:
+        way = mirrored(direction, normal)
+        _push(packet, hit, lane, way, share, bounces, within, forward, pending)
+        _push(packet, hit, lane, split.refracted, passed, bounces, beyond, forward, pending)
+    return matt
 
 
 @device
@@ -112,4 +165,4 @@ def _push(
 ) -> None:
     """Let a ray from a hit wait, if enough of it would be seen; see `push_from`."""
     if max(seen[0], seen[1], seen[2]) >= LEAST:
-        push_from(packet, hit, lane, direction, seen, bounces, True, within, forward, pending)
+        push_from(packet, hit, lane, direction, seen, bounces, True, within, 0.0, forward, pending)

@@ -129,6 +129,14 @@ def spread_and_share(seen: SeenRectangle | None) -> tuple[float, float]:
 
 
 @device
+def solid_angle_of(seen: SeenRectangle | None) -> float:
+    """Return the solid angle under which a rectangle is seen; 0 if a scene has none."""
+    if seen is None:
+        return 0.0
+    return seen.shape.solid_angle
+
+
+@device
 def length_of_ray(seen: SeenRectangle | None, direction: Vec) -> float:
     """Return how far it is to a rectangle in a direction; 0 if a scene has none."""
     if seen is None:

@@ -28,11 +28,14 @@ class VisibleLamps(NamedTuple):
         ``SIZE`` numbers for each.
     error_scale
         What the rounding error of the places of all is relative to.
+    light
+        Their numbers among the soft lights, (n,).
     """
 
     row: NDArray[np.int64]
     data: NDArray[np.float64]
     error_scale: NDArray[np.float64]
+    light: NDArray[np.int64]
 
 
 class Panel(NamedTuple):

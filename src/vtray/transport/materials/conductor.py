@@ -2,7 +2,7 @@
 
 import math
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, uncompiled
 from vtray.geometry.vector import Vec
 
 
@@ -48,6 +48,20 @@ def conductor_share(cosine: float, index: float, extinction: float) -> float:
     flat = cosine2 * length2 + sine2 * sine2
     along = (flat - mixed * sine2) / (flat + mixed * sine2)
     return 0.5 * across * (1.0 + along)
+
+
+def mean_shares(indices: Vec, extinctions: Vec) -> list[float]:
+    """Return what a metal mirrors of light that comes evenly from all sides.
+
+    The parameters are those of `conductor_shares`. The mean is that over the squares of 64 cosines
+    of equal weight.
+    """
+    share = uncompiled(conductor_share)
+    cosines = [math.sqrt((k + 0.5) / 64.0) for k in range(64)]
+    return [
+        math.fsum(share(cosine, n, k) for cosine in cosines) / 64.0
+        for n, k in zip(indices, extinctions, strict=True)
+    ]
 
 
 @device

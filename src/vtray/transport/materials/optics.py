@@ -60,8 +60,41 @@ def split_at(direction: Vec, normal: Vec, ratio: float) -> Split:
     if beyond >= 1.0:
         return Split(1.0, direction)
     other = math.sqrt(1.0 - beyond)
-    across = (cosine - ratio * other) / (cosine + ratio * other)
-    along = (ratio * cosine - other) / (ratio * cosine + other)
     way = add(scale(1.0 / ratio, direction), scale(cosine / ratio - other, normal))
     unit = scale(1.0 / math.sqrt(dot(way, way)), way)
-    return Split(0.5 * (across * across + along * along), unit)
+    return Split(_share(cosine, other, ratio), unit)
+
+
+@device
+def mirrored_part(cosine: float, ratio: float) -> float:
+    """Return the share of unpolarised light that a smooth boundary mirrors, as `split_at` does.
+
+    Parameters
+    ----------
+    cosine
+        That of the angle between the light and the normal, from 0 to 1; rounding may take it
+        beyond.
+    ratio
+        As for `split_at`.
+    """
+    cosine = min(max(cosine, 0.0), 1.0)
+    beyond = (1.0 - cosine * cosine) / (ratio * ratio)
+    return 1.0 if beyond >= 1.0 else _share(cosine, math.sqrt(1.0 - beyond), ratio)
+
+
+@device
+def _share(cosine: float, other: float, ratio: float) -> float:
+    """Return the share that is mirrored, given the cosines on both sides."""
+    across = (cosine - ratio * other) / (cosine + ratio * other)
+    along = (ratio * cosine - other) / (ratio * cosine + other)
+    return 0.5 * (across * across + along * along)
+
+
+@device
+def through_both(split: Split, direction: Vec) -> Split:
+    """Return how light divides at a thin sheet, given how it does at the first of its two sides.
+
+    Of what is mirrored to and fro within, all comes out on either side: 2 R / (1 + R) is mirrored
+    in the end where a side mirrors R, and the rest goes straight on.
+    """
+    return Split(2.0 * split.reflected / (1.0 + split.reflected), direction)

@@ -26,6 +26,7 @@ from vtray.geometry.packets.fan import (
     set_direction,
 )
 from vtray.geometry.vector import Vec, add, dot, scale, sub
+from vtray.geometry.warps import cone_direction, cosine_direction
 from vtray.transport.lights.rectangle import SeenRectangle, length_of_ray
 from vtray.transport.lights.sky import Skies
 from vtray.transport.lights.soft_light import (
@@ -39,7 +40,6 @@ from vtray.transport.lights.soft_light import (
 from vtray.transport.lights.spherical_rectangle import rectangle_direction
 from vtray.transport.sampling.fans import fan_point
 from vtray.transport.sampling.sky_rays import spread_to_sky
-from vtray.transport.sampling.warps import cone_direction, cosine_direction
 
 
 @device
@@ -143,7 +143,7 @@ def weight_of(aim: Aim, cosine: float) -> float:
 def set_end(fan: Fan, ray: int, aim: Aim, start: Start, forward: Vec) -> None:
     """Set where a ray ends."""
     direction = load_direction(fan, ray)
-    length = _length(aim, start.point, direction)
+    length = length_to(aim, start.point, direction)
     way = scale(length, direction)
     x, y, z = add(start.point, way)
     fan[END + ray] = x
@@ -154,7 +154,7 @@ def set_end(fan: Fan, ray: int, aim: Aim, start: Start, forward: Vec) -> None:
 
 
 @device
-def _length(aim: Aim, point: Vec, direction: Vec) -> float:
+def length_to(aim: Aim, point: Vec, direction: Vec) -> float:
     """Return how long a ray is: to a rectangle, a sphere, or the far side of one from inside."""
     way = sub(aim.place, point)
     middle = dot(way, direction)

@@ -1,8 +1,9 @@
 """The numbers by which a path of light chooses where it goes on.
 
-Each step of a path has two points of the unit square: one for the direction, and one for the
-choices, between mirroring and refraction, and of ending. For each, the samples of a pixel have
-the points of a Sobol sequence, scrambled and dealt anew, so that no two steps are alike.
+Each step of a path has points of the unit square: one for the direction, one for the choices,
+between mirroring and refraction, and of ending, and for glossy surfaces one for each light. For
+each, the samples of a pixel have the points of a Sobol sequence, scrambled and dealt anew, so that
+no two steps are alike.
 
 References
 ----------
@@ -25,8 +26,11 @@ from vtray.transport.sampling.sobol import (
     sobol_points,
 )
 
-WAY, CHOICE = 0, 1
-"""What a point is for."""
+WAY, CHOICE, BLEND = 0, 1, 1 << 10
+"""What a point is for: the direction, choices, and the choices of which material and lights."""
+
+LAMPS = 1 << 20
+"""What the points from here on are for: shadow rays, one for each light."""
 
 _STEP = 0x9E3779B1
 
@@ -63,7 +67,7 @@ def path_point(
     paths
         How paths choose.
     purpose
-        ``WAY`` or ``CHOICE``.
+        ``WAY``, ``CHOICE`` or ``BLEND``.
     column, row, sample
         The pixel, and the number of its sample.
     step
@@ -71,7 +75,22 @@ def path_point(
     seed
         That of the picture.
     """
-    number = 2 * int(step) + purpose
+    return _point(paths, 2 * int(step) + purpose, column, row, sample, seed)
+
+
+@device
+def lamp_point(
+    paths: Paths, light: int, column: int, row: int, sample: int, step: int, seed: int
+) -> tuple[float, float]:
+    """Return a point of the unit square for a ray to one of the lights; see `path_point`."""
+    return _point(paths, LAMPS + light, column, row, sample, seed_of_step(seed, step))
+
+
+@device
+def _point(
+    paths: Paths, number: int, column: int, row: int, sample: int, seed: int
+) -> tuple[float, float]:
+    """Return a point of the unit square, others for each number; see `path_point`."""
     order, _ = pixel_keys(column, row, PATH_ORDER + number, seed)
     place = shuffled(sample, paths.levels, order)
     one, other = pixel_keys(column, row, PATHS + number, seed)

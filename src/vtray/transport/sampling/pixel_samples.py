@@ -7,18 +7,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.base.exact_math import tangent
 from vtray.geometry.packets.packet import BLOCK, COLUMN, LANES, ROW, WEIGHT, Block, Packet
 from vtray.geometry.packets.workspace import Pixels
 from vtray.geometry.ray import Footprint
 from vtray.scene.settings import RenderSettings
-from vtray.transport.camera_rays import CameraFrame
+from vtray.transport.camera_rays import CameraFrame, LensFrame
 from vtray.transport.sampling.fans import Fans
 from vtray.transport.sampling.filters import FILTERS, filter_places, place_in_filter
-from vtray.transport.sampling.paths import Paths
+from vtray.transport.sampling.lens_places import place_in_lens
+from vtray.transport.sampling.paths import Paths, paths_of
 from vtray.transport.sampling.sobol import IMAGE_PLACE, pixel_keys, scrambled, sobol_points
 
 WIDEST = 2.0**400
 """A growth of footprints by which each holds the whole scene."""
+
+
+STEEP = 60.0
+"""Half the angle, in degrees, from which on all pixels of a panorama get samples."""
+
+ABOVE = 1.0 + 2.0**-30
+"""More than rounding adds to a tangent."""
 
 
 class Sampling(NamedTuple):
@@ -48,6 +57,8 @@ class Sampling(NamedTuple):
         The pixels that are traced, (height, width), or (0, 0) for all.
     paths
         How paths choose; None where none are followed.
+    lens
+        Points that are dealt to the samples as their places in the lens; None without a lens.
     """
 
     rays: int
@@ -60,6 +71,7 @@ class Sampling(NamedTuple):
     thickest: float
     marks: NDArray[np.bool_]
     paths: Paths | None = None
+    lens: Paths | None = None
 
 
 _NO_FOOTPRINT = Footprint(0.0, 0.0)
@@ -85,6 +97,7 @@ def filter_samples(
     marks: NDArray[np.bool_],
     fans: Fans | None,
     paths: Paths | None = None,
+    lens: Paths | None = None,
 ) -> Sampling:
     """Return the samples of the pixels that are marked."""
     return Sampling(
@@ -98,16 +111,26 @@ def filter_samples(
         0.0,
         marks,
         paths,
+        lens,
     )
+
+
+def lens_points(camera: CameraFrame, samples: int) -> Paths | None:
+    """Return the points that are dealt to samples as their places in the lens, if there is one."""
+    return None if camera.lens is None else paths_of(samples)
 
 
 def filter_footprint(settings: RenderSettings, camera: CameraFrame) -> Footprint:
     """Return how wide the part of the scene is that a pixel is made of."""
     reach = FILTERS[settings.filter].radius * math.sqrt(2.0)
+    if camera.turn is not None:
+        # Angles add up along any way over the sphere; 45 degrees are an eighth of a turn.
+        degrees = 45.0 * reach * max(camera.turn.across, camera.turn.below)
+        return Footprint(0.0, ABOVE * tangent(degrees) if degrees < STEEP else WIDEST)
     width, height, distance = camera.pixel
-    tangent = min(reach * max(width, height) / distance, 1.0)
+    slope = min(reach * max(width, height) / distance, 1.0)
     # Seen askew, it is wider beside the middle ray than seen squarely, by no more than that.
-    growth = tangent / (1.0 - 0.25 * tangent * tangent) if tangent < 1.0 else WIDEST
+    growth = slope / (1.0 - 0.25 * slope * slope) if slope < 1.0 else WIDEST
     return Footprint(reach * max(camera.shift), growth)
 
 
@@ -139,19 +162,23 @@ def place_samples(
     first: int,
     last: int,
     pixels: Pixels,
+    lens: LensFrame | None,
 ) -> int:
-    """Set where the rays of a packet go through the image, and what they weigh.
+    """Set where the rays of a packet go through the image and the lens, and what they weigh.
 
     Parameters
     ----------
     packet
-        Its rows ``COLUMN``, ``ROW`` and ``WEIGHT`` are set, for all lanes.
+        Its rows ``COLUMN``, ``ROW`` and ``WEIGHT`` are set, for all lanes; with a lens, so are
+        ``LENS_RIGHT`` and ``LENS_DOWN``.
     block, begin, end
         The pixels are those from `begin` to before `end` in the block's list.
     sampling, first, last
         Of each the samples from `first` to before `last`, one after the other.
     pixels
         The list.
+    lens
+        The lens; None for a pinhole.
 
     Returns
     -------
@@ -170,6 +197,19 @@ def place_samples(
     for lane in range(lanes, LANES):
         packet[COLUMN + lane] = packet[COLUMN + lanes - 1]
         packet[ROW + lane] = packet[ROW + lanes - 1]
+    place_in_lens(
+        packet,
+        block,
+        begin,
+        end,
+        sampling.rays,
+        first,
+        last,
+        pixels,
+        sampling.seed,
+        sampling.lens,
+        lens,
+    )
     return lanes
 
 

@@ -9,7 +9,7 @@ import math
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.circle import cosine_sine
+from vtray.geometry.circle import cosine_sine_of_turn
 from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.transport.lights.sky import Skies, light_at, sky_axis
 
@@ -61,16 +61,6 @@ def direction_at(skies: Skies, sky: int, across: float, down: float) -> Vec:
         scale(aside * outwards, sky_axis(skies, sky, 1)),
     )
     return add(level, scale(height, sky_axis(skies, sky, 2)))
-
-
-@device
-def cosine_sine_of_turn(eighths: float) -> tuple[float, float]:
-    """Return cosine and sine of so many eighths of a turn, ≥ 0."""
-    quarters = int(0.5 * (eighths + 1.0))
-    cosine, sine = cosine_sine(eighths - 2.0 * quarters)
-    if quarters % 2 == 1:
-        cosine, sine = -sine, cosine
-    return (-cosine, -sine) if quarters // 2 % 2 == 1 else (cosine, sine)
 
 
 @device

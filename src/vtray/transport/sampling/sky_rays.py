@@ -13,10 +13,10 @@ Veach, Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Renderin
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.fan import BLOCKED, FAN, WEIGHT, Fan, load_direction, set_direction
 from vtray.geometry.vector import Vec, dot, scale
+from vtray.geometry.warps import cosine_direction
 from vtray.transport.lights.sky import Brightness, Skies, light_at
 from vtray.transport.sampling.sky_brightness import bright_density, bright_direction
 from vtray.transport.sampling.sky_map import map_place
-from vtray.transport.sampling.warps import cosine_direction
 
 
 @device

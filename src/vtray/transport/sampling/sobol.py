@@ -20,6 +20,9 @@ from vtray.base.compiler.compiled import device
 IMAGE_PLACE = 0
 """The purpose of the samples: where in the image plane a ray goes through."""
 
+LENS_PLACE, LENS_ORDER = 1, 2
+"""Where in the lens it goes through, and which sample gets which of these places."""
+
 LIGHT_FANS = 1 << 16
 """The purposes from here on: where in a light shadow rays aim, one purpose for each light."""
 

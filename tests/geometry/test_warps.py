@@ -13,7 +13,7 @@ from machine_code import instructions_in
 from conftest import JIT, compiled_only, x86_only
 from vtray.base.compiler.compiled import Kernel, kernel, uncompiled
 from vtray.base.compiler.object_code import compile_object
-from vtray.transport.sampling.warps import (
+from vtray.geometry.warps import (
     cone_direction,
     cosine_direction,
     disc_point,
