@@ -114,8 +114,9 @@ def test_hierarchies_and_single_rays_tell_the_same(cap: bool) -> None:
         np.testing.assert_array_equal(getattr(image, name), getattr(other, name))
     arrays = pack(scene, accelerate(scene, style=Style(**options))).arrays
     cosines, blockers = np.zeros(2), np.full(2, NOTHING)
-    for y in range(0, 45, 2):
-        for x in range(0, 60, 2):
+    width, height = VIEW["size"]
+    for y in range(height):
+        for x in range(y % 2, width, 2):
             found = trace_plainly(arrays, x, y, cosines, blockers)
             plain = cosines.copy(), blockers.copy()
             traced = reference.trace_pixel(
