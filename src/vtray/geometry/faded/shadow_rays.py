@@ -8,11 +8,12 @@ from vtray.geometry.faded.nearby import Tube
 from vtray.geometry.faded.shares import share_beside
 from vtray.geometry.faded.side_by_side import (
     FULL,
-    Sweep,
+    Band,
     collect_side_by_side,
     load_direction,
     set_ray,
 )
+from vtray.geometry.packets.from_light import Box
 from vtray.geometry.packets.layer_notes import CELLS, SIDE_BY_SIDE, STRIPS, SideBySide, Walk
 from vtray.geometry.packets.occlusion import Target
 from vtray.geometry.packets.packet import (
@@ -159,22 +160,13 @@ def dim_some(
         low, high = lower(low, way), upper(high, way)
         longest = max(longest, end.distance)
         error_scale = max(error_scale, segment.start_scale)
-    # From the light on: lengths are counted in that of the longest.
-    sweep = Sweep(
-        target.place,
-        target.place,
-        scale(longest, low),
-        scale(longest, high),
-        0.0,
-        1.0 + MARGIN,
-        target.error_scale,
-        error_scale,
-    )
+    # Of where they would start, were all as long as the longest.
+    box = Box(scale(longest, low), scale(longest, high), error_scale)
     middle = _unit(add(low, high))
     growth = _spread_of(beside, rays, middle) * (1.0 + MARGIN) / CORNER
     length, scale_of_all = longest * (1.0 + MARGIN), target.error_scale + error_scale
     tube = Tube(target.place, middle, 0.0, growth, length, scale_of_all)
-    collect_side_by_side(world, faded, sweep, tube, rays, beside, stack)
+    collect_side_by_side(world, faded, Band(rays, box, target, tube, beside), stack)
     for k in range(rays):
         hit = beside.hit[begin + k]
         if beside.chords.found[k] < FULL:

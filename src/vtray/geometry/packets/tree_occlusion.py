@@ -5,29 +5,16 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.bvh.boxes import fetch_node
-from vtray.geometry.bvh.tree import WIDTH, leaf_range
-from vtray.geometry.packets.beam import (
-    Beam,
-    children_met,
-    lower_limit,
-    make_beam,
-    shape_margin,
-    upper_limit,
-)
+from vtray.geometry.packets.from_light import Box, search_from_light
 from vtray.geometry.packets.occlusion import PointBox, Target, block_by_slot, in_shaft
 from vtray.geometry.packets.packet import ERROR_SCALE, POINT, REACH, Packet, load
 from vtray.geometry.packets.patch import is_open
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import Workspace
-from vtray.geometry.rounding import MARGIN
-from vtray.geometry.vector import Vec, add, lower, scale, sub, upper
+from vtray.geometry.vector import add, lower, scale, sub, upper
 from vtray.geometry.world import (
-    NO_TREE,
     Group,
-    Hierarchy,
     Places,
-    ToBoxes,
     World,
     hierarchy_of,
     hierarchy_of_places,
@@ -37,14 +24,6 @@ from vtray.geometry.world import (
 
 SOONER = 16
 """So few points are tested sooner than a shape is found to be outside their shaft."""
-
-
-class Box(NamedTuple):
-    """A box of points relative to a light, and what their rounding errors are relative to."""
-
-    low: Vec
-    high: Vec
-    error_scale: float
 
 
 class Cluster(NamedTuple):
@@ -171,65 +150,7 @@ def _block_by_places(
     return begin
 
 
-def _search(
-    begin: int,
-    cluster: Cluster,
-    world: World,
-    hierarchy: Hierarchy,
-    stack: Stack,
-    base: int,
-    visit: Callable[[int, Cluster, World, Any, int, int, Stack, int], int],
-    subject: Any,  # noqa: ANN401
-) -> int:
-    """Visit the leaves of a hierarchy that may hide points of a cluster, until none is left.
-
-    Parameters
-    ----------
-    begin, cluster
-        The points, and the first of them that nothing blocks so far.
-    world, hierarchy
-        The hierarchy.
-    stack, base
-        Scratch memory, and what waits there already, which stays.
-    visit, subject
-        What is called for each leaf, and what it is given, beside the range that the leaf names.
-
-    Returns
-    -------
-    int
-        The first point that nothing blocks, the end of the cluster if there is none.
-    """
-    if hierarchy.root == NO_TREE:
-        first, after = hierarchy.begin, hierarchy.end
-        return visit(begin, cluster, world, subject, first, after, stack, base)
-    bvh, nodes = world.bvh, stack.node
-    beam = _cluster_beam(cluster.box, hierarchy.to_boxes, cluster.target)
-    near, far = lower_limit(beam, 0.0), upper_limit(beam, 1.0 + MARGIN)
-    nodes[base] = hierarchy.root
-    waiting = base + 1
-    while waiting > base:
-        waiting -= 1
-        node = nodes[waiting]
-        met = children_met(bvh, node, beam, near, far, stack.entered)
-        place = node * WIDTH
-        while met > 0:
-            if met & 1:
-                child = bvh.child[place]
-                if child >= 0:
-                    fetch_node(bvh, child)
-                    nodes[waiting] = child
-                    waiting += 1
-                else:
-                    first, after = leaf_range(child)
-                    begin = visit(begin, cluster, world, subject, first, after, stack, waiting)
-                    if begin == cluster.end:
-                        return begin
-            met >>= 1
-            place += 1
-    return begin
-
-
-_search_places, _search_shapes = device(_search), device(_search)
+_search_places, _search_shapes = device(search_from_light), device(search_from_light)
 """Two searches: one through what is placed, one through what stands at a place. They are
 two, as the compiler takes what calls itself for recursion, whatever it is given."""
 
@@ -266,12 +187,3 @@ def _point_box(box: Box, target: Target) -> PointBox:
     """Return a box that is relative to a light as it is in space."""
     center = add(target.place, scale(0.5, add(box.low, box.high)))
     return PointBox(center, scale(0.5, sub(box.high, box.low)), box.error_scale)
-
-
-@device
-def _cluster_beam(box: Box, to_boxes: ToBoxes, target: Target) -> Beam:
-    """Return the beam from a light to a box of points."""
-    ratio, offset = to_boxes.ratio, to_boxes.offset
-    apex = add(scale(ratio, target.place), offset)
-    margin = shape_margin(to_boxes, apex, box.error_scale)
-    return make_beam(apex, apex, scale(ratio, box.low), scale(ratio, box.high), margin)
