@@ -229,7 +229,16 @@ def _insert(chords: Chords, row: int, near: float, far: float, number: int, met:
         count -= 1
         if not _is_less(near, number, chords, begin + count):
             return
-    place = begin + count
+    put_in_place(chords, begin, begin + count, near, far, number, met)
+    chords.found[row] = count + 1
+
+
+@device
+def put_in_place(
+    chords: Chords, begin: int, end: int, near: float, far: float, number: int, met: int
+) -> None:
+    """Put a chord among sorted ones, from `begin` to before `end`; what comes after it moves on."""
+    place = end
     while place > begin and _is_less(near, number, chords, place - 1):
         chords.near[place] = chords.near[place - 1]
         chords.far[place] = chords.far[place - 1]
@@ -240,7 +249,6 @@ def _insert(chords: Chords, row: int, near: float, far: float, number: int, met:
     chords.far[place] = far
     chords.number[place] = number
     chords.met[place] = met
-    chords.found[row] = count + 1
 
 
 @device

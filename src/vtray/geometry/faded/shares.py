@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.faded.chords import put_in_place
 from vtray.geometry.faded.layers import LEAST, share_of_chords
 from vtray.geometry.packets.layer_notes import ROOM, Chords, SideBySide, Walk
 from vtray.geometry.packets.packet import OCTET
@@ -100,22 +101,5 @@ def _share_of_layers(opacity: float, count: int) -> float:
 def _sort(chords: Chords, begin: int, count: int) -> None:
     """Sort the chords of a list."""
     for k in range(begin + 1, begin + count):
-        near, far, number = chords.near[k], chords.far[k], chords.number[k]
-        met, place = chords.met[k], k
-        while place > begin and _is_after(chords, place - 1, near, number):
-            chords.near[place] = chords.near[place - 1]
-            chords.far[place] = chords.far[place - 1]
-            chords.number[place] = chords.number[place - 1]
-            chords.met[place] = chords.met[place - 1]
-            place -= 1
-        chords.near[place] = near
-        chords.far[place] = far
-        chords.number[place] = number
-        chords.met[place] = met
-
-
-@device
-def _is_after(chords: Chords, place: int, near: float, number: int) -> bool:
-    """Tell whether the chord in a place comes after one that begins there."""
-    other: float = chords.near[place]
-    return other > near or (other == near and chords.number[place] > number)
+        near, far, number, met = chords.near[k], chords.far[k], chords.number[k], chords.met[k]
+        put_in_place(chords, begin, k, near, far, number, met)

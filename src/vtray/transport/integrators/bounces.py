@@ -6,9 +6,6 @@ all hits are lit alike, by the same parts as the first ones. Which rays go on is
 integrators are about.
 """
 
-import numpy as np
-from numpy.typing import NDArray
-
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import (
     BEHIND,
@@ -54,17 +51,18 @@ from vtray.transport.integrators.lamps import nearest_lamp
 from vtray.transport.interaction import surface_at
 from vtray.transport.lights.light import Lights, lamp_light
 from vtray.transport.materials.absorption import transmitted
-from vtray.transport.materials.conductor import conductor_shares, grazing_shares
 from vtray.transport.materials.look import (
     EMPTY,
     MATT,
     METAL,
+    Albedos,
     Look,
     Looks,
     first_number,
     three_numbers,
 )
 from vtray.transport.materials.material import Materials, load_look
+from vtray.transport.materials.metal import metal_shares
 from vtray.transport.sampling.paths import Paths
 
 
@@ -137,10 +135,7 @@ def mirrored_share(looks: Looks, look: Look, cosine: float, seen: Vec, tinted: V
     """
     if look.kind != METAL:
         return tinted
-    n, k = three_numbers(looks, look.row, 0), three_numbers(looks, look.row, 3)
-    if n[0] > 0.0:
-        return times(tinted, conductor_shares(cosine, n, k))
-    return grazing_shares(cosine, tinted, seen)
+    return metal_shares(looks, look.row, cosine, tinted, seen)
 
 
 @device
@@ -248,7 +243,7 @@ def follow_rays(
 def _gather_met(
     packet: Packet,
     lane: int,
-    albedos: NDArray[np.float64] | None,
+    albedos: Albedos | None,
     lights: Lights,
     ray: Ray,
     seen: Vec,

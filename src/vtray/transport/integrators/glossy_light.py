@@ -11,10 +11,6 @@ Veach, Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Renderin
 """
 
 import math
-from typing import NamedTuple
-
-import numpy as np
-from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, seldom
 from vtray.geometry.between import is_occluded
@@ -41,27 +37,16 @@ from vtray.transport.lights.visible import VisibleLamps, lamp_count, lamp_distan
 from vtray.transport.materials.facets import PI
 from vtray.transport.materials.gloss import Gloss, seen_light
 from vtray.transport.materials.lambert import is_above
-from vtray.transport.materials.look import Looks
+from vtray.transport.materials.look import Albedos, Looks
 from vtray.transport.sampling.light_rays import direction_to, length_to
-from vtray.transport.sampling.paths import BLEND, Paths, lamp_point, path_point
+from vtray.transport.sampling.paths import BLEND, Step, lamp_point, path_point
 from vtray.transport.sampling.sky_brightness import bright_density
 from vtray.transport.sampling.sky_map import light_towards, map_place
 from vtray.transport.sampling.sky_rays import sky_direction
 from vtray.transport.scene_arrays import LitWorld
 
-Albedos = NDArray[np.float64]
-
 PICKED = 16
 """So many of the lights with a size have shadow rays from each glossy surface, at the most."""
-
-
-class Place(NamedTuple):
-    """A step of a path: its pixel, the number of its sample, and that of surfaces before."""
-
-    column: int
-    row: int
-    sample: int
-    step: int
 
 
 @seldom
@@ -72,9 +57,7 @@ def light_gloss(
     start: Start,
     lit: LitWorld,
     lights: Lights,
-    at: Place,
-    paths: Paths,
-    seed: int,
+    step: Step,
     stack: Stack,
 ) -> tuple[Vec, int]:
     """Return what all lights bring to a glossy surface, and how many shadow rays were cast.
@@ -89,8 +72,8 @@ def light_gloss(
         Where rays start.
     lit, lights
         The scene, and its lights.
-    at, paths, seed
-        The step of the path, and how it chooses.
+    step
+        The step of the path.
     stack
         Scratch memory.
 
@@ -101,7 +84,7 @@ def light_gloss(
     """
     light, rays = _light_of_points(looks, albedos, gloss, start, lit, lights, lights.points, stack)
     more, cast = _light_of_lamps(
-        looks, albedos, gloss, start, lit, lights, lights.soft, at, paths, seed, stack
+        looks, albedos, gloss, start, lit, lights, lights.soft, step, stack
     )
     return add(light, more), rays + cast
 
@@ -151,9 +134,7 @@ def _light_of_lamps(
     lit: LitWorld,
     lights: Lights,
     soft: SoftLights | None,
-    at: Place,
-    paths: Paths,
-    seed: int,
+    step: Step,
     stack: Stack,
 ) -> tuple[Vec, int]:
     """Return what lights that are no points bring; see `light_gloss`."""
@@ -162,10 +143,10 @@ def _light_of_lamps(
         return light, rays
     count = soft_count(soft)
     picked = min(count, PICKED)
-    _, choice = path_point(paths, BLEND, at.column, at.row, at.sample, at.step, seed)
+    _, choice = path_point(step, BLEND)
     for k in range(picked):
         number = int((k + choice) * count / picked) if count > picked else k
-        u, v = lamp_point(paths, number, at.column, at.row, at.sample, at.step, seed)
+        u, v = lamp_point(step, number)
         more, cast = _light_of_lamp(
             looks, albedos, gloss, start, lit, lights, soft, number, u, v, stack
         )

@@ -16,9 +16,6 @@ Synthesis", SIGGRAPH 1990 (Russian roulette).
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.fan import Start
 from vtray.geometry.packets.packet import (
@@ -52,7 +49,7 @@ from vtray.transport.integrators.bounces import (
     shine,
     times,
 )
-from vtray.transport.integrators.glossy_light import Place, light_gloss
+from vtray.transport.integrators.glossy_light import light_gloss
 from vtray.transport.integrators.soft import sample_of
 from vtray.transport.lights.surroundings import has_even_light
 from vtray.transport.materials.frosted import Passed, pass_facet
@@ -64,6 +61,7 @@ from vtray.transport.materials.look import (
     MATT,
     METAL,
     PLASTIC,
+    Albedos,
     Look,
     Looks,
     index_ratio,
@@ -73,7 +71,7 @@ from vtray.transport.materials.look import (
 )
 from vtray.transport.materials.material import load_look
 from vtray.transport.materials.optics import mirrored, split_at, through_both
-from vtray.transport.sampling.paths import BLEND, CHOICE, WAY, Paths, path_point
+from vtray.transport.sampling.paths import BLEND, CHOICE, WAY, Paths, Step, path_point
 from vtray.transport.scene_arrays import SceneArrays, lit_world
 
 SAFE = 3
@@ -140,11 +138,11 @@ def scatter_hits(
     numbers, looks_far, cast = integers(packet), has_even_light(scene.lights.surroundings), 0
     for hit in range(hits):
         lane = numbers[SOURCE + hit]
-        step, within = numbers[BOUNCES + lane], numbers[WITHIN + lane]
+        number, within = numbers[BOUNCES + lane], numbers[WITHIN + lane]
         column, row, sample = sample_of(lane, samples, first, block, begin, work.pixels)
-        at = Place(column, row, sample, step)
+        step = Step(column, row, sample, number, paths, seed)
         look = load_look(scene.materials, looks, numbers[PRIMITIVE + lane])
-        look = _of_blend(looks, looks.albedos, look, at, paths, seed)
+        look = _of_blend(looks, looks.albedos, look, step)
         seen, color = load(packet, THROUGHPUT, lane), load(packet, COLOR, hit)
         packet[NOISE + hit] = 0.0
         tinted = times(seen, scale(1.0 / 255.0, color))
@@ -154,12 +152,12 @@ def scatter_hits(
             shine(packet, lane, looks, look, tinted)
             continue
         # After the last surface that is lit, a ray only looks for what shines far away.
-        is_last, is_glossy = step == looks.depth, _is_glossy(looks, looks.albedos, look)
-        if step > looks.depth or (is_last and not (is_glossy or (is_matt and looks_far))):
+        is_last, is_glossy = number == looks.depth, _is_glossy(looks, looks.albedos, look)
+        if number > looks.depth or (is_last and not (is_glossy or (is_matt and looks_far))):
             continue
-        chance, survival = path_point(paths, CHOICE, column, row, sample, step, seed)
+        chance, survival = path_point(step, CHOICE)
         if is_matt:
-            u, v = path_point(paths, WAY, column, row, sample, step, seed)
+            u, v = path_point(step, WAY)
             way = cosine_direction(u, v, load(packet, NORMAL, hit))
             onward = Onward(way, scale(packet[LAMBERT + hit], tinted), False, within, 0.0, 0)
         elif is_glossy:
@@ -172,10 +170,8 @@ def scatter_hits(
                 looks.albedos,
                 look,
                 scale(1.0 / 255.0, color),
-                at,
+                step,
                 chance,
-                paths,
-                seed,
                 work,
             )
             if is_last and onward.density == 0.0:
@@ -184,7 +180,7 @@ def scatter_hits(
             is_inner = comes_from_within(packet, hit, lane, scene.world)
             direction, normal = load(packet, TOWARDS, hit), load(packet, NORMAL, hit)
             passed = _pass_glass(
-                looks, looks.albedos, look, is_inner, direction, normal, at, chance, paths, seed
+                looks, looks.albedos, look, is_inner, direction, normal, step, chance
             )
             beyond = EMPTY if is_inner or is_thin(looks, look) else look.row
             onward = Onward(
@@ -200,7 +196,7 @@ def scatter_hits(
             seen = mirrored_share(looks, look, -dot(direction, normal), seen, tinted)
             onward = Onward(mirrored(direction, normal), seen, True, within, 0.0, 0)
         cast += onward.cast
-        goes_on = _chance_to_go_on(onward.seen, step)
+        goes_on = _chance_to_go_on(onward.seen, number)
         if survival < goes_on:
             push_from(
                 packet,
@@ -208,7 +204,7 @@ def scatter_hits(
                 lane,
                 onward.way,
                 scale(1.0 / goes_on, onward.seen),
-                step + 1,
+                number + 1,
                 onward.sees_lights,
                 onward.within,
                 onward.density,
@@ -221,22 +217,20 @@ def scatter_hits(
 @device
 def _of_blend(
     looks: Looks,
-    albedos: NDArray[np.float64] | None,
+    albedos: Albedos | None,
     look: Look,
-    at: Place,
-    paths: Paths,
-    seed: int,
+    step: Step,
 ) -> Look:
     """Return how a surface looks to a path: as one of both materials of a blend."""
     # An argument that is None is known to the compiler, which drops what depends on that alone.
     if albedos is None:
         return look
-    chance, _ = path_point(paths, BLEND, at.column, at.row, at.sample, at.step, seed)
+    chance, _ = path_point(step, BLEND)
     return part_of_blend(looks, look, chance)
 
 
 @device
-def _is_glossy(looks: Looks, albedos: NDArray[np.float64] | None, look: Look) -> bool:
+def _is_glossy(looks: Looks, albedos: Albedos | None, look: Look) -> bool:
     """Tell whether a surface has a coat of its own over a base: plastic, and rough metal."""
     if albedos is None:
         return False
@@ -250,13 +244,11 @@ def _from_gloss(
     lane: int,
     scene: SceneArrays,
     looks: Looks,
-    albedos: NDArray[np.float64] | None,
+    albedos: Albedos | None,
     look: Look,
     color: Vec,
-    at: Place,
+    step: Step,
     chance: float,
-    paths: Paths,
-    seed: int,
     work: Workspace,
 ) -> Onward:
     """Light a glossy surface, and return how the path goes on from it."""
@@ -264,12 +256,12 @@ def _from_gloss(
     within = integers(packet)[WITHIN + lane]
     if albedos is None:
         return Onward(direction, seen, True, within, 0.0, 0)
-    u, v = path_point(paths, WAY, at.column, at.row, at.sample, at.step, seed)
+    u, v = path_point(step, WAY)
     lambert, normal = packet[LAMBERT + hit], load(packet, NORMAL, hit)
     gloss = gloss_of(looks, albedos, look, color, lambert, direction, normal)
     start = Start(load(packet, POINT, hit), packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
     light, cast = light_gloss(
-        looks, albedos, gloss, start, lit_world(scene), scene.lights, at, paths, seed, work.stack
+        looks, albedos, gloss, start, lit_world(scene), scene.lights, step, work.stack
     )
     gather_at(packet, lane, times(seen, light))
     onward = scatter_gloss(looks, albedos, gloss, u, v, chance)
@@ -280,15 +272,13 @@ def _from_gloss(
 @device
 def _pass_glass(
     looks: Looks,
-    albedos: NDArray[np.float64] | None,
+    albedos: Albedos | None,
     look: Look,
     is_inner: bool,
     direction: Vec,
     normal: Vec,
-    at: Place,
+    step: Step,
     chance: float,
-    paths: Paths,
-    seed: int,
 ) -> Passed:
     """Return how a path goes on at glass, which it meets from within or from outside."""
     ratio = index_ratio(looks, look, is_inner)
@@ -296,7 +286,7 @@ def _pass_glass(
     if albedos is not None:
         spread = spread_of(looks, look)
         if spread > 0.0:
-            u, v = path_point(paths, WAY, at.column, at.row, at.sample, at.step, seed)
+            u, v = path_point(step, WAY)
             table = 2 * look.row + (1 if is_inner else 0)
             return pass_facet(albedos, table, spread, ratio, direction, normal, u, v, chance)
     split = split_at(direction, normal, ratio)
@@ -308,7 +298,7 @@ def _pass_glass(
 
 
 @device
-def _chance_to_go_on(seen: Vec, step: int) -> float:
+def _chance_to_go_on(seen: Vec, number: int) -> float:
     """Return with which chance a path goes on of whose light so much is seen; 0 for nothing."""
     most = max(seen[0], seen[1], seen[2])
-    return min(most, 1.0) if step >= SAFE else (1.0 if most > 0.0 else 0.0)
+    return min(most, 1.0) if number >= SAFE else (1.0 if most > 0.0 else 0.0)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import device, kernel
 from vtray.geometry.vector import Vec
 from vtray.transport.materials.facets import both_seen, seen_facet
-from vtray.transport.materials.look import GLASS, METAL
+from vtray.transport.materials.look import GLASS, METAL, Albedos
 from vtray.transport.materials.optics import mirrored, mirrored_part, split_at
 
 Floats = NDArray[np.float64]
@@ -24,7 +24,7 @@ UP = (0.0, 0.0, 1.0)
 
 
 @device
-def albedo_at(albedos: Floats, table: int, cosine: float) -> float:
+def albedo_at(albedos: Albedos, table: int, cosine: float) -> float:
     """Return the share of light that is mirrored.
 
     Parameters

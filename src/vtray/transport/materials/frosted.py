@@ -12,13 +12,11 @@ lost divides what is seen).
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from vtray.base.compiler.compiled import device
 from vtray.geometry.vector import Vec, dot, scale
 from vtray.transport.materials.albedo import albedo_at
 from vtray.transport.materials.facets import both_seen, seen_facet
+from vtray.transport.materials.look import Albedos
 from vtray.transport.materials.optics import mirrored, split_at
 
 
@@ -42,7 +40,7 @@ class Passed(NamedTuple):
 
 @device
 def pass_facet(
-    albedos: NDArray[np.float64],
+    albedos: Albedos,
     table: int,
     spread: float,
     ratio: float,

@@ -16,19 +16,16 @@ SIGGRAPH 2017 courses.
 import math
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from vtray.base.compiler.compiled import device
 from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.geometry.warps import cosine_direction
 from vtray.transport.materials.albedo import NODES, albedo_at
 from vtray.transport.materials.facets import PI, facet_density, masking, seen_facet
-from vtray.transport.materials.look import METAL, Look, Looks, first_number, spread_of
+from vtray.transport.materials.look import METAL, Albedos, Look, Looks, first_number, spread_of
 from vtray.transport.materials.metal import metal_base, metal_shares
 from vtray.transport.materials.optics import mirrored, mirrored_part
 
-Albedos = NDArray[np.float64]
+WHITE = (1.0, 1.0, 1.0)
 
 
 class Gloss(NamedTuple):
@@ -119,7 +116,7 @@ def gloss_of(
 def coat_shares(looks: Looks, look: Look, cosine: float, color: Vec) -> Vec:
     """Return the shares of light that a facet of the coat mirrors, given the cosine to it."""
     if look.kind == METAL:
-        return metal_shares(looks, look.row, cosine, color)
+        return metal_shares(looks, look.row, cosine, color, WHITE)
     share = mirrored_part(cosine, first_number(looks, look))
     return share, share, share
 

@@ -30,6 +30,10 @@ EMPTY = -1
 """In place of a material: no ray is within any."""
 
 
+Albedos = NDArray[np.float64]
+"""What rough surfaces and coats mirror, as `albedo.albedo_at` reads it."""
+
+
 class Looks(NamedTuple):
     """How surfaces look, by the ranges of `Materials`.
 
@@ -59,7 +63,7 @@ class Looks(NamedTuple):
     numbers: NDArray[np.float64]
     depth: int
     brightest: float
-    albedos: NDArray[np.float64] | None
+    albedos: Albedos | None
 
 
 class Look(NamedTuple):

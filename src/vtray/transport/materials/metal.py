@@ -5,35 +5,33 @@ from vtray.geometry.vector import Vec
 from vtray.transport.materials.conductor import conductor_shares, grazing_shares
 from vtray.transport.materials.look import MEANS, Looks, three_numbers
 
-WHITE = (1.0, 1.0, 1.0)
-
 
 @device
-def metal_shares(looks: Looks, row: int, cosine: float, color: Vec) -> Vec:
-    """Return the shares of light that a facet of metal mirrors.
+def metal_shares(looks: Looks, row: int, cosine: float, color: Vec, along: Vec) -> Vec:
+    """Return the shares of light that metal mirrors, or a facet of it.
 
     Parameters
     ----------
     looks, row
         The metal.
     cosine
-        That of the angle between the light and the facet's normal.
-    color
-        The colour of the object, 1 for white.
+        That of the angle between the light and the normal.
+    color, along
+        The colour of the object and white, or both times how much is seen of the light.
     """
     n, k = three_numbers(looks, row, 0), three_numbers(looks, row, 3)
     if n[0] > 0.0:
         shares = conductor_shares(cosine, n, k)
         return color[0] * shares[0], color[1] * shares[1], color[2] * shares[2]
-    return grazing_shares(cosine, color, WHITE)
+    return grazing_shares(cosine, color, along)
 
 
 @device
 def metal_base(looks: Looks, row: int, color: Vec, mean: float) -> Vec:
     """Return what becomes of light that a facet mirrors to another: what base there is.
 
-    The parameters are those of `metal_shares`; `mean` is the mean albedo of facets that mirror all
-    light.
+    The parameters are those of `metal_shares`, with a `color` of 1 for white; `mean` is the mean
+    albedo of facets that mirror all light.
 
     References
     ----------

@@ -15,13 +15,11 @@ from vtray.geometry.packets.packet import BLOCK, LANES, LENS_DOWN, LENS_RIGHT, B
 from vtray.geometry.packets.workspace import Pixels
 from vtray.geometry.warps import disc_point
 from vtray.transport.camera_rays import LensFrame
-from vtray.transport.sampling.paths import Paths
+from vtray.transport.sampling.paths import Paths, dealt_point
 from vtray.transport.sampling.sobol import (
     LENS_ORDER,
     LENS_PLACE,
     pixel_keys,
-    scrambled,
-    shuffled,
 )
 
 
@@ -71,9 +69,7 @@ def place_in_lens(
         order, _ = pixel_keys(column, row, LENS_ORDER, seed)
         one, other = pixel_keys(column, row, LENS_PLACE, seed)
         for sample in range(samples):
-            place = shuffled(first + sample, deal.levels, order)
-            u = scrambled(deal.points[0, place], one)
-            v = scrambled(deal.points[1, place], other)
+            u, v = dealt_point(deal, first + sample, order, one, other)
             lane = (k - begin) * samples + sample
             right, down = place_in_opening(lens.corners, u, v)
             packet[LENS_RIGHT + lane] = right

@@ -56,46 +56,62 @@ def paths_of(samples: int) -> Paths:
     return Paths(levels, sobol_points(1 << levels))
 
 
+class Step(NamedTuple):
+    """A step of a path, and how it chooses.
+
+    Attributes
+    ----------
+    column, row, sample
+        The pixel, and the number of its sample.
+    number
+        The number of the step: that of surfaces before.
+    paths
+        How paths choose.
+    seed
+        That of the picture.
+    """
+
+    column: int
+    row: int
+    sample: int
+    number: int
+    paths: Paths
+    seed: int
+
+
 @device
-def path_point(
-    paths: Paths, purpose: int, column: int, row: int, sample: int, step: int, seed: int
-) -> tuple[float, float]:
+def path_point(step: Step, purpose: int) -> tuple[float, float]:
     """Return a point of the unit square for a step of a path.
 
     Parameters
     ----------
-    paths
-        How paths choose.
+    step
+        The step.
     purpose
         ``WAY``, ``CHOICE`` or ``BLEND``.
-    column, row, sample
-        The pixel, and the number of its sample.
-    step
-        The number of the step: that of surfaces before.
-    seed
-        That of the picture.
     """
-    return _point(paths, 2 * int(step) + purpose, column, row, sample, seed)
+    return _point(step, 2 * int(step.number) + purpose, step.seed)
 
 
 @device
-def lamp_point(
-    paths: Paths, light: int, column: int, row: int, sample: int, step: int, seed: int
-) -> tuple[float, float]:
-    """Return a point of the unit square for a ray to one of the lights; see `path_point`."""
-    return _point(paths, LAMPS + light, column, row, sample, seed_of_step(seed, step))
+def lamp_point(step: Step, light: int) -> tuple[float, float]:
+    """Return a point of the unit square for a ray to one of the lights."""
+    return _point(step, LAMPS + light, seed_of_step(step.seed, step.number))
 
 
 @device
-def _point(
-    paths: Paths, number: int, column: int, row: int, sample: int, seed: int
-) -> tuple[float, float]:
-    """Return a point of the unit square, others for each number; see `path_point`."""
-    order, _ = pixel_keys(column, row, PATH_ORDER + number, seed)
+def _point(step: Step, purpose: int, seed: int) -> tuple[float, float]:
+    """Return a point of the unit square, others for each purpose and seed."""
+    order, _ = pixel_keys(step.column, step.row, PATH_ORDER + purpose, seed)
+    one, other = pixel_keys(step.column, step.row, PATHS + purpose, seed)
+    return dealt_point(step.paths, step.sample, order, one, other)
+
+
+@device
+def dealt_point(paths: Paths, sample: int, order: int, one: int, other: int) -> tuple[float, float]:
+    """Return the point that is dealt to a sample by a key, scrambled by two others."""
     place = shuffled(sample, paths.levels, order)
-    one, other = pixel_keys(column, row, PATHS + number, seed)
-    points = paths.points
-    return scrambled(points[0, place], one), scrambled(points[1, place], other)
+    return scrambled(paths.points[0, place], one), scrambled(paths.points[1, place], other)
 
 
 @device
