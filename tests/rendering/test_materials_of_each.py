@@ -126,6 +126,23 @@ def test_roughness_is_that_of_the_materials_that_have_one(kind: Any) -> None:
     assert any(problem.startswith(words) for problem in problems)
 
 
+def test_thin_glass_stays_smooth() -> None:
+    thin, kinds = vtray.Glass(thin=True), (0, 1, 0, 1, 0)
+    item = spheres(material=(thin, "mirror"), material_index=kinds)
+    with pytest.raises(vtray.SceneError, match=r"Spheres.roughness: given for no material"):
+        item.replace(roughness=0.5)
+    scenes = [
+        lit(spheres(material=(thin, plastic), material_index=kinds, roughness=roughness))
+        for plastic, roughness in ((vtray.Plastic(), 0.5), (vtray.Plastic(roughness=0.5), None))
+    ]
+    problems: list[str] = []
+    one, other = (
+        vtray.render(scene, integrator="whitted", warn=problems.append).linear for scene in scenes
+    )
+    assert one.tobytes() == other.tobytes()
+    assert [problem.partition(" is shown")[0] for problem in problems] == 2 * ["material: plastic"]
+
+
 def test_roughness_is_said_in_files(tmp_path: Path) -> None:
     item = spheres(material="plastic", material_index=None, roughness=ROUGH, metalness=0.25)
     scene = lit(item)

@@ -2,6 +2,7 @@
 
 import copy
 import json
+import typing
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 
 import vtray
+from vtray.scene.materials import MaterialName
 
 RUBY = {"type": "glass", "ior": 1.76}
 SCHEMA = Path(__file__).parents[2] / "docs" / "scene.schema.json"
@@ -189,3 +191,14 @@ def test_each_name_is_given_once() -> None:
     words = f"materials.ruby: given twice, on lines {lines[0]} and {lines[1]}"
     with pytest.raises(vtray.SceneError, match=words):
         vtray.loads(text)
+
+
+def test_who_takes_materials_says_which() -> None:
+    classes = "Sphere", "Cylinder", "Cone", "Plane", "Spheres", "Cylinders", "Cones"
+    methods = "add_sphere", "add_cylinder", "add_cone", "add_plane"
+    takers = [getattr(vtray, name) for name in classes]
+    for taker in (*takers, *(getattr(vtray.Scene, name) for name in methods)):
+        missing = [
+            name for name in typing.get_args(MaterialName) if f'"{name}"' not in taker.__doc__
+        ]
+        assert not missing, taker.__name__

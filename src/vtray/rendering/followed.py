@@ -1,13 +1,14 @@
 """Light over many surfaces: who shows it, and what does not go with it."""
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+
+import numpy as np
 
 from vtray.base.errors import RenderError
 from vtray.rendering.acceleration import Acceleration
 from vtray.scene.camera import Camera
 from vtray.scene.copies import Copies
-from vtray.scene.materials import blended_in, is_matt, materials_of
+from vtray.scene.materials import blended_in, can_vary, is_matt, materials_of
 from vtray.scene.objects import Object
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
@@ -81,11 +82,7 @@ def _kinds(objects: Sequence[Object]) -> Iterator[tuple[str, bool]]:
         for material in materials_of(getattr(item, "material", "lambert")):
             for one in blended_in(material) or (material,):
                 if not is_matt(one):
-                    own, each = (getattr(x, "roughness", None) for x in (one, item))
-                    is_rough = own is not None and _is_some(own if each is None else each)
-                    yield type(one).__name__.lower(), is_rough
-
-
-def _is_some(values: Any) -> bool:  # noqa: ANN401
-    """Tell whether a number is above 0, or one of many."""
-    return bool(values > 0) if isinstance(values, (int, float)) else bool((values > 0).any())
+                    own = getattr(one, "roughness", 0.0)
+                    each = getattr(item, "roughness", None)
+                    rough = each if each is not None and can_vary(one, "roughness") else own
+                    yield type(one).__name__.lower(), bool(np.any(np.greater(rough, 0)))

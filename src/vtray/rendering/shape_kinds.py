@@ -168,17 +168,14 @@ def _made_of_each(item: Any) -> MadeOf:  # noqa: ANN401
         np.rint(np.atleast_1d(np.asarray(item.given_for(name), float)) * STEPS).astype(np.int64)
         for name in ("roughness", "metalness")
     )
-    # One number for each combination that there may be, those of a material itself being below 0.
-    kinds = STEPS + 2
-    rough, metal = np.maximum(rough, -1) + 1, np.maximum(metal, -1) + 1
-    found, which = np.unique((which * kinds + rough) * kinds + metal, return_inverse=True)
+    # Those of a material itself, which are below 0, come first.
+    kinds = np.maximum(rough, -1) + 1, np.maximum(metal, -1) + 1
+    shape = len(materials), STEPS + 2, STEPS + 2
+    numbers = np.ravel_multi_index((which, *kinds), shape)
+    found, which = np.unique(numbers, return_inverse=True)
     made = [
-        varied(
-            materials[k // (kinds * kinds)],
-            (k // kinds % kinds - 1) / STEPS,
-            (k % kinds - 1) / STEPS,
-        )
-        for k in map(int, found)
+        varied(materials[one], (roughness - 1) / STEPS, (metalness - 1) / STEPS)
+        for one, roughness, metalness in zip(*np.unravel_index(found, shape), strict=True)
     ]
     return MadeOf(tuple(made), which.reshape(-1).astype(np.int64))
 

@@ -57,7 +57,7 @@ class Adding:
         opacity
             Share of the light that it takes on its way through, from 0 to 1.
         material
-            What it is made of: "lambert", "mirror", "glass", "metal", "emissive", or one of these
+            What it is made of: "lambert", "mirror", "glass", "metal", "plastic", "emissive", or one
             with its numbers, such as `vtray.Glass` (1.6).
 
         Raises
@@ -185,7 +185,7 @@ class Adding:
         opacity
             Share of the light that it takes on its way through, from 0 to 1.
         material
-            What it is made of: "lambert", "mirror", "glass", "metal", "emissive", or one of these
+            What it is made of: "lambert", "mirror", "glass", "metal", "plastic", "emissive", or one
             with its numbers, such as `vtray.Glass` (1.6).
 
         Raises
@@ -302,7 +302,7 @@ class Adding:
         opacity
             Share of the light that it takes on its way through, from 0 to 1.
         material
-            What it is made of: "lambert", "mirror", "glass", "metal", "emissive", or one of these
+            What it is made of: "lambert", "mirror", "glass", "metal", "plastic", "emissive", or one
             with its numbers, such as `vtray.Glass` (1.6).
 
         Raises
@@ -458,7 +458,7 @@ class Adding:
         opacity
             Share of the light that it takes on its way through, from 0 to 1.
         material
-            What it is made of: "lambert", "mirror", "glass", "metal", "emissive", or one of these
+            What it is made of: "lambert", "mirror", "glass", "metal", "plastic", "emissive", or one
             with its numbers, such as `vtray.Glass` (1.6).
 
         Raises

@@ -11,7 +11,14 @@ from vtray.scene.checks.checked import make_unchecked
 from vtray.scene.checks.columns import NO_NAMES, check_arrays, read_only
 from vtray.scene.checks.limits import Byte
 from vtray.scene.checks.scene_words import either
-from vtray.scene.materials import VARIED, Material, checked_materials, is_matt, materials_of
+from vtray.scene.materials import (
+    VARIED,
+    Material,
+    can_vary,
+    checked_materials,
+    is_matt,
+    materials_of,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -85,9 +92,9 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
         arrays = check_arrays(cls.COLUMNS, values, place, called)
         material = checked_materials(values.get("material", "lambert"), f"{place}material")
         _check_index(arrays.get("material_index"), len(materials_of(material)), place)
-        for name, kinds in VARIED.items():
+        for name in VARIED:
             if arrays.get(name) is not None:
-                _check_varied(name, kinds, materials_of(material), place)
+                _check_varied(name, materials_of(material), place)
         made: Self = make_unchecked(cls, **arrays, material=material)
         return made
 
@@ -218,12 +225,10 @@ def _check_index(index: Any, count: int, place: str) -> None:  # noqa: ANN401
         raise SceneError(f"{place}material_index[{wrong}]: {words}")
 
 
-def _check_varied(
-    name: str, kinds: tuple[type[Material], ...], materials: tuple[Material, ...], place: str
-) -> None:
+def _check_varied(name: str, materials: tuple[Material, ...], place: str) -> None:
     """Raise SceneError if there is no material for which an array says anything."""
-    if not any(isinstance(material, kinds) for material in materials):
-        words = either(f'"{kind.__name__.lower()}"' for kind in kinds)
+    if not any(can_vary(material, name) for material in materials):
+        words = either(f'"{kind.__name__.lower()}"' for kind in VARIED[name])
         raise SceneError(f"{place}{name}: given for no material that it is of; expected {words}")
 
 

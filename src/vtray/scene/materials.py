@@ -205,9 +205,15 @@ def blended_in(material: Material) -> tuple[Material, ...]:
     return material_of(material.first), material_of(material.second)
 
 
+def can_vary(material: Material, name: str) -> bool:
+    """Tell whether ``VARIED`` of a name is for a material: thin glass is always smooth."""
+    is_thin = isinstance(material, Glass) and material.thin
+    return isinstance(material, VARIED[name]) and not is_thin
+
+
 def varied(material: Material, roughness: float, metalness: float) -> Material:
     """Return a material with a roughness and a metalness of its own; below 0, as it is."""
-    if roughness >= 0 and isinstance(material, VARIED["roughness"]):
+    if roughness >= 0 and can_vary(material, "roughness"):
         material = material.replace(roughness=roughness)
     if metalness > 0 and isinstance(material, Plastic):
         metal = Metal(roughness=material.roughness)

@@ -32,8 +32,8 @@ class Sphere(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type"
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
     material : Lambert, Mirror, Glass, Metal, Plastic, Emissive, Blend or str
-        What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
-        "emissive".
+        What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal",
+        "plastic" or "emissive".
     """
 
     center: Vector
@@ -82,8 +82,8 @@ class Cylinder(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="typ
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
     material : Lambert, Mirror, Glass, Metal, Plastic, Emissive, Blend or str
-        What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
-        "emissive".
+        What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal",
+        "plastic" or "emissive".
     """
 
     start: Vector
@@ -137,8 +137,8 @@ class Cone(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type", 
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
     material : Lambert, Mirror, Glass, Metal, Plastic, Emissive, Blend or str
-        What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
-        "emissive".
+        What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal",
+        "plastic" or "emissive".
     """
 
     start: Vector
@@ -189,8 +189,8 @@ class Plane(Frozen, frozen=True, omit_defaults=True, gc=False, tag_field="type",
     opacity : float
         Share of the light that it takes on its way through, from 0 to 1; 1 by default.
     material : Lambert, Mirror, Glass, Metal, Plastic, Emissive, Blend or str
-        What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
-        "emissive".
+        What it is made of, or its name: "lambert" (the default), "mirror", "glass", "metal",
+        "plastic" or "emissive".
     """
 
     center: Vector

@@ -56,8 +56,8 @@ class Spheres(Arrays, frozen=True, eq=False, dict=True, tag_field="type", tag="s
     material_index : array (n,), or None
         Which of the materials each is made of, from 0, as uint8. None for the first.
     material : Lambert, Mirror, Glass, Metal, Plastic, Emissive, Blend or str, or a tuple of these
-        What they are made of, or its name: "lambert" (the default), "mirror", "glass", "metal" or
-        "emissive"; or several, of which `material_index` says who is made of which.
+        What they are made of, or its name: "lambert" (the default), "mirror", "glass", "metal",
+        "plastic" or "emissive"; or several, of which `material_index` says who is made of which.
 
     Raises
     ------
