@@ -11,6 +11,7 @@ Veach, Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Renderin
 """
 
 import math
+from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device, seldom
 from vtray.geometry.between import is_occluded
@@ -19,6 +20,7 @@ from vtray.geometry.packets.stack import Stack
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, add, dot, scale, sub
+from vtray.geometry.world import World
 from vtray.transport.lights.light import Lights, light_count, load_power
 from vtray.transport.lights.rectangle import solid_angle_of
 from vtray.transport.lights.sky import Skies
@@ -47,6 +49,21 @@ from vtray.transport.scene_arrays import LitWorld
 
 PICKED = 16
 """So many of the lights with a size have shadow rays from each glossy surface, at the most."""
+
+
+class GlossRay(NamedTuple):
+    """A shadow ray from a glossy surface.
+
+    Attributes
+    ----------
+    segment
+        Where it goes.
+    light
+        The light that it brings, 255 for white, if nothing is in the way.
+    """
+
+    segment: Segment
+    light: Vec
 
 
 @seldom
@@ -106,22 +123,9 @@ def _light_of_points(
     if points is None:
         return light, rays
     for k in range(light_count(lights)):
-        end, error_scale = (lights.x[k], lights.y[k], lights.z[k]), lights.error_scale[k]
-        way = sub(end, start.point)
-        if is_above(gloss.normal, way, ROUNDING * (start.error_scale + error_scale)):
-            unit = scale(1.0 / math.sqrt(dot(way, way)), way)
-            segment = Segment(
-                start.point,
-                end,
-                start.plane_depth,
-                lights.plane_depth[k],
-                start.error_scale,
-                error_scale,
-            )
-            rays += 1
-            if not is_occluded(lit.world, segment, stack):
-                share = seen_light(looks, albedos, gloss, unit).share
-                light = add(light, _shown(share, lights, k, PI))
+        ray = ray_to_point(looks, albedos, gloss, start, lights, k)
+        more, cast = _brought(lit.world, ray, stack)
+        light, rays = add(light, more), rays + cast
     return light, rays
 
 
@@ -141,57 +145,88 @@ def _light_of_lamps(
     light, rays = (0.0, 0.0, 0.0), 0
     if soft is None:
         return light, rays
-    count = soft_count(soft)
-    picked = min(count, PICKED)
+    picked = min(soft_count(soft), PICKED)
     _, choice = path_point(step, BLEND)
     for k in range(picked):
-        number = int((k + choice) * count / picked) if count > picked else k
-        u, v = lamp_point(step, number)
-        more, cast = _light_of_lamp(
-            looks, albedos, gloss, start, lit, lights, soft, number, u, v, stack
-        )
-        light, rays = add(light, scale(count / picked, more)), rays + cast
+        number = picked_lamp(soft, k, choice)
+        ray = ray_to_lamp(looks, albedos, gloss, start, lit.forward, lights, soft, number, step)
+        more, cast = _brought(lit.world, ray, stack)
+        light, rays = add(light, scale(soft_count(soft) / picked, more)), rays + cast
     return light, rays
 
 
 @device
-def _light_of_lamp(
+def picked_lamp(soft: SoftLights, k: int, choice: float) -> int:
+    """Return which light is the k-th of those picked, for a number from 0 to 1 that chooses."""
+    count = soft_count(soft)
+    return int((k + choice) * count / PICKED) if count > PICKED else k
+
+
+@device
+def _brought(world: World, ray: GlossRay, stack: Stack) -> tuple[Vec, int]:
+    """Return what a shadow ray brings, and how many were cast: none where it would be nothing."""
+    dark = (0.0, 0.0, 0.0)
+    if not max(ray.light[0], ray.light[1], ray.light[2]) > 0.0:
+        return dark, 0
+    return (dark if is_occluded(world, ray.segment, stack) else ray.light), 1
+
+
+@device
+def ray_to_point(
+    looks: Looks, albedos: Albedos, gloss: Gloss, start: Start, lights: Lights, k: int
+) -> GlossRay:
+    """Return the shadow ray to a point; the parameters are those of `light_gloss`."""
+    end, error_scale = (lights.x[k], lights.y[k], lights.z[k]), lights.error_scale[k]
+    depth, way = lights.plane_depth[k], sub(end, start.point)
+    segment = Segment(start.point, end, start.plane_depth, depth, start.error_scale, error_scale)
+    if not is_above(gloss.normal, way, ROUNDING * (start.error_scale + error_scale)):
+        return GlossRay(segment, (0.0, 0.0, 0.0))
+    unit = scale(1.0 / math.sqrt(dot(way, way)), way)
+    return GlossRay(segment, _shown(seen_light(looks, albedos, gloss, unit).share, lights, k, PI))
+
+
+@device
+def ray_to_lamp(
     looks: Looks,
     albedos: Albedos,
     gloss: Gloss,
     start: Start,
-    lit: LitWorld,
+    forward: Vec,
     lights: Lights,
     soft: SoftLights,
     number: int,
-    u: float,
-    v: float,
-    stack: Stack,
-) -> tuple[Vec, int]:
-    """Return what one of the lights that are no points brings; see `light_gloss`."""
-    dark = (0.0, 0.0, 0.0)
+    step: Step,
+) -> GlossRay:
+    """Return the shadow ray to one of the lights that are no points.
+
+    Parameters
+    ----------
+    looks, albedos, gloss, start, lights, step
+        As for `light_gloss`.
+    forward
+        The unit direction in which the camera looks.
+    soft, number
+        The light.
+    """
     aim = aim_at(soft, number, start, gloss.normal)
+    u, v = lamp_point(step, number)
     way, density, color = _towards_lamp(aim, u, v, gloss.normal, soft.skies)
-    cosine = dot(gloss.normal, way)
-    if not (cosine > 0.0 and density > 0.0):
-        return dark, 0
-    seen = seen_light(looks, albedos, gloss, way)
     length = length_to(aim, start.point, way)
-    end = add(start.point, scale(length, way))
-    end_depth = start.plane_depth + length * dot(way, lit.forward)
-    weight = 1.0
-    if _is_met(aim, end_depth):
-        weight = _power(density * _picked_share(soft), seen.density)
-    if not max(seen.share[0], seen.share[1], seen.share[2]) > 0.0:
-        return dark, 0
+    end, end_depth = add(start.point, scale(length, way)), start.plane_depth
+    end_depth += length * dot(way, forward)
     end_scale = soft.error_scale[number] + start.error_scale
     segment = Segment(start.point, end, start.plane_depth, end_depth, start.error_scale, end_scale)
-    if is_occluded(lit.world, segment, stack):
-        return dark, 1
+    cosine = dot(gloss.normal, way)
+    if not (cosine > 0.0 and density > 0.0):
+        return GlossRay(segment, (0.0, 0.0, 0.0))
+    seen, weight = seen_light(looks, albedos, gloss, way), 1.0
+    if _is_met(aim, end_depth):
+        weight = _power(density * _picked_share(soft), seen.density)
     per_density = PI / cosine if aim.spread == ALL_AROUND else PI * aim.share
     if aim.sky != NO_SKY:
         per_density = 1.0 / density
-    return _of_components(seen.share, lights, soft, number, weight * per_density, color), 1
+    factor = weight * per_density
+    return GlossRay(segment, _of_components(seen.share, lights, soft, number, factor, color))
 
 
 @device

@@ -38,6 +38,7 @@ from vtray.geometry.packets.packet import (
     load,
     store,
 )
+from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.vector import Vec, dot, scale
 from vtray.geometry.warps import cosine_direction
@@ -52,8 +53,8 @@ from vtray.transport.integrators.bounces import (
 from vtray.transport.integrators.glossy_light import light_gloss
 from vtray.transport.integrators.soft import sample_of
 from vtray.transport.lights.surroundings import has_even_light
-from vtray.transport.materials.frosted import Passed, pass_facet
-from vtray.transport.materials.gloss import gloss_of, scatter_gloss
+from vtray.transport.materials.frosted import Passed, chance_of, pass_facet
+from vtray.transport.materials.gloss import Gloss, gloss_of, scatter_gloss
 from vtray.transport.materials.look import (
     EMISSIVE,
     EMPTY,
@@ -89,8 +90,12 @@ class Onward(NamedTuple):
         How much is seen of the light from there.
     sees_lights, within, density
         As in `Waiting`.
-    cast
-        How many shadow rays were cast.
+    chance
+        With which chance it goes on by what it does here, as glass both mirrors and refracts.
+    is_base
+        Whether that is the base of a glossy surface, not its coat.
+    light, cast
+        What lights bring to a glossy surface, and how many shadow rays that took.
     """
 
     way: Vec
@@ -98,6 +103,9 @@ class Onward(NamedTuple):
     sees_lights: bool
     within: int
     density: float
+    chance: float
+    is_base: bool
+    light: Vec
     cast: int
 
 
@@ -138,65 +146,29 @@ def scatter_hits(
     numbers, looks_far, cast = integers(packet), has_even_light(scene.lights.surroundings), 0
     for hit in range(hits):
         lane = numbers[SOURCE + hit]
-        number, within = numbers[BOUNCES + lane], numbers[WITHIN + lane]
+        number = numbers[BOUNCES + lane]
         column, row, sample = sample_of(lane, samples, first, block, begin, work.pixels)
         step = Step(column, row, sample, number, paths, seed)
-        look = load_look(scene.materials, looks, numbers[PRIMITIVE + lane])
-        look = _of_blend(looks, looks.albedos, look, step)
+        look = look_at(packet, lane, scene, looks, step)
         seen, color = load(packet, THROUGHPUT, lane), load(packet, COLOR, hit)
         packet[NOISE + hit] = 0.0
-        tinted = times(seen, scale(1.0 / 255.0, color))
         is_matt = look.kind == MATT
         store(packet, COLOR, hit, times(seen, color) if is_matt else (0.0, 0.0, 0.0))
         if look.kind == EMISSIVE:
-            shine(packet, lane, looks, look, tinted)
+            shine(packet, lane, looks, look, times(seen, scale(1.0 / 255.0, color)))
             continue
         # After the last surface that is lit, a ray only looks for what shines far away.
-        is_last, is_glossy = number == looks.depth, _is_glossy(looks, looks.albedos, look)
-        if number > looks.depth or (is_last and not (is_glossy or (is_matt and looks_far))):
+        is_last, has_coat = number == looks.depth, is_glossy(looks, looks.albedos, look)
+        if number > looks.depth or (is_last and not (has_coat or (is_matt and looks_far))):
             continue
         chance, survival = path_point(step, CHOICE)
-        if is_matt:
-            u, v = path_point(step, WAY)
-            way = cosine_direction(u, v, load(packet, NORMAL, hit))
-            onward = Onward(way, scale(packet[LAMBERT + hit], tinted), False, within, 0.0, 0)
-        elif is_glossy:
-            onward = _from_gloss(
-                packet,
-                hit,
-                lane,
-                scene,
-                looks,
-                looks.albedos,
-                look,
-                scale(1.0 / 255.0, color),
-                step,
-                chance,
-                work,
-            )
+        onward = onward_from(packet, hit, scene, looks, look, color, step, chance, work.stack)
+        cast += onward.cast
+        if has_coat:
+            gather_at(packet, lane, times(seen, onward.light))
             if is_last and onward.density == 0.0:
                 continue
-        elif look.kind == GLASS:
-            is_inner = comes_from_within(packet, hit, lane, scene.world)
-            direction, normal = load(packet, TOWARDS, hit), load(packet, NORMAL, hit)
-            passed = _pass_glass(
-                looks, looks.albedos, look, is_inner, direction, normal, step, chance
-            )
-            beyond = EMPTY if is_inner or is_thin(looks, look) else look.row
-            onward = Onward(
-                passed.way,
-                scale(passed.share, seen if passed.is_mirrored else tinted),
-                True,
-                within if passed.is_mirrored else beyond,
-                0.0,
-                0,
-            )
-        else:
-            direction, normal = load(packet, TOWARDS, hit), load(packet, NORMAL, hit)
-            seen = mirrored_share(looks, look, -dot(direction, normal), seen, tinted)
-            onward = Onward(mirrored(direction, normal), seen, True, within, 0.0, 0)
-        cast += onward.cast
-        goes_on = _chance_to_go_on(onward.seen, number)
+        goes_on = chance_to_go_on(onward.seen, number)
         if survival < goes_on:
             push_from(
                 packet,
@@ -215,6 +187,13 @@ def scatter_hits(
 
 
 @device
+def look_at(packet: Packet, lane: int, scene: SceneArrays, looks: Looks, step: Step) -> Look:
+    """Return how what the ray of a lane met looks to a path: a blend as one of both materials."""
+    look = load_look(scene.materials, looks, integers(packet)[PRIMITIVE + lane])
+    return _of_blend(looks, looks.albedos, look, step)
+
+
+@device
 def _of_blend(
     looks: Looks,
     albedos: Albedos | None,
@@ -230,11 +209,76 @@ def _of_blend(
 
 
 @device
-def _is_glossy(looks: Looks, albedos: Albedos | None, look: Look) -> bool:
+def is_glossy(looks: Looks, albedos: Albedos | None, look: Look) -> bool:
     """Tell whether a surface has a coat of its own over a base: plastic, and rough metal."""
     if albedos is None:
         return False
     return look.kind == PLASTIC or (look.kind == METAL and spread_of(looks, look) > 0.0)
+
+
+@device
+def onward_from(
+    packet: Packet,
+    hit: int,
+    scene: SceneArrays,
+    looks: Looks,
+    look: Look,
+    color: Vec,
+    step: Step,
+    chance: float,
+    stack: Stack,
+) -> Onward:
+    """Return how a path goes on from a hit, and what lights bring there to a glossy surface.
+
+    Parameters
+    ----------
+    packet, hit
+        The hit.
+    scene, looks, look, color
+        What it is on, and what that is made of; its colour, 255 for white.
+    step, chance
+        How the path chooses, and its number from 0 to 1 for choices.
+    stack
+        Scratch memory.
+    """
+    numbers, dark = integers(packet), (0.0, 0.0, 0.0)
+    lane = numbers[SOURCE + hit]
+    seen, within = load(packet, THROUGHPUT, lane), int(numbers[WITHIN + lane])
+    direction, normal = load(packet, TOWARDS, hit), load(packet, NORMAL, hit)
+    tint = scale(1.0 / 255.0, color)
+    tinted = times(seen, tint)
+    if look.kind == MATT:
+        u, v = path_point(step, WAY)
+        way, share = cosine_direction(u, v, normal), scale(packet[LAMBERT + hit], tinted)
+        return Onward(way, share, False, within, 0.0, 1.0, True, dark, 0)
+    if is_glossy(looks, looks.albedos, look):
+        return _from_gloss(
+            packet, hit, lane, scene, looks, looks.albedos, look, tint, step, chance, stack
+        )
+    if look.kind == GLASS:
+        is_inner = comes_from_within(packet, hit, lane, scene.world)
+        passed = _pass_glass(looks, looks.albedos, look, is_inner, direction, normal, step, chance)
+        beyond = EMPTY if is_inner or is_thin(looks, look) else look.row
+        share = scale(passed.share, seen if passed.is_mirrored else tinted)
+        side = within if passed.is_mirrored else beyond
+        return Onward(passed.way, share, True, side, 0.0, passed.chance, False, dark, 0)
+    share = mirrored_share(looks, look, -dot(direction, normal), seen, tinted)
+    return Onward(mirrored(direction, normal), share, True, within, 0.0, 1.0, False, dark, 0)
+
+
+@device
+def gloss_at(
+    packet: Packet, hit: int, looks: Looks, albedos: Albedos, look: Look, tint: Vec
+) -> Gloss:
+    """Return a glossy surface as the ray of a hit sees it; `tint` is its colour, 1 for white."""
+    direction, normal = load(packet, TOWARDS, hit), load(packet, NORMAL, hit)
+    return gloss_of(looks, albedos, look, tint, packet[LAMBERT + hit], direction, normal)
+
+
+@device
+def start_of(packet: Packet, hit: int) -> Start:
+    """Return where rays from a hit start."""
+    return Start(load(packet, POINT, hit), packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
 
 
 @device
@@ -246,27 +290,34 @@ def _from_gloss(
     looks: Looks,
     albedos: Albedos | None,
     look: Look,
-    color: Vec,
+    tint: Vec,
     step: Step,
     chance: float,
-    work: Workspace,
+    stack: Stack,
 ) -> Onward:
-    """Light a glossy surface, and return how the path goes on from it."""
-    seen, direction = load(packet, THROUGHPUT, lane), load(packet, TOWARDS, hit)
-    within = integers(packet)[WITHIN + lane]
+    """Return how a path goes on from a glossy surface, and what lights bring there."""
+    seen, within = load(packet, THROUGHPUT, lane), int(integers(packet)[WITHIN + lane])
     if albedos is None:
-        return Onward(direction, seen, True, within, 0.0, 0)
+        direction = load(packet, TOWARDS, hit)
+        return Onward(direction, seen, True, within, 0.0, 1.0, False, (0.0, 0.0, 0.0), 0)
     u, v = path_point(step, WAY)
-    lambert, normal = packet[LAMBERT + hit], load(packet, NORMAL, hit)
-    gloss = gloss_of(looks, albedos, look, color, lambert, direction, normal)
-    start = Start(load(packet, POINT, hit), packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
+    gloss, start = gloss_at(packet, hit, looks, albedos, look, tint), start_of(packet, hit)
     light, cast = light_gloss(
-        looks, albedos, gloss, start, lit_world(scene), scene.lights, step, work.stack
+        looks, albedos, gloss, start, lit_world(scene), scene.lights, step, stack
     )
-    gather_at(packet, lane, times(seen, light))
     onward = scatter_gloss(looks, albedos, gloss, u, v, chance)
-    is_sharp = onward.density == 0.0
-    return Onward(onward.way, times(seen, onward.share), is_sharp, within, onward.density, cast)
+    is_sharp, is_base = onward.density == 0.0, not chance < gloss.chance
+    return Onward(
+        onward.way,
+        times(seen, onward.share),
+        is_sharp,
+        within,
+        onward.density,
+        1.0 - gloss.chance if is_base else gloss.chance,
+        is_base,
+        light,
+        cast,
+    )
 
 
 @device
@@ -294,11 +345,11 @@ def _pass_glass(
         split = through_both(split, direction)
     is_mirrored = chance < split.reflected
     way = mirrored(direction, normal) if is_mirrored else split.refracted
-    return Passed(way, 1.0, is_mirrored)
+    return Passed(way, 1.0, is_mirrored, chance_of(split, is_mirrored))
 
 
 @device
-def _chance_to_go_on(seen: Vec, number: int) -> float:
+def chance_to_go_on(seen: Vec, number: int) -> float:
     """Return with which chance a path goes on of whose light so much is seen; 0 for nothing."""
     most = max(seen[0], seen[1], seen[2])
     return min(most, 1.0) if number >= SAFE else (1.0 if most > 0.0 else 0.0)

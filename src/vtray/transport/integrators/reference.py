@@ -81,6 +81,10 @@ class TracedPixel(NamedTuple):
         The row of the lamp that is seen, or ``NOTHING``; then nothing is hit.
     share
         How much of the light from there is seen: 1 with nothing before it.
+    material
+        What is hit is made of, whose colour counts as much as is seen of it.
+    sample
+        The number of the ray among the samples of the pixel; 0 for that through its middle.
     """
 
     ray: Ray
@@ -90,6 +94,8 @@ class TracedPixel(NamedTuple):
     value: Vec
     lamp: int
     share: float
+    material: Material
+    sample: int
 
 
 @kernel
@@ -138,11 +144,12 @@ def trace_behind(
     value = (0.0, 0.0, 0.0)
     nowhere = Interaction(ray.origin, ray.direction, 0.0, 0)
     lamp, distance = nearest_lamp(ray, hit.distance, scene.lights.visible)
+    nothing = Material(value, 0.0)
     if lamp != NOTHING:
         light = scale(share, lamp_light(scene.lights, lamp))
-        return TracedPixel(ray, distance, NOTHING, nowhere, light, lamp, share)
+        return TracedPixel(ray, distance, NOTHING, nowhere, light, lamp, share, nothing, 0)
     if hit.primitive == NOTHING:
-        return TracedPixel(ray, hit.distance, hit.primitive, nowhere, value, NOTHING, share)
+        return TracedPixel(ray, hit.distance, NOTHING, nowhere, value, NOTHING, share, nothing, 0)
     return light_hit(scene, ray, hit, share, stack, cosines, blockers, walk)
 
 
@@ -161,8 +168,26 @@ def light_hit(
 
     The parameters are those of `trace_pixel`.
     """
-    found, value = interact(scene.world, ray, hit.distance, hit.group, hit.slot), (0.0, 0.0, 0.0)
-    material = seen_material(scene, hit.primitive, found.half, share)
+    found = interact(scene.world, ray, hit.distance, hit.group, hit.slot)
+    own = load_material(scene.materials, hit.primitive, found.half)
+    material = Material(scale(share, own.color), own.lambert)
+    unlit = TracedPixel(
+        ray, hit.distance, hit.primitive, found, (0.0, 0.0, 0.0), NOTHING, share, material, 0
+    )
+    return light_by_points(scene, unlit, stack, cosines, blockers, walk)
+
+
+@device
+def light_by_points(
+    scene: SceneArrays,
+    unlit: TracedPixel,
+    stack: Stack,
+    cosines: NDArray[np.float64],
+    blockers: NDArray[np.int64],
+    walk: Walk,
+) -> TracedPixel:
+    """Return a hit with the light of points; other parameters are those of `trace_pixel`."""
+    found, value, material = unlit.interaction, (0.0, 0.0, 0.0), unlit.material
     plane_depth = plane_depth_of(scene.camera, found.point)
     for light in range(light_count(scene.lights)):
         target = light_target(scene.lights, light)
@@ -183,14 +208,17 @@ def light_hit(
             cosines[light] = cosines[light] * (1.0 - blocked) if blocked < 1.0 else 0.0
             power = load_power(scene.lights, light)
             value = add(value, scattered(material, cosines[light], power))
-    return TracedPixel(ray, hit.distance, hit.primitive, found, value, NOTHING, share)
-
-
-@device
-def seen_material(scene: SceneArrays, primitive: int, half: int, share: float) -> Material:
-    """Return the material of a primitive, whose colour counts as much as is seen of it."""
-    material = load_material(scene.materials, primitive, half)
-    return Material(scale(share, material.color), material.lambert)
+    return TracedPixel(
+        unlit.ray,
+        unlit.distance,
+        unlit.primitive,
+        found,
+        value,
+        NOTHING,
+        unlit.share,
+        material,
+        unlit.sample,
+    )
 
 
 def _trace_fan(
@@ -240,7 +268,7 @@ def _trace_fan(
     start = Start(point, plane_depth_of(scene.camera, point), error_scale)
     aim = aim_at(soft, light, start, normal)
     keys, forward = fan_keys(column, row, light, seed), scene.camera.forward
-    place = place_of(fans.levels, 0, column, row, light, seed)
+    place = place_of(fans.levels, traced.sample, column, row, light, seed)
     offset = offset_of(fans.offsets, place, number)
     spread_fan(fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, offset, keys)
     end_scale = soft.error_scale[light] + error_scale
@@ -308,7 +336,7 @@ def trace_lamp(
     spent
         What these have of the variance that all may have.
     """
-    material = seen_material(scene, traced.primitive, traced.interaction.half, traced.share)
+    material = traced.material
     worth, estimate = soft_worth(scene.lights, soft, light, material), no_estimate()
     while needs_more(estimate, fans, worth, spent, light, soft_count(soft)):
         number = estimate.fans
@@ -351,10 +379,10 @@ def _trace_shared_fan(
     shared
         What `trace_crowd` leaves there; out: the light of each ray.
     """
-    point, normal, error_scale, half = traced.interaction
-    material = seen_material(scene, traced.primitive, half, traced.share)
+    point, normal, error_scale, _ = traced.interaction
+    material = traced.material
     start = Start(point, plane_depth_of(scene.camera, point), error_scale)
-    keys, first = shared_keys(column, row, 0, seed), number * fans.rays
+    keys, first = shared_keys(column, row, traced.sample, seed), number * fans.rays
     spread_among(
         fan,
         fans.rays,
@@ -430,8 +458,8 @@ def trace_crowd(
     touching
         Scratch memory.
     """
-    point, normal, error_scale, half = traced.interaction
-    material = seen_material(scene, traced.primitive, half, traced.share)
+    point, normal, error_scale, _ = traced.interaction
+    material = traced.material
     start = Start(point, plane_depth_of(scene.camera, point), error_scale)
     lit, value, estimate = lit_world(scene), traced.value, no_shared_estimate()
     most = weigh_lights(lit.powers, soft, crowd, start, normal, material, shared.sums)

@@ -17,7 +17,7 @@ from vtray.geometry.vector import Vec, dot, scale
 from vtray.transport.materials.albedo import albedo_at
 from vtray.transport.materials.facets import both_seen, seen_facet
 from vtray.transport.materials.look import Albedos
-from vtray.transport.materials.optics import mirrored, split_at
+from vtray.transport.materials.optics import Split, mirrored, split_at
 
 
 class Passed(NamedTuple):
@@ -31,11 +31,20 @@ class Passed(NamedTuple):
         How much of the light from there is seen, divided by the density.
     is_mirrored
         Whether it stays on the side where it was.
+    chance
+        With which chance it is mirrored, or not.
     """
 
     way: Vec
     share: float
     is_mirrored: bool
+    chance: float
+
+
+@device
+def chance_of(split: Split, is_mirrored: bool) -> float:
+    """Return with which chance light is mirrored that is split so, or not."""
+    return split.reflected if is_mirrored else 1.0 - split.reflected
 
 
 @device
@@ -72,7 +81,8 @@ def pass_facet(
     is_mirrored = choice < split.reflected
     way = mirrored(direction, facet) if is_mirrored else split.refracted
     cosine = dot(way, normal) if is_mirrored else -dot(way, normal)
+    chosen = chance_of(split, is_mirrored)
     if cosine <= 0.0:
-        return Passed(way, 0.0, is_mirrored)
+        return Passed(way, 0.0, is_mirrored, chosen)
     share = both_seen(spread, out, cosine) / albedo_at(albedos, table, out)
-    return Passed(way, share, is_mirrored)
+    return Passed(way, share, is_mirrored, chosen)
