@@ -5,7 +5,9 @@ from vtray.rendering.pixel_rays import trace_rays
 from vtray.scene.scene import Scene
 
 
-def explain_pixel(scene: Scene, image: Image, column: int, row: int) -> str:
+def explain_pixel(
+    scene: Scene, image: Image, column: int, row: int, sample: int | None = None
+) -> str:
     """Return how a pixel got its value, as text of some lines.
 
     Parameters
@@ -16,10 +18,12 @@ def explain_pixel(scene: Scene, image: Image, column: int, row: int) -> str:
         Its picture: exposure needs the brightest channel of all pixels.
     column, row
         The pixel, from the left and from the top.
+    sample
+        Which of its samples, None for the ray through its middle; see `vtray.trace_pixel`.
 
     Raises
     ------
     RenderError
-        There is no such pixel.
+        There is no such pixel or sample.
     """
-    return f"{trace_rays(scene, image, column, row, caller='--pixel')}\n"
+    return f"{trace_rays(scene, image, column, row, sample, caller='--pixel')}\n"

@@ -137,9 +137,10 @@ def _add_reports(parser: Parser) -> None:
     )
     group.add_argument(
         "--pixel",
-        metavar="X,Y",
+        metavar="X,Y[,SAMPLE]",
         type=_pixel,
-        help="write no image, print how the pixel in column X, row Y got its value",
+        help="write no image, print how the pixel in column X, row Y got its value, by the ray "
+        "through its middle or by one of its samples",
     )
 
 
@@ -150,12 +151,11 @@ def _thread_count(text: str) -> int:
     return int(text)
 
 
-def _pixel(text: str) -> tuple[int, int]:
-    """Return the value of ``--pixel``."""
-    match = re.fullmatch(r"([0-9]{1,9}),([0-9]{1,9})", text)
-    if not match:
-        raise wrong("column,row such as 12,34", text)
-    return int(match[1]), int(match[2])
+def _pixel(text: str) -> tuple[int, ...]:
+    """Return the value of ``--pixel``: a column, a row, and maybe the number of a sample."""
+    if not re.fullmatch(r"[0-9]{1,9}(,[0-9]{1,9}){1,2}", text):
+        raise wrong("column,row such as 12,34, or column,row,sample", text)
+    return tuple(map(int, text.split(",")))
 
 
 def _bits(text: str) -> int:

@@ -4,10 +4,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from vtray.figures.traced_rays import (
+    Choice,
     Exposed,
     FanRay,
     Hit,
     Layer,
+    PathRay,
     ShadowFan,
     ShadowRay,
     Surface,
@@ -20,10 +22,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 __all__ = [
+    "Choice",
     "Exposed",
     "FanRay",
     "Hit",
     "Layer",
+    "PathRay",
     "RayTree",
     "ShadowFan",
     "ShadowRay",
@@ -68,6 +72,11 @@ class RayTree(TracedRays):
         How much of the light of the hit passes all of them.
     veil
         What fog does to that light; None if there is none, or nothing is met.
+    path
+        All rays over surfaces, in the order in which they were followed: the camera's first, then
+        those that go on from what it hits, and so on. Empty where none goes on, as in direct light.
+    sample
+        The number of the ray among the samples of the pixel; None for the one through its middle.
     """
 
     def __str__(self) -> str:

@@ -6,6 +6,7 @@ from typing import TypeAlias
 
 from vtray.geometry.vector import Vec
 from vtray.scene.colors.tone_map_names import ToneMapName
+from vtray.scene.materials import Material
 from vtray.scene.scene import Scene
 
 
@@ -273,6 +274,92 @@ class Layer:
 
 
 @dataclass(frozen=True)
+class Choice:
+    """How a path goes on from a surface.
+
+    Attributes
+    ----------
+    how
+        What the surface does: the path is "mirrored", "refracted" or "scattered".
+    chance
+        With which chance that was chosen of all that the surface does.
+    density
+        How densely directions like that of the path were chosen, per steradian; None where there is
+        but one, as for a smooth mirror, or where the path ends.
+    goes_on
+        With which chance the path goes on at all, from 0 to 1.
+    share
+        With which chance the material was chosen, where two are blended; else 1.
+    """
+
+    how: str
+    chance: float
+    density: float | None
+    goes_on: float
+    share: float
+
+
+@dataclass(frozen=True)
+class PathRay:
+    """A ray of a path over surfaces, what it meets, and what that adds to the pixel.
+
+    Attributes
+    ----------
+    parent
+        The place in ``RayTree.path`` of the ray from whose hit it goes on; None for the first.
+    how
+        How it goes on from there: "mirrored", "refracted" or "scattered"; "seen" for the first.
+    origin
+        Where it starts, in world space.
+    direction
+        Its unit direction in world space.
+    seen
+        How much of its light is seen, for red, green and blue. Where a path goes on by chance, this
+        is more than 1 for what is seldom chosen.
+    passes
+        What is left of that by the glass through which it goes, for red, green and blue; 1 without.
+    distance
+        How far it goes, in scene units; ``inf`` if it meets nothing.
+    lamp
+        The place in ``scene.lights`` of the lamp that it meets, or None.
+    met
+        The red, green and blue that lamps and skies add which it meets.
+    light
+        The red, green and blue that the ray adds to the pixel: that, and the light of its hit.
+    hit
+        The surface that it meets and that is looked at; None if there is none.
+    material
+        What that is made of; of a blend, that one of both which the path chose.
+    shines
+        The red, green and blue that the surface adds by shining.
+    lights
+        The ways from there to all lights, as those of `RayTree`; empty where nothing is scattered.
+    shown
+        How much of the colour of the surface is seen that its lights are scattered in, for red,
+        green and blue; None for a surface with a coat, of which each light shows something else.
+    choice
+        How the path goes on from the hit; None where there is none, or where all ways are followed.
+    """
+
+    parent: int | None
+    how: str
+    origin: Vec
+    direction: Vec
+    seen: Vec
+    passes: Vec
+    distance: float
+    lamp: int | None
+    met: Vec
+    light: Vec
+    hit: Hit | None = None
+    material: Material | None = None
+    shines: Vec = (0.0, 0.0, 0.0)
+    lights: tuple[WayToLight, ...] = ()
+    shown: Vec | None = None
+    choice: Choice | None = None
+
+
+@dataclass(frozen=True)
 class View:
     """The camera in world space.
 
@@ -377,3 +464,5 @@ class TracedRays:
     layers: tuple[Layer, ...] = ()
     share: float = 1.0
     veil: Veil | None = None
+    path: tuple[PathRay, ...] = ()
+    sample: int | None = None

@@ -50,15 +50,10 @@ def shines(scene: Scene) -> bool:
     return scene.render.integrator != "direct" and "emissive" in dict(_kinds(scene.objects))
 
 
-def check_told(objects: Sequence[Object], settings: RenderSettings, caller: str) -> None:
-    """Raise RenderError if the rays of a pixel cannot be told, as they go on from surfaces."""
-    is_matt = next(_kinds(objects), None) is None
-    if settings.integrator == "path" or (settings.integrator == "whitted" and not is_matt):
-        message = (
-            f'{caller}: rays that go on from surfaces are not told; give integrator="direct", got '
-            f'"{settings.integrator}"'
-        )
-        raise RenderError(message)
+def followed(render: RenderSettings, settings: RenderSettings) -> RenderSettings:
+    """Return the settings of a scene with those of others that say how its light is followed."""
+    names = ("tonemap", "integrator", "depth", "firefly")
+    return render.replace(**{name: getattr(settings, name) for name in names})
 
 
 def check_image_plane(camera: Camera, caller: str) -> None:

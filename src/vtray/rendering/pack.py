@@ -30,7 +30,7 @@ from vtray.rendering.joined import joined, rows_of
 from vtray.rendering.pack_bodies import pack_bodies
 from vtray.rendering.pack_lens import pack_lens
 from vtray.rendering.pack_lights import pack_lights, points_of
-from vtray.rendering.pack_looks import made_of, pack_looks
+from vtray.rendering.pack_looks import MadeOf, made_of, materials_by_row, pack_looks
 from vtray.rendering.pack_skies import up_of
 from vtray.rendering.pack_surroundings import is_even, pack_surroundings
 from vtray.rendering.placed import Placed
@@ -38,7 +38,7 @@ from vtray.rendering.rooms import Rooms
 from vtray.scene.colors.color_light import light_of, light_of_numbers
 from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.light_types import Lamp, Light, RectangleLight, SphereLight
-from vtray.scene.materials import material_of
+from vtray.scene.materials import Material, material_of
 from vtray.scene.objects import Object
 from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
@@ -77,11 +77,14 @@ class Packed(NamedTuple):
         Length in scene units of length 1 in the arrays, a power of two.
     before
         Length in scene units of each ray from the eye to where it starts in the arrays.
+    materials
+        The materials of the rows of `Looks`.
     """
 
     arrays: SceneArrays
     unit: float
     before: float
+    materials: list[Material]
 
 
 def pack(scene: Scene, kept: Acceleration) -> Packed:
@@ -94,7 +97,9 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
     camera = _pack_camera(scene.camera, unit)
     origin = points_of([scene.camera.center], unit)[0]
     x, y, z = map(float, origin)
-    materials = _pack_materials(kept, planes, unit, scene)
+    made = [shapes.source.made for shapes in (*kept.shapes, *kept.copied)]
+    made.append(made_of(material_of(plane.material) for plane in planes))
+    materials = _pack_materials(kept, planes, made, unit, scene)
     lights = scene.lights
     if scene.render.integrator == "path":
         lights = [light for light in lights if not is_even(light)]
@@ -114,7 +119,7 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
     )
     is_panorama = scene.camera.projection == "panorama"
     before = 0.0 if is_panorama else scene.camera.focus - start_distance(scene.camera)
-    return Packed(arrays, unit, before)
+    return Packed(arrays, unit, before, materials_by_row(made))
 
 
 def _pack_world(objects: Sequence[Object], kept: Acceleration, unit: float, origin: Vec) -> World:
@@ -421,7 +426,7 @@ def _pack_to_boxes(frame: Frame, origin: Vec, unit: float) -> ToBoxes:
 
 
 def _pack_materials(
-    kept: Acceleration, planes: list[Plane], unit: float, scene: Scene
+    kept: Acceleration, planes: list[Plane], made: list[MadeOf], unit: float, scene: Scene
 ) -> Materials:
     """Return the materials of all primitives, by ranges of their numbers."""
     sources = [shapes.source for shapes in (*kept.shapes, *kept.copied)]
@@ -440,8 +445,6 @@ def _pack_materials(
     ranges = kept.ranges
     k = np.where(ranges.copied < 0, ranges.kind, len(kept.shapes) + ranges.copied)
     k, begin = np.append(k, len(sources)), np.append(ranges.begin, 0)
-    made = [source.made for source in sources]
-    made.append(made_of(material_of(plane.material) for plane in planes))
     return Materials(
         np.append(ranges.first, kept.count),
         np.append(ranges.each, MAX_NUMBERS),

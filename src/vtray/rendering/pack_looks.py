@@ -81,6 +81,12 @@ def joined_made(parts: Sequence[MadeOf], counts: Sequence[int]) -> MadeOf:
     return MadeOf(numbers.materials, np.concatenate(spread))
 
 
+def materials_by_row(parts: Sequence[MadeOf]) -> list[Material]:
+    """Return the materials of the rows of `Looks`: those of the parts, and what they blend."""
+    materials = [material for one in parts for material in one.materials]
+    return [*materials, *(part for material in materials for part in blended_in(material))]
+
+
 def pack_looks(
     parts: Sequence[MadeOf], part: Integers, begin: Integers, unit: float, scene: Scene
 ) -> Looks | None:
@@ -105,8 +111,7 @@ def pack_looks(
     row, step = rows_of([one.which for one in parts])
     first = np.cumsum([0, *(len(one.materials) for one in parts)])
     which = [one.which + at for one, at in zip(parts, first, strict=False)]
-    blended = [part for material in materials for part in blended_in(material)]
-    looks = [_look_of(material, unit) for material in [*materials, *blended]]
+    looks = [_look_of(material, unit) for material in materials_by_row(parts)]
     after = len(materials)
     for material, (_, values) in zip(materials, looks, strict=False):
         if isinstance(material, Blend):

@@ -131,7 +131,7 @@ class Tracer:
         noise = self.noise(settings, white, keep=keep)
         # What rays see layer by layer is not kept.
         keep = keep and self._scene.world.faded is None
-        first, later = _plan(settings, noise)
+        first, later = rays_from_surfaces(settings, noise)
         if samples == 1:
             self._scene = with_pinhole(self._scene)
             rays = middle_rays(fans=first.fans, seed=seed)._replace(paths=first.paths)
@@ -157,7 +157,7 @@ class Tracer:
         return Traced(film, peak, cast, noise, kept)
 
     def _through_lens(
-        self, settings: RenderSettings, first: "_Plan", later: "_Plan", *, keep: bool
+        self, settings: RenderSettings, first: "SurfaceRays", later: "SurfaceRays", *, keep: bool
     ) -> Traced:
         """Trace the samples of all pixels: none sees one thing only, as far as is known."""
         samples, seed = int(settings.samples), int(settings.seed)
@@ -276,24 +276,26 @@ class Tracer:
         return tell
 
 
-class _Plan(NamedTuple):
+class SurfaceRays(NamedTuple):
     """Which rays are cast from surfaces."""
 
     fans: Fans | None
     paths: Paths | None
 
 
-def _plan(settings: RenderSettings, noise: Noise | None) -> tuple[_Plan, _Plan]:
+def rays_from_surfaces(
+    settings: RenderSettings, noise: Noise | None
+) -> tuple[SurfaceRays, SurfaceRays]:
     """Return which rays are cast from the surfaces that middle rays meet, and that samples do."""
     samples = int(settings.samples)
     if settings.integrator == "path":
         fans = None if noise is None else fans_of_paths(samples, noise)
-        paths = _Plan(fans, paths_of(samples))
+        paths = SurfaceRays(fans, paths_of(samples))
         return paths, paths
     if noise is None:
-        return _Plan(None, None), _Plan(None, None)
+        return SurfaceRays(None, None), SurfaceRays(None, None)
     of_samples = fans_of_samples(samples, noise) if samples > 1 else None
-    return _Plan(fans_of_middles(noise), None), _Plan(of_samples, None)
+    return SurfaceRays(fans_of_middles(noise), None), SurfaceRays(of_samples, None)
 
 
 def one_ray(scene: SceneArrays, more: Sequence[str] = ()) -> tuple[str, ...]:
@@ -339,7 +341,9 @@ def compile_kernels(scene: SceneArrays, settings: RenderSettings, more: Sequence
     scene = scene if has_samples else with_pinhole(scene)
     soft = scene.lights.soft
     film = new_film(0, 0, *(with_samples if has_samples else one_ray)(scene, more))
-    first, _ = _plan(settings, None if soft is None else Noise(math.inf, by_light=True))
+    first, _ = rays_from_surfaces(
+        settings, None if soft is None else Noise(math.inf, by_light=True)
+    )
     rays = middle_rays(before_samples=has_samples, fans=first.fans)
     rays = rays._replace(paths=first.paths, lens=lens_points(scene.camera, int(settings.samples)))
     trace_to(film, scene, rays, Tile(0, 0, 0, 0))

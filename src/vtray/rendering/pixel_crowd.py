@@ -15,10 +15,10 @@ from vtray.geometry.vector import Vec
 from vtray.geometry.world import body_count
 from vtray.rendering.pack import Packed
 from vtray.rendering.pack_skies import changes_color
-from vtray.rendering.pixel_lights import Lit, SpreadRay, added, fan_ray, shadow_fan
-from vtray.scene.light_types import AnyLight, Light
+from vtray.rendering.pixel_lights import Lit, SpreadRay, added, asked_lights, fan_ray, shadow_fan
+from vtray.scene.light_types import AnyLight
 from vtray.transport.integrators.reference import TracedPixel, trace_crowd, trace_shared_fan
-from vtray.transport.sampling.fans import Noise, fans_of_middles
+from vtray.transport.sampling.fans import Fans
 
 
 class _Cast(NamedTuple):
@@ -33,7 +33,7 @@ def trace_shared(
     packed: Packed,
     traced: TracedPixel,
     pixel: tuple[int, int],
-    noise: Noise,
+    fans: Fans,
     seed: int,
 ) -> tuple[list[WayToLight], Vec]:
     """Trace the rays that lights share; parameters and results are those of `trace_fans`.
@@ -43,14 +43,12 @@ def trace_shared(
     arrays, soft, crowd = packed.arrays, packed.arrays.lights.soft, packed.arrays.lights.crowd
     assert soft is not None  # noqa: S101 - they share fans
     assert crowd is not None  # noqa: S101
-    fans, fan, stack = fans_of_middles(noise), new_fan(), new_stack()
+    fan, stack = new_fan(), new_stack()
     shared, blockers = new_shared(len(soft.kind)), np.full(fans.rays, NOTHING)
     given = arrays, soft, crowd, traced, *pixel, fans
     walk = new_walk(body_count(arrays.world))
     found = trace_crowd(*given, seed, stack, fan, blockers, shared, new_touching(), walk)
-    lights = [
-        (k, light) for k, light in enumerate(lit.scene.lights) if not isinstance(light, Light)
-    ]
+    lights = asked_lights(lit.scene)
     cast: list[list[_Cast]] = [[] for _ in lights]
     for number in range(found.fans):
         trace_shared_fan(*given, number, seed, stack, fan, blockers, shared, walk)

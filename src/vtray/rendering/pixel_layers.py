@@ -1,6 +1,5 @@
 """What the ray of a pixel sees: layers of faded bodies, and what is behind, as users get it."""
 
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -8,18 +7,11 @@ import numpy as np
 from vtray.base.compiler.compiled import uncompiled
 from vtray.figures.traced_rays import Hit, Layer, WayToLight
 from vtray.geometry.packets.layer_notes import AT_ONCE, new_layers, new_walk
-from vtray.geometry.packets.packet import CAP, SECOND
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec
 from vtray.geometry.world import body_count
-from vtray.rendering.numbering import Numbering
-from vtray.rendering.pack import Packed
-from vtray.rendering.pixel_crowd import trace_shared
-from vtray.rendering.pixel_lights import Lit, shadow_rays, trace_fans
-from vtray.rendering.pixel_surfaces import find_surface, rgb
-from vtray.scene.scene import Scene
-from vtray.scene.vectors import Color
+from vtray.rendering.pixel import Pixel, hit_of, ways_to_lights
 from vtray.transport.fog import fog_share
 from vtray.transport.integrators.reference import TracedPixel, trace_pixel
 from vtray.transport.integrators.reference_layers import (
@@ -28,32 +20,6 @@ from vtray.transport.integrators.reference_layers import (
     trace_layer,
 )
 from vtray.transport.lights.light import light_count
-from vtray.transport.sampling.fans import Noise
-
-
-class Pixel(NamedTuple):
-    """A pixel of a scene.
-
-    Attributes
-    ----------
-    scene, numbering
-        The scene, and the numbers of its primitives.
-    packed
-        Its arrays.
-    place
-        The column and the row of the pixel.
-    noise
-        How noisy soft light may be, if there is any.
-    seed
-        The seed of the picture.
-    """
-
-    scene: Scene
-    numbering: Numbering
-    packed: Packed
-    place: tuple[int, int]
-    noise: Noise | None
-    seed: int
 
 
 class Behind(NamedTuple):
@@ -92,8 +58,8 @@ def look_through(pixel: Pixel) -> tuple[tuple[Layer, ...], Behind, Vec]:
             for k in range(int(notes.listed[0])):
                 notes.share[k] *= _clear(pixel, notes.distance[k])
                 layer = trace_layer(arrays, *pixel.place, notes, k, stack, cosines, blockers, walk)
-                hit = _hit(pixel, layer)
-                ways, light_of_layer = _lights(pixel, layer, hit, cosines, blockers)
+                hit = hit_of(pixel, layer, pixel.packed.before)
+                ways, light_of_layer = ways_to_lights(pixel, layer, hit, cosines, blockers)
                 found.append(Layer(hit, layer.share, ways, light_of_layer))
                 light = _sum(light, light_of_layer)
             share = float(notes.passed[0])
@@ -104,8 +70,8 @@ def look_through(pixel: Pixel) -> tuple[tuple[Layer, ...], Behind, Vec]:
     if traced.primitive == NOTHING:
         behind = Behind(traced, None, (), share)
         return tuple(found), behind, _sum(light, traced.value)
-    hit = _hit(pixel, traced)
-    ways, light_behind = _lights(pixel, traced, hit, cosines, blockers)
+    hit = hit_of(pixel, traced, pixel.packed.before)
+    ways, light_behind = ways_to_lights(pixel, traced, hit, cosines, blockers)
     return tuple(found), Behind(traced, hit, ways, share), _sum(light, light_behind)
 
 
@@ -118,42 +84,3 @@ def _clear(pixel: Pixel, distance: float) -> float:
 def _sum(one: Vec, other: Vec) -> Vec:
     """Return a sum as kernels have it."""
     return one[0] + other[0], one[1] + other[1], one[2] + other[2]
-
-
-def _hit(pixel: Pixel, traced: TracedPixel) -> Hit:
-    """Return what is hit."""
-    half, packed = traced.interaction.half, pixel.packed
-    is_second = half & SECOND != 0
-    surface = find_surface(pixel.scene, pixel.numbering, traced.primitive, is_second=is_second)
-    cap = pixel.scene.style.cap
-    if half & CAP and isinstance(cap, Color):
-        surface = replace(surface, color=rgb(cap))
-    center, point = pixel.scene.camera.center, traced.interaction.point
-    return Hit(
-        surface,
-        traced.distance * packed.unit + packed.before,
-        (
-            center.x + point[0] * packed.unit,
-            center.y + point[1] * packed.unit,
-            center.z + point[2] * packed.unit,
-        ),
-        traced.interaction.normal,
-    )
-
-
-def _lights(
-    pixel: Pixel,
-    traced: TracedPixel,
-    hit: Hit,
-    cosines: "np.ndarray[tuple[int], np.dtype[np.float64]]",
-    blockers: "np.ndarray[tuple[int], np.dtype[np.int64]]",
-) -> tuple[tuple[WayToLight, ...], Vec]:
-    """Return the ways from a hit to all lights, and the light that they bring."""
-    lit = Lit(pixel.scene, pixel.numbering, hit, traced.share)
-    known = lit, pixel.packed, traced, pixel.place
-    if pixel.noise is not None and pixel.noise.are_shared:
-        fans, light = trace_shared(*known, pixel.noise, pixel.seed)
-    else:
-        fans, light = trace_fans(*known, pixel.noise, pixel.seed)
-    ways = [*shadow_rays(lit, cosines, blockers), *fans]
-    return tuple(sorted(ways, key=lambda way: way.light)), light

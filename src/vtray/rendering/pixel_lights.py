@@ -17,8 +17,9 @@ from vtray.geometry.vector import Vec, scale, sub
 from vtray.geometry.world import body_count
 from vtray.rendering.numbering import Numbering
 from vtray.rendering.pack import Packed
+from vtray.rendering.pack_surroundings import is_even
 from vtray.rendering.pixel_surfaces import find_blocker, rgb
-from vtray.scene.colors.color_light import light_of, light_of_numbers
+from vtray.scene.colors.color_light import light_of
 from vtray.scene.light_types import (
     Ambient,
     AnyLight,
@@ -32,8 +33,9 @@ from vtray.scene.light_types import (
 from vtray.scene.placing.directions import unit
 from vtray.scene.scene import Scene
 from vtray.transport.integrators.reference import TracedPixel, trace_fan, trace_lamp
+from vtray.transport.lights.light import Lights
 from vtray.transport.lights.soft_light import component_count
-from vtray.transport.sampling.fans import Noise, fans_of_middles, fans_of_share
+from vtray.transport.sampling.fans import Fans, fans_of_share
 
 
 class Lit(NamedTuple):
@@ -45,14 +47,33 @@ class Lit(NamedTuple):
         The scene, and the numbers of its primitives.
     hit
         The hit.
-    share
-        How much of its light is seen.
+    color
+        Its colour as light, 255 for white, by how much of it is seen.
     """
 
     scene: Scene
     numbering: Numbering
     hit: Hit
-    share: float = 1.0
+    color: Vec
+
+
+def asked_lights(scene: Scene) -> list[tuple[int, AnyLight]]:
+    """Return the lights that are no points to which shadow rays go, and their places in the scene.
+
+    Rays of paths find those that are the same from everywhere.
+    """
+    is_path = scene.render.integrator == "path"
+    lights = [(k, light) for k, light in enumerate(scene.lights) if not isinstance(light, Light)]
+    return [(k, light) for k, light in lights if not (is_path and is_even(light))]
+
+
+def place_of_lamp(scene: Scene, lights: Lights, row: int) -> int | None:
+    """Return the place in the scene of a lamp, given its row; None for ``NOTHING``."""
+    if row == NOTHING:
+        return None
+    assert lights.soft is not None  # noqa: S101 - there is a lamp
+    place, _ = asked_lights(scene)[int(np.searchsorted(lights.soft.row, row))]
+    return place
 
 
 def shadow_rays(
@@ -71,7 +92,7 @@ def trace_fans(
     packed: Packed,
     traced: TracedPixel,
     pixel: tuple[int, int],
-    noise: Noise | None,
+    fans: Fans | None,
     seed: int,
 ) -> tuple[list[WayToLight], Vec]:
     """Trace the rays to all lights that are no points, each of which has its own.
@@ -86,8 +107,8 @@ def trace_fans(
         The pixel with the light of the points.
     pixel
         Its column and row.
-    noise
-        How noisy soft light may be, if there is any.
+    fans
+        Which rays are cast to such lights, None without any.
     seed
         The seed of the picture.
 
@@ -97,33 +118,28 @@ def trace_fans(
         The rays, and the pixel's light with all that they add.
     """
     ways: list[WayToLight] = []
-    if noise is None:
-        return ways, traced.value
     arrays, soft = packed.arrays, packed.arrays.lights.soft
-    if soft is None:
+    if fans is None or soft is None:
         return ways, traced.value
-    fans, spent = fans_of_middles(noise), 0.0
+    spent = 0.0
     own = uncompiled(fans_of_share)(fans, traced.share)
     fan, stack, blockers = new_fan(), new_stack(), np.full(own.rays, NOTHING)
     walk = new_walk(body_count(arrays.world))
     start, length = traced.interaction.point, packed.unit
-    for k, light in enumerate(lit.scene.lights):
-        if not isinstance(light, Light):
-            known = arrays, soft, traced, *pixel, len(ways), fans
-            lamp = trace_lamp(*known, spent, seed, stack, fan, blockers, walk)
-            components = uncompiled(component_count)(soft, len(ways))
-            rays: list[FanRay] = []
-            for number in range(lamp.fans):
-                trace_fan(*known, number, seed, stack, fan, blockers, walk)
-                rays += [
-                    fan_ray(
-                        lit, light, SpreadRay(fan, ray, start, length, components), int(blocker)
-                    )
-                    for ray, blocker in enumerate(blockers)
-                ]
-            ways.append(shadow_fan(lit, k, light, tuple(rays), lamp.shares[:components]))
-            traced = traced._replace(value=lamp.value)
-            spent += lamp.counted
+    for k, light in asked_lights(lit.scene):
+        known = arrays, soft, traced, *pixel, len(ways), fans
+        lamp = trace_lamp(*known, spent, seed, stack, fan, blockers, walk)
+        components = uncompiled(component_count)(soft, len(ways))
+        rays: list[FanRay] = []
+        for number in range(lamp.fans):
+            trace_fan(*known, number, seed, stack, fan, blockers, walk)
+            rays += [
+                fan_ray(lit, light, SpreadRay(fan, ray, start, length, components), int(blocker))
+                for ray, blocker in enumerate(blockers)
+            ]
+        ways.append(shadow_fan(lit, k, light, tuple(rays), lamp.shares[:components]))
+        traced = traced._replace(value=lamp.value)
+        spent += lamp.counted
     return ways, traced.value
 
 
@@ -148,7 +164,7 @@ def shadow_fan(
     """Return the rays from a hit to a light that is no point."""
     kind = str(type(light).__struct_config__.tag)
     share, color = sum(shares) / len(shares), rgb(light.color)
-    middle = _middle(lit.hit, light)
+    middle = middle_of(lit.hit, light)
     red, green, blue = shares if len(shares) == 3 else 3 * shares
     adds = added(lit, light, (red, green, blue))
     several = None if len(shares) == 1 else (red, green, blue)
@@ -202,7 +218,7 @@ def fan_ray(lit: Lit, light: AnyLight, ray: SpreadRay, primitive: int) -> FanRay
     return FanRay(direction, length, ray.weight(), blocker)
 
 
-def _middle(hit: Hit, light: AnyLight) -> Vec:
+def middle_of(hit: Hit, light: AnyLight) -> Vec:
     """Return the direction from a hit to the middle of a light."""
     if isinstance(light, Sun):
         return uncompiled(scale)(-1.0, unit(light.direction))
@@ -220,8 +236,7 @@ def added(lit: Lit, light: AnyLight, shares: Vec) -> Vec:
     # In the order of the kernels, so that the sum has the same bits.
     surface = lit.hit.surface
     strengths = [share * surface.lambert * strength_of(light) for share in shares]
-    table = light_of_numbers(lit.scene.render.tonemap)
-    red, green, blue = (lit.share * float(table[int(channel)]) for channel in surface.color)
+    red, green, blue = map(float, lit.color)
     tint = light_of(light.color, lit.scene.render.tonemap)
     return (
         strengths[0] * red * (tint[0] / 255),

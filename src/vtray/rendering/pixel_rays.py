@@ -1,5 +1,6 @@
 """Tracing the rays of one pixel, to be looked at."""
 
+import math
 import operator
 from typing import TYPE_CHECKING, SupportsIndex
 
@@ -13,26 +14,35 @@ from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, scale
 from vtray.image.white import known_white
 from vtray.rendering.fog import ball_around, fitted
-from vtray.rendering.followed import check_image_plane, check_told
+from vtray.rendering.followed import check_image_plane, followed
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.numbering import number_objects
 from vtray.rendering.pack import Packed, pack
-from vtray.rendering.passes import Tracer
-from vtray.rendering.pixel_layers import Pixel, look_through
+from vtray.rendering.passes import SurfaceRays, Tracer, rays_from_surfaces
+from vtray.rendering.pixel import Pixel, in_world
+from vtray.rendering.pixel_layers import look_through
+from vtray.rendering.pixel_lights import place_of_lamp
+from vtray.rendering.pixel_paths import follow_path, light_of_path
 from vtray.rendering.styled import styled
 from vtray.scene.default_light import lights_of, settings_of
-from vtray.scene.light_types import Light
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 from vtray.transport.fog import fog_share
-from vtray.transport.integrators.reference import TracedPixel
+from vtray.transport.materials.look import Looks
 from vtray.transport.sampling.fans import Noise
+from vtray.transport.sampling.pixel_samples import filter_samples, lens_points, middle_rays
+from vtray.transport.scene_arrays import SceneArrays, with_pinhole
 
 if TYPE_CHECKING:
     from vtray.image.image import Image
 
 
-def trace_pixel(scene: "Scene | Image", x: SupportsIndex, y: SupportsIndex) -> RayTree:
+def trace_pixel(
+    scene: "Scene | Image",
+    x: SupportsIndex,
+    y: SupportsIndex,
+    sample: SupportsIndex | None = None,
+) -> RayTree:
     """Trace the rays of one pixel and return them all.
 
     Parameters
@@ -41,16 +51,20 @@ def trace_pixel(scene: "Scene | Image", x: SupportsIndex, y: SupportsIndex) -> R
         The scene; or a rendered image, whose exposure is then explained as well.
     x, y
         Column from the left and row from the top, from 0.
+    sample
+        Where rays go on from surfaces, as by the integrators whitted and path: which sample of the
+        pixel to follow, from 0. None, the default, for the ray through the middle of the pixel, and
+        of a lens.
 
     Returns
     -------
     RayTree
-        The ray through the middle of the pixel, what it hits, and the rays to all lights.
+        The ray, what it hits, the rays to all lights, and those that go on from there.
 
     Raises
     ------
     RenderError
-        There is no such pixel; or the integrator follows rays over surfaces.
+        There is no such pixel or sample.
     SceneError
         The scene is not valid.
 
@@ -62,8 +76,8 @@ def trace_pixel(scene: "Scene | Image", x: SupportsIndex, y: SupportsIndex) -> R
     """
     if isinstance(scene, Scene):
         scene.check()
-        return trace_rays(scene, None, x, y)
-    return trace_rays(scene.scene, scene, x, y)
+        return trace_rays(scene, None, x, y, sample)
+    return trace_rays(scene.scene, scene, x, y, sample)
 
 
 def trace_rays(
@@ -71,6 +85,7 @@ def trace_rays(
     image: "Image | None",
     x: SupportsIndex,
     y: SupportsIndex,
+    sample: SupportsIndex | None = None,
     caller: str = "trace_pixel",
 ) -> RayTree:
     """Trace the rays of one pixel of a checked scene; see `trace_pixel`."""
@@ -82,60 +97,137 @@ def trace_rays(
         raise RenderError(message)
     check_image_plane(camera, caller)
     settings = settings_of(scene) if image is None else image.settings
-    check_told(scene.objects, settings, caller)
     style = (
         fitted(scene.style, camera, lambda: ball_around(scene)) if image is None else image.style
     )
     kept = accelerate(scene, style=style)  # which the given scene may have already
-    render = scene.render.replace(tonemap=settings.tonemap, integrator="direct")
+    render = followed(scene.render, settings)
     scene = Scene(camera, lights_of(scene), list(scene.objects), render, style)
     packed, numbering = styled(pack(scene, kept), style), number_objects(scene.objects)
+    number = _check_sample(sample, packed.arrays, settings, caller)
     noise = _noise(packed, settings) if image is None else image.noise
-    pixel = Pixel(scene, numbering, packed, (column, row), noise, int(settings.seed))
+    first, later = rays_from_surfaces(settings, noise)
+    from_surfaces = first if number is None else later
+    are_shared = noise is not None and noise.are_shared
+    pixel = Pixel(
+        scene,
+        numbering,
+        packed,
+        (column, row),
+        from_surfaces.fans,
+        are_shared,
+        int(settings.seed),
+    )
+    exposed = None if image is None else _exposed(image, column, row)
+    looks = packed.arrays.materials.looks
+    if looks is None:
+        return _direct_tree(pixel, exposed)
+    return _path_tree(pixel, looks, from_surfaces, settings, number, exposed)
+
+
+def _check_sample(
+    sample: SupportsIndex | None, arrays: SceneArrays, settings: RenderSettings, caller: str
+) -> int | None:
+    """Return the number of a sample, None for the ray through the middle of the pixel.
+
+    Raises
+    ------
+    RenderError
+        There is no such sample, or no ray goes on from what it meets.
+    """
+    if sample is None:
+        return None
+    number, samples = operator.index(sample), int(settings.samples)
+    if arrays.materials.looks is None:
+        message = (
+            f"{caller}: samples are told where rays go on from surfaces, as with "
+            f'integrator="path"; leave out the sample, got {number}'
+        )
+        raise RenderError(message)
+    if not 0 <= number < samples:
+        message = f"{caller}: expected a sample from 0 to {samples - 1}, got {number}"
+        raise RenderError(message)
+    return number if samples > 1 else None
+
+
+def _direct_tree(pixel: Pixel, exposed: Exposed | None) -> RayTree:
+    """Return the rays of a pixel in direct light."""
+    scene, packed = pixel.scene, pixel.packed
     layers, behind, light = look_through(pixel)
     traced = behind.traced
-    start, direction = _world(scene, packed, traced.ray.origin), traced.ray.direction
-    eye = uncompiled(add)(start, uncompiled(scale)(-packed.before, direction))
+    start, direction = in_world(pixel, traced.ray.origin), traced.ray.direction
+    is_met = traced.primitive != NOTHING or traced.lamp != NOTHING
     return RayTree(
-        (column, row),
-        eye,
+        pixel.place,
+        uncompiled(add)(start, uncompiled(scale)(-packed.before, direction)),
         direction,
         behind.hit,
         behind.lights,
         light,
         _view(scene, packed),
-        None if image is None else _exposed(image, column, row),
-        None if traced.lamp == NOTHING else _place_of(scene, packed, traced.lamp),
+        exposed,
+        place_of_lamp(scene, packed.arrays.lights, traced.lamp),
         scene,
         layers,
         behind.share,
-        _veil(packed, traced, light),
+        _veil(packed, traced.distance, light) if is_met else None,
     )
 
 
-def _veil(packed: Packed, traced: TracedPixel, light: Vec) -> Veil | None:
-    """Return what fog does to the light along the ray of a pixel."""
+def _path_tree(
+    pixel: Pixel,
+    looks: Looks,
+    from_surfaces: SurfaceRays,
+    settings: RenderSettings,
+    sample: int | None,
+    exposed: Exposed | None,
+) -> RayTree:
+    """Return the rays of a pixel that go on from surfaces, and those to lights."""
+    scene, packed = pixel.scene, pixel.packed
+    fans, paths = from_surfaces
+    if sample is None:
+        arrays = with_pinhole(packed.arrays)
+        pixel = pixel._replace(packed=packed._replace(arrays=arrays))
+        sampling = middle_rays(before_samples=True, fans=fans, seed=pixel.seed)
+        sampling = sampling._replace(paths=paths)
+    else:
+        lens = lens_points(packed.arrays.camera, int(settings.samples))
+        sampling = filter_samples(settings, np.zeros((0, 0), np.bool_), fans, paths, lens)
+    path = follow_path(pixel, sampling, sample or 0)
+    first, light = path[0], light_of_path(path, looks)
+    distance = (first.distance - packed.before) / packed.unit
+    return RayTree(
+        pixel.place,
+        first.origin,
+        first.direction,
+        first.hit,
+        first.lights,
+        light,
+        _view(scene, packed),
+        exposed,
+        first.lamp,
+        scene,
+        veil=_veil(packed, distance, light) if distance < math.inf else None,
+        path=path,
+        sample=sample,
+    )
+
+
+def _veil(packed: Packed, distance: float, light: Vec) -> Veil | None:
+    """Return what fog does to the light along the ray of a pixel, which goes so far."""
     fog = packed.arrays.fog
     # Where there are layers, fog takes its share of each.
-    has_layers = packed.arrays.world.faded is not None
-    if fog is None or has_layers or (traced.primitive == NOTHING and traced.lamp == NOTHING):
+    if fog is None or packed.arrays.world.faded is not None:
         return None
-    share = uncompiled(fog_share)(fog, traced.distance)
-    distance = traced.distance * packed.unit + packed.before
-    return Veil(distance, share, uncompiled(scale)(1.0 - share, light))
+    share = uncompiled(fog_share)(fog, distance)
+    length = distance * packed.unit + packed.before
+    return Veil(length, share, uncompiled(scale)(1.0 - share, light))
 
 
 def _noise(packed: Packed, settings: RenderSettings) -> Noise | None:
     """Return how noisy soft light may be in a picture with some settings."""
     tracer = Tracer(packed.arrays, available_cores())
     return tracer.noise(settings, known_white(settings), keep=False)
-
-
-def _place_of(scene: Scene, packed: Packed, row: int) -> int:
-    """Return the place in `scene.lights` of a lamp, given the row of its strength in the arrays."""
-    places = [k for k, light in enumerate(scene.lights) if not isinstance(light, Light)]
-    assert packed.arrays.lights.soft is not None  # noqa: S101 - a lamp is seen
-    return places[int(np.searchsorted(packed.arrays.lights.soft.row, row))]
 
 
 def _view(scene: Scene, packed: Packed) -> View:
@@ -177,14 +269,4 @@ def _exposed(image: "Image", column: int, row: int) -> Exposed:
         overlays=tuple(overlays),
         drawn=drawn,
         tonemap=image.settings.tonemap,
-    )
-
-
-def _world(scene: Scene, packed: Packed, point: Vec) -> Vec:
-    """Return a point of the arrays in world space."""
-    center, unit = scene.camera.center, packed.unit
-    return (
-        center.x + point[0] * unit,
-        center.y + point[1] * unit,
-        center.z + point[2] * unit,
     )

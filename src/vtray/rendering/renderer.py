@@ -28,7 +28,7 @@ from vtray.rendering.darkroom import Darkroom
 from vtray.rendering.denoising import Denoising
 from vtray.rendering.drawing import Drawing
 from vtray.rendering.fog import ball_around, fitted
-from vtray.rendering.followed import check_followed, shines, simpler_looks
+from vtray.rendering.followed import check_followed, followed, shines, simpler_looks
 from vtray.rendering.growth import Growth
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
@@ -375,8 +375,7 @@ def _check_memory(scene: Scene, settings: RenderSettings, *, is_shown: bool) -> 
 
 def _shown(scene: Scene, lights: list[AnyLight], settings: RenderSettings) -> Scene:
     """Return the scene as it is now and is to be shown: how large, in which light, how followed."""
-    names = ("tonemap", "integrator", "depth", "firefly")
-    render = scene.render.replace(**{name: getattr(settings, name) for name in names})
+    render = followed(scene.render, settings)
     return Scene(_camera(scene, settings), lights, list(scene.objects), render, scene.style)
 
 

@@ -41,7 +41,7 @@ from vtray.transport.materials.gloss import Gloss, seen_light
 from vtray.transport.materials.lambert import is_above
 from vtray.transport.materials.look import Albedos, Looks
 from vtray.transport.sampling.light_rays import direction_to, length_to
-from vtray.transport.sampling.paths import BLEND, Step, lamp_point, path_point
+from vtray.transport.sampling.paths import PICK, Step, lamp_point, path_point
 from vtray.transport.sampling.sky_brightness import bright_density
 from vtray.transport.sampling.sky_map import light_towards, map_place
 from vtray.transport.sampling.sky_rays import sky_direction
@@ -145,14 +145,19 @@ def _light_of_lamps(
     light, rays = (0.0, 0.0, 0.0), 0
     if soft is None:
         return light, rays
-    picked = min(soft_count(soft), PICKED)
-    _, choice = path_point(step, BLEND)
-    for k in range(picked):
+    _, choice = path_point(step, PICK)
+    for k in range(picked_count(soft)):
         number = picked_lamp(soft, k, choice)
         ray = ray_to_lamp(looks, albedos, gloss, start, lit.forward, lights, soft, number, step)
         more, cast = _brought(lit.world, ray, stack)
-        light, rays = add(light, scale(soft_count(soft) / picked, more)), rays + cast
+        light, rays = add(light, scale(soft_count(soft) / picked_count(soft), more)), rays + cast
     return light, rays
+
+
+@device
+def picked_count(soft: SoftLights) -> int:
+    """Return how many of the lights that are no points have a shadow ray."""
+    return min(soft_count(soft), PICKED)
 
 
 @device

@@ -72,8 +72,11 @@ from vtray.transport.materials.look import (
 )
 from vtray.transport.materials.material import load_look
 from vtray.transport.materials.optics import mirrored, split_at, through_both
-from vtray.transport.sampling.paths import BLEND, CHOICE, WAY, Paths, Step, path_point
+from vtray.transport.sampling.paths import CHOICE, PICK, WAY, Paths, Step, path_point
 from vtray.transport.scene_arrays import SceneArrays, lit_world
+
+MIRRORED, REFRACTED, SCATTERED = range(3)
+"""How light goes on from a surface."""
 
 SAFE = 3
 """Over so many surfaces no path ends by chance."""
@@ -92,8 +95,8 @@ class Onward(NamedTuple):
         As in `Waiting`.
     chance
         With which chance it goes on by what it does here, as glass both mirrors and refracts.
-    is_base
-        Whether that is the base of a glossy surface, not its coat.
+    how
+        What that is: ``MIRRORED``, ``REFRACTED`` or ``SCATTERED``.
     light, cast
         What lights bring to a glossy surface, and how many shadow rays that took.
     """
@@ -104,7 +107,7 @@ class Onward(NamedTuple):
     within: int
     density: float
     chance: float
-    is_base: bool
+    how: int
     light: Vec
     cast: int
 
@@ -204,7 +207,7 @@ def _of_blend(
     # An argument that is None is known to the compiler, which drops what depends on that alone.
     if albedos is None:
         return look
-    chance, _ = path_point(step, BLEND)
+    chance, _ = path_point(step, PICK)
     return part_of_blend(looks, look, chance)
 
 
@@ -250,7 +253,7 @@ def onward_from(
     if look.kind == MATT:
         u, v = path_point(step, WAY)
         way, share = cosine_direction(u, v, normal), scale(packet[LAMBERT + hit], tinted)
-        return Onward(way, share, False, within, 0.0, 1.0, True, dark, 0)
+        return Onward(way, share, False, within, 0.0, 1.0, SCATTERED, dark, 0)
     if is_glossy(looks, looks.albedos, look):
         return _from_gloss(
             packet, hit, lane, scene, looks, looks.albedos, look, tint, step, chance, stack
@@ -261,9 +264,10 @@ def onward_from(
         beyond = EMPTY if is_inner or is_thin(looks, look) else look.row
         share = scale(passed.share, seen if passed.is_mirrored else tinted)
         side = within if passed.is_mirrored else beyond
-        return Onward(passed.way, share, True, side, 0.0, passed.chance, False, dark, 0)
+        how = MIRRORED if passed.is_mirrored else REFRACTED
+        return Onward(passed.way, share, True, side, 0.0, passed.chance, how, dark, 0)
     share = mirrored_share(looks, look, -dot(direction, normal), seen, tinted)
-    return Onward(mirrored(direction, normal), share, True, within, 0.0, 1.0, False, dark, 0)
+    return Onward(mirrored(direction, normal), share, True, within, 0.0, 1.0, MIRRORED, dark, 0)
 
 
 @device
@@ -299,7 +303,7 @@ def _from_gloss(
     seen, within = load(packet, THROUGHPUT, lane), int(integers(packet)[WITHIN + lane])
     if albedos is None:
         direction = load(packet, TOWARDS, hit)
-        return Onward(direction, seen, True, within, 0.0, 1.0, False, (0.0, 0.0, 0.0), 0)
+        return Onward(direction, seen, True, within, 0.0, 1.0, MIRRORED, (0.0, 0.0, 0.0), 0)
     u, v = path_point(step, WAY)
     gloss, start = gloss_at(packet, hit, looks, albedos, look, tint), start_of(packet, hit)
     light, cast = light_gloss(
@@ -314,7 +318,7 @@ def _from_gloss(
         within,
         onward.density,
         1.0 - gloss.chance if is_base else gloss.chance,
-        is_base,
+        SCATTERED if is_base else MIRRORED,
         light,
         cast,
     )

@@ -26,7 +26,7 @@ from vtray.transport.sampling.sobol import (
     sobol_points,
 )
 
-WAY, CHOICE, BLEND = 0, 1, 1 << 10
+WAY, CHOICE, PICK = 0, 1, 1 << 10
 """What a point is for: the direction, choices, and the choices of which material and lights."""
 
 LAMPS = 1 << 20
@@ -88,7 +88,7 @@ def path_point(step: Step, purpose: int) -> tuple[float, float]:
     step
         The step.
     purpose
-        ``WAY``, ``CHOICE`` or ``BLEND``.
+        ``WAY``, ``CHOICE`` or ``PICK``.
     """
     return _point(step, 2 * int(step.number) + purpose, step.seed)
 

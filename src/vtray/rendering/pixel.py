@@ -1,0 +1,100 @@
+"""One pixel of a scene, and what is told of anything that its rays meet."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.figures.traced_rays import Hit, WayToLight
+from vtray.geometry.packets.packet import CAP, SECOND
+from vtray.geometry.vector import Vec
+from vtray.rendering.numbering import Numbering
+from vtray.rendering.pack import Packed
+from vtray.rendering.pixel_crowd import trace_shared
+from vtray.rendering.pixel_lights import Lit, shadow_rays, trace_fans
+from vtray.rendering.pixel_surfaces import find_surface, rgb
+from vtray.scene.scene import Scene
+from vtray.scene.vectors import Color
+from vtray.transport.integrators.reference import TracedPixel
+from vtray.transport.sampling.fans import Fans
+
+
+class Pixel(NamedTuple):
+    """A pixel of a scene.
+
+    Attributes
+    ----------
+    scene, numbering
+        The scene, and the numbers of its primitives.
+    packed
+        Its arrays.
+    place
+        The column and the row of the pixel.
+    fans, are_shared
+        Which rays are cast to soft lights, None without any; and whether all lights share them.
+    seed
+        The seed of the picture.
+    """
+
+    scene: Scene
+    numbering: Numbering
+    packed: Packed
+    place: tuple[int, int]
+    fans: Fans | None
+    are_shared: bool
+    seed: int
+
+
+def in_world(pixel: Pixel, point: Vec) -> Vec:
+    """Return a point of the arrays in world space."""
+    center, unit = pixel.scene.camera.center, pixel.packed.unit
+    return (
+        center.x + float(point[0]) * unit,
+        center.y + float(point[1]) * unit,
+        center.z + float(point[2]) * unit,
+    )
+
+
+def hit_of(pixel: Pixel, traced: TracedPixel, before: float = 0.0) -> Hit:
+    """Return what is hit; its distance is longer by `before`, in scene units."""
+    half, packed = traced.interaction.half, pixel.packed
+    is_second = half & SECOND != 0
+    surface = find_surface(pixel.scene, pixel.numbering, traced.primitive, is_second=is_second)
+    cap = pixel.scene.style.cap
+    if half & CAP and isinstance(cap, Color):
+        surface = replace(surface, color=rgb(cap))
+    distance = traced.distance * packed.unit + before
+    return Hit(surface, distance, in_world(pixel, traced.interaction.point), normal_of(traced))
+
+
+def normal_of(traced: TracedPixel) -> Vec:
+    """Return the unit normal of what is hit, on the side that the ray comes from."""
+    x, y, z = map(float, traced.interaction.normal)
+    return x, y, z
+
+
+def ways_to_lights(
+    pixel: Pixel,
+    traced: TracedPixel,
+    hit: Hit,
+    cosines: NDArray[np.float64],
+    blockers: NDArray[np.int64],
+) -> tuple[tuple[WayToLight, ...], Vec]:
+    """Return the ways from a hit to all lights, and the light that they bring.
+
+    Parameters
+    ----------
+    pixel, traced, hit
+        The hit, with the light of points.
+    cosines, blockers
+        What `reference.trace_pixel` writes of these.
+    """
+    lit = Lit(pixel.scene, pixel.numbering, hit, traced.material.color)
+    known = lit, pixel.packed, traced, pixel.place
+    if pixel.fans is not None and pixel.are_shared:
+        fans, light = trace_shared(*known, pixel.fans, pixel.seed)
+    else:
+        fans, light = trace_fans(*known, pixel.fans, pixel.seed)
+    ways = [*shadow_rays(lit, cosines, blockers), *fans]
+    return tuple(sorted(ways, key=lambda way: way.light)), light

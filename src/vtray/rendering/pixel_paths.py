@@ -1,0 +1,254 @@
+"""What a ray of a pixel sees over many surfaces: all rays of one path, as users get them."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.base.compiler.compiled import uncompiled
+from vtray.figures.traced_rays import Choice, Hit, PathRay, WayToLight
+from vtray.geometry.packets.layer_notes import new_walk
+from vtray.geometry.packets.packet import (
+    BOUNCES,
+    DIRECTION,
+    DISTANCE,
+    GATHERED,
+    LANES,
+    NO_PRIMITIVE,
+    ORIGIN,
+    PRIMITIVE,
+    new_packet,
+)
+from vtray.geometry.packets.pending import NUMBERS
+from vtray.geometry.packets.workspace import new_workspace
+from vtray.geometry.queries import NOTHING
+from vtray.geometry.vector import Vec, dot, scale
+from vtray.geometry.world import body_count
+from vtray.rendering.pixel import Pixel, hit_of, in_world, ways_to_lights
+from vtray.rendering.pixel_coat import Coat, coat_lights
+from vtray.rendering.pixel_lights import place_of_lamp
+from vtray.scene.colors.color_light import light_of_numbers
+from vtray.scene.materials import Emissive, Lambert
+from vtray.transport.integrators.path import MIRRORED, REFRACTED, SCATTERED
+from vtray.transport.integrators.reference import TracedPixel
+from vtray.transport.integrators.single_path import Choice as Chosen
+from vtray.transport.integrators.single_path import (
+    Glossy,
+    Place,
+    begin_path,
+    follow_ray,
+    leave_hit,
+    light_matt,
+)
+from vtray.transport.lights.crowd import sharing_lights
+from vtray.transport.lights.light import light_count
+from vtray.transport.materials.look import Looks
+from vtray.transport.sampling.paths import Step, seed_of_step
+from vtray.transport.sampling.pixel_samples import Sampling
+from vtray.transport.scene_arrays import depth_of
+
+BLACK, WHITE = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+
+WORDS = {MIRRORED: "mirrored", REFRACTED: "refracted", SCATTERED: "scattered"}
+
+
+def follow_path(pixel: Pixel, sampling: Sampling, sample: int) -> tuple[PathRay, ...]:
+    """Return the rays of one path, or of the tree of rays that whitted follows.
+
+    Parameters
+    ----------
+    pixel
+        The pixel.
+    sampling, sample
+        How its rays are cast, and the number of the one that is told.
+    """
+    return tuple(_Follower(pixel, sampling, sample).follow())
+
+
+def light_of_path(path: Sequence[PathRay], looks: Looks) -> Vec:
+    """Return the light of all rays of a path, no brighter than the picture shows it."""
+    light = BLACK
+    for ray in path:
+        light = _sum(light, ray.light)
+    peak = max(light)
+    limit = looks.brightest / peak if peak > looks.brightest else 1.0
+    return uncompiled(scale)(limit, light)
+
+
+class _Waiting(NamedTuple):
+    """A ray that waits: its numbers as in `Pending`, where it comes from, and how."""
+
+    numbers: NDArray[np.float64]
+    parent: int
+    how: str
+
+
+class _Follower:
+    """Follows the rays of a path, one after the other, in the first lane of a packet."""
+
+    def __init__(self, pixel: Pixel, sampling: Sampling, sample: int) -> None:
+        arrays = pixel.packed.arrays
+        assert arrays.materials.looks is not None  # noqa: S101 - rays go on
+        self._pixel, self._arrays = pixel, arrays
+        self._looks, self._sampling = arrays.materials.looks, sampling
+        self._place = Place(*pixel.place, sample)
+        sharing = sharing_lights(arrays.lights.crowd)
+        self._packet = new_packet()
+        self._work = new_workspace(arrays.world, sharing, depth_of(arrays))
+        self._waiting: list[_Waiting] = []
+        self._rays: list[PathRay] = []
+        self._steps = 0
+
+    def follow(self) -> list[PathRay]:
+        """Return all rays, in the order in which a packet follows them."""
+        self._arrive(self._begin(), self._pixel.packed.before)
+        while self._waiting:
+            self._arrive(self._go_on(self._waiting.pop()), 0.0)
+        return self._rays
+
+    def _begin(self) -> PathRay:
+        """Cast the ray of the camera."""
+        pixel, packet = self._pixel, self._packet
+        begun = begin_path(self._arrays, self._sampling, self._place, packet, self._work)
+        x, y, z = direction = self._vector(DIRECTION)
+        start, before = in_world(pixel, self._vector(ORIGIN)), pixel.packed.before
+        eye = start[0] - before * x, start[1] - before * y, start[2] - before * z
+        length = float(packet[DISTANCE]) * pixel.packed.unit + before
+        lamp, met = self._lamp(begun.lamp), _vec(begun.light)
+        return PathRay(None, "seen", eye, direction, WHITE, WHITE, length, lamp, met, met)
+
+    def _go_on(self, waiting: _Waiting) -> PathRay:
+        """Let a ray go on from a surface."""
+        pixel, pending = self._pixel, self._work.pending
+        pending.numbers[:NUMBERS], pending.waiting[0] = waiting.numbers, 1
+        self._forget_light()
+        found = follow_ray(self._arrays, self._looks, self._packet, self._work)
+        met = self._vector(GATHERED)
+        return PathRay(
+            waiting.parent,
+            waiting.how,
+            in_world(pixel, found.waiting.ray.origin),
+            _vec(found.waiting.ray.direction),
+            _vec(found.waiting.seen),
+            _vec(found.passes),
+            float(found.distance) * pixel.packed.unit,
+            self._lamp(found.lamp),
+            met,
+            met,
+        )
+
+    def _arrive(self, ray: PathRay, before: float) -> None:
+        """Keep a ray with what it meets, and let rays go on from there."""
+        self._rays.append(ray)
+        if int(self._packet.view(np.int64)[PRIMITIVE]) <= NO_PRIMITIVE:
+            return
+        place, pixel = len(self._rays) - 1, self._pixel
+        self._forget_light()
+        given = self._arrays, self._looks, self._sampling, self._place, self._packet
+        chosen = leave_hit(*given, self._work)
+        points = uncompiled(light_count)(self._arrays.lights)
+        cosines, blockers = np.zeros(points), np.full(points, NOTHING)
+        walk = new_walk(body_count(self._arrays.world))
+        stack = self._work.stack
+        traced = light_matt(self._arrays, self._place, self._packet, stack, cosines, blockers, walk)
+        row = int(chosen.row)
+        material, hit = pixel.packed.materials[row], hit_of(pixel, traced, before)
+        coat = self._vector(GATHERED)
+        ways: tuple[WayToLight, ...] = ()
+        shines, light, shown = BLACK, BLACK, None
+        if isinstance(material, Emissive):
+            shines = coat
+        elif chosen.has_coat:
+            ways, light = coat_lights(self._coat(hit, row)), coat
+        elif isinstance(material, Lambert) or any(
+            channel > 0.0 for channel in traced.material.color
+        ):
+            seed = uncompiled(seed_of_step)(pixel.seed, self._steps)
+            step = pixel._replace(seed=int(seed))
+            ways, light = ways_to_lights(step, traced, hit, cosines, blockers)
+            shown = self._shown(traced, hit)
+        onward = self._take_waiting(place, hit)
+        self._steps += 1
+        self._rays[place] = replace(
+            ray,
+            hit=hit,
+            material=material,
+            shines=shines,
+            lights=ways,
+            light=_sum(_sum(ray.met, shines), light),
+            shown=shown,
+            choice=self._choice(chosen, hit, onward),
+        )
+
+    def _take_waiting(self, parent: int, hit: Hit) -> Vec | None:
+        """Keep the rays that go on from a hit; return the direction of the last, if any."""
+        pending, direction = self._work.pending, None
+        for k in range(int(pending.waiting[0])):
+            numbers = pending.numbers[k * NUMBERS : (k + 1) * NUMBERS].copy()
+            direction = _vec(numbers[3:6])
+            is_mirrored = uncompiled(dot)(direction, hit.normal) > 0.0
+            how = WORDS[MIRRORED if is_mirrored else REFRACTED]
+            self._waiting.append(_Waiting(numbers, parent, how))
+        pending.waiting[0] = 0
+        return direction
+
+    def _choice(self, chosen: Chosen, hit: Hit, onward: Vec | None) -> Choice | None:
+        """Return what a path chose at a hit; None where all ways are followed."""
+        if self._sampling.paths is None:
+            return None
+        how, density = WORDS[int(chosen.how)], None
+        if onward is not None:
+            last = self._waiting[-1]
+            self._waiting[-1] = last._replace(how=how)
+            density = float(chosen.density) or None
+            if how == WORDS[SCATTERED] and density is None:
+                density = uncompiled(dot)(onward, hit.normal) / math.pi
+        return Choice(
+            how, float(chosen.chance), density, float(chosen.goes_on), float(chosen.share)
+        )
+
+    def _coat(self, hit: Hit, row: int) -> Coat:
+        """Return a glossy hit, given the row of its material."""
+        looks, paths = self._looks, self._sampling.paths
+        assert paths is not None  # noqa: S101 - only paths go on from coats by chance
+        assert looks.albedos is not None  # noqa: S101 - there are coats
+        number = int(self._packet.view(np.int64)[BOUNCES])
+        step = Step(*self._place, number, paths, self._sampling.seed)
+        glossy = Glossy(looks, looks.albedos, row)
+        return Coat(self._pixel, step, self._packet, hit, glossy, self._work.stack)
+
+    def _shown(self, traced: TracedPixel, hit: Hit) -> Vec:
+        """Return how much is seen of the colour of a surface."""
+        table = light_of_numbers(self._pixel.scene.render.tonemap)
+        own = [float(table[int(channel)]) for channel in hit.surface.color]
+        red, green, blue = (
+            float(seen) / of if of else 0.0
+            for seen, of in zip(traced.material.color, own, strict=True)
+        )
+        return red, green, blue
+
+    def _lamp(self, row: int) -> int | None:
+        """Return the place of a lamp in the scene, given its row."""
+        return place_of_lamp(self._pixel.scene, self._arrays.lights, row)
+
+    def _vector(self, field: int) -> Vec:
+        """Return a field of the first lane."""
+        return _vec(self._packet[field : field + 3 * LANES : LANES])
+
+    def _forget_light(self) -> None:
+        """Begin with no light in the first lane."""
+        self._packet[GATHERED : GATHERED + 3 * LANES : LANES] = 0.0
+
+
+def _vec(numbers: "Vec | NDArray[np.float64]") -> Vec:
+    """Return three numbers as floats."""
+    x, y, z = map(float, numbers)
+    return x, y, z
+
+
+def _sum(one: Vec, other: Vec) -> Vec:
+    """Return a sum as kernels have it."""
+    return one[0] + other[0], one[1] + other[1], one[2] + other[2]
