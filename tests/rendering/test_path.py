@@ -182,15 +182,6 @@ def test_more_samples_are_less_noisy() -> None:
     assert other.tobytes() != light_of(scene, samples=4, depth=4).tobytes()
 
 
-@pytest.mark.parametrize("integrator", ["whitted", "path"])
-def test_a_pixel_is_not_told(integrator: str) -> None:
-    ball = vtray.Sphere((0, 0, 0.6), 0.5, WHITE, material="mirror")
-    scene = looking_down([ball], [vtray.Sky(1)])
-    image = vtray.render(scene, integrator=integrator)
-    with pytest.raises(vtray.RenderError, match="trace_pixel: rays that go on from surfaces"):
-        vtray.trace_pixel(image, 3, 3)
-
-
 def test_materials_may_change_from_render_to_render() -> None:
     ball = vtray.Sphere((0, 0, 0), 3, (255, 51, 0))
     scene = looking_down([ball], [vtray.Sky(1)])

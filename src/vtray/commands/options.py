@@ -137,7 +137,7 @@ def _add_reports(parser: Parser) -> None:
     )
     group.add_argument(
         "--pixel",
-        metavar="X,Y[,SAMPLE]",
+        metavar="X,Y[:SAMPLE]",
         type=_pixel,
         help="write no image, print how the pixel in column X, row Y got its value, by the ray "
         "through its middle or by one of its samples",
@@ -153,9 +153,9 @@ def _thread_count(text: str) -> int:
 
 def _pixel(text: str) -> tuple[int, ...]:
     """Return the value of ``--pixel``: a column, a row, and maybe the number of a sample."""
-    if not re.fullmatch(r"[0-9]{1,9}(,[0-9]{1,9}){1,2}", text):
-        raise wrong("column,row such as 12,34, or column,row,sample", text)
-    return tuple(map(int, text.split(",")))
+    if not re.fullmatch(r"[0-9]{1,9},[0-9]{1,9}(:[0-9]{1,9})?", text):
+        raise wrong("column,row such as 12,34", text)
+    return tuple(map(int, re.split("[,:]", text)))
 
 
 def _bits(text: str) -> int:

@@ -77,8 +77,10 @@ def _describe_onward(ray: PathRay, tree: TracedRays, *, goes_on: bool) -> list[s
         return []
     if goes_on:
         return [] if ray.choice is None else [_describe_choice(ray.choice)]
-    if _surfaces_before(ray, tree) >= tree.scene.render.depth:
-        return [f"  ends       after {tree.scene.render.depth} bounces, the depth of the picture"]
+    depth = int(tree.scene.render.depth)
+    if _surfaces_before(ray, tree) >= depth:
+        bounces = "1 bounce" if depth == 1 else f"{depth} bounces"
+        return [f"  ends       after {bounces}, the depth of the picture"]
     if ray.choice is None:
         is_matt = isinstance(ray.material, Lambert)
         return [] if is_matt else ["  ends       as too little would be seen of more"]

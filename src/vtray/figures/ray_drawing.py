@@ -16,6 +16,7 @@ from vtray.figures.drawn.objects import (
     where_met,
 )
 from vtray.figures.fan_lines import DOME, FanLines, fan_lines, is_around, lamp_shape
+from vtray.figures.path_drawing import draw_path
 from vtray.figures.pen import BLOCKED, FAINT, INK, LIT, RAY
 from vtray.figures.scale_bar import is_orthographic, round_length
 from vtray.figures.section import Section, choose_section
@@ -53,7 +54,9 @@ def draw(tree: TracedRays, ax: "Axes | None", light: int | None) -> "Axes":
         from vtray.figures.shown_figure import ShownFigure
 
         ax = ShownFigure.new(8, 5.5, dpi=150).add_axes((0.02, 0.08, 0.96, 0.82))
-    drawing = _Drawing(tree, choose_section(tree, way), ax)
+    is_path = light is None and len(tree.path) > 1
+    along = tree.path[1].direction if is_path else None if way is None else way.direction
+    drawing = _Drawing(tree, choose_section(tree, along), ax)
     drawing.frame()
     drawing.surroundings()
     drawing.camera()
@@ -69,7 +72,8 @@ def draw(tree: TracedRays, ax: "Axes | None", light: int | None) -> "Axes":
             else:
                 drawing.shadow_ray(other, thin=thin)
         drawing.hit()
-    drawing.captions(way)
+        draw_path(drawing, drawing.once)
+    drawing.captions(way, is_path=is_path)
     return ax
 
 
@@ -183,6 +187,11 @@ class _Drawing(Stage):
                 face = (*_shade(color), 0.85 if filled else 0.35)
                 (body,) = part.sections(section, fc=face, ec=INK, lw=1.2, zorder=2)
                 self.front(self.ax.add_patch(body))
+
+    def once(self, surface: Surface) -> None:
+        """Draw what a ray meets, if it is not drawn already."""
+        if surface not in self.drawn:
+            self.surface(surface, filled=True)
 
     def shadow_ray(self, ray: ShadowRay, *, thin: bool) -> None:
         """Draw the ray to a light: solid if it arrives, dashed up to what blocks it."""
@@ -327,7 +336,7 @@ class _Drawing(Stage):
             level = "bottom" if above else "top"
             self.note(text, place, (0, 3 if above else -3), ha="right", va=level)
 
-    def captions(self, way: WayToLight | None) -> None:
+    def captions(self, way: WayToLight | None, *, is_path: bool) -> None:
         """Write what is shown, and how long a unit is."""
         tree = self.tree
         column, row = tree.pixel
@@ -343,7 +352,9 @@ class _Drawing(Stage):
         style = {"transform": self.ax.transAxes, "color": INK, "fontsize": 10.5}
         self.ax.text(left, 1.03, title, va="center", **style)
         other = "upright in the image"
-        if isinstance(way, ShadowFan):
+        if is_path:
+            other = "and the ray that goes on first"
+        elif isinstance(way, ShadowFan):
             other = f"and the {'normal' if is_around(way) else f'middle of lights[{way.light}]'}"
         elif way is not None:
             other = f"and the ray to lights[{way.light}]"

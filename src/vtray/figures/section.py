@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.figures.traced_rays import TracedRays, WayToLight
+from vtray.figures.traced_rays import TracedRays
+from vtray.geometry.vector import Vec
 
 Floats = NDArray[np.float64]
 
@@ -45,8 +46,8 @@ class Section:
         return off
 
 
-def choose_section(tree: TracedRays, way: WayToLight | None) -> Section:
-    """Return the plane through the camera ray and the way to a light, or upright without one.
+def choose_section(tree: TracedRays, along: Vec | None) -> Section:
+    """Return the plane through the camera ray and another direction, or upright without one.
 
     The drawing's right is where the camera looks, as far as it lies in the plane, so the image
     plane is a vertical line; up is up in the image, if the plane allows.
@@ -54,7 +55,7 @@ def choose_section(tree: TracedRays, way: WayToLight | None) -> Section:
     view = tree.view
     forward, down = np.array(view.forward), np.array(view.down)
     direction = np.array(tree.direction)
-    other = -down if way is None else np.array(way.direction)
+    other = -down if along is None else np.array(along)
     normal = np.cross(direction, other)
     if np.linalg.norm(normal) < 1e-6:
         normal = np.cross(direction, -down)
@@ -62,7 +63,7 @@ def choose_section(tree: TracedRays, way: WayToLight | None) -> Section:
     up = np.cross(normal, forward)
     up /= np.linalg.norm(up)
     rise = -up @ down
-    if abs(rise) < 0.2 and way is not None:
+    if abs(rise) < 0.2 and along is not None:
         rise = up @ other
     if rise < 0:
         up, normal = -up, -normal

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from vtray.figures.drawn.objects import placed_shapes, shape_of
 from vtray.figures.fan_lines import DOME, fan_lines, is_around, lamp_shape
+from vtray.figures.path_ends import path_ends
 from vtray.figures.pen import Pen
 from vtray.figures.section import Section, widen
 from vtray.figures.traced_rays import Hit, ShadowFan, ShadowRay, TracedRays, WayToLight
@@ -85,6 +86,7 @@ class Stage(Pen):
                 points += [low, high]
             for way in self.tree.lights:
                 points += self._points_of(way, hit)
+            points += [self.section(end) for end in path_ends(self.tree.path)]
         corners = np.array(points)
         low, high = corners.min(0), corners.max(0)
         margin = 0.06 * float(np.hypot(*(high - low)))

@@ -1,7 +1,6 @@
 """What a ray of a pixel sees over many surfaces: all rays of one path, as users get them."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -36,6 +35,7 @@ from vtray.transport.integrators.path import MIRRORED, REFRACTED, SCATTERED
 from vtray.transport.integrators.reference import TracedPixel
 from vtray.transport.integrators.single_path import Choice as Chosen
 from vtray.transport.integrators.single_path import (
+    Followed,
     Glossy,
     Place,
     begin_path,
@@ -45,7 +45,6 @@ from vtray.transport.integrators.single_path import (
 )
 from vtray.transport.lights.crowd import sharing_lights
 from vtray.transport.lights.light import light_count
-from vtray.transport.materials.look import Looks
 from vtray.transport.sampling.paths import Step, seed_of_step
 from vtray.transport.sampling.pixel_samples import Sampling
 from vtray.transport.scene_arrays import depth_of
@@ -55,8 +54,8 @@ BLACK, WHITE = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
 WORDS = {MIRRORED: "mirrored", REFRACTED: "refracted", SCATTERED: "scattered"}
 
 
-def follow_path(pixel: Pixel, sampling: Sampling, sample: int) -> tuple[PathRay, ...]:
-    """Return the rays of one path, or of the tree of rays that whitted follows.
+def follow_path(pixel: Pixel, sampling: Sampling, sample: int) -> tuple[tuple[PathRay, ...], Vec]:
+    """Return the rays of one path, or of the tree of rays that whitted follows, and their light.
 
     Parameters
     ----------
@@ -65,17 +64,8 @@ def follow_path(pixel: Pixel, sampling: Sampling, sample: int) -> tuple[PathRay,
     sampling, sample
         How its rays are cast, and the number of the one that is told.
     """
-    return tuple(_Follower(pixel, sampling, sample).follow())
-
-
-def light_of_path(path: Sequence[PathRay], looks: Looks) -> Vec:
-    """Return the light of all rays of a path, no brighter than the picture shows it."""
-    light = BLACK
-    for ray in path:
-        light = _sum(light, ray.light)
-    peak = max(light)
-    limit = looks.brightest / peak if peak > looks.brightest else 1.0
-    return uncompiled(scale)(limit, light)
+    follower = _Follower(pixel, sampling, sample)
+    return tuple(follower.follow()), follower.light()
 
 
 class _Waiting(NamedTuple):
@@ -100,6 +90,7 @@ class _Follower:
         self._work = new_workspace(arrays.world, sharing, depth_of(arrays))
         self._waiting: list[_Waiting] = []
         self._rays: list[PathRay] = []
+        self._light = BLACK
         self._steps = 0
 
     def follow(self) -> list[PathRay]:
@@ -108,6 +99,11 @@ class _Follower:
         while self._waiting:
             self._arrive(self._go_on(self._waiting.pop()), 0.0)
         return self._rays
+
+    def light(self) -> Vec:
+        """Return the light of all rays, no brighter than the picture shows it."""
+        peak, brightest = max(self._light), self._looks.brightest
+        return uncompiled(scale)(brightest / peak if peak > brightest else 1.0, self._light)
 
     def _begin(self) -> PathRay:
         """Cast the ray of the camera."""
@@ -118,15 +114,15 @@ class _Follower:
         eye = start[0] - before * x, start[1] - before * y, start[2] - before * z
         length = float(packet[DISTANCE]) * pixel.packed.unit + before
         lamp, met = self._lamp(begun.lamp), _vec(begun.light)
+        self._light = met
         return PathRay(None, "seen", eye, direction, WHITE, WHITE, length, lamp, met, met)
 
     def _go_on(self, waiting: _Waiting) -> PathRay:
         """Let a ray go on from a surface."""
-        pixel, pending = self._pixel, self._work.pending
-        pending.numbers[:NUMBERS], pending.waiting[0] = waiting.numbers, 1
-        self._forget_light()
-        found = follow_ray(self._arrays, self._looks, self._packet, self._work)
-        met = self._vector(GATHERED)
+        pixel = self._pixel
+        # First for what it adds, and then for the sum, whose last bits depend on the order.
+        met, found = self._follow(waiting, BLACK)
+        self._light, _ = self._follow(waiting, self._light)
         return PathRay(
             waiting.parent,
             waiting.how,
@@ -140,13 +136,21 @@ class _Follower:
             met,
         )
 
+    def _follow(self, waiting: _Waiting, light: Vec) -> tuple[Vec, Followed]:
+        """Let a ray go on, and return the light with what it adds, and what it meets."""
+        pending = self._work.pending
+        pending.numbers[:NUMBERS], pending.waiting[0] = waiting.numbers, 1
+        self._put_light(light)
+        found = follow_ray(self._arrays, self._looks, self._packet, self._work)
+        return self._vector(GATHERED), found
+
     def _arrive(self, ray: PathRay, before: float) -> None:
         """Keep a ray with what it meets, and let rays go on from there."""
         self._rays.append(ray)
         if int(self._packet.view(np.int64)[PRIMITIVE]) <= NO_PRIMITIVE:
             return
         place, pixel = len(self._rays) - 1, self._pixel
-        self._forget_light()
+        self._put_light(BLACK)
         given = self._arrays, self._looks, self._sampling, self._place, self._packet
         chosen = leave_hit(*given, self._work)
         points = uncompiled(light_count)(self._arrays.lights)
@@ -156,13 +160,13 @@ class _Follower:
         traced = light_matt(self._arrays, self._place, self._packet, stack, cosines, blockers, walk)
         row = int(chosen.row)
         material, hit = pixel.packed.materials[row], hit_of(pixel, traced, before)
-        coat = self._vector(GATHERED)
+        own = self._vector(GATHERED)
         ways: tuple[WayToLight, ...] = ()
         shines, light, shown = BLACK, BLACK, None
         if isinstance(material, Emissive):
-            shines = coat
+            shines = own
         elif chosen.has_coat:
-            ways, light = coat_lights(self._coat(hit, row)), coat
+            ways = coat_lights(self._coat(hit, row))
         elif isinstance(material, Lambert) or any(
             channel > 0.0 for channel in traced.material.color
         ):
@@ -172,13 +176,14 @@ class _Follower:
             shown = self._shown(traced, hit)
         onward = self._take_waiting(place, hit)
         self._steps += 1
+        self._light = _sum(_sum(self._light, own), light)
         self._rays[place] = replace(
             ray,
             hit=hit,
             material=material,
             shines=shines,
             lights=ways,
-            light=_sum(_sum(ray.met, shines), light),
+            light=_sum(_sum(ray.met, own), light),
             shown=shown,
             choice=self._choice(chosen, hit, onward),
         )
@@ -238,9 +243,9 @@ class _Follower:
         """Return a field of the first lane."""
         return _vec(self._packet[field : field + 3 * LANES : LANES])
 
-    def _forget_light(self) -> None:
-        """Begin with no light in the first lane."""
-        self._packet[GATHERED : GATHERED + 3 * LANES : LANES] = 0.0
+    def _put_light(self, light: Vec) -> None:
+        """Set the light of the first lane."""
+        self._packet[GATHERED : GATHERED + 3 * LANES : LANES] = light
 
 
 def _vec(numbers: "Vec | NDArray[np.float64]") -> Vec:

@@ -22,13 +22,12 @@ from vtray.rendering.passes import SurfaceRays, Tracer, rays_from_surfaces
 from vtray.rendering.pixel import Pixel, in_world
 from vtray.rendering.pixel_layers import look_through
 from vtray.rendering.pixel_lights import place_of_lamp
-from vtray.rendering.pixel_paths import follow_path, light_of_path
+from vtray.rendering.pixel_paths import follow_path
 from vtray.rendering.styled import styled
 from vtray.scene.default_light import lights_of, settings_of
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 from vtray.transport.fog import fog_share
-from vtray.transport.materials.look import Looks
 from vtray.transport.sampling.fans import Noise
 from vtray.transport.sampling.pixel_samples import filter_samples, lens_points, middle_rays
 from vtray.transport.scene_arrays import SceneArrays, with_pinhole
@@ -119,10 +118,9 @@ def trace_rays(
         int(settings.seed),
     )
     exposed = None if image is None else _exposed(image, column, row)
-    looks = packed.arrays.materials.looks
-    if looks is None:
+    if packed.arrays.materials.looks is None:
         return _direct_tree(pixel, exposed)
-    return _path_tree(pixel, looks, from_surfaces, settings, number, exposed)
+    return _path_tree(pixel, from_surfaces, settings, number, exposed)
 
 
 def _check_sample(
@@ -176,7 +174,6 @@ def _direct_tree(pixel: Pixel, exposed: Exposed | None) -> RayTree:
 
 def _path_tree(
     pixel: Pixel,
-    looks: Looks,
     from_surfaces: SurfaceRays,
     settings: RenderSettings,
     sample: int | None,
@@ -193,8 +190,8 @@ def _path_tree(
     else:
         lens = lens_points(packed.arrays.camera, int(settings.samples))
         sampling = filter_samples(settings, np.zeros((0, 0), np.bool_), fans, paths, lens)
-    path = follow_path(pixel, sampling, sample or 0)
-    first, light = path[0], light_of_path(path, looks)
+    path, light = follow_path(pixel, sampling, sample or 0)
+    first = path[0]
     distance = (first.distance - packed.before) / packed.unit
     return RayTree(
         pixel.place,
