@@ -181,7 +181,7 @@ light        (141.421, 70.7107, 35.3553), the sum over all rays
 exposure     floor(255 x light / 255), 255 is what becomes 255
 value        (141, 70, 35)"""
     assert text.split("\n", 2)[2] == expected
-    assert explain_pixel(scene, image, 0, 0) == f"{text}\n"
+    assert explain_pixel(scene, image, 1, 1) == f"{text}\n"
 
 
 @pytest.mark.parametrize(

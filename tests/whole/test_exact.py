@@ -115,12 +115,12 @@ def follow_all_ways() -> None:
         vtray.Sphere((-0.5, 0, 0.6), 0.5, material="glass"),
         vtray.Plane((0, 0, 0), (0, 0, 1), (255, 255, 255)),
     ]
-    scene.lights = [vtray.Sky(1)]
+    scene.lights = [vtray.Sky(1), vtray.Sun((0, 0, -1)), vtray.Light((0, 0, 5))]
     scene.camera = vtray.Camera.look_at((0, 0, 9), target=(0, 0, 0), up=(0, 1, 0), size=(5, 5))
-    vtray.render(scene, integrator="whitted")
+    vtray.trace_pixel(vtray.render(scene, integrator="whitted"), 2, 2)
     vtray.render(scene, integrator="path", samples=2)
-    scene.objects[0] = vtray.Sphere((-0.5, 0, 0.6), 0.5, material=vtray.Metal(roughness=0.3))
-    vtray.render(scene, integrator="path", samples=2)
+    scene.objects[0] = vtray.Sphere((0, 0, 0.6), 1.5, material=vtray.Metal(roughness=0.3))
+    vtray.trace_pixel(vtray.render(scene, integrator="path", samples=2), 2, 2)
 
 
 MULTIPLY_ADD = "declare double @llvm.fma.f64(double, double, double)\n" + (

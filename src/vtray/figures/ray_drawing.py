@@ -315,7 +315,7 @@ class _Drawing(Stage):
         self.name(hit.surface, away)
 
     def name(self, surface: Surface, away: Floats) -> None:
-        """Write what is hit, on the side that the normal leaves free."""
+        """Write what is hit, on the side that the normal, and rays that go on, leave free."""
         shape, text = shape_of(self.tree.scene, surface), _label(surface)
         low, high = self.box if shape is None else shape.bounds(self.section)
         middle, half = (low + high) / 2, (high - low) / 2
@@ -328,7 +328,7 @@ class _Drawing(Stage):
         room = max(0.18 * (self.box[1, 0] - self.box[0, 0]), 1.1 * self.width(text))
         if 2 * half[0] > room:
             self.note(text, middle, (0, 0), ha="center", va="center")
-        elif middle[0] + half[0] + room < self.box[1, 0]:
+        elif middle[0] + half[0] + room < self.box[1, 0] and len(self.tree.path) < 2:
             self.note(text, middle + half * (1, 0), (6, 0), ha="left", va="center")
         else:
             above = away[1] < 0

@@ -57,7 +57,8 @@ class RayTree(TracedRays):
         The ways to all lights in the order of ``scene.lights``: a `ShadowRay` for each point, a
         `ShadowFan` for each other light. None if nothing is hit.
     light
-        The sum of what all lights add, or the light of the lamp: linear red, green and blue.
+        The sum of what all lights add, or the light of the lamp: linear red, green and blue. Where
+        rays go on, that of all of them.
     view
         The camera in world space.
     exposed
@@ -90,7 +91,7 @@ class RayTree(TracedRays):
         return f"```text\n{self}\n```"
 
     def draw(self, ax: "Axes | None" = None, *, light: int | None = None) -> "Axes":
-        """Draw the rays in the plane in which the camera ray and the way to one light lie.
+        """Draw the rays in the plane of the camera ray and of the way to a light, or onwards.
 
         What this plane cuts of the scene is drawn as it is there; what lies outside of it (normal,
         other lights, whole outlines) is projected squarely onto it. Needs matplotlib:
@@ -102,8 +103,9 @@ class RayTree(TracedRays):
             Where to draw; None for a new figure, which is ``ax.figure`` of the result.
         light
             The place in ``scene.lights`` of the one in whose plane the drawing lies: that of its
-            middle, or of the normal where light comes from all sides. None for the light that adds
-            most. If nothing is hit or there are no lights, the plane is upright in the image.
+            middle, or of the normal where light comes from all sides. None for the ray that goes on
+            first from what is hit; without such rays, for the light that adds most. If nothing is
+            hit or there are no lights, the plane is upright in the image.
 
         Returns
         -------
