@@ -42,6 +42,9 @@ def all_materials(lights: list[Any] = LIGHTS) -> vtray.Scene:
         vtray.Sphere((-0.6, -0.8, 0.2), 0.2, (255, 180, 90), material=vtray.Emissive(2)),
         vtray.Sphere((-0.6, 0.9, 0.2), 0.2, WHITE, material=vtray.Glass(roughness=0.4)),
         vtray.Sphere((0.8, -0.8, 0.2), 0.2, WHITE, material=vtray.Glass(thin=True)),
+        vtray.Sphere(
+            (0.1, 0, 0.25), 0.25, (255, 99, 71), material=vtray.Blend("emissive", "plastic", 0.7)
+        ),
         vtray.Plane((0, 0, 0), (0, 0, 1), (192, 200, 208), lambert=0.8),
     ]
     scene.lights = lights
@@ -295,3 +298,11 @@ def test_a_path_that_meets_nothing() -> None:
     assert (len(tree.path), tree.hit, tree.lights, tree.light) == (1, None, (), (0, 0, 0))
     assert "hit          nothing in front of the image plane" in str(tree)
     assert "and the ray that goes on" not in " ".join(words_in(tree))
+
+
+def test_what_is_not_shown_is_not_told() -> None:
+    scene = mirror_and_floor()
+    scene.add_spheres([(0, 0, 2)], 0.5, opacity=0.5)
+    scene.render = vtray.RenderSettings(integrator="path")
+    with pytest.raises(vtray.RenderError, match='opacity: not between 0 and 1 with integrator="p'):
+        vtray.trace_pixel(scene, 1, 1)

@@ -66,7 +66,7 @@ def _describe_surface(ray: PathRay, hit: Hit, scene: Scene) -> list[str]:
     lines = describe_hit(hit, scene, material)
     if ray.choice is not None and ray.choice.share < 1.0:
         lines.append(f"  chosen     of two blended materials, with chance {ray.choice.share:.4g}")
-    if isinstance(material, Emissive):
+    if isinstance(material, Emissive) or max(ray.shines) > 0.0:
         lines.append(f"  adds       {vector_text(ray.shines)} by shining")
     return lines + describe_lights(ray.lights, hit, ray.shown, scene)
 

@@ -30,7 +30,7 @@ from vtray.rendering.pixel import Pixel, hit_of, in_world, ways_to_lights
 from vtray.rendering.pixel_coat import Coat, coat_lights
 from vtray.rendering.pixel_lights import place_of_lamp
 from vtray.scene.colors.color_light import light_of_numbers
-from vtray.scene.materials import Emissive, Lambert
+from vtray.scene.materials import Lambert
 from vtray.transport.integrators.path import MIRRORED, REFRACTED, SCATTERED
 from vtray.transport.integrators.reference import TracedPixel
 from vtray.transport.integrators.single_path import Choice as Chosen
@@ -74,6 +74,14 @@ class _Waiting(NamedTuple):
     numbers: NDArray[np.float64]
     parent: int
     how: str
+
+
+class _Lit(NamedTuple):
+    """The ways from a hit to lights; what they bring to a matt surface, and how that is shown."""
+
+    ways: tuple[WayToLight, ...]
+    light: Vec
+    shown: Vec | None
 
 
 class _Follower:
@@ -149,44 +157,48 @@ class _Follower:
         self._rays.append(ray)
         if int(self._packet.view(np.int64)[PRIMITIVE]) <= NO_PRIMITIVE:
             return
-        place, pixel = len(self._rays) - 1, self._pixel
         self._put_light(BLACK)
-        given = self._arrays, self._looks, self._sampling, self._place, self._packet
-        chosen = leave_hit(*given, self._work)
-        points = uncompiled(light_count)(self._arrays.lights)
-        cosines, blockers = np.zeros(points), np.full(points, NOTHING)
-        walk = new_walk(body_count(self._arrays.world))
-        stack = self._work.stack
-        traced = light_matt(self._arrays, self._place, self._packet, stack, cosines, blockers, walk)
-        row = int(chosen.row)
-        material, hit = pixel.packed.materials[row], hit_of(pixel, traced, before)
+        given = self._arrays, self._looks, self._sampling, self._place, self._packet, self._work
+        chosen = leave_hit(*given)
+        # What a surface shines by itself, or what a coat shows of lights.
         own = self._vector(GATHERED)
-        ways: tuple[WayToLight, ...] = ()
-        shines, light, shown = BLACK, BLACK, None
-        if isinstance(material, Emissive):
-            shines = own
-        elif chosen.has_coat:
-            ways = coat_lights(self._coat(hit, row))
-        elif isinstance(material, Lambert) or any(
-            channel > 0.0 for channel in traced.material.color
-        ):
-            seed = uncompiled(seed_of_step)(pixel.seed, self._steps)
-            step = pixel._replace(seed=int(seed))
-            ways, light = ways_to_lights(step, traced, hit, cosines, blockers)
-            shown = self._shown(traced, hit)
-        onward = self._take_waiting(place, hit)
+        points = uncompiled(light_count)(self._arrays.lights)
+        asked = np.zeros(points), np.full(points, NOTHING)
+        walk, stack = new_walk(body_count(self._arrays.world)), self._work.stack
+        traced = light_matt(self._arrays, self._place, self._packet, stack, *asked, walk)
+        hit = hit_of(self._pixel, traced, before)
+        lit = self._lit(chosen, traced, hit, asked)
+        onward = self._take_waiting(len(self._rays) - 1, hit)
         self._steps += 1
-        self._light = _sum(_sum(self._light, own), light)
-        self._rays[place] = replace(
+        self._light = _sum(_sum(self._light, own), lit.light)
+        self._rays[-1] = replace(
             ray,
             hit=hit,
-            material=material,
-            shines=shines,
-            lights=ways,
-            light=_sum(_sum(ray.met, own), light),
-            shown=shown,
+            material=self._pixel.packed.materials[int(chosen.row)],
+            shines=BLACK if chosen.has_coat else own,
+            lights=lit.ways,
+            light=_sum(_sum(ray.met, own), lit.light),
+            shown=lit.shown,
             choice=self._choice(chosen, hit, onward),
         )
+
+    def _lit(
+        self,
+        chosen: Chosen,
+        traced: TracedPixel,
+        hit: Hit,
+        asked: tuple[NDArray[np.float64], NDArray[np.int64]],
+    ) -> _Lit:
+        """Return the ways from a hit to lights, given what `light_matt` says of points."""
+        row = int(chosen.row)
+        if chosen.has_coat:
+            return _Lit(coat_lights(self._coat(hit, row)), BLACK, None)
+        is_matt = isinstance(self._pixel.packed.materials[row], Lambert)
+        if not (is_matt or max(traced.material.color) > 0.0):
+            return _Lit((), BLACK, None)
+        seed = int(uncompiled(seed_of_step)(self._pixel.seed, self._steps))
+        ways, light = ways_to_lights(self._pixel._replace(seed=seed), traced, hit, *asked)
+        return _Lit(ways, light, self._shown(traced, hit))
 
     def _take_waiting(self, parent: int, hit: Hit) -> Vec | None:
         """Keep the rays that go on from a hit; return the direction of the last, if any."""

@@ -14,7 +14,7 @@ from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, scale
 from vtray.image.white import known_white
 from vtray.rendering.fog import ball_around, fitted
-from vtray.rendering.followed import check_image_plane, followed
+from vtray.rendering.followed import check_followed, check_image_plane, followed
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.numbering import number_objects
 from vtray.rendering.pack import Packed, pack
@@ -63,7 +63,7 @@ def trace_pixel(
     Raises
     ------
     RenderError
-        There is no such pixel or sample.
+        There is no such pixel or sample; or what the integrator does not show.
     SceneError
         The scene is not valid.
 
@@ -100,6 +100,7 @@ def trace_rays(
         fitted(scene.style, camera, lambda: ball_around(scene)) if image is None else image.style
     )
     kept = accelerate(scene, style=style)  # which the given scene may have already
+    check_followed(kept, settings, keep_lights=False)
     render = followed(scene.render, settings)
     scene = Scene(camera, lights_of(scene), list(scene.objects), render, style)
     packed, numbering = styled(pack(scene, kept), style), number_objects(scene.objects)
