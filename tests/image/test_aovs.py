@@ -41,39 +41,39 @@ class WithMore(HandMade):
     """A picture of which more is known."""
 
     samples_taken = np.full((7, 9), -1, np.int32)
-    albedo = np.linspace(0, 1, 7 * 9 * 3).reshape(7, 9, 3)
+    shares = np.linspace(0, 1, 7 * 9 * 3).reshape(7, 9, 3)
 
 
 @pytest.fixture
 def picture(monkeypatch: pytest.MonkeyPatch) -> WithMore:
     monkeypatch.setitem(AOVS, "samples_taken", Aov("int32", ("count",)))
-    monkeypatch.setitem(AOVS, "albedo", Aov("float64", ("albedo.R", "albedo.G", "albedo.B")))
+    monkeypatch.setitem(AOVS, "shares", Aov("float64", ("share.R", "share.G", "share.B")))
     image = hand_made()
     image.__class__ = WithMore
     return image
 
 
 def test_new_row_is_an_option(picture: WithMore) -> None:
-    assert options.parse(["a.json", "a.npz", "--aov", "albedo,ids"]).aov == ("albedo", "ids")
-    names = "depth, normals, ids, copies, raw, samples_taken, albedo"
+    assert options.parse(["a.json", "a.npz", "--aov", "shares,ids"]).aov == ("shares", "ids")
+    names = "depth, normals, ids, copies, raw, albedo, error, samples, samples_taken, shares"
     with pytest.raises(argparse.ArgumentTypeError, match=f"expected names of {names} with"):
         options._aov("light")
-    assert check_format(Path("a.npz"), aov=["albedo", "ids"]).aov == ("ids", "albedo")
+    assert check_format(Path("a.npz"), aov=["shares", "ids"]).aov == ("ids", "shares")
     with pytest.raises(vtray.OutputError, match=f"aov: expected names of {names}, got 'light'"):
         check_format(Path("a.npz"), aov=["light"])
 
 
 def test_new_row_is_written(picture: WithMore) -> None:
-    how = How(aov=("samples_taken", "albedo"))
+    how = How(aov=("samples_taken", "shares"))
     file = io.BytesIO()
     write_npz(picture, how, file)
     file.seek(0)
     with np.load(file) as found:
-        np.testing.assert_array_equal(found["albedo"], picture.albedo)
+        np.testing.assert_array_equal(found["shares"], picture.shares)
         np.testing.assert_array_equal(found["samples_taken"], picture.samples_taken)
     file = io.BytesIO()
     write_exr(picture, how, file)
     _, channels = read_exr(file.getvalue())
-    assert set(channels) == {*"RGB", "count", "albedo.R", "albedo.G", "albedo.B"}
+    assert set(channels) == {*"RGB", "count", "share.R", "share.G", "share.B"}
     assert (channels["count"] == 2**32 - 1).all()
-    np.testing.assert_array_equal(channels["albedo.G"], picture.albedo[..., 1].astype("f4"))
+    np.testing.assert_array_equal(channels["share.G"], picture.shares[..., 1].astype("f4"))

@@ -48,7 +48,9 @@ def hand_made(
 
     how = RenderSettings(**settings)
     white = float(linear.max()) if how.exposure == "max" else 255 / how.exposure
-    return HandMade(linear, None, white, SCENE, how, {}, look=look, alpha=alpha)
+    shares = random.uniform(0, 1, (height, width, 3))
+    given: dict[str, Any] = {"look": look, "albedo": lambda _: shares, "alpha": alpha}
+    return HandMade(linear, None, white, SCENE, how, {}, **given)
 
 
 def read_exr(data: bytes) -> tuple[dict[str, tuple[str, bytes]], dict[str, np.ndarray]]:

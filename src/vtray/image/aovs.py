@@ -31,6 +31,9 @@ AOVS = {
     "ids": Aov("int32", ("objectid", "particleid")),
     "copies": Aov("int32", ("copyid",)),
     "raw": Aov("float64", ("raw.R", "raw.G", "raw.B"), 255.0),
+    "albedo": Aov("float64", ("albedo.R", "albedo.G", "albedo.B")),
+    "error": Aov("float64", ("error",), 255.0),
+    "samples": Aov("int32", ("samples",)),
 }
 """The AOVs by their names, in their usual order."""
 

@@ -39,6 +39,8 @@ class Rendered:
         Light after exposure with 8 bits; None until it is asked for.
     look
         Gives what the middle rays meet; called once, when it is first asked for.
+    albedo
+        Gives what share of light the surfaces of a scene scatter; called when it is asked for.
     alpha
         How much of each pixel is covered, if that is known; None for what `look` says.
     fog
@@ -49,6 +51,8 @@ class Rendered:
         How much of its light each pixel keeps in eye-dome lighting, if there is any.
     error
         The standard error of light, if it is not 0 everywhere.
+    sampled
+        Which pixels have samples; None where each has one ray.
     noise
         How noisy soft light was allowed to be, which says what rays were cast, if there is any.
     relighting
@@ -81,11 +85,13 @@ class Rendered:
         stats: Mapping[str, float],
         *,
         look: Callable[[], Surfaces],
+        albedo: Callable[[Scene], Floats],
         alpha: Floats | None = None,
         fog: Floats | None = None,
         lines: Shares | None = None,
         shade: Shares | None = None,
         error: Floats | None = None,
+        sampled: NDArray[np.bool_] | None = None,
         noise: Any = None,  # noqa: ANN401
         relighting: Callable[[Scene], Floats] | None = None,
         raw: Floats | None = None,
@@ -104,6 +110,7 @@ class Rendered:
         self.settings = settings
         self.stats = stats
         self._look = look
+        self._albedo = albedo
         self._seen: list[Surfaces] = []  # what it gave; shared with other exposures of the view
         self._pixels = pixels
         self._alpha = alpha
@@ -111,6 +118,7 @@ class Rendered:
         self._lines = lines
         self._shade = shade
         self._error = error
+        self._sampled = sampled
         self.noise = noise
         self._relighting = relighting
         self._raw = raw
@@ -213,6 +221,16 @@ class Rendered:
         return self._surfaces.halves
 
     @cached_property
+    def albedo(self) -> Floats:
+        """The share of light that surfaces scatter in their colours, (height, width, 3).
+
+        That is their colour as light, 1 for white, times ``lambert``, whatever they are made of,
+        and 0 where nothing is. Of a pixel with samples it is the mean over the pixel, sharp also
+        where there is a lens.
+        """
+        return self._albedo(self.scene)
+
+    @cached_property
     def alpha(self) -> Floats:
         """How much of each pixel is covered, from 0 to 1, (height, width).
 
@@ -313,6 +331,17 @@ class Rendered:
         return np.zeros(self.linear.shape[:2])
 
     @cached_property
+    def samples(self) -> NDArray[np.int32]:
+        """How many rays of the camera each pixel has, int32, (height, width).
+
+        One where the whole pixel is known to look the same, or ``settings.samples``.
+        """
+        count = np.ones(self.linear.shape[:2], np.int32)
+        if self._sampled is not None:
+            count[self._sampled] = int(self.settings.samples)
+        return count
+
+    @cached_property
     def scene_hash(self) -> str:
         """A hash of the scene, 32 hexadecimal digits: that of the same scene loaded again."""
         return scene_hash(self._original)
@@ -342,7 +371,7 @@ class Rendered:
     def _again(self, lock: object, **changes: object) -> Self:
         """Return a picture of the same view with other attributes, exposed anew."""
         other = copy.copy(self)
-        for name in ("scene_hash", "with_sky", "error"):
+        for name in ("scene_hash", "with_sky", "error", "albedo"):
             vars(other).pop(name, None)
         vars(other).update(changes, _pixels=None, locked=lock is not None)
         other.white = white_of(other.settings, other.linear, lock)

@@ -33,8 +33,8 @@ class Darkroom:
         The settings.
     style
         How pictures are drawn, beside their light.
-    look
-        Gives what the middle rays meet.
+    look, albedo
+        Give what the middle rays meet, and what share of light the surfaces of a scene scatter.
     sky
         Gives the light of the skies of a scene where its pixels are not covered.
     starlight
@@ -50,6 +50,7 @@ class Darkroom:
     settings: RenderSettings
     style: Style
     look: Callable[[], Surfaces]
+    albedo: Callable[[Scene], Floats]
     sky: Callable[[Scene, Floats], Floats]
     starlight: Callable[[Scene], Floats | None]
     lock: object
@@ -70,6 +71,7 @@ class Darkroom:
         lines: Shares | None = None,
         shade: Shares | None = None,
         error: Floats | None = None,
+        sampled: NDArray[np.bool_] | None = None,
         noise: Noise | None = None,
         relighting: Callable[[Scene], Floats] | None = None,
         denoising: Callable[[Scene, Floats], Floats] | None = None,
@@ -84,7 +86,7 @@ class Darkroom:
         fog, lines, shade
             How much of each pixel fog is, and lines hide, and how much light eye-dome lighting
             leaves, if there are any.
-        error, noise, relighting, partial
+        error, sampled, noise, relighting, partial
             What the picture has.
         denoising
             Gives the light of a scene without grain, if the picture shall have that.
@@ -109,11 +111,13 @@ class Darkroom:
             self.settings,
             {},
             look=self.look,
+            albedo=self.albedo,
             alpha=coverage,
             fog=fog,
             lines=lines,
             shade=shade,
             error=error,
+            sampled=sampled,
             noise=noise,
             relighting=relighting,
             raw=raw,

@@ -1,4 +1,4 @@
-"""What tells a denoiser where the surfaces of a picture begin and end: colours and normals.
+"""What surfaces are like in each pixel, which guides a denoiser: colours and normals.
 
 They must be as sharp as the light that they guide. Where pixels have one ray, they are those of the
 middle rays. Where pixels have samples, rays on a grid within each of them are weighted by the same
@@ -13,8 +13,11 @@ from numpy.typing import NDArray
 from vtray.base.pool import run_tasks
 from vtray.base.tiles import Tile, split_into_tiles
 from vtray.geometry.packets.packet import CAP, SECOND
+from vtray.rendering.acceleration import Acceleration
 from vtray.rendering.engines.engine import Plan, trace
+from vtray.rendering.pack import pack
 from vtray.rendering.passes import SURFACES
+from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 from vtray.transport.camera_rays import CameraFrame, turned_by
 from vtray.transport.film import Film
@@ -45,6 +48,30 @@ class Guides(NamedTuple):
     albedo: Floats
     normals: Floats
     cover: Floats
+
+
+class Albedo:
+    """Gives the share of light that the surfaces of a picture scatter, when it is asked for.
+
+    Parameters
+    ----------
+    kept
+        The shapes of the scene that was traced.
+    settings
+        How the picture was taken.
+    threads
+        How many threads to use at the most.
+    """
+
+    def __init__(self, kept: Acceleration, settings: RenderSettings, threads: int) -> None:
+        self._kept = kept
+        self._settings = settings
+        self._threads = threads
+
+    def __call__(self, scene: Scene) -> Floats:
+        """Return it, (height, width, 3), for the scene that was traced, maybe in other colours."""
+        arrays = pack(scene, self._kept.with_colors_of(scene.objects)).arrays
+        return find_guides(arrays, self._settings, self._threads).albedo
 
 
 def find_guides(scene: SceneArrays, settings: RenderSettings, threads: int) -> Guides:

@@ -62,6 +62,8 @@ class Traced(NamedTuple):
         How noisy soft light may be, if there is any.
     kept
         What was kept of the rays of each pass; nothing unless asked for.
+    sampled
+        Which pixels have samples; None where each has one ray.
     """
 
     film: Film
@@ -69,6 +71,7 @@ class Traced(NamedTuple):
     rays: int
     noise: Noise | None = None
     kept: tuple[KeptLight, ...] = ()
+    sampled: NDArray[np.bool_] | None = None
 
 
 class Tracer:
@@ -154,7 +157,7 @@ class Tracer:
             film = film._replace(kept=kept[-1])
         sampled = self._trace(filter_samples(settings, marks, later.fans, later.paths), film)
         peak, cast = max(found.peak, sampled.peak), found.rays + sampled.rays
-        return Traced(film, peak, cast, noise, kept)
+        return Traced(film, peak, cast, noise, kept, marks)
 
     def _through_lens(
         self, settings: RenderSettings, first: "SurfaceRays", later: "SurfaceRays", *, keep: bool
@@ -174,7 +177,7 @@ class Tracer:
             kept = self._keep(~marks, 1), self._keep(marks, samples)
             film = film._replace(kept=kept[-1])
         sampled = filter_samples(settings, marks, later.fans, later.paths, lens)
-        return self._trace(sampled, film)._replace(kept=kept)
+        return self._trace(sampled, film)._replace(kept=kept, sampled=marks)
 
     def noise(self, settings: RenderSettings, white: float | None, *, keep: bool) -> Noise | None:
         """Return how noisy soft light may be, if there is any; the parameters are those of `light`.

@@ -30,6 +30,7 @@ from vtray.rendering.drawing import Drawing
 from vtray.rendering.fog import ball_around, fitted
 from vtray.rendering.followed import check_followed, followed, shines, simpler_looks
 from vtray.rendering.growth import Growth
+from vtray.rendering.guides import Albedo
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
 from vtray.rendering.passes import Tracer, compile_kernels
@@ -252,6 +253,7 @@ def render(
         settings,
         style,
         look,
+        Albedo(kept, settings, threads),
         sky,
         Starlight(lambda: look().depth, kept.rooms),
         lock,
@@ -286,6 +288,7 @@ def render(
         lines=drawing.lines(traced.film),
         shade=drawing.shade(traced.film),
         error=traced.film.error,
+        sampled=traced.sampled,
         noise=traced.noise,
         relighting=relighting if keep_lights else None,
         denoising=denoising if settings.denoise else None,
