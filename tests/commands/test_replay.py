@@ -20,6 +20,8 @@ GIVEN = [
     *("--exposure", "0.3", "--background", "#0a141E"),
 ]
 
+AOV_NAMES = "depth, normals, ids, copies, raw, albedo, error, samples"
+
 
 @pytest.fixture
 def small(tmp_path: Path) -> Path:
@@ -95,7 +97,7 @@ WRONG = [
     ),
     *(("--bits", bad, "8 or 16") for bad in ("7", "0", "", "16.0")),
     *(
-        ("--aov", bad, "names of depth, normals, ids, copies, raw with commas between")
+        ("--aov", bad, f"names of {AOV_NAMES} with commas between")
         for bad in ("", "dept", "depth,", "depth;ids")
     ),
 ]
