@@ -4,11 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.image.denoise import denoise
-from vtray.rendering.acceleration import Acceleration
-from vtray.rendering.guides import find_guides
-from vtray.rendering.pack import pack
+from vtray.rendering.guides import Guiding
 from vtray.scene.scene import Scene
-from vtray.scene.settings import RenderSettings
 
 Floats = NDArray[np.float64]
 
@@ -18,25 +15,17 @@ class Denoising:
 
     Parameters
     ----------
-    kept
-        The shapes of the scene that was traced.
-    settings
-        How the picture was taken.
+    guiding
+        Gives its guides; None where a lens makes surfaces sharper than their light: these would
+        lead astray.
     coverage
         How much of each pixel its samples saw covered; None where pixels have one ray.
     threads
         How many threads to use at the most.
     """
 
-    def __init__(
-        self,
-        kept: Acceleration,
-        settings: RenderSettings,
-        coverage: Floats | None,
-        threads: int,
-    ) -> None:
-        self._kept = kept
-        self._settings = settings
+    def __init__(self, guiding: Guiding | None, coverage: Floats | None, threads: int) -> None:
+        self._guiding = guiding
         self._coverage = coverage
         self._threads = threads
 
@@ -50,11 +39,9 @@ class Denoising:
         light
             Its light, (height, width, 3).
         """
-        arrays = pack(scene, self._kept.with_colors_of(scene.objects)).arrays
-        if arrays.camera.lens is not None and self._settings.samples > 1:
-            # Surfaces are sharper than their light, and would lead astray.
+        if self._guiding is None:
             return denoise(light, np.ones_like(light), None, self._threads)
-        guides = find_guides(arrays, self._settings, self._threads)
+        guides = self._guiding(scene)
         clean = denoise(light, guides.albedo, guides.normals, self._threads)
         if self._coverage is not None:
             clean[self._coverage == 0.0] = 0.0

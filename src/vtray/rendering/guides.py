@@ -50,8 +50,8 @@ class Guides(NamedTuple):
     cover: Floats
 
 
-class Albedo:
-    """Gives the share of light that the surfaces of a picture scatter, when it is asked for.
+class Guiding:
+    """Gives the guides of a picture, when they are asked for.
 
     Parameters
     ----------
@@ -68,10 +68,10 @@ class Albedo:
         self._settings = settings
         self._threads = threads
 
-    def __call__(self, scene: Scene) -> Floats:
-        """Return it, (height, width, 3), for the scene that was traced, maybe in other colours."""
+    def __call__(self, scene: Scene) -> Guides:
+        """Return them for the scene that was traced, maybe in other colours."""
         arrays = pack(scene, self._kept.with_colors_of(scene.objects)).arrays
-        return find_guides(arrays, self._settings, self._threads).albedo
+        return find_guides(arrays, self._settings, self._threads)
 
 
 def find_guides(scene: SceneArrays, settings: RenderSettings, threads: int) -> Guides:

@@ -30,7 +30,7 @@ from vtray.rendering.joined import joined, rows_of
 from vtray.rendering.pack_bodies import pack_bodies
 from vtray.rendering.pack_lens import pack_lens
 from vtray.rendering.pack_lights import pack_lights, points_of
-from vtray.rendering.pack_looks import MadeOf, made_of, materials_by_row, pack_looks
+from vtray.rendering.pack_looks import MadeOf, made_of, pack_looks
 from vtray.rendering.pack_skies import up_of
 from vtray.rendering.pack_surroundings import is_even, pack_surroundings
 from vtray.rendering.placed import Placed
@@ -38,7 +38,7 @@ from vtray.rendering.rooms import Rooms
 from vtray.scene.colors.color_light import light_of, light_of_numbers
 from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.light_types import Lamp, Light, RectangleLight, SphereLight
-from vtray.scene.materials import Material, material_of
+from vtray.scene.materials import material_of
 from vtray.scene.objects import Object
 from vtray.scene.placing.directions import camera_axes, view_axes
 from vtray.scene.placing.directions import unit as unit_vector
@@ -77,14 +77,14 @@ class Packed(NamedTuple):
         Length in scene units of length 1 in the arrays, a power of two.
     before
         Length in scene units of each ray from the eye to where it starts in the arrays.
-    materials
-        The materials of the rows of `Looks`.
+    made
+        What its primitives are made of, by parts as in `pack_looks`.
     """
 
     arrays: SceneArrays
     unit: float
     before: float
-    materials: list[Material]
+    made: list[MadeOf]
 
 
 def pack(scene: Scene, kept: Acceleration) -> Packed:
@@ -119,7 +119,7 @@ def pack(scene: Scene, kept: Acceleration) -> Packed:
     )
     is_panorama = scene.camera.projection == "panorama"
     before = 0.0 if is_panorama else scene.camera.focus - start_distance(scene.camera)
-    return Packed(arrays, unit, before, materials_by_row(made))
+    return Packed(arrays, unit, before, made)
 
 
 def _pack_world(objects: Sequence[Object], kept: Acceleration, unit: float, origin: Vec) -> World:

@@ -137,7 +137,7 @@ class Tracer:
         first, later = rays_from_surfaces(settings, noise)
         if samples == 1:
             self._scene = with_pinhole(self._scene)
-            rays = middle_rays(fans=first.fans, seed=seed)._replace(paths=first.paths)
+            rays = middle_rays(fans=first.fans, paths=first.paths, seed=seed)
             found = self._middles(rays, keep, *one_ray(self._scene, self._more))
             return found._replace(film=_covered(found.film), noise=noise)
         if self._scene.camera.lens is not None:
@@ -145,8 +145,10 @@ class Tracer:
         self._passes = 2
         footprint = filter_footprint(settings, self._scene.camera)
         thickest = _thickest(self._scene.world)
-        middles = middle_rays(footprint, thickest, before_samples=True, fans=first.fans, seed=seed)
-        middles = middles._replace(paths=first.paths)
+        fans, paths = first
+        middles = middle_rays(
+            footprint, thickest, before_samples=True, fans=fans, paths=paths, seed=seed
+        )
         found = self._middles(middles, keep, *with_samples(self._scene, self._more))
         film, kept = found.film, found.kept
         marks = film.mixed.copy()  # the film is written anew
@@ -167,8 +169,9 @@ class Tracer:
         lens = lens_points(self._scene.camera, samples)
         wanted = with_samples(self._scene, self._more)
         if self._growth is not None:
-            rays = middle_rays(before_samples=True, fans=first.fans, seed=seed)
-            self._draft(self._growth, rays._replace(paths=first.paths, lens=lens), *wanted)
+            fans, paths = first
+            rays = middle_rays(before_samples=True, fans=fans, paths=paths, lens=lens, seed=seed)
+            self._draft(self._growth, rays, *wanted)
         film = new_film(*self._size, *wanted)
         film.mixed.fill(True)
         marks = film.mixed.copy()
@@ -208,8 +211,8 @@ class Tracer:
         marks[SPARSE // 2 :: SPARSE, SPARSE // 2 :: SPARSE] = True
         has_samples = settings.samples > 1
         fans = fans_of_middles(self._noise_of_light(math.inf, settings))
-        rays = middle_rays(before_samples=has_samples, fans=fans, seed=int(settings.seed))
-        rays = rays._replace(lens=lens_points(self._scene.camera, int(settings.samples)))
+        seed, lens = int(settings.seed), lens_points(self._scene.camera, int(settings.samples))
+        rays = middle_rays(before_samples=has_samples, fans=fans, lens=lens, seed=seed)
         film = new_film(
             *self._size, *(with_samples if has_samples else one_ray)(self._scene, self._more)
         )
@@ -344,9 +347,8 @@ def compile_kernels(scene: SceneArrays, settings: RenderSettings, more: Sequence
     scene = scene if has_samples else with_pinhole(scene)
     soft = scene.lights.soft
     film = new_film(0, 0, *(with_samples if has_samples else one_ray)(scene, more))
-    first, _ = rays_from_surfaces(
-        settings, None if soft is None else Noise(math.inf, by_light=True)
-    )
-    rays = middle_rays(before_samples=has_samples, fans=first.fans)
-    rays = rays._replace(paths=first.paths, lens=lens_points(scene.camera, int(settings.samples)))
+    noise = None if soft is None else Noise(math.inf, by_light=True)
+    (fans, paths), _ = rays_from_surfaces(settings, noise)
+    lens = lens_points(scene.camera, int(settings.samples))
+    rays = middle_rays(before_samples=has_samples, fans=fans, paths=paths, lens=lens)
     trace_to(film, scene, rays, Tile(0, 0, 0, 0))

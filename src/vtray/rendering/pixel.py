@@ -13,7 +13,7 @@ from vtray.rendering.numbering import Numbering
 from vtray.rendering.pack import Packed
 from vtray.rendering.pixel_crowd import trace_shared
 from vtray.rendering.pixel_lights import Lit, shadow_rays, trace_fans
-from vtray.rendering.pixel_surfaces import find_surface, rgb
+from vtray.rendering.pixel_surfaces import as_vec, find_surface, rgb
 from vtray.scene.scene import Scene
 from vtray.scene.vectors import Color
 from vtray.transport.integrators.reference import TracedPixel
@@ -65,13 +65,8 @@ def hit_of(pixel: Pixel, traced: TracedPixel, before: float = 0.0) -> Hit:
     if half & CAP and isinstance(cap, Color):
         surface = replace(surface, color=rgb(cap))
     distance = traced.distance * packed.unit + before
-    return Hit(surface, distance, in_world(pixel, traced.interaction.point), normal_of(traced))
-
-
-def normal_of(traced: TracedPixel) -> Vec:
-    """Return the unit normal of what is hit, on the side that the ray comes from."""
-    x, y, z = map(float, traced.interaction.normal)
-    return x, y, z
+    point, normal, _, _ = traced.interaction
+    return Hit(surface, distance, in_world(pixel, point), as_vec(normal))
 
 
 def ways_to_lights(

@@ -1,18 +1,22 @@
 """The rays from a glossy surface to lights, of each of which its coat shows something else."""
 
-import math
 from typing import NamedTuple
 
-from vtray.base.exact_math import hypotenuse
 from vtray.figures.traced_rays import FanRay, Hit, ShadowFan, ShadowRay, Surface, WayToLight
 from vtray.geometry.packets.packet import Packet
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec
 from vtray.rendering.pixel import Pixel, in_world
-from vtray.rendering.pixel_lights import asked_lights, middle_of
-from vtray.rendering.pixel_surfaces import find_blocker, rgb
-from vtray.scene.light_types import Ambient, AnyLight, Lamp, Light, measure_of, strength_of
+from vtray.rendering.pixel_lights import (
+    asked_lights,
+    length_towards,
+    middle_of,
+    point_lights,
+    way_to,
+)
+from vtray.rendering.pixel_surfaces import as_vec, find_blocker, rgb
+from vtray.scene.light_types import AnyLight, Light, measure_of, strength_of
 from vtray.transport.integrators.glossy_light import PICKED
 from vtray.transport.integrators.single_path import Glossy, ToldRay, tell_lamp, tell_point
 from vtray.transport.sampling.paths import Step
@@ -44,9 +48,8 @@ class Coat(NamedTuple):
 def coat_lights(coat: Coat) -> tuple[WayToLight, ...]:
     """Return the ways from a glossy hit to all lights."""
     arrays, scene = coat.pixel.packed.arrays, coat.pixel.scene
-    points = [(k, light) for k, light in enumerate(scene.lights) if isinstance(light, Light)]
     ways: list[WayToLight] = []
-    for number, (k, light) in enumerate(points):
+    for number, (k, light) in enumerate(point_lights(scene)):
         told = tell_point(arrays, coat.glossy, coat.packet, number, coat.stack)
         ways.append(_to_point(coat, k, light, told))
     others, soft, asked = asked_lights(scene), arrays.lights.soft, {}
@@ -62,7 +65,7 @@ def coat_lights(coat: Coat) -> tuple[WayToLight, ...]:
 def _to_point(coat: Coat, number: int, light: Light, told: ToldRay) -> ShadowRay:
     """Return the ray to a point."""
     place = light.location.x, light.location.y, light.location.z
-    way, distance = _way(coat, place)
+    way, distance = way_to(coat.hit, place)
     brings = max(told.brings) > 0.0
     cosine = sum(a * b for a, b in zip(coat.hit.normal, way, strict=True)) if brings else 0.0
     adds = _added(told)
@@ -77,11 +80,8 @@ def _to_lamp(coat: Coat, number: int, light: AnyLight, told: ToldRay | None) -> 
     rays: tuple[FanRay, ...] = ()
     adds, share = (0.0, 0.0, 0.0), 0.0
     if told is not None:
-        way, length = _way(coat, in_world(coat.pixel, told.end))
-        if isinstance(light, Ambient):
-            length = light.distance
-        elif not isinstance(light, Lamp):
-            length = math.inf
+        way, to_end = way_to(coat.hit, in_world(coat.pixel, told.end))
+        length = length_towards(light, to_end)
         weight, adds = 1.0 if max(told.brings) > 0.0 else 0.0, _added(told)
         rays = (FanRay(way, length, weight, _blocker(coat, told, way) if weight else None),)
         share = weight if rays[0].arrives else 0.0
@@ -93,15 +93,7 @@ def _added(told: ToldRay) -> Vec:
     """Return what a ray adds to the pixel."""
     if int(told.blocker) != NOTHING:
         return 0.0, 0.0, 0.0
-    red, green, blue = map(float, told.brings)
-    return red, green, blue
-
-
-def _way(coat: Coat, end: Vec) -> tuple[Vec, float]:
-    """Return the unit direction from the hit to a place, and how far it is."""
-    x, y, z = (b - a for a, b in zip(coat.hit.point, end, strict=True))
-    distance = hypotenuse(x, y, z)
-    return (x / distance, y / distance, z / distance) if distance else (0.0, 0.0, 0.0), distance
+    return as_vec(told.brings)
 
 
 def _blocker(coat: Coat, told: ToldRay, way: Vec) -> Surface | None:

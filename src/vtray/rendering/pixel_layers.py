@@ -9,7 +9,7 @@ from vtray.figures.traced_rays import Hit, Layer, WayToLight
 from vtray.geometry.packets.layer_notes import AT_ONCE, new_layers, new_walk
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.queries import NOTHING
-from vtray.geometry.vector import Vec
+from vtray.geometry.vector import Vec, add
 from vtray.geometry.world import body_count
 from vtray.rendering.pixel import Pixel, hit_of, ways_to_lights
 from vtray.transport.fog import fog_share
@@ -61,7 +61,7 @@ def look_through(pixel: Pixel) -> tuple[tuple[Layer, ...], Behind, Vec]:
                 hit = hit_of(pixel, layer, pixel.packed.before)
                 ways, light_of_layer = ways_to_lights(pixel, layer, hit, cosines, blockers)
                 found.append(Layer(hit, layer.share, ways, light_of_layer))
-                light = _sum(light, light_of_layer)
+                light = uncompiled(add)(light, light_of_layer)
             share = float(notes.passed[0])
             if not count:
                 break
@@ -69,18 +69,13 @@ def look_through(pixel: Pixel) -> tuple[tuple[Layer, ...], Behind, Vec]:
         traced = trace_dimmed_pixel(arrays, *pixel.place, seen, stack, cosines, blockers, walk)
     if traced.primitive == NOTHING:
         behind = Behind(traced, None, (), share)
-        return tuple(found), behind, _sum(light, traced.value)
+        return tuple(found), behind, uncompiled(add)(light, traced.value)
     hit = hit_of(pixel, traced, pixel.packed.before)
     ways, light_behind = ways_to_lights(pixel, traced, hit, cosines, blockers)
-    return tuple(found), Behind(traced, hit, ways, share), _sum(light, light_behind)
+    return tuple(found), Behind(traced, hit, ways, share), uncompiled(add)(light, light_behind)
 
 
 def _clear(pixel: Pixel, distance: float) -> float:
     """Return how much of what is seen at a distance, in the arrays' units, is no fog."""
     fog = pixel.packed.arrays.fog
     return 1.0 if fog is None else 1.0 - uncompiled(fog_share)(fog, float(distance))
-
-
-def _sum(one: Vec, other: Vec) -> Vec:
-    """Return a sum as kernels have it."""
-    return one[0] + other[0], one[1] + other[1], one[2] + other[2]

@@ -18,7 +18,7 @@ from vtray.geometry.world import body_count
 from vtray.rendering.numbering import Numbering
 from vtray.rendering.pack import Packed
 from vtray.rendering.pack_surroundings import is_even
-from vtray.rendering.pixel_surfaces import find_blocker, rgb
+from vtray.rendering.pixel_surfaces import as_vec, find_blocker, rgb
 from vtray.scene.colors.color_light import light_of
 from vtray.scene.light_types import (
     Ambient,
@@ -57,6 +57,11 @@ class Lit(NamedTuple):
     color: Vec
 
 
+def point_lights(scene: Scene) -> list[tuple[int, Light]]:
+    """Return the lights that are points, and their places in the scene."""
+    return [(k, light) for k, light in enumerate(scene.lights) if isinstance(light, Light)]
+
+
 def asked_lights(scene: Scene) -> list[tuple[int, AnyLight]]:
     """Return the lights that are no points to which shadow rays go, and their places in the scene.
 
@@ -80,10 +85,11 @@ def shadow_rays(
     lit: Lit, cosines: NDArray[np.float64], blockers: NDArray[np.int64]
 ) -> list[WayToLight]:
     """Return the rays to all point lights, given what `reference.trace_pixel` writes."""
-    points = [(k, light) for k, light in enumerate(lit.scene.lights) if isinstance(light, Light)]
     return [
         _shadow_ray(lit, number, light, float(cosine), int(blocker))
-        for (number, light), cosine, blocker in zip(points, cosines, blockers, strict=True)
+        for (number, light), cosine, blocker in zip(
+            point_lights(lit.scene), cosines, blockers, strict=True
+        )
     ]
 
 
@@ -145,13 +151,11 @@ def trace_fans(
 
 def _shadow_ray(lit: Lit, number: int, light: Light, cosine: float, primitive: int) -> ShadowRay:
     """Return the ray from a hit to a point light; `primitive` is the number of what blocks it."""
-    point, place = lit.hit.point, (light.location.x, light.location.y, light.location.z)
-    way = (place[0] - point[0], place[1] - point[1], place[2] - point[2])
-    distance = hypotenuse(*way)
-    if distance:
-        way = (way[0] / distance, way[1] / distance, way[2] / distance)
-    is_free = primitive == NOTHING
-    blocker = None if is_free else find_blocker(lit.scene, lit.numbering, primitive, point, way)
+    place = light.location.x, light.location.y, light.location.z
+    way, distance = way_to(lit.hit, place)
+    is_free, blocker = primitive == NOTHING, None
+    if not is_free:
+        blocker = find_blocker(lit.scene, lit.numbering, primitive, lit.hit.point, way)
     arriving = cosine if is_free else 0.0
     adds = added(lit, light, (arriving, arriving, arriving))
     color = rgb(light.color)
@@ -200,22 +204,34 @@ class SpreadRay(NamedTuple):
 
     def vector(self, field: int) -> Vec:
         """Return a field that is a vector."""
-        x, y, z = map(float, self.fan[field + self.ray : field + self.ray + 3 * FAN : FAN])
-        return x, y, z
+        return as_vec(self.fan[field + self.ray : field + self.ray + 3 * FAN : FAN])
 
 
 def fan_ray(lit: Lit, light: AnyLight, ray: SpreadRay, primitive: int) -> FanRay:
     """Return a ray of a fan; `primitive` is the number of what blocks it."""
     direction = ray.vector(DIRECTION)
-    length = math.inf
-    if isinstance(light, Lamp):
-        length = hypotenuse(*uncompiled(sub)(ray.vector(END), ray.start)) * ray.unit
-    elif isinstance(light, Ambient):
-        length = light.distance
+    own = hypotenuse(*uncompiled(sub)(ray.vector(END), ray.start)) * ray.unit
+    length = length_towards(light, own)
     blocker = None
     if primitive != NOTHING:
         blocker = find_blocker(lit.scene, lit.numbering, primitive, lit.hit.point, direction)
     return FanRay(direction, length, ray.weight(), blocker)
+
+
+def length_towards(light: AnyLight, to_end: float) -> float:
+    """Return how far a ray to a light that is no point goes; a lamp is as far as its end."""
+    if isinstance(light, Ambient):
+        return light.distance
+    return to_end if isinstance(light, Lamp) else math.inf
+
+
+def way_to(hit: Hit, place: Vec) -> tuple[Vec, float]:
+    """Return the unit direction from a hit to a place, 0 if it is there, and how far that is."""
+    way = uncompiled(sub)(place, hit.point)
+    distance = hypotenuse(*way)
+    if not distance:
+        return (0.0, 0.0, 0.0), 0.0
+    return (way[0] / distance, way[1] / distance, way[2] / distance), distance
 
 
 def middle_of(hit: Hit, light: AnyLight) -> Vec:
@@ -223,11 +239,9 @@ def middle_of(hit: Hit, light: AnyLight) -> Vec:
     if isinstance(light, Sun):
         return uncompiled(scale)(-1.0, unit(light.direction))
     if isinstance(light, Lamp):
-        place = (light.location.x, light.location.y, light.location.z)
-        way = uncompiled(sub)(place, hit.point)
-        distance = hypotenuse(*way)
+        way, distance = way_to(hit, (light.location.x, light.location.y, light.location.z))
         if distance > (light.radius if isinstance(light, SphereLight) else 0.0):
-            return way[0] / distance, way[1] / distance, way[2] / distance
+            return way
     return hit.normal
 
 
@@ -236,7 +250,7 @@ def added(lit: Lit, light: AnyLight, shares: Vec) -> Vec:
     # In the order of the kernels, so that the sum has the same bits.
     surface = lit.hit.surface
     strengths = [share * surface.lambert * strength_of(light) for share in shares]
-    red, green, blue = map(float, lit.color)
+    red, green, blue = as_vec(lit.color)
     tint = light_of(light.color, lit.scene.render.tonemap)
     return (
         strengths[0] * red * (tint[0] / 255),

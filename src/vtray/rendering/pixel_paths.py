@@ -24,11 +24,13 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.pending import NUMBERS
 from vtray.geometry.packets.workspace import new_workspace
 from vtray.geometry.queries import NOTHING
-from vtray.geometry.vector import Vec, dot, scale
+from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.geometry.world import body_count
+from vtray.rendering.pack_looks import materials_by_row
 from vtray.rendering.pixel import Pixel, hit_of, in_world, ways_to_lights
 from vtray.rendering.pixel_coat import Coat, coat_lights
 from vtray.rendering.pixel_lights import place_of_lamp
+from vtray.rendering.pixel_surfaces import as_vec
 from vtray.scene.colors.color_light import light_of_numbers
 from vtray.scene.materials import Lambert
 from vtray.transport.integrators.path import MIRRORED, REFRACTED, SCATTERED
@@ -92,6 +94,7 @@ class _Follower:
         assert arrays.materials.looks is not None  # noqa: S101 - rays go on
         self._pixel, self._arrays = pixel, arrays
         self._looks, self._sampling = arrays.materials.looks, sampling
+        self._materials = materials_by_row(pixel.packed.made)
         self._place = Place(*pixel.place, sample)
         sharing = sharing_lights(arrays.lights.crowd)
         self._packet = new_packet()
@@ -121,7 +124,7 @@ class _Follower:
         start, before = in_world(pixel, self._vector(ORIGIN)), pixel.packed.before
         eye = start[0] - before * x, start[1] - before * y, start[2] - before * z
         length = float(packet[DISTANCE]) * pixel.packed.unit + before
-        lamp, met = self._lamp(begun.lamp), _vec(begun.light)
+        lamp, met = self._lamp(begun.lamp), as_vec(begun.light)
         self._light = met
         return PathRay(None, "seen", eye, direction, WHITE, WHITE, length, lamp, met, met)
 
@@ -135,9 +138,9 @@ class _Follower:
             waiting.parent,
             waiting.how,
             in_world(pixel, found.waiting.ray.origin),
-            _vec(found.waiting.ray.direction),
-            _vec(found.waiting.seen),
-            _vec(found.passes),
+            as_vec(found.waiting.ray.direction),
+            as_vec(found.waiting.seen),
+            as_vec(found.passes),
             float(found.distance) * pixel.packed.unit,
             self._lamp(found.lamp),
             met,
@@ -170,14 +173,15 @@ class _Follower:
         lit = self._lit(chosen, traced, hit, asked)
         onward = self._take_waiting(len(self._rays) - 1, hit)
         self._steps += 1
-        self._light = _sum(_sum(self._light, own), lit.light)
+        sums = uncompiled(add)
+        self._light = sums(sums(self._light, own), lit.light)
         self._rays[-1] = replace(
             ray,
             hit=hit,
-            material=self._pixel.packed.materials[int(chosen.row)],
+            material=self._materials[int(chosen.row)],
             shines=BLACK if chosen.has_coat else own,
             lights=lit.ways,
-            light=_sum(_sum(ray.met, own), lit.light),
+            light=sums(sums(ray.met, own), lit.light),
             shown=lit.shown,
             choice=self._choice(chosen, hit, onward),
         )
@@ -193,7 +197,7 @@ class _Follower:
         row = int(chosen.row)
         if chosen.has_coat:
             return _Lit(coat_lights(self._coat(hit, row)), BLACK, None)
-        is_matt = isinstance(self._pixel.packed.materials[row], Lambert)
+        is_matt = isinstance(self._materials[row], Lambert)
         if not (is_matt or max(traced.material.color) > 0.0):
             return _Lit((), BLACK, None)
         seed = int(uncompiled(seed_of_step)(self._pixel.seed, self._steps))
@@ -205,7 +209,7 @@ class _Follower:
         pending, direction = self._work.pending, None
         for k in range(int(pending.waiting[0])):
             numbers = pending.numbers[k * NUMBERS : (k + 1) * NUMBERS].copy()
-            direction = _vec(numbers[3:6])
+            direction = as_vec(numbers[3:6])
             is_mirrored = uncompiled(dot)(direction, hit.normal) > 0.0
             how = WORDS[MIRRORED if is_mirrored else REFRACTED]
             self._waiting.append(_Waiting(numbers, parent, how))
@@ -253,19 +257,8 @@ class _Follower:
 
     def _vector(self, field: int) -> Vec:
         """Return a field of the first lane."""
-        return _vec(self._packet[field : field + 3 * LANES : LANES])
+        return as_vec(self._packet[field : field + 3 * LANES : LANES])
 
     def _put_light(self, light: Vec) -> None:
         """Set the light of the first lane."""
         self._packet[GATHERED : GATHERED + 3 * LANES : LANES] = light
-
-
-def _vec(numbers: "Vec | NDArray[np.float64]") -> Vec:
-    """Return three numbers as floats."""
-    x, y, z = map(float, numbers)
-    return x, y, z
-
-
-def _sum(one: Vec, other: Vec) -> Vec:
-    """Return a sum as kernels have it."""
-    return one[0] + other[0], one[1] + other[1], one[2] + other[2]

@@ -186,8 +186,7 @@ def _path_tree(
     if sample is None:
         arrays = with_pinhole(packed.arrays)
         pixel = pixel._replace(packed=packed._replace(arrays=arrays))
-        sampling = middle_rays(before_samples=True, fans=fans, seed=pixel.seed)
-        sampling = sampling._replace(paths=paths)
+        sampling = middle_rays(before_samples=True, fans=fans, paths=paths, seed=pixel.seed)
     else:
         lens = lens_points(packed.arrays.camera, int(settings.samples))
         sampling = filter_samples(settings, np.zeros((0, 0), np.bool_), fans, paths, lens)

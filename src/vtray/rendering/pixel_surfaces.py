@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import uncompiled
 from vtray.base.exact_math import hypotenuse
@@ -92,11 +93,16 @@ def rgb(color: Color) -> Vec:
     return float(color.r), float(color.g), float(color.b)
 
 
+def as_vec(numbers: "Vec | NDArray[Any]") -> Vec:
+    """Return three numbers as floats of Python."""
+    x, y, z = map(float, numbers)
+    return x, y, z
+
+
 def _row(item: ArrayHolder, name: str, index: int) -> Vec:
     """Return a row of an array, in which one may stand for all."""
     column = getattr(item, name)
-    x, y, z = map(float, column if column.ndim == 1 else column[index])
-    return x, y, z
+    return as_vec(column if column.ndim == 1 else column[index])
 
 
 def _number(item: Arrays, name: str, index: int) -> float:

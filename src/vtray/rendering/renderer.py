@@ -30,9 +30,9 @@ from vtray.rendering.drawing import Drawing
 from vtray.rendering.fog import ball_around, fitted
 from vtray.rendering.followed import check_followed, followed, shines, simpler_looks
 from vtray.rendering.growth import Growth
-from vtray.rendering.guides import Albedo
+from vtray.rendering.guides import Guiding
 from vtray.rendering.hierarchy import accelerate
-from vtray.rendering.pack import pack
+from vtray.rendering.pack import Packed, pack
 from vtray.rendering.passes import Tracer, compile_kernels
 from vtray.rendering.relighting import Relighting, Rerendering
 from vtray.rendering.seen_sky import SeenSky, check_sky
@@ -246,14 +246,14 @@ def render(
     sky = SeenSky(packed.arrays.camera, settings, threads)
     sky.warm_up(shown)
     clock.lap("compile")
-    look = Look(shown, packed, threads)
+    look, guiding = Look(shown, packed, threads), Guiding(kept, settings, threads)
     darkroom = Darkroom(
         shown,
         Scene(scene.camera, lights, list(scene.objects), scene.render, scene.style),
         settings,
         style,
         look,
-        Albedo(kept, settings, threads),
+        lambda recolored: guiding(recolored).albedo,
         sky,
         Starlight(lambda: look().depth, kept.rooms),
         lock,
@@ -279,7 +279,7 @@ def render(
         else Rerendering(kept, settings, style, threads)
     )
     coverage = traced.film.coverage
-    denoising = Denoising(kept, settings, coverage, threads)
+    denoising = Denoising(None if _is_blurred(packed, settings) else guiding, coverage, threads)
     image = darkroom.picture(
         traced.film.linear,
         coverage,
@@ -374,6 +374,11 @@ def _check_memory(scene: Scene, settings: RenderSettings, *, is_shown: bool) -> 
     more += BYTES_PER_PIXEL_DENOISED if settings.denoise else 0
     more += BYTES_PER_PIXEL_STARRY if has_stars(scene) else 0
     check_memory(int(width), int(height), int(settings.samples), behind, more)
+
+
+def _is_blurred(packed: Packed, settings: RenderSettings) -> bool:
+    """Tell whether rays go through a lens: the light of surfaces is then less sharp than they."""
+    return packed.arrays.camera.lens is not None and settings.samples > 1
 
 
 def _shown(scene: Scene, lights: list[AnyLight], settings: RenderSettings) -> Scene:

@@ -171,24 +171,30 @@ def light_hit(
     found = interact(scene.world, ray, hit.distance, hit.group, hit.slot)
     own = load_material(scene.materials, hit.primitive, found.half)
     material = Material(scale(share, own.color), own.lambert)
-    unlit = TracedPixel(
-        ray, hit.distance, hit.primitive, found, (0.0, 0.0, 0.0), NOTHING, share, material, 0
-    )
-    return light_by_points(scene, unlit, stack, cosines, blockers, walk)
+    value = light_of_points(scene, found, material, stack, cosines, blockers, walk)
+    return TracedPixel(ray, hit.distance, hit.primitive, found, value, NOTHING, share, material, 0)
 
 
 @device
-def light_by_points(
+def light_of_points(
     scene: SceneArrays,
-    unlit: TracedPixel,
+    found: Interaction,
+    material: Material,
     stack: Stack,
     cosines: NDArray[np.float64],
     blockers: NDArray[np.int64],
     walk: Walk,
-) -> TracedPixel:
-    """Return a hit with the light of points; other parameters are those of `trace_pixel`."""
-    found, value, material = unlit.interaction, (0.0, 0.0, 0.0), unlit.material
-    plane_depth = plane_depth_of(scene.camera, found.point)
+) -> Vec:
+    """Return the light of points at a hit.
+
+    Parameters
+    ----------
+    scene, stack, cosines, blockers, walk
+        As for `trace_pixel`.
+    found, material
+        The hit, and what is hit is made of, as in `TracedPixel`.
+    """
+    value, plane_depth = (0.0, 0.0, 0.0), plane_depth_of(scene.camera, found.point)
     for light in range(light_count(scene.lights)):
         target = light_target(scene.lights, light)
         error_bound = ROUNDING * (found.error_scale + target.error_scale)
@@ -208,17 +214,7 @@ def light_by_points(
             cosines[light] = cosines[light] * (1.0 - blocked) if blocked < 1.0 else 0.0
             power = load_power(scene.lights, light)
             value = add(value, scattered(material, cosines[light], power))
-    return TracedPixel(
-        unlit.ray,
-        unlit.distance,
-        unlit.primitive,
-        found,
-        value,
-        NOTHING,
-        unlit.share,
-        material,
-        unlit.sample,
-    )
+    return value
 
 
 def _trace_fan(

@@ -58,7 +58,7 @@ from vtray.transport.integrators.path import (
     scatter_hits,
     start_of,
 )
-from vtray.transport.integrators.reference import TracedPixel, light_by_points
+from vtray.transport.integrators.reference import TracedPixel, light_of_points
 from vtray.transport.integrators.whitted import split_hits
 from vtray.transport.interaction import Interaction, gather_interactions
 from vtray.transport.lights.light import lamp_light
@@ -271,18 +271,18 @@ def light_matt(
     found = Interaction(
         load(packet, POINT, 0), load(packet, NORMAL, 0), packet[ERROR_SCALE], int(numbers[HALF])
     )
-    unlit = TracedPixel(
+    value = light_of_points(scene, found, material, stack, cosines, blockers, walk)
+    return TracedPixel(
         load_ray(packet, bounced_sheaf(), 0),
         packet[DISTANCE],
         int(numbers[PRIMITIVE]),
         found,
-        (0.0, 0.0, 0.0),
+        value,
         NOTHING,
         1.0,
         material,
         place.sample,
     )
-    return light_by_points(scene, unlit, stack, cosines, blockers, walk)
 
 
 class ToldRay(NamedTuple):

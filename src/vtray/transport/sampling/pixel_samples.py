@@ -83,13 +83,15 @@ def middle_rays(
     *,
     before_samples: bool = False,
     fans: Fans | None = None,
+    paths: Paths | None = None,
+    lens: Paths | None = None,
     seed: int = 0,
 ) -> Sampling:
     """Return one ray for each pixel, through its middle; if samples follow, for the same kernel."""
     none = np.zeros((0, 0), np.bool_)
     points = sobol_points(1) if before_samples else None
     wide = footprint if before_samples else None
-    return Sampling(1, seed, points, fans, np.zeros(2), math.inf, wide, thickest, none)
+    return Sampling(1, seed, points, fans, np.zeros(2), math.inf, wide, thickest, none, paths, lens)
 
 
 def filter_samples(
