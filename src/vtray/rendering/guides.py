@@ -73,6 +73,10 @@ class Guiding:
         arrays = pack(scene, self._kept.with_colors_of(scene.objects)).arrays
         return find_guides(arrays, self._settings, self._threads)
 
+    def albedo(self, scene: Scene) -> Floats:
+        """Return the albedo alone."""
+        return self(scene).albedo
+
 
 def find_guides(scene: SceneArrays, settings: RenderSettings, threads: int) -> Guides:
     """Return the guides of a picture.

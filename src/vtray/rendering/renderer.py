@@ -253,7 +253,7 @@ def render(
         settings,
         style,
         look,
-        lambda recolored: guiding(recolored).albedo,
+        guiding.albedo,
         sky,
         Starlight(lambda: look().depth, kept.rooms),
         lock,
