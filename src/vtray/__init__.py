@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from vtray.scene.materials import Blend, Emissive, Glass, Lambert, Metal, Mirror, Plastic
     from vtray.scene.particles.from_objects import from_ase, from_mdanalysis
     from vtray.scene.particles.particles import Particles
+    from vtray.scene.patterns import Checker, Stripes
     from vtray.scene.readers.read import read, read_frames
     from vtray.scene.scene import (
         Ambient,
@@ -57,6 +58,7 @@ __all__ = [
     "Ambient",
     "Blend",
     "Camera",
+    "Checker",
     "ClipPlane",
     "Color",
     "ColorScale",
@@ -95,6 +97,7 @@ __all__ = [
     "SphereLight",
     "Spheres",
     "Stars",
+    "Stripes",
     "Style",
     "Sun",
     "Vector",
@@ -123,6 +126,7 @@ _MODULES = {
     "Ambient": "scene.light_types",
     "Blend": "scene.materials",
     "Camera": "scene.camera",
+    "Checker": "scene.patterns",
     "ClipPlane": "scene.clip",
     "Color": "scene.vectors",
     "ColorScale": "scene.colors.color_scale",
@@ -161,6 +165,7 @@ _MODULES = {
     "SphereLight": "scene.light_types",
     "Spheres": "scene.spheres",
     "Stars": "scene.stars",
+    "Stripes": "scene.patterns",
     "Style": "scene.style",
     "Sun": "scene.light_types",
     "Vector": "scene.vectors",

@@ -60,6 +60,20 @@ def test_scene_is_valid() -> None:
     VALIDATOR.validate(json.loads(SCENE))
 
 
+CHECKER = {"type": "checker"}
+
+
+def blend_with(pattern: Any) -> dict[str, Any]:
+    """Return a blend whose first material has a pattern."""
+    return {"type": "blend", "first": {"type": "metal", "pattern": pattern}, "second": "mirror"}
+
+
+def test_blend_is_valid() -> None:
+    scene = json.loads(SCENE)
+    scene["objects"][0].update(material={**blend_with(None), "pattern": CHECKER})
+    VALIDATOR.validate(scene)
+
+
 BAD: dict[str, Callable[[Any], Any]] = {
     "no camera": lambda scene: scene.pop("camera"),
     "no type": lambda scene: scene["objects"][0].pop("type"),
@@ -77,6 +91,7 @@ BAD: dict[str, Callable[[Any], Any]] = {
     "three sizes": lambda scene: scene["camera"].update(size=[1, 1, 1]),
     "one size": lambda scene: scene["camera"].update(size=[1]),
     "no direction": lambda scene: scene["camera"].update(normal={"x": 0, "y": 0.0, "z": 0}),
+    "pattern in a blend": lambda scene: scene["objects"][0].update(material=blend_with(CHECKER)),
     "array of objects": lambda scene: scene.update(objects={}),
 }
 

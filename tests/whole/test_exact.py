@@ -119,7 +119,8 @@ def follow_all_ways() -> None:
     scene.camera = vtray.Camera.look_at((0, 0, 9), target=(0, 0, 0), up=(0, 1, 0), size=(5, 5))
     vtray.trace_pixel(vtray.render(scene, integrator="whitted"), 2, 2)
     vtray.render(scene, integrator="path", samples=2)
-    scene.objects[0] = vtray.Sphere((0, 0, 0.6), 1.5, material=vtray.Metal(roughness=0.3))
+    tiles = vtray.Metal(roughness=0.3, pattern=vtray.Checker(size=0.2))
+    scene.objects[0] = vtray.Sphere((0, 0, 0.6), 1.5, material=tiles)
     vtray.trace_pixel(vtray.render(scene, integrator="path", samples=2), 2, 2)
 
 

@@ -24,6 +24,7 @@ from vtray.geometry.shapes.cone import (
     cone_sides,
     cone_stay,
     cone_surface,
+    cone_unroll,
     load_cone,
 )
 from vtray.geometry.shapes.cut import (
@@ -38,6 +39,7 @@ from vtray.geometry.shapes.cut import (
     cut_sides,
     cut_stay,
     cut_surface,
+    cut_unroll,
 )
 from vtray.geometry.shapes.cut_plane import (
     cut_plane,
@@ -50,6 +52,7 @@ from vtray.geometry.shapes.cut_plane import (
     cut_plane_sides,
     cut_plane_stay,
     cut_plane_surface,
+    cut_plane_unroll,
 )
 from vtray.geometry.shapes.cylinder import (
     cylinder_chord,
@@ -64,6 +67,7 @@ from vtray.geometry.shapes.cylinder import (
     cylinder_sides,
     cylinder_stay,
     cylinder_surface,
+    cylinder_unroll,
     load_cylinder,
 )
 from vtray.geometry.shapes.plane import (
@@ -76,6 +80,7 @@ from vtray.geometry.shapes.plane import (
     plane_sides,
     plane_stay,
     plane_surface,
+    plane_unroll,
 )
 from vtray.geometry.shapes.room import ACROSS, load_room, relation_to
 from vtray.geometry.shapes.sphere import (
@@ -92,6 +97,7 @@ from vtray.geometry.shapes.sphere import (
     sphere_sides,
     sphere_stay,
     sphere_surface,
+    sphere_unroll,
 )
 from vtray.geometry.shapes.surface import no_power
 from vtray.geometry.shapes.verbs import Shape, Verbs
@@ -116,6 +122,7 @@ def with_any(world: World, group: Group, slot: int, action: Action, arguments: A
             plane_surface,
             no_power,
             plane_stay,
+            plane_unroll,
         )
         return action(plane, verbs, group.number + world.planes.number[slot], arguments)
     return with_bounded(world, group, slot, action, arguments)
@@ -247,6 +254,7 @@ def _verbs_of_spheres() -> Verbs:
         sphere_surface,
         no_power,
         sphere_stay,
+        sphere_unroll,
     )
 
 
@@ -262,6 +270,7 @@ def _verbs_of_cylinders() -> Verbs:
         cylinder_surface,
         no_power,
         cylinder_stay,
+        cylinder_unroll,
     )
 
 
@@ -277,6 +286,7 @@ def _verbs_of_cones() -> Verbs:
         cone_surface,
         no_power,
         cone_stay,
+        cone_unroll,
     )
 
 
@@ -292,6 +302,7 @@ def _verbs_of_cut_shapes() -> Verbs:
         cut_surface,
         cut_power,
         cut_stay,
+        cut_unroll,
     )
 
 
@@ -307,4 +318,5 @@ def _verbs_of_cut_planes() -> Verbs:
         cut_plane_surface,
         cut_plane_power,
         cut_plane_stay,
+        cut_plane_unroll,
     )

@@ -8,7 +8,7 @@ from vtray.base.errors import RenderError
 from vtray.rendering.acceleration import Acceleration
 from vtray.scene.camera import Camera
 from vtray.scene.copies import Copies
-from vtray.scene.materials import blended_in, can_vary, is_matt, materials_of
+from vtray.scene.materials import Lambert, blended_in, can_vary, materials_of
 from vtray.scene.objects import Object
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
@@ -76,7 +76,7 @@ def _kinds(objects: Sequence[Object]) -> Iterator[tuple[str, bool]]:
             yield from _kinds(item.objects)
         for material in materials_of(getattr(item, "material", "lambert")):
             for one in blended_in(material) or (material,):
-                if not is_matt(one):
+                if not isinstance(one, Lambert):
                     own = getattr(one, "roughness", 0.0)
                     each = getattr(item, "roughness", None)
                     rough = each if each is not None and can_vary(one, "roughness") else own

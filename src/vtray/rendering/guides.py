@@ -5,14 +5,13 @@ middle rays. Where pixels have samples, rays on a grid within each of them are w
 filter.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.pool import run_tasks
 from vtray.base.tiles import Tile, split_into_tiles
-from vtray.geometry.packets.packet import CAP, SECOND
 from vtray.rendering.acceleration import Acceleration
 from vtray.rendering.engines.engine import Plan, trace
 from vtray.rendering.pack import pack
@@ -21,7 +20,6 @@ from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 from vtray.transport.camera_rays import CameraFrame, turned_by
 from vtray.transport.film import Film
-from vtray.transport.materials.material import Materials
 from vtray.transport.sampling.filters import FILTERS
 from vtray.transport.sampling.pixel_samples import middle_rays
 from vtray.transport.scene_arrays import SceneArrays, without_light
@@ -101,7 +99,7 @@ def find_guides(scene: SceneArrays, settings: RenderSettings, threads: int) -> G
         left, top = side * tile.left - before, side * tile.top - before
         right, bottom = side * (tile.right - 1) + before + 1, side * (tile.bottom - 1) + before + 1
         film, _ = trace(fine, plan, Tile(left, top, right, bottom))
-        rows = _weighted(_surfaces(film, scene.materials), weights, side)
+        rows = _weighted(_surfaces(film), weights, side)
         columns = _weighted(rows.swapaxes(0, 1), weights, side)
         found[tile.top : tile.bottom, tile.left : tile.right] = columns.swapaxes(0, 1)
 
@@ -110,43 +108,12 @@ def find_guides(scene: SceneArrays, settings: RenderSettings, threads: int) -> G
     return Guides(found[..., :3].clip(0.0, 1.0), found[..., 3:6], found[..., 6].clip(0.0, 1.0))
 
 
-def albedo_of(materials: Materials, primitive: NDArray[Any], half: NDArray[Any]) -> Floats:
-    """Return the share of light that primitives scatter, each channel from 0 to 1.
-
-    Parameters
-    ----------
-    materials
-        The materials of all primitives.
-    primitive, half
-        The numbers of the primitives, and what stands in field ``HALF`` of a packet, of any shape.
-
-    Returns
-    -------
-    array
-        Of the same shape, with three channels each.
-    """
-    k = np.searchsorted(materials.first, primitive, side="right") - 1
-    place = (primitive - materials.first[k]) % np.maximum(materials.each[k], 1)
-    row = np.where(
-        half & SECOND != 0,
-        materials.end_row[k] + place * materials.end_step[k],
-        materials.color_row[k] + place * materials.color_step[k],
-    )
-    lambert = materials.lambert[materials.lambert_row[k] + place * materials.lambert_step[k]]
-    color = materials.light[materials.color[row]]
-    if materials.cap is not None and materials.cap[0] >= 0:
-        color[half & CAP != 0] = materials.cap
-    shares: Floats = (color / 255.0 * lambert[..., None]).clip(0.0, 1.0)
-    return shares
-
-
-def _surfaces(film: Film, materials: Materials) -> Floats:
+def _surfaces(film: Film) -> Floats:
     """Return albedo, normal and 1 for a hit, all 0 for none, (height, width, 7)."""
-    found = np.zeros((*film.primitive.shape, 7))
-    hit = film.primitive >= 0
-    found[hit, :3] = albedo_of(materials, film.primitive[hit], film.half[hit])
-    found[hit, 3:6] = film.normal[hit]
-    found[hit, 6] = 1.0
+    found = np.empty((*film.primitive.shape, 7))
+    found[..., :3] = film.albedo
+    found[..., 3:6] = film.normal
+    found[..., 6] = film.primitive >= 0
     return found
 
 

@@ -30,7 +30,8 @@ from vtray.rendering.joined import joined, rows_of
 from vtray.rendering.pack_bodies import pack_bodies
 from vtray.rendering.pack_lens import pack_lens
 from vtray.rendering.pack_lights import pack_lights, points_of
-from vtray.rendering.pack_looks import MadeOf, made_of, pack_looks
+from vtray.rendering.pack_looks import MadeOf, made_of, pack_looks, rows_of_ranges
+from vtray.rendering.pack_patterns import pack_patterns
 from vtray.rendering.pack_skies import up_of
 from vtray.rendering.pack_surroundings import is_even, pack_surroundings
 from vtray.rendering.placed import Placed
@@ -445,6 +446,7 @@ def _pack_materials(
     ranges = kept.ranges
     k = np.where(ranges.copied < 0, ranges.kind, len(kept.shapes) + ranges.copied)
     k, begin = np.append(k, len(sources)), np.append(ranges.begin, 0)
+    rows = rows_of_ranges(made, k, begin)
     return Materials(
         np.append(ranges.first, kept.count),
         np.append(ranges.each, MAX_NUMBERS),
@@ -458,7 +460,8 @@ def _pack_materials(
         light_of_numbers(scene.render.tonemap),
         joined(lamberts, np.float64),
         _cap_color(kept.rooms, scene.render.tonemap),
-        pack_looks(made, k, begin, unit, scene),
+        pack_looks(made, rows, unit, scene),
+        pack_patterns(made, rows, unit, scene),
     )
 
 

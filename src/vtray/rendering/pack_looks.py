@@ -87,10 +87,16 @@ def materials_by_row(parts: Sequence[MadeOf]) -> list[Material]:
     return [*materials, *(part for material in materials for part in blended_in(material))]
 
 
-def pack_looks(
-    parts: Sequence[MadeOf], part: Integers, begin: Integers, unit: float, scene: Scene
-) -> Looks | None:
-    """Return how the primitives of a scene look; None where the integrator does not ask.
+class Rows(NamedTuple):
+    """Of which materials primitives are made, as in `Looks`."""
+
+    row: Integers
+    step: Integers
+    which: Integers
+
+
+def rows_of_ranges(parts: Sequence[MadeOf], part: Integers, begin: Integers) -> Rows:
+    """Return of which materials primitives are made.
 
     Parameters
     ----------
@@ -98,6 +104,22 @@ def pack_looks(
         What they are made of.
     part, begin
         The part of each range of their numbers, and where it begins there, (ranges,).
+    """
+    row, step = rows_of([one.which for one in parts])
+    first = np.cumsum([0, *(len(one.materials) for one in parts)])
+    which = [one.which + at for one, at in zip(parts, first, strict=False)]
+    return Rows(row[part] + begin * step[part], step[part], joined(which, np.int64))
+
+
+def pack_looks(parts: Sequence[MadeOf], rows: Rows, unit: float, scene: Scene) -> Looks | None:
+    """Return how the primitives of a scene look; None where the integrator does not ask.
+
+    Parameters
+    ----------
+    parts
+        What they are made of.
+    rows
+        The same by ranges of their numbers.
     unit
         The length in scene units of length 1 in the arrays.
     scene
@@ -108,9 +130,6 @@ def pack_looks(
     is_matt = all(isinstance(material, Lambert) for material in materials)
     if integrator == "direct" or (integrator == "whitted" and is_matt):
         return None
-    row, step = rows_of([one.which for one in parts])
-    first = np.cumsum([0, *(len(one.materials) for one in parts)])
-    which = [one.which + at for one, at in zip(parts, first, strict=False)]
     looks = [_look_of(material, unit) for material in materials_by_row(parts)]
     after = len(materials)
     for material, (_, values) in zip(materials, looks, strict=False):
@@ -118,9 +137,7 @@ def pack_looks(
             values[:3] = [after, after + 1, material.weight]
             after += 2
     return Looks(
-        row[part] + begin * step[part],
-        step[part],
-        joined(which, np.int64),
+        *rows,
         np.array([kind for kind, _ in looks], np.int64),
         input_array(np.array([values for _, values in looks]).reshape(-1, NUMBERS), np.float64),
         int(scene.render.depth),

@@ -13,7 +13,7 @@ from vtray.scene.camera import Camera
 from vtray.scene.colors.color_light import light_of
 from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.light_types import AnyLight, Sky
-from vtray.scene.placing.directions import along, camera_axes, cross, unit, view_axes
+from vtray.scene.placing.directions import along, beside, camera_axes, cross, unit
 from vtray.scene.sky_types import Gradient
 from vtray.transport.lights.sky import Skies
 
@@ -101,13 +101,11 @@ def _nodes_of(picture: Pictures) -> Pictures:
 def _axes_of(sky: Sky, up: Vec) -> tuple[float, ...]:
     """Return the axes of the map of a sky: away from its middle, to the left of it, and up.
 
-    The middle is towards the world's axis after that which is nearest to what is up: x for z, y
-    for x, and z for y; or as near to it as the horizon is.
+    The middle is towards `beside` what is up.
     """
     upward = up if sky.up is None else unit(sky.up)
-    nearest = max(range(3), key=lambda k: (abs(upward[k]), k))
-    x, y, z = (1.0 if k == (nearest + 1) % 3 else 0.0 for k in range(3))
-    _, behind = view_axes(upward, (x, y, z))
+    x, y, z = beside(upward)
+    behind = -x, -y, -z
     left = cross(behind, upward)
     a, b = cosine(sky.rotation), sine(sky.rotation)
     nowhere = 0.0, 0.0, 0.0

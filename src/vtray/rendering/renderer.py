@@ -275,7 +275,7 @@ def render(
     }
     relighting = (
         Relighting(kept, traced.kept, int(settings.samples), threads)
-        if packed.arrays.world.faded is None
+        if packed.arrays.world.faded is None and packed.arrays.materials.patterns is None
         else Rerendering(kept, settings, style, threads)
     )
     coverage = traced.film.coverage

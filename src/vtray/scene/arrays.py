@@ -16,7 +16,7 @@ from vtray.scene.materials import (
     Material,
     can_vary,
     checked_materials,
-    is_matt,
+    is_default,
     materials_of,
 )
 
@@ -181,7 +181,7 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
             for name, column in self.COLUMNS.items()
             if getattr(self, name) is not None or column.stand_in in self.COLUMNS
         ]
-        if not is_matt(self.material):
+        if not is_default(self.material):
             shown.append(f"material={self.material!r}")
         return f"{type(self).__name__}({', '.join(shown)})"
 

@@ -15,7 +15,7 @@ from vtray.base.pool import run_tasks
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import Arrays
 from vtray.scene.copies import Copies
-from vtray.scene.materials import is_matt, materials_of
+from vtray.scene.materials import is_default, materials_of
 from vtray.scene.scene import Scene
 from vtray.scene.sky_image import SkyImage
 from vtray.scene.written_lights import as_written
@@ -97,7 +97,7 @@ def _parts_of(objects: Iterable[object], threads: int) -> list[object]:
             parts += [item.__struct_config__.tag, _parts_of(item.objects, threads), own]
         elif isinstance(item, ArrayHolder):
             parts += [item.__struct_config__.tag, hash_arrays(arrays_of(item), threads).hex()]
-            if isinstance(item, Arrays) and not is_matt(item.material):
+            if isinstance(item, Arrays) and not is_default(item.material):
                 parts += materials_of(item.material)
         else:
             parts.append(object_as_written(item) if hasattr(item, "opacity") else item)

@@ -7,25 +7,49 @@ from msgspec import Meta
 from vtray.scene.checks.checked import Frozen
 from vtray.scene.checks.limits import FieldError, NonNegative, YesOrNo
 from vtray.scene.metals import MetalName
+from vtray.scene.patterns import Pattern
 
 Index = Annotated[float, Meta(ge=0.1, le=10, description="a number from 0.1 to 10")]
 Share = Annotated[float, Meta(ge=0, le=1, description="a number from 0 to 1")]
 MaterialName = Literal["lambert", "mirror", "glass", "metal", "plastic", "emissive"]
 
 
-class Lambert(Frozen, frozen=True, gc=False, tag_field="type", tag="lambert"):
-    """A matt surface, which scatters light evenly."""
+class Patterned(Frozen, frozen=True, gc=False, kw_only=True, omit_defaults=True):
+    """What may have a pattern.
+
+    Attributes
+    ----------
+    pattern : Checker or Stripes, optional
+        Colours on the surface in place of that of the object.
+    """
+
+    pattern: Pattern | None = None
 
 
-class Mirror(Frozen, frozen=True, gc=False, tag_field="type", tag="mirror"):
+class Lambert(Patterned, frozen=True, gc=False, tag_field="type", tag="lambert"):
+    """A matt surface, which scatters light evenly.
+
+    Attributes
+    ----------
+    pattern : Checker or Stripes, optional
+        Colours on the surface in place of that of the object.
+    """
+
+
+class Mirror(Patterned, frozen=True, gc=False, tag_field="type", tag="mirror"):
     """A smooth mirror.
 
     Of red, green and blue it reflects as much as the colour of the object says: all if that is
     white.
+
+    Attributes
+    ----------
+    pattern : Checker or Stripes, optional
+        As of Lambert.
     """
 
 
-class Glass(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type", tag="glass"):
+class Glass(Patterned, frozen=True, gc=False, tag_field="type", tag="glass"):
     """Clear glass, which mirrors a part of the light and refracts the rest.
 
     What passes its surface is tinted by the colour of the object.
@@ -44,6 +68,8 @@ class Glass(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type",
     thin : bool
         Whether the surface is a thin sheet with nothing within, as a bubble is; False by default.
         Then light goes straight through, and there is neither absorption nor roughness.
+    pattern : Checker or Stripes, optional
+        As of Lambert.
     """
 
     ior: Index = 1.5
@@ -64,10 +90,11 @@ class Glass(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type",
             absorption: tuple[float, float, float] = (0.0, 0.0, 0.0),
             roughness: float = 0.0,
             thin: bool = False,
+            pattern: Pattern | None = None,
         ) -> None: ...
 
 
-class Metal(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type", tag="metal"):
+class Metal(Patterned, frozen=True, gc=False, tag_field="type", tag="metal"):
     """A metal, which mirrors more at grazing angles.
 
     Attributes
@@ -78,6 +105,8 @@ class Metal(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type",
     roughness : float
         From 0, smooth, the default, to 1: how rough its surface is, as brushed or cast metal is.
         The whitted integrator takes it for smooth.
+    pattern : Checker or Stripes, optional
+        As of Lambert.
     """
 
     name: MetalName | None = None
@@ -85,10 +114,15 @@ class Metal(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type",
 
     if TYPE_CHECKING:
 
-        def __init__(self, name: MetalName | None = None, roughness: float = 0.0) -> None: ...
+        def __init__(
+            self,
+            name: MetalName | None = None,
+            roughness: float = 0.0,
+            pattern: Pattern | None = None,
+        ) -> None: ...
 
 
-class Plastic(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type", tag="plastic"):
+class Plastic(Patterned, frozen=True, gc=False, tag_field="type", tag="plastic"):
     """A clear coat over a matt surface of the object's colour.
 
     The coat mirrors white light; the surface below scatters what it does not mirror.
@@ -100,6 +134,8 @@ class Plastic(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type
     roughness : float
         From 0, smooth, the default, to 1: how rough the coat is. The whitted integrator takes it
         for smooth.
+    pattern : Checker or Stripes, optional
+        As of Lambert.
     """
 
     ior: Index = 1.5
@@ -107,10 +143,12 @@ class Plastic(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type
 
     if TYPE_CHECKING:
 
-        def __init__(self, ior: float = 1.5, roughness: float = 0.0) -> None: ...
+        def __init__(
+            self, ior: float = 1.5, roughness: float = 0.0, pattern: Pattern | None = None
+        ) -> None: ...
 
 
-class Emissive(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type", tag="emissive"):
+class Emissive(Patterned, frozen=True, gc=False, tag_field="type", tag="emissive"):
     """A surface that shines in the colour of the object, and neither scatters nor mirrors light.
 
     Attributes
@@ -118,38 +156,51 @@ class Emissive(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="typ
     radiance : float
         How bright it is, ≥ 0: at 1, the default, it looks as bright as a white surface that a light
         of intensity 1 shines on squarely.
+    pattern : Checker or Stripes, optional
+        As of Lambert.
     """
 
     radiance: NonNegative = 1.0
 
     if TYPE_CHECKING:
 
-        def __init__(self, radiance: float = 1.0) -> None: ...
+        def __init__(self, radiance: float = 1.0, pattern: Pattern | None = None) -> None: ...
 
 
 Single: TypeAlias = Lambert | Mirror | Glass | Metal | Plastic | Emissive
 """A material that is no blend."""
 
 
-class Blend(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type", tag="blend"):
+class Blend(Patterned, frozen=True, gc=False, tag_field="type", tag="blend"):
     """Two materials in one, as dust on metal is.
 
     Attributes
     ----------
     first, second : Lambert, Mirror, Glass, Metal, Plastic, Emissive or str
-        The two, none of them a blend.
+        The two, none of them a blend, and neither with a pattern: the blend has that.
     weight : float
         The share of the second, from 0 to 1; 0.5 by default.
+    pattern : Checker or Stripes, optional
+        As of Lambert.
     """
 
     first: Single | MaterialName
     second: Single | MaterialName
     weight: Share = 0.5
 
+    def __post_init__(self) -> None:
+        for name in ("first", "second"):
+            if material_of(getattr(self, name)).pattern is not None:
+                raise FieldError(name, "a material without a pattern, which the blend may have")
+
     if TYPE_CHECKING:
 
         def __init__(
-            self, first: Single | MaterialName, second: Single | MaterialName, weight: float = 0.5
+            self,
+            first: Single | MaterialName,
+            second: Single | MaterialName,
+            weight: float = 0.5,
+            pattern: Pattern | None = None,
         ) -> None: ...
 
 
@@ -188,9 +239,9 @@ def material_of(given: Material | MaterialName) -> Material:
     return _BY_NAME[given] if isinstance(given, str) else given
 
 
-def is_matt(given: AnyMaterials) -> bool:
+def is_default(given: AnyMaterials) -> bool:
     """Tell whether all is made of the material that everything is made of by default."""
-    return all(isinstance(one, Lambert) for one in materials_of(given))
+    return all(one == _BY_NAME["lambert"] for one in materials_of(given))
 
 
 def materials_of(given: AnyMaterials) -> tuple[Material, ...]:
@@ -216,8 +267,10 @@ def varied(material: Material, roughness: float, metalness: float) -> Material:
     if roughness >= 0 and can_vary(material, "roughness"):
         material = material.replace(roughness=roughness)
     if metalness > 0 and isinstance(material, Plastic):
-        metal = Metal(roughness=material.roughness)
-        return metal if metalness == 1 else Blend(material, metal, metalness)
+        metal, pattern = Metal(roughness=material.roughness), material.pattern
+        if metalness == 1:
+            return metal.replace(pattern=pattern)
+        return Blend(material.replace(pattern=None), metal, metalness, pattern)
     return material
 
 

@@ -9,10 +9,12 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import (
     BLOCK,
+    COLOR,
     COVER,
     DISTANCE,
     FOGGED,
     HALF,
+    LAMBERT,
     LANES,
     LIGHT,
     MIXED,
@@ -67,6 +69,8 @@ class Film(NamedTuple):
         What the middle ray hits, -1 for nothing, (height, width).
     half
         As in field ``HALF`` of a packet, 0 where nothing is hit, (height, width).
+    albedo
+        The share of light that what the middle ray hits scatters, (height, width, 3).
     kept
         What is kept of all rays to change lights and colours afterwards; never None.
     """
@@ -82,6 +86,7 @@ class Film(NamedTuple):
     normal: Rows
     primitive: Rows
     half: Rows
+    albedo: Rows
     kept: KeptLight
 
 
@@ -103,6 +108,7 @@ def new_film(width: int, height: int, *wanted: str, left: int = 0, top: int = 0)
         normal=rows("normal", np.float64, 3),
         primitive=rows("primitive", np.int32),
         half=rows("half", np.int8),
+        albedo=rows("albedo", np.float64, 3),
         kept=nothing_kept(has_fog="fog" in wanted),
     )
 
@@ -305,6 +311,7 @@ def write_middles(
     _write_distances(packet, block, begin, end, pixels, film.distance)
     _write_primitives(packet, block, begin, end, pixels, film.primitive, film.mixed)
     _write_halves(packet, block, begin, end, pixels, film.half)
+    _write_albedos(packet, block, begin, end, hits, pixels, film.albedo)
     _write_coverage(packet, block, begin, end, pixels, film.coverage, faded)
     _write_fog(packet, block, begin, end, pixels, film.fog, fog, faded)
     _write_mixed(packet, block, begin, end, pixels, film.mixed)
@@ -482,6 +489,29 @@ def _write_normals(
         row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
         for axis in range(3):
             normals[row, column, axis] = packet[NORMAL + axis * LANES + hit]
+
+
+@device
+def _write_albedos(
+    packet: Packet,
+    block: Block,
+    begin: int,
+    end: int,
+    hits: int,
+    pixels: Pixels,
+    albedo: Rows,
+) -> None:
+    """Write what share of light the hits scatter, 0 for the others."""
+    if albedo is None:
+        return
+    _clear(block, begin, end, pixels, albedo)
+    numbers = integers(packet)
+    for hit in range(hits):
+        row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
+        color, lambert = load(packet, COLOR, hit), packet[LAMBERT + hit]
+        for axis in range(3):
+            share = color[axis] / 255.0 * lambert
+            albedo[row, column, axis] = min(max(share, 0.0), 1.0)
 
 
 @device

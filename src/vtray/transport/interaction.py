@@ -1,5 +1,6 @@
 """Where a ray meets the world: the point and its surface, ready for shading."""
 
+import math
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device, part
@@ -38,10 +39,12 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Footprint, Ray, has_width, ray_point
 from vtray.geometry.shapes.surface import Surface, bend_at, normal_at
+from vtray.geometry.shapes.unrolled import Unrolled, Upright
 from vtray.geometry.shapes.verbs import Shape, Verbs
 from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.geometry.world import Group, World, has_trees, load_group
-from vtray.transport.materials.material import Materials, load_material
+from vtray.transport.materials.material import Material, Materials, load_material, pattern_of
+from vtray.transport.materials.pattern import PLAIN, Patterns, pattern_color, upright_of
 
 
 class Interaction(NamedTuple):
@@ -103,6 +106,77 @@ def interact(world: World, ray: Ray, distance: float, row: int, slot: int) -> In
     normal = normal_at(surface.pole, surface.is_round, point, ray.direction)
     error_scale = surface.error_scale + ray.error_scale + distance
     return Interaction(point, normal, error_scale, _half_of(surface))
+
+
+@device
+def material_at(
+    world: World,
+    materials: Materials,
+    primitive: int,
+    half: int,
+    row: int,
+    slot: int,
+    point: Vec,
+) -> Material:
+    """Return what a surface is made of at a point, with its pattern.
+
+    Parameters
+    ----------
+    world, materials
+        The scene.
+    primitive, half
+        What is there, as in fields ``PRIMITIVE`` and ``HALF`` of a packet.
+    row, slot
+        The row of its group, and its slot there.
+    point
+        The point.
+    """
+    own = load_material(materials, primitive, half)
+    return _with_pattern(
+        world, materials, materials.patterns, own, primitive, half, row, slot, point
+    )
+
+
+@device
+def _with_pattern(
+    world: World,
+    materials: Materials,
+    patterns: Patterns | None,
+    own: Material,
+    primitive: int,
+    half: int,
+    row: int,
+    slot: int,
+    point: Vec,
+) -> Material:
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if patterns is not None:
+        pattern = pattern_of(materials, patterns, primitive)
+        if patterns.kind[pattern] != PLAIN and not half & CAP:
+            group, upright = load_group(world, row), upright_of(patterns, pattern)
+            place = with_any(world, group, slot, _unroll, (point, upright))
+            return Material(pattern_color(patterns, pattern, place, own.color), own.lambert)
+    return own
+
+
+@device
+def _unroll(
+    shape: Shape,
+    verbs: Verbs,
+    number: int,  # noqa: ARG001
+    arguments: tuple[Vec, Upright],
+) -> Unrolled:
+    """Return where a point is on the unrolled surface of a shape."""
+    point, upright = arguments
+    return verbs.unroll(shape, point, upright)
+
+
+@device
+def _has_pattern(materials: Materials, patterns: Patterns | None, primitive: int) -> bool:
+    """Tell whether a primitive has a pattern."""
+    if patterns is not None:
+        return bool(patterns.kind[pattern_of(materials, patterns, primitive)] != PLAIN)
+    return False
 
 
 @device
@@ -168,8 +242,12 @@ def _fetch(
     surface = surface_at(world, load_group(world, row), slot, point, error_scale)
     store(packet, NORMAL, hit, surface.pole)
     packet[CURVED + hit] = 1.0 if surface.is_round else 0.0
+    primitive = numbers[PRIMITIVE + lane]
     if has_width(footprint):
-        packet[BEND + hit] = bend_at(surface, point)
+        bend = bend_at(surface, point)
+        # Where colours change, no part of a surface is even.
+        is_even = not _has_pattern(materials, materials.patterns, primitive)
+        packet[BEND + hit] = bend if is_even else math.inf
     # What all rays have in common is added later.
     own = 0.0 if sheaf.bounced is None else ray.error_scale
     packet[ERROR_SCALE + hit] = surface.error_scale + own
@@ -177,8 +255,9 @@ def _fetch(
     if start_apart(sheaf):
         store(packet, START, hit, ray.origin)
     packet[LENGTH + hit] = distance
-    numbers[HALF + lane] = _half_of(surface)
-    material = load_material(materials, numbers[PRIMITIVE + lane], _half_of(surface))
+    half = _half_of(surface)
+    numbers[HALF + lane] = half
+    material = material_at(world, materials, primitive, half, row, slot, point)
     store(packet, COLOR, hit, material.color)
     packet[LAMBERT + hit] = material.lambert
     numbers[SOURCE + hit] = lane

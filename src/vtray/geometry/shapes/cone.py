@@ -31,6 +31,12 @@ from vtray.geometry.shapes.sides import Sides
 from vtray.geometry.shapes.solid import Chord, chord_if, chord_that_counts, first_met
 from vtray.geometry.shapes.stay import Stay, no_stay, seen_stay
 from vtray.geometry.shapes.surface import Surface
+from vtray.geometry.shapes.unrolled import (
+    Unrolled,
+    Upright,
+    not_unrolled,
+    unrolled_side,
+)
 from vtray.geometry.vector import Vec, add, cross, dot, magnitude, scale, sub
 
 SIZE = 8
@@ -365,3 +371,17 @@ def _any_inside(cone: ConeShape, line: Line, bundle: Bundle) -> Span:
     is_nothing = (cone.length <= 0.0) | ((cone.room <= 0.0) & (cone.sine <= 0.0))
     misses = is_nothing | (span.near > span.far)
     return Span(math.inf if misses else span.near, -math.inf if misses else span.far)
+
+
+@device
+def cone_unroll(cone: ConeShape, point: Vec, upright: Upright) -> Unrolled:
+    """Return where a point is on the unrolled side of a cone, from its end on."""
+    _, is_round = cone_pole(cone, point)
+    if not (is_round and cone.cosine > 0.0):
+        return not_unrolled()
+    line = line_beside(cone, point, cone.axis)
+    first = cone.room / cone.cosine
+    last = first + cone.sine * cone.length / cone.cosine
+    length = cone.length / cone.cosine
+    down = length - line.height / cone.cosine
+    return unrolled_side(line.beside, cone.axis, down, max(first, last), length, upright)

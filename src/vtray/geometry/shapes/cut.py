@@ -37,6 +37,7 @@ from vtray.geometry.shapes.solid import (
 )
 from vtray.geometry.shapes.stay import Stay, no_stay, seen_stay
 from vtray.geometry.shapes.surface import Surface
+from vtray.geometry.shapes.unrolled import Unrolled, Upright, not_unrolled
 from vtray.geometry.shapes.verbs import Verbs
 from vtray.geometry.vector import Vec, add, dot, magnitude, scale
 
@@ -334,3 +335,11 @@ def cut_crossing(cut: CutShape, bundle: Bundle) -> Crossing:
         is_one = cut.solid.is_plain & is_cap & (near > bundle.last)
         return Crossing(found.near, found.far if is_one else math.inf)
     return found
+
+
+@seldom
+def cut_unroll(cut: CutShape, point: Vec, upright: Upright) -> Unrolled:
+    """Return where a point of what is left is on the unrolled surface of the whole."""
+    if _is_on_cap(cut, point):
+        return not_unrolled()
+    return cut.own.unroll(cut.whole, point, upright)

@@ -14,11 +14,13 @@ from vtray.geometry.shapes.plane import (
     plane_hides,
     plane_side,
     plane_surface,
+    plane_unroll,
 )
 from vtray.geometry.shapes.room import Room, all_within, any_within, room_side
 from vtray.geometry.shapes.sides import Sides, all_sides
 from vtray.geometry.shapes.stay import Stay
 from vtray.geometry.shapes.surface import Surface
+from vtray.geometry.shapes.unrolled import Unrolled, Upright
 from vtray.geometry.vector import Vec, add, scale, sub
 
 
@@ -113,3 +115,9 @@ def cut_plane_surface(cut: CutPlane, point: Vec, error_scale: float) -> Surface:
 def cut_plane_power(cut: CutPlane, point: Vec) -> float:  # noqa: ARG001
     """Return 0: a plane has no inside."""
     return 0.0
+
+
+@device
+def cut_plane_unroll(cut: CutPlane, point: Vec, upright: Upright) -> Unrolled:
+    """Return where a point of a plane is, from the one that it is given by."""
+    return plane_unroll(cut.whole, point, upright)

@@ -37,6 +37,12 @@ from vtray.geometry.shapes.sides import Sides
 from vtray.geometry.shapes.solid import Chord, chord_if, chord_that_counts, first_met
 from vtray.geometry.shapes.stay import Stay, no_stay, seen_stay
 from vtray.geometry.shapes.surface import Surface
+from vtray.geometry.shapes.unrolled import (
+    Unrolled,
+    Upright,
+    not_unrolled,
+    unrolled_side,
+)
 from vtray.geometry.vector import Vec, add, dot, magnitude, scale, sub
 
 SIZE = 7
@@ -324,3 +330,14 @@ def _any_inside(cylinder: CylinderShape, line: Line, bundle: Bundle) -> Span:
     misses = misses | (span.near > span.far)
     misses = misses | (cylinder.side_radius <= 0.0) | (cylinder.length <= 0.0)
     return Span(math.inf if misses else span.near, -math.inf if misses else span.far)
+
+
+@device
+def cylinder_unroll(cylinder: CylinderShape, point: Vec, upright: Upright) -> Unrolled:
+    """Return where a point is on the unrolled side of a cylinder, from its end on."""
+    pole, is_round = cylinder_pole(cylinder, point)
+    if not is_round:
+        return not_unrolled()
+    axis, length = cylinder.axis, cylinder.length
+    down = length - dot(sub(pole, cylinder.start), axis)
+    return unrolled_side(sub(point, pole), axis, down, cylinder.side_radius, length, upright)

@@ -11,6 +11,7 @@ from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_poin
 from vtray.geometry.shapes.sides import Sides, all_sides
 from vtray.geometry.shapes.stay import Stay
 from vtray.geometry.shapes.surface import Surface
+from vtray.geometry.shapes.unrolled import Unrolled, Upright, place_around
 from vtray.geometry.vector import Vec, dot, magnitude, sub
 
 SIZE = 6
@@ -186,3 +187,10 @@ def plane_crossing(plane: PlaneShape, bundle: Bundle) -> Crossing:
 def plane_surface(plane: PlaneShape, point: Vec, error_scale: float) -> Surface:  # noqa: ARG001
     """Return the surface of a plane, which is the same everywhere."""
     return Surface(plane.normal, False, plane.error_scale, False, False)
+
+
+@device
+def plane_unroll(plane: PlaneShape, point: Vec, upright: Upright) -> Unrolled:
+    """Return where a point of a plane is, from the one that it is given by."""
+    up, left = place_around(sub(point, plane.point), plane.normal, upright)
+    return Unrolled(-left, -up, math.inf, math.inf, True)

@@ -13,6 +13,7 @@ from vtray.geometry.bundle import (
     spread_ahead,
     spread_beside,
 )
+from vtray.geometry.circle import PI, angle_of
 from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
@@ -20,6 +21,7 @@ from vtray.geometry.shapes.sides import Sides, all_sides
 from vtray.geometry.shapes.solid import Chord
 from vtray.geometry.shapes.stay import Stay, seen_stay
 from vtray.geometry.shapes.surface import Surface
+from vtray.geometry.shapes.unrolled import Unrolled, Upright, place_around
 from vtray.geometry.vector import Vec, add, cross, dot, magnitude, scale, sub
 
 SIZE = 4
@@ -309,3 +311,14 @@ def _all_inside(bundle: Bundle, gap: float, along: float, width: float, radius: 
 def sphere_surface(sphere: SphereShape, point: Vec, error_scale: float) -> Surface:  # noqa: ARG001
     """Return the surface of a sphere, which is the same everywhere."""
     return Surface(sphere.center, True, sphere.error_scale, False, False)
+
+
+@device
+def sphere_unroll(sphere: SphereShape, point: Vec, upright: Upright) -> Unrolled:
+    """Return where a point is on the map of a sphere, by its longitude and latitude."""
+    offset = sub(point, sphere.center)
+    x, y = place_around(offset, upright.up, upright)
+    across = sphere.radius * (angle_of(x, y) + PI)
+    height = dot(offset, upright.up)
+    down = sphere.radius * angle_of(height, math.sqrt(x * x + y * y))
+    return Unrolled(across, down, 2.0 * PI * sphere.radius, PI * sphere.radius, True)

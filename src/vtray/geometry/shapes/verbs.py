@@ -8,6 +8,7 @@ from vtray.geometry.ray import Ray, Segment
 from vtray.geometry.shapes.sides import Sides
 from vtray.geometry.shapes.stay import Stay
 from vtray.geometry.shapes.surface import Surface
+from vtray.geometry.shapes.unrolled import Unrolled, Upright
 from vtray.geometry.vector import Vec
 
 Shape = Any
@@ -41,6 +42,8 @@ class Verbs(NamedTuple):
         that lie in one plane, the one is hit in which the point is deepest.
     stay
         Returns the part of a ray within a shape.
+    unroll
+        Returns where a point of the surface is on the unrolled surface.
     """
 
     distance_to: Callable[[Shape, Ray], float]
@@ -52,3 +55,4 @@ class Verbs(NamedTuple):
     surface: Callable[[Shape, Vec, float], Surface]
     power_at: Callable[[Shape, Vec], float]
     stay: Callable[[Shape, Ray], Stay]
+    unroll: Callable[[Shape, Vec, Upright], Unrolled]

@@ -21,7 +21,7 @@ from vtray.scene.files.in_file import (
     SceneInFile,
     without_integrator,
 )
-from vtray.scene.materials import is_matt
+from vtray.scene.materials import is_default
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_image import SkyImage
 from vtray.scene.style import Style
@@ -134,7 +134,7 @@ def _split(
             shared[key] = Color(*value.tolist())
         elif value is not None:
             arrays[key] = value
-    if isinstance(item, Arrays) and not is_matt(item.material):
+    if isinstance(item, Arrays) and not is_default(item.material):
         shared["material"] = item.material
     return kind(data=name, **shared), arrays
 

@@ -18,7 +18,7 @@ from vtray.scene.files.in_file import without_integrator
 from vtray.scene.files.named_materials import with_named
 from vtray.scene.files.scene_file import Warn, loads
 from vtray.scene.light_types import AnyLight
-from vtray.scene.materials import AnyMaterial, is_matt
+from vtray.scene.materials import AnyMaterial, is_default
 from vtray.scene.objects import ARRAY_KINDS, Object
 from vtray.scene.scene import Scene
 from vtray.scene.sky_image import sky_image
@@ -154,7 +154,7 @@ def _object_to_dict(item: Object) -> dict[str, Any]:
             values[key] = dict(zip("rgb", value.tolist(), strict=True))
         elif value is not None:
             values[key] = value
-    if not is_matt(item.material):
+    if not is_default(item.material):
         values["material"] = msgspec.to_builtins(item.material)
     return values
 

@@ -25,7 +25,8 @@ from vtray.scene.files.in_file import (
 )
 from vtray.scene.lens import Lens
 from vtray.scene.light_types import Ambient, Lamp, Light
-from vtray.scene.materials import Glass, Material
+from vtray.scene.materials import Blend, Material
+from vtray.scene.patterns import Pattern
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient
 from vtray.scene.style import EyeDome, Fog, Outline, Style
@@ -45,8 +46,9 @@ def scene_schema() -> dict[str, Any]:
     """
     style = (Style, Outline, Fog, EyeDome, ClipPlane, Slice)
     materials: tuple[type[msgspec.Struct], ...] = typing.get_args(Material)
+    patterns: tuple[type[msgspec.Struct], ...] = typing.get_args(Pattern)
     values: tuple[type[msgspec.Struct], ...]
-    values = (RenderSettings, *style, *materials, Gradient, Vector, Direction, Color)
+    values = (RenderSettings, *style, *materials, *patterns, Gradient, Vector, Direction, Color)
     lights: tuple[type[msgspec.Struct], ...] = typing.get_args(LightInFile)
     classes: list[type[msgspec.Struct]] = [
         SceneInFile,
@@ -94,13 +96,21 @@ def scene_schema() -> dict[str, Any]:
     # A light need not say that it is a point, and so has nothing that always tells its type.
     parts[Light.__name__]["required"].remove("type")
     del scene["properties"]["lights"]["items"]["discriminator"]
-    # JSON has no tuples.
-    parts[Style.__name__]["properties"]["clip"]["default"] = []
-    parts[Glass.__name__]["properties"]["absorption"]["default"] = [0.0, 0.0, 0.0]
-    # A file may name materials of its own.
+    # What Blend.__post_init__ checks.
+    patterned = {"pattern": {"not": {"type": "null"}}}
+    for key in ("first", "second"):
+        parts[Blend.__name__]["properties"][key]["not"] = {
+            "type": "object",
+            "properties": patterned,
+            "required": ["pattern"],
+        }
     for part in parts.values():
+        # A file may name materials of its own.
         for key in ("material", "first", "second"):
             _allow_names(part["properties"].get(key, {}))
+        for one in part["properties"].values():
+            if isinstance(one.get("default"), tuple):  # JSON has none
+                one["default"] = list(one["default"])
     # JSON has no infinity.
     del parts[Ambient.__name__]["properties"]["distance"]["default"]
     return {

@@ -61,6 +61,18 @@ def view_axes(forward: Vec, up: Vec) -> tuple[Vec, Vec]:
     return cross(down, forward), down
 
 
+def beside(up: Vec) -> Vec:
+    """Return a unit vector square to a unit vector, for what has to begin somewhere around it.
+
+    It is the world's axis after that which is nearest to the vector, x for z, y for x, and z for y;
+    or as near to it as can be.
+    """
+    nearest = max(range(3), key=lambda k: (abs(up[k]), k))
+    x, y, z = (1.0 if k == (nearest + 1) % 3 else 0.0 for k in range(3))
+    _, behind = view_axes(up, (x, y, z))
+    return -behind[0], -behind[1], -behind[2]
+
+
 def camera_axes(forward: Vec) -> tuple[Vec, Vec]:
     """Return the axes right and down for a camera that looks along the unit vector `forward`.
 

@@ -23,7 +23,7 @@ from vtray.geometry.vector import Vec, add, scale, sub
 from vtray.transport.camera_rays import camera_ray, plane_depth_of
 from vtray.transport.integrators.lamps import nearest_lamp
 from vtray.transport.integrators.soft_shared import decide_by_cones
-from vtray.transport.interaction import Interaction, interact
+from vtray.transport.interaction import Interaction, interact, material_at
 from vtray.transport.lights.crowd import Crowd
 from vtray.transport.lights.light import (
     lamp_light,
@@ -35,7 +35,7 @@ from vtray.transport.lights.light import (
 )
 from vtray.transport.lights.soft_light import SoftLights, aim_at, component_count, soft_count
 from vtray.transport.materials.lambert import lambert_cosine
-from vtray.transport.materials.material import Material, load_material, scattered
+from vtray.transport.materials.material import Material, scattered
 from vtray.transport.sampling.estimate import (
     counted_variance,
     needs_more,
@@ -169,7 +169,15 @@ def light_hit(
     The parameters are those of `trace_pixel`.
     """
     found = interact(scene.world, ray, hit.distance, hit.group, hit.slot)
-    own = load_material(scene.materials, hit.primitive, found.half)
+    own = material_at(
+        scene.world,
+        scene.materials,
+        hit.primitive,
+        found.half,
+        hit.group,
+        hit.slot,
+        found.point,
+    )
     material = Material(scale(share, own.color), own.lambert)
     value = light_of_points(scene, found, material, stack, cosines, blockers, walk)
     return TracedPixel(ray, hit.distance, hit.primitive, found, value, NOTHING, share, material, 0)

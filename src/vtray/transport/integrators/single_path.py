@@ -30,6 +30,7 @@ from vtray.geometry.packets.packet import (
     join_met,
     load,
     load_ray,
+    split_met,
     store_ray,
 )
 from vtray.geometry.packets.pending import Waiting, pop_ray, push_ray
@@ -60,7 +61,7 @@ from vtray.transport.integrators.path import (
 )
 from vtray.transport.integrators.reference import TracedPixel, light_of_points
 from vtray.transport.integrators.whitted import split_hits
-from vtray.transport.interaction import Interaction, gather_interactions
+from vtray.transport.interaction import Interaction, gather_interactions, material_at
 from vtray.transport.lights.light import lamp_light
 from vtray.transport.lights.soft_light import SoftLights, soft_count
 from vtray.transport.materials.absorption import transmitted
@@ -74,7 +75,7 @@ from vtray.transport.materials.look import (
     Looks,
     three_numbers,
 )
-from vtray.transport.materials.material import Material, load_look, load_material
+from vtray.transport.materials.material import Material, load_look
 from vtray.transport.sampling.paths import CHOICE, PICK, Paths, Step, path_point
 from vtray.transport.sampling.pixel_samples import Sampling, place_samples
 from vtray.transport.scene_arrays import SceneArrays
@@ -365,7 +366,16 @@ def tell_lamp(
 def _gloss(scene: SceneArrays, glossy: Glossy, packet: Packet) -> Gloss:
     """Return the glossy surface of the first hit of a packet."""
     numbers, looks = integers(packet), glossy.looks
-    own = load_material(scene.materials, numbers[PRIMITIVE], int(numbers[HALF]))
+    row, slot = split_met(numbers[MET])
+    own = material_at(
+        scene.world,
+        scene.materials,
+        numbers[PRIMITIVE],
+        int(numbers[HALF]),
+        row,
+        slot,
+        load(packet, POINT, 0),
+    )
     look = Look(int(looks.kind[glossy.row]), glossy.row)
     return gloss_at(packet, 0, looks, glossy.albedos, look, scale(1.0 / 255.0, own.color))
 

@@ -10,6 +10,7 @@ from vtray.geometry.packets.packet import CAP, SECOND
 from vtray.geometry.vector import Vec
 from vtray.transport.materials.lambert import lambert_light
 from vtray.transport.materials.look import Look, Looks, look_of
+from vtray.transport.materials.pattern import Patterns
 
 Integers = NDArray[np.int64]
 
@@ -45,6 +46,8 @@ class Materials(NamedTuple):
         None where nothing is cut.
     looks
         How mirrors and glass look; None where there are none, or they are not shown as such.
+    patterns
+        The patterns of surfaces; None where there are none.
     """
 
     first: Integers
@@ -60,6 +63,7 @@ class Materials(NamedTuple):
     lambert: NDArray[np.float64]
     cap: Vec | None = None
     looks: Looks | None = None
+    patterns: Patterns | None = None
 
 
 class Material(NamedTuple):
@@ -96,8 +100,15 @@ def load_look(materials: Materials, looks: Looks, primitive: int) -> Look:
 
 
 @device
+def pattern_of(materials: Materials, patterns: Patterns, primitive: int) -> int:
+    """Return the row of the pattern of a primitive."""
+    k, place = _range_of(materials, primitive)
+    return int(patterns.which[patterns.row[k] + place * patterns.step[k]])
+
+
+@device
 def load_material(materials: Materials, primitive: int, half: int) -> Material:
-    """Return the material of a primitive, or of that part of it that `half` says.
+    """Return the material of a primitive, or of that part of it that `half` says, but for patterns.
 
     It is what stands in field ``HALF`` of a packet.
     """

@@ -1,0 +1,279 @@
+"""Patterns on surfaces, beside what schoolbook formulas say of them."""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import vtray
+from conftest import JIT
+from vtray.scene.fingerprint import scene_hash
+
+SIZE = (48, 40) if JIT else (16, 12)
+RED, BLUE = (250, 10, 20), (10, 20, 250)
+TILT = (0.3, -0.5, 0.8)
+TWO = {"colors": (RED, BLUE), "up": TILT, "rotation": 25}
+
+
+def picture_of(item: Any, **settings: Any) -> vtray.Image:
+    """Return a picture of one object in a light from behind the camera."""
+    scene = vtray.Scene(objects=[item], lights=[vtray.Light((1, -9, 4), 1)])
+    eye = (1, -4, 2.5)
+    scene.camera = vtray.Camera.look_at(
+        eye, target=(0, 0, 0), up=(0, 0, 1), fov_degrees=40, size=SIZE
+    )
+    return vtray.render(scene, **{"warn": [].append, **settings})
+
+
+def frame(axis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return what is up beside an axis, turned by 25 degrees, and what is square to both."""
+    up = np.array(TILT) / np.linalg.norm(TILT)
+    first = up - (up @ axis) * axis
+    if np.linalg.norm(first) < 1e-6:  # what follows z, which is nearest to the axis, is x
+        first = np.array([1.0, 0, 0]) - axis[0] * axis
+    first /= np.linalg.norm(first)
+    second = np.cross(axis, first)
+    turn = math.radians(25)
+    return (
+        math.cos(turn) * first + math.sin(turn) * second,
+        math.cos(turn) * second - math.sin(turn) * first,
+    )
+
+
+def around(offset: np.ndarray, axis: np.ndarray, radius: float) -> float:
+    """Return how far around an axis an offset is."""
+    first, second = frame(axis)
+    return radius * (math.atan2(offset @ second, offset @ first) + math.pi)
+
+
+def on_sphere(point: np.ndarray) -> tuple[float, float, float, float]:
+    axis = np.array(TILT) / np.linalg.norm(TILT)
+    down = 1.1 * math.acos(min(max(point @ axis / 1.1, -1), 1))
+    return around(point, axis, 1.1), down, 2.2 * math.pi, 1.1 * math.pi
+
+
+def on_cylinder(point: np.ndarray) -> tuple[float, float, float, float] | None:
+    start, end = np.array([0.2, 0, -1]), np.array([0, 0.4, 1])
+    axis = (end - start) / np.linalg.norm(end - start)
+    down = (point - start) @ axis
+    length = float(np.linalg.norm(end - start))
+    if not 1e-9 < down < length - 1e-9:
+        return None
+    return around(point - start, axis, 0.8), length - down, 1.6 * math.pi, length
+
+
+def on_cone(point: np.ndarray) -> tuple[float, float, float, float] | None:
+    axis, height = np.array([0.0, 0, 1]), point[2] + 1
+    if not 1e-9 < height < 2 - 1e-9:
+        return None
+    slope = math.hypot(2, 0.9) / 2
+    return around(point, axis, 1.1), (2 - height) * slope, 2.2 * math.pi, 2 * slope
+
+
+def on_plane(point: np.ndarray) -> tuple[float, float, float, float]:
+    normal = np.array([0.1, -0.3, 1]) / np.linalg.norm([0.1, -0.3, 1])
+    up, left = frame(normal)
+    offset = point - np.array([0.1, 0.2, -0.3])
+    return -offset @ left, -offset @ up, math.inf, math.inf
+
+
+SHAPES = {
+    "sphere": (lambda **more: vtray.Sphere((0, 0, 0), 1.1, (9, 9, 9), **more), on_sphere),
+    "cylinder": (
+        lambda **more: vtray.Cylinder((0.2, 0, -1), (0, 0.4, 1), 0.8, (9, 9, 9), **more),
+        on_cylinder,
+    ),
+    "cone": (
+        lambda **more: vtray.Cone((0, 0, -1), (0, 0, 1), 1.1, 0.2, (9, 9, 9), **more),
+        on_cone,
+    ),
+    "plane": (
+        lambda **more: vtray.Plane((0.1, 0.2, -0.3), (0.1, -0.3, 1), (9, 9, 9), **more),
+        on_plane,
+    ),
+}
+
+
+def cell(along: float, length: float, size: float, times: int) -> tuple[int, float]:
+    """Return the number of a cell, and how far its border is, in cells."""
+    if length < math.inf:
+        size = length / (times * max(math.floor(length / (times * size) + 0.5), 1))
+    number = along / size
+    return math.floor(number), abs(number - round(number))
+
+
+@pytest.mark.parametrize("kind", ["checker", "around", "along"])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_colors_are_where_formulas_say(shape: str, kind: str) -> None:
+    make, place_on = SHAPES[shape]
+    size = 0.37
+    pattern = (
+        vtray.Checker(size=size, **TWO)
+        if kind == "checker"
+        else vtray.Stripes(size=size, run=kind, **TWO)
+    )
+    image = picture_of(make(material=vtray.Lambert(pattern=pattern)))
+    seen = set()
+    for y in range(0, SIZE[1], 2):
+        for x in range(0, SIZE[0], 2):
+            hit = vtray.trace_pixel(image, x, y).hit
+            if hit is None:
+                continue
+            place = place_on(np.array(hit.point))
+            if place is None:
+                expected = (9, 9, 9)
+            else:
+                across, down, width, height = place
+                one, near_one = cell(across, width, size, 2) if kind != "around" else (0, 1.0)
+                other, near_other = cell(down, height, size, 1) if kind != "along" else (0, 1.0)
+                if min(near_one, near_other) < 1e-6:
+                    continue
+                expected = BLUE if (one + other) % 2 else RED
+            assert image.albedo[y, x] * 255 == pytest.approx(expected), (x, y)
+            seen.add(expected)
+    assert {RED, BLUE} <= seen
+
+
+def all_shapes(pattern: Any, **numbers: Any) -> list[Any]:
+    """Return one object of each kind, with a pattern on another material each."""
+    materials = [
+        vtray.Lambert(pattern=pattern),
+        vtray.Plastic(pattern=pattern, **numbers),
+        vtray.Metal(pattern=pattern, **numbers),
+        vtray.Blend("mirror", "lambert", pattern=pattern),
+    ]
+    places = [(-1, 0, 0), (1, 0, 0), (0, 0, 1), (0, 0, 0)]
+    plane, white = vtray.Plane((0, 0, -1), (0, 0, 1), (200, 210, 220)), (255, 250, 245)
+    return [
+        plane.replace(material=vtray.Lambert(pattern=pattern)),
+        vtray.Sphere(places[0], 0.7, white, material=materials[0]),
+        vtray.Cylinder(places[1], (1, 0.3, 0.9), 0.6, white, material=materials[1]),
+        vtray.Cone(places[2], (0, 0, 2), 0.5, 0, white, material=materials[2]),
+        vtray.Sphere(places[3], 0.4, white, material=materials[3]),
+    ]
+
+
+def scene_of(objects: list[Any], *lights: Any) -> vtray.Scene:
+    """Return a scene of some objects."""
+    scene = vtray.Scene(objects=objects, lights=[vtray.Light((1, -9, 4), 1), *lights])
+    scene.camera = vtray.Camera.look_at(
+        (1, -5, 2.5), target=(0, 0, 0.3), up=(0, 0, 1), fov_degrees=40, size=SIZE
+    )
+    return scene
+
+
+@pytest.mark.parametrize("integrator", ["direct", "whitted", "path"])
+def test_a_pattern_of_own_colors_changes_nothing(integrator: str) -> None:
+    """Not a bit, where all pixels have as many samples."""
+    settings: dict[str, Any] = {"integrator": integrator, "samples": 1, "warn": [].append}
+    plain = vtray.render(scene_of(all_shapes(None)), **settings)
+    own = vtray.render(scene_of(all_shapes(vtray.Checker((None, None)))), **settings)
+    other = vtray.render(scene_of(all_shapes(vtray.Checker())), **settings)
+    assert (own.linear == plain.linear).all()
+    assert (other.linear != plain.linear).any()
+
+
+@pytest.mark.parametrize("integrator", ["direct", "whitted", "path"])
+def test_pixels_are_told_as_they_are(integrator: str) -> None:
+    scene = scene_of(all_shapes(vtray.Stripes(size=0.2), roughness=0.3), vtray.Sky(0.3))
+    image = vtray.render(scene, integrator=integrator, warn=[].append)
+    for y in range(1, SIZE[1], 5):
+        for x in range(1, SIZE[0], 5):
+            assert vtray.trace_pixel(image, x, y).light == tuple(image.linear[y, x]), (x, y)
+
+
+def test_edges_of_colors_get_samples() -> None:
+    image = vtray.render(scene_of(all_shapes(vtray.Checker(size=0.3))), samples=6, warn=[].append)
+    assert (image.samples[image.ids[..., 0] >= 0] == 6).all()
+
+
+def test_any_threads_tell_the_same() -> None:
+    scene = scene_of(all_shapes(vtray.Checker(size=0.3)))
+    one, two = (vtray.render(scene, samples=3, threads=n, warn=[].append) for n in (1, 2))
+    assert (one.linear == two.linear).all()
+
+
+def test_pictures_can_be_relit_and_recolored() -> None:
+    scene = scene_of(all_shapes(vtray.Checker(size=0.3)))
+    image = vtray.render(scene, samples=2, keep_lights=True, warn=[].append)
+    scene.lights[0] = scene.lights[0].replace(intensity=0.4)
+    assert (
+        image.relight([0.4]).linear == vtray.render(scene, samples=2, warn=[].append).linear
+    ).all()
+    scene.objects[1] = scene.objects[1].replace(color=(9, 200, 100))
+    recolored = image.relight([0.4]).recolor(1, color=(9, 200, 100))
+    assert (recolored.linear == vtray.render(scene, samples=2, warn=[].append).linear).all()
+
+
+def test_each_sphere_keeps_its_own_color() -> None:
+    colors = np.array([(255, 0, 0), (0, 255, 0)], np.uint8)
+    spheres = vtray.Spheres(
+        np.array([(-0.8, 0, 0), (0.8, 0, 0)]),
+        0.7,
+        colors,
+        material=vtray.Lambert(pattern=vtray.Stripes((None, (0, 0, 255)), size=0.2)),
+    )
+    albedo = picture_of(spheres).albedo
+    found = {tuple(color) for color in albedo.reshape(-1, 3).tolist()}
+    assert found == {(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)}
+
+
+def test_copies_are_like_what_is_copied() -> None:
+    tiles = vtray.Lambert(pattern=vtray.Checker(size=0.2))
+    ball = vtray.Sphere((0, 0, 0), 0.6, RED, material=tiles)
+    moved = ball.replace(center=(0.4, 0.1, 0.3))
+    copied = picture_of(vtray.Copies([ball], np.array([(0.4, 0.1, 0.3)])))
+    assert (copied.albedo == picture_of(moved).albedo).all()
+
+
+def test_what_clip_planes_close_is_plain() -> None:
+    pattern = vtray.Checker((RED, BLUE), size=0.2)
+    ball = vtray.Sphere((0, 0, 0), 1, (9, 9, 9), material=vtray.Lambert(pattern=pattern))
+    scene = scene_of([ball])
+    scene.style = vtray.Style(clip=(vtray.ClipPlane((0.5, -1, 0)),), cap=True)
+    albedo = vtray.render(scene, warn=[].append).albedo * 255
+    assert {tuple(color) for color in np.rint(albedo).astype(int).reshape(-1, 3).tolist()} == {
+        (0, 0, 0),
+        (9, 9, 9),
+        RED,
+        BLUE,
+    }
+
+
+def test_files_keep_patterns(tmp_path: Path) -> None:
+    scene = scene_of(all_shapes(vtray.Checker((None, RED), size=0.3, rotation=10)))
+    scene.save(tmp_path / "scene.json")
+    again = vtray.load(tmp_path / "scene.json")
+    assert again.objects == scene.objects
+    assert scene_hash(again) == scene_hash(scene)
+    other = vtray.Lambert(pattern=vtray.Checker((None, RED), size=0.3, rotation=11))
+    scene.objects[1] = scene.objects[1].replace(material=other)
+    assert scene_hash(again) != scene_hash(scene)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: vtray.Checker(size=0), "Checker.size: expected a number > 0, got 0"),
+        (lambda: vtray.Checker(((1, 2, 3),)), "Checker.colors: expected two colours"),
+        (lambda: vtray.Stripes(run="up"), "Stripes.run: expected"),
+        (lambda: vtray.Stripes(up=(0, 0, 0)), "Stripes.up: expected"),
+        (lambda: vtray.Lambert(pattern="checker"), "Lambert.pattern: expected Checker or Stripes"),
+        (
+            lambda: vtray.Blend(vtray.Metal(pattern=vtray.Checker()), "mirror"),
+            "Blend.first: expected a material without a pattern",
+        ),
+    ],
+)
+def test_wrong_values_are_named(make: Any, message: str) -> None:
+    with pytest.raises(vtray.SceneError, match=message.replace(".", r"\.")):
+        make()
+
+
+@pytest.mark.parametrize("size", [5e-324, 1e-300, 1e300])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_sizes_may_be_extreme(shape: str, size: float) -> None:
+    item = SHAPES[shape][0](material=vtray.Lambert(pattern=vtray.Checker(size=size)))
+    assert np.isfinite(picture_of(item).linear).all()
