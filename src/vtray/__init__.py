@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from vtray.scene.materials import Blend, Emissive, Glass, Lambert, Metal, Mirror, Plastic
     from vtray.scene.particles.from_objects import from_ase, from_mdanalysis
     from vtray.scene.particles.particles import Particles
-    from vtray.scene.patterns import Checker, Stripes
+    from vtray.scene.patterns import Checker, ImagePattern, Stripes
     from vtray.scene.readers.read import read, read_frames
     from vtray.scene.scene import (
         Ambient,
@@ -74,6 +74,7 @@ __all__ = [
     "Glass",
     "Gradient",
     "Image",
+    "ImagePattern",
     "Lambert",
     "Lens",
     "Light",
@@ -142,6 +143,7 @@ _MODULES = {
     "Glass": "scene.materials",
     "Gradient": "scene.sky_types",
     "Image": "image.image",
+    "ImagePattern": "scene.patterns",
     "Lambert": "scene.materials",
     "Lens": "scene.lens",
     "Light": "scene.light_types",

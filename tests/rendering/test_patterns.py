@@ -136,6 +136,92 @@ def test_colors_are_where_formulas_say(shape: str, kind: str) -> None:
     assert {RED, BLUE} <= seen
 
 
+RANDOM = np.random.default_rng(5).integers(0, 256, (5, 7, 4)).astype(np.uint8)
+
+
+def mixed(place: float, count: int, repeats: bool) -> list[tuple[int, float]]:
+    """Return between which rows of pixels a place is, with the share of each."""
+    first = math.floor(place * count - 0.5)
+    share = place * count - 0.5 - first
+    rows = [first, first + 1]
+    kept = [row % count if repeats else min(max(row, 0), count - 1) for row in rows]
+    return [(kept[0], 1 - share), (kept[1], share)]
+
+
+def shown(place: tuple[float, float, float, float], size: float | None) -> np.ndarray:
+    """Return the colour of a place of a random picture on a grey surface."""
+    across, down, width, height = place
+    rows, columns, _ = RANDOM.shape
+    asked = size or 1.0
+    lengths, times = [asked, asked * rows / columns], [math.inf, math.inf]
+    if width < math.inf:
+        times = [
+            max(math.floor(whole / length + 0.5), 1) if size else 1
+            for whole, length in zip((width, height), lengths, strict=True)
+        ]
+        lengths = [width / times[0], height / times[1]]
+    x, y = across / lengths[0] % 1, down / lengths[1] % 1
+    color = np.zeros(3)
+    for row, vertical in mixed(y, rows, times[1] > 1):
+        for column, level in mixed(x, columns, repeats=True):
+            pixel = RANDOM[row, column].astype(float)
+            opacity = pixel[3] / 255
+            over = opacity * pixel[:3] + (1 - opacity) * np.array([9.0, 9, 9])
+            color += vertical * level * over
+    return color
+
+
+@pytest.mark.parametrize("size", [None, 0.9])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_pictures_are_where_formulas_say(shape: str, size: float | None) -> None:
+    make, place_on = SHAPES[shape]
+    pattern = vtray.ImagePattern(RANDOM, size=size, up=TILT, rotation=25)
+    image = picture_of(make(material=vtray.Lambert(pattern=pattern)))
+    seen = 0
+    for y in range(0, SIZE[1], 2):
+        for x in range(0, SIZE[0], 2):
+            hit = vtray.trace_pixel(image, x, y).hit
+            if hit is None:
+                continue
+            place = place_on(np.array(hit.point))
+            expected = np.array([9.0, 9, 9]) if place is None else shown(place, size)
+            assert image.albedo[y, x] * 255 == pytest.approx(expected, abs=1e-6), (x, y)
+            seen += 1
+    assert seen > 5
+
+
+FRONT = {
+    "sphere": vtray.Sphere((0, 0, 0), 1, (9, 9, 9)),
+    "cylinder": vtray.Cylinder((0, 0, -1), (0, 0, 1), 1, (9, 9, 9)),
+    "cone": vtray.Cone((0, 0, -1), (0, 0, 1), 1, 0.8, (9, 9, 9)),
+    "plane": vtray.Plane((0, -1, 1), (1, 0, 0), (9, 9, 9)),
+}
+
+
+@pytest.mark.parametrize("shape", FRONT)
+def test_pictures_are_upright_and_not_mirrored(shape: str) -> None:
+    """The middle of a picture is towards x, and a plane's begins at its point."""
+    red, green, blue, white = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
+    corners = np.array([[red, green], [blue, white]], np.uint8).repeat(8, 0).repeat(8, 1)
+    pattern = vtray.ImagePattern(corners, size=2 if shape == "plane" else None)
+    item = FRONT[shape].replace(material=vtray.Lambert(pattern=pattern))
+    scene = vtray.Scene(objects=[item], lights=[vtray.Light((9, 0, 0))])
+    scene.camera = vtray.Camera.look_at(
+        (9, 0, 0), target=(0, 0, 0), up=(0, 0, 1), fov_degrees=12, size=(8, 8)
+    )
+    albedo = vtray.render(scene).albedo
+    for (y, x), color in {(2, 2): red, (2, 5): green, (5, 2): blue, (5, 5): white}.items():
+        assert albedo[y, x].tolist() == pytest.approx([part / 255 for part in color])
+
+
+@pytest.mark.parametrize("tonemap", ["linear", "srgb"])
+def test_colors_of_pictures_are_those_of_objects(tonemap: str) -> None:
+    even = vtray.Lambert(pattern=vtray.ImagePattern(np.full((2, 2, 3), RED, np.uint8)))
+    painted = picture_of(vtray.Sphere((0, 0, 0), 1, BLUE, material=even), tonemap=tonemap)
+    plain = picture_of(vtray.Sphere((0, 0, 0), 1, RED), tonemap=tonemap)
+    assert painted.albedo == pytest.approx(plain.albedo)
+
+
 def all_shapes(pattern: Any, **numbers: Any) -> list[Any]:
     """Return one object of each kind, with a pattern on another material each."""
     materials = [
@@ -170,7 +256,10 @@ def test_a_pattern_of_own_colors_changes_nothing(integrator: str) -> None:
     settings: dict[str, Any] = {"integrator": integrator, "samples": 1, "warn": [].append}
     plain = vtray.render(scene_of(all_shapes(None)), **settings)
     own = vtray.render(scene_of(all_shapes(vtray.Checker((None, None)))), **settings)
+    clear = vtray.ImagePattern(np.zeros((2, 2, 4), np.uint8))
+    empty = vtray.render(scene_of(all_shapes(clear)), **settings)
     other = vtray.render(scene_of(all_shapes(vtray.Checker())), **settings)
+    assert (empty.linear == plain.linear).all()
     assert (own.linear == plain.linear).all()
     assert (other.linear != plain.linear).any()
 
@@ -229,10 +318,10 @@ def test_copies_are_like_what_is_copied() -> None:
 
 
 def test_what_clip_planes_close_is_plain() -> None:
-    pattern = vtray.Checker((RED, BLUE), size=0.2)
+    pattern = vtray.Checker((RED, BLUE), size=0.5)
     ball = vtray.Sphere((0, 0, 0), 1, (9, 9, 9), material=vtray.Lambert(pattern=pattern))
     scene = scene_of([ball])
-    scene.style = vtray.Style(clip=(vtray.ClipPlane((0.5, -1, 0)),), cap=True)
+    scene.style = vtray.Style(clip=(vtray.ClipPlane((1, -0.5, 0)),), cap=True)
     albedo = vtray.render(scene, warn=[].append).albedo * 255
     assert {tuple(color) for color in np.rint(albedo).astype(int).reshape(-1, 3).tolist()} == {
         (0, 0, 0),
@@ -260,7 +349,7 @@ def test_files_keep_patterns(tmp_path: Path) -> None:
         (lambda: vtray.Checker(((1, 2, 3),)), "Checker.colors: expected two colours"),
         (lambda: vtray.Stripes(run="up"), "Stripes.run: expected"),
         (lambda: vtray.Stripes(up=(0, 0, 0)), "Stripes.up: expected"),
-        (lambda: vtray.Lambert(pattern="checker"), "Lambert.pattern: expected Checker or Stripes"),
+        (lambda: vtray.Lambert(pattern="checker"), "Lambert.pattern: expected Checker, Stripes"),
         (
             lambda: vtray.Blend(vtray.Metal(pattern=vtray.Checker()), "mirror"),
             "Blend.first: expected a material without a pattern",
@@ -275,5 +364,6 @@ def test_wrong_values_are_named(make: Any, message: str) -> None:
 @pytest.mark.parametrize("size", [5e-324, 1e-300, 1e300])
 @pytest.mark.parametrize("shape", SHAPES)
 def test_sizes_may_be_extreme(shape: str, size: float) -> None:
-    item = SHAPES[shape][0](material=vtray.Lambert(pattern=vtray.Checker(size=size)))
-    assert np.isfinite(picture_of(item).linear).all()
+    for pattern in (vtray.Checker(size=size), vtray.ImagePattern(RANDOM, size=size)):
+        item = SHAPES[shape][0](material=vtray.Lambert(pattern=pattern))
+        assert np.isfinite(picture_of(item).linear).all()

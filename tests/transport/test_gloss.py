@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from conftest import once
 from vtray.base.compiler.compiled import uncompiled
-from vtray.rendering.pack_looks import made_of, pack_looks
+from vtray.rendering.pack_looks import made_of, pack_looks, rows_of_ranges
 from vtray.scene.materials import Glass, Material, Metal, Plastic
 from vtray.scene.scene import Scene
 from vtray.transport.materials import facets, frosted, gloss
@@ -27,7 +27,8 @@ def looks_of(material: Material) -> Looks:
     scene = Scene()
     scene.render = scene.render.replace(integrator="path")
     first = np.zeros(1, np.int64)
-    looks = pack_looks([made_of([material])], first, first, 1.0, scene)
+    made = [made_of([material])]
+    looks = pack_looks(made, rows_of_ranges(made, first, first), 1.0, scene)
     assert looks is not None
     return looks
 

@@ -16,12 +16,13 @@ from vtray.scene.materials import (
     Material,
     can_vary,
     checked_materials,
+    images_in,
     is_default,
     materials_of,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
     from pathlib import Path
 
     import numpy as np
@@ -41,10 +42,18 @@ def check_spares_data(path: "Path", objects: "Iterable[object]") -> None:
     """Raise OutputError if writing a file would destroy arrays that objects were read from."""
     from vtray.base.atomic_file import check_spares
 
-    holders = (item for item in objects if isinstance(item, ArrayHolder))
-    found = [source for item in holders for source in item.sources()]
+    found = [source for item in objects for source in _sources_of(item)]
     what = "holds arrays of the scene itself"
     check_spares(path, found, what, "choose another name for the image")
+
+
+def _sources_of(item: object) -> "Iterator[Path]":
+    """Give the files that arrays of an object, and pictures on it, were read from."""
+    if isinstance(item, ArrayHolder):
+        yield from item.sources()
+    for part in getattr(item, "objects", (item,)):
+        for image in images_in(getattr(part, "material", "lambert")):
+            yield from image.sources()
 
 
 class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):

@@ -16,6 +16,7 @@ from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import Arrays
 from vtray.scene.copies import Copies
 from vtray.scene.materials import is_default, materials_of
+from vtray.scene.pattern_image import PatternImage
 from vtray.scene.scene import Scene
 from vtray.scene.sky_image import SkyImage
 from vtray.scene.written_lights import as_written
@@ -80,12 +81,12 @@ def scene_hash(scene: Scene, threads: int = THREADS) -> str:
         How many threads look at its arrays.
     """
 
-    def hash_image(image: SkyImage) -> str:
-        return hash_arrays(image.arrays(), threads).hex()
+    def hash_image(image: SkyImage | PatternImage) -> str:
+        return hash_arrays([image.pixels], threads).hex()
 
     lights = [as_written(light, hash_image) for light in scene.lights]
     parts = [scene.camera, lights, *_parts_of(scene.objects, threads)]
-    return blake3(msgspec.json.encode(parts)).hexdigest(DIGITS // 2)
+    return blake3(msgspec.json.encode(parts, enc_hook=hash_image)).hexdigest(DIGITS // 2)
 
 
 def _parts_of(objects: Iterable[object], threads: int) -> list[object]:

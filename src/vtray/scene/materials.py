@@ -7,7 +7,8 @@ from msgspec import Meta
 from vtray.scene.checks.checked import Frozen
 from vtray.scene.checks.limits import FieldError, NonNegative, YesOrNo
 from vtray.scene.metals import MetalName
-from vtray.scene.patterns import Pattern
+from vtray.scene.pattern_image import PatternImage
+from vtray.scene.patterns import ImagePattern, Pattern
 
 Index = Annotated[float, Meta(ge=0.1, le=10, description="a number from 0.1 to 10")]
 Share = Annotated[float, Meta(ge=0, le=1, description="a number from 0 to 1")]
@@ -19,7 +20,7 @@ class Patterned(Frozen, frozen=True, gc=False, kw_only=True, omit_defaults=True)
 
     Attributes
     ----------
-    pattern : Checker or Stripes, optional
+    pattern : Checker, Stripes or ImagePattern, optional
         Colours on the surface in place of that of the object.
     """
 
@@ -31,7 +32,7 @@ class Lambert(Patterned, frozen=True, gc=False, tag_field="type", tag="lambert")
 
     Attributes
     ----------
-    pattern : Checker or Stripes, optional
+    pattern : Checker, Stripes or ImagePattern, optional
         Colours on the surface in place of that of the object.
     """
 
@@ -44,7 +45,7 @@ class Mirror(Patterned, frozen=True, gc=False, tag_field="type", tag="mirror"):
 
     Attributes
     ----------
-    pattern : Checker or Stripes, optional
+    pattern : Checker, Stripes or ImagePattern, optional
         As of Lambert.
     """
 
@@ -68,7 +69,7 @@ class Glass(Patterned, frozen=True, gc=False, tag_field="type", tag="glass"):
     thin : bool
         Whether the surface is a thin sheet with nothing within, as a bubble is; False by default.
         Then light goes straight through, and there is neither absorption nor roughness.
-    pattern : Checker or Stripes, optional
+    pattern : Checker, Stripes or ImagePattern, optional
         As of Lambert.
     """
 
@@ -105,7 +106,7 @@ class Metal(Patterned, frozen=True, gc=False, tag_field="type", tag="metal"):
     roughness : float
         From 0, smooth, the default, to 1: how rough its surface is, as brushed or cast metal is.
         The whitted integrator takes it for smooth.
-    pattern : Checker or Stripes, optional
+    pattern : Checker, Stripes or ImagePattern, optional
         As of Lambert.
     """
 
@@ -134,7 +135,7 @@ class Plastic(Patterned, frozen=True, gc=False, tag_field="type", tag="plastic")
     roughness : float
         From 0, smooth, the default, to 1: how rough the coat is. The whitted integrator takes it
         for smooth.
-    pattern : Checker or Stripes, optional
+    pattern : Checker, Stripes or ImagePattern, optional
         As of Lambert.
     """
 
@@ -156,7 +157,7 @@ class Emissive(Patterned, frozen=True, gc=False, tag_field="type", tag="emissive
     radiance : float
         How bright it is, ≥ 0: at 1, the default, it looks as bright as a white surface that a light
         of intensity 1 shines on squarely.
-    pattern : Checker or Stripes, optional
+    pattern : Checker, Stripes or ImagePattern, optional
         As of Lambert.
     """
 
@@ -180,7 +181,7 @@ class Blend(Patterned, frozen=True, gc=False, tag_field="type", tag="blend"):
         The two, none of them a blend, and neither with a pattern: the blend has that.
     weight : float
         The share of the second, from 0 to 1; 0.5 by default.
-    pattern : Checker or Stripes, optional
+    pattern : Checker, Stripes or ImagePattern, optional
         As of Lambert.
     """
 
@@ -247,6 +248,12 @@ def is_default(given: AnyMaterials) -> bool:
 def materials_of(given: AnyMaterials) -> tuple[Material, ...]:
     """Return the materials of which many objects are made, in the order of their numbers."""
     return tuple(map(material_of, given)) if isinstance(given, tuple) else (material_of(given),)
+
+
+def images_in(given: AnyMaterials) -> list[PatternImage]:
+    """Return the pictures that surfaces of some materials show."""
+    patterns = (material.pattern for material in materials_of(given))
+    return [pattern.image for pattern in patterns if isinstance(pattern, ImagePattern)]
 
 
 def blended_in(material: Material) -> tuple[Material, ...]:

@@ -1,14 +1,19 @@
 """Patterns of colours on surfaces, as the scene file defines them."""
 
-from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from msgspec import Meta
 
-from vtray.scene.checks.checked import Frozen
+from vtray.scene.checks.checked import Checked, Frozen, bind
 from vtray.scene.checks.limits import Positive, Real
+from vtray.scene.pattern_image import PatternImage, pattern_image
 from vtray.scene.vectors import Color, Direction
 
 if TYPE_CHECKING:
+    import os
+
+    from numpy.typing import NDArray
+
     from vtray.scene.vectors import Triple, Vector
 
 GREY = Color(64, 64, 64)
@@ -90,5 +95,63 @@ class Stripes(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type
         ) -> None: ...
 
 
-Pattern: TypeAlias = Checker | Stripes
+class _CheckedImage(Checked):
+    """Makes construction in code take a picture in all ways that `ImagePattern` says."""
+
+    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
+        """Bind the arguments, check and convert them, and make the object."""
+        values = bind(cls, args, kwargs)
+        values["image"] = pattern_image(values["image"], f"{cls.__name__}.image")
+        return super().__call__(**values)
+
+
+class ImagePattern(
+    Frozen,
+    metaclass=_CheckedImage,
+    frozen=True,
+    gc=False,
+    omit_defaults=True,
+    tag_field="type",
+    tag="image",
+):
+    """A picture on a surface, as on a globe, a label or a board.
+
+    Its light is interpolated between pixels. Where it is not opaque, the object's own colour shows.
+
+    Attributes
+    ----------
+    image : PatternImage
+        The picture. In code, it may be given as an array (height, width, 3 or 4) of uint8, or as
+        the path of a file: .png, .jpg and others that Pillow reads, a .npz file with the array
+        image, or a .npy file. In a scene file it is such a path.
+    size : float, optional
+        How wide the picture is in scene units, > 0; it is there again and again, a little larger or
+        smaller where a surface closes. By default it is once around spheres, cylinders and cones
+        from end to end, as a map is around a globe, and 1 wide on planes.
+    up : Direction, optional
+        What is up on spheres and planes, as of Checker. Cylinders and cones have it towards their
+        ends.
+    rotation : float, optional
+        By how many degrees it is turned, as of Checker. The middle of a picture is where spheres,
+        cylinders and cones look to `up`, or if that is their axis, to the x axis for z, the y axis
+        for x, and the z axis for y.
+    """
+
+    image: Annotated[PatternImage, Meta(description="the path of a picture")]
+    size: Positive | None = None
+    up: Direction | None = None
+    rotation: Real = 0.0
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            image: "PatternImage | NDArray[Any] | str | os.PathLike[str]",
+            size: float | None = None,
+            up: "Direction | Vector | Triple | None" = None,
+            rotation: float = 0.0,
+        ) -> None: ...
+
+
+Pattern: TypeAlias = Checker | Stripes | ImagePattern
 """Any pattern."""

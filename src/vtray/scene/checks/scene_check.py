@@ -41,6 +41,9 @@ from vtray.scene.checks.scene_words import (
 # A type as an annotation says it: a class, a union, an Annotated, list[...] or tuple[...].
 Kind = Any
 
+Make = Callable[[type, object], object]
+"""Makes what a text of a file stands for."""
+
 
 class FileChecker:
     """Walks through a scene file in its order and stops at the first problem.
@@ -53,6 +56,9 @@ class FileChecker:
         How many unknown keys there are in parts that are not read.
     names : set of str
         What may stand for a material, beside the names that all files know.
+    make : callable, optional
+        Makes what a text stands for where a kind is none that JSON knows, as ``dec_hook`` of
+        msgspec.
 
     Attributes
     ----------
@@ -65,9 +71,11 @@ class FileChecker:
         line_of: Callable[[int], int],
         ignored: int = 0,
         names: frozenset[str] = frozenset(),
+        make: Make | None = None,
     ) -> None:
         self.line_of = line_of
         self.names = names
+        self.make = make
         self.unknown = Unknown("key", ignored)
 
     def check(self, found: Tree, kind: Kind, place: str = "") -> Any:  # noqa: ANN401
@@ -87,7 +95,7 @@ class FileChecker:
         self._check_range(found, place)
         if self.names and may_be_named(kind) and found[:1] == b'"':
             return self._name(found, kind, place)
-        return _convert_leaf(found, kind, place)
+        return _convert_leaf(found, kind, place, self.make)
 
     def _named(self, found: Members, kind: Kind, place: str) -> None:
         """Check materials, of which none is named by another."""
@@ -317,12 +325,14 @@ def _without_tag(found: Members, structs: tuple[Struct, ...], place: str, words:
     raise SceneError(f"{place}: missing; expected {words}{hint}")
 
 
-def _convert_leaf(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401
+def _convert_leaf(found: Any, kind: Kind, place: str, make: Make | None = None) -> Any:  # noqa: ANN401
     try:
         if isinstance(found, Written):
-            return msgspec.json.decode(found, type=kind)
+            return msgspec.json.decode(found, type=kind, dec_hook=make)
         return msgspec.convert(found, kind)
-    except (msgspec.MsgspecError, OverflowError):
+    except (msgspec.MsgspecError, OverflowError) as error:
+        if isinstance(error.__cause__, SceneError):
+            raise SceneError(f"{place}: {error.__cause__}") from None
         # Only what may be an object has other words in code: the types that code makes it with.
         in_code = bool(struct_options(kind)) and not isinstance(found, Written)
         raise wrong(place, kind, show(found), in_code=in_code) from None
@@ -348,4 +358,5 @@ def _field_of(found: object, field: str, values: dict[str, Any]) -> object:
     if isinstance(found, Members):
         return next(member.value for member in found if member.key == field)
     value = values[field]
-    return msgspec.structs.astuple(value) if isinstance(value, msgspec.Struct) else value
+    is_triple = isinstance(value, msgspec.Struct) and _is_triple((type(value),))
+    return msgspec.structs.astuple(value) if is_triple else value

@@ -6,6 +6,7 @@ from typing import Any
 import msgspec
 
 from vtray.scene.files.in_file import NamedMaterials
+from vtray.scene.files.pattern_images import PatternImages
 from vtray.scene.materials import AnyMaterial
 
 KEY = b'"materials"'
@@ -27,8 +28,15 @@ def names_in(raw: bytes) -> frozenset[str]:
         return frozenset()
 
 
-def in_their_places(raw: bytes) -> tuple[bytes, bool]:
+def in_their_places(raw: bytes, images: PatternImages) -> tuple[bytes, bool]:
     """Put the materials of a file where they are named.
+
+    Parameters
+    ----------
+    raw
+        The file.
+    images
+        Reads the pictures of their patterns.
 
     Returns
     -------
@@ -44,7 +52,7 @@ def in_their_places(raw: bytes) -> tuple[bytes, bool]:
     """
     import json
 
-    materials = msgspec.json.decode(raw, type=_Named).materials
+    materials = msgspec.json.decode(raw, type=_Named, dec_hook=images).materials
     scene = msgspec.json.decode(raw)
     is_plain = json.dumps(scene).count(":") == raw.count(b":")
     named = scene.pop("materials", {})

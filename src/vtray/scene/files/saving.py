@@ -2,7 +2,7 @@
 
 import itertools
 import os
-from collections.abc import Container
+from collections.abc import Callable, Container, Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -22,6 +22,7 @@ from vtray.scene.files.in_file import (
     without_integrator,
 )
 from vtray.scene.materials import is_default
+from vtray.scene.pattern_image import PatternImage
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_image import SkyImage
 from vtray.scene.style import Style
@@ -46,16 +47,19 @@ def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
         if isinstance(item, Copies):
             shared["objects"] = [in_file(part) for part in item.objects]
         name = _unused_name(target, arrays)
-        _check_own(target, name, item)
+        _check_own(target, name, item.sources())
         entry, arrays[name] = _split(item, name, shared)
         return entry
 
-    def write_image(image: SkyImage) -> str:
+    images: dict[int, str] = {}
+
+    def write_image(image: SkyImage | PatternImage) -> str:
         """Return the name of the file of a picture; keep its pixels for it."""
-        name = _unused_name(target, arrays)
-        _check_own(target, name, image)
-        arrays[name] = {"image": image.pixels}
-        return name
+        if id(image) not in images:
+            name = images[id(image)] = _unused_name(target, arrays)
+            _check_own(target, name, image.sources())
+            arrays[name] = {"image": image.pixels}
+        return images[id(image)]
 
     objects = [in_file(item) for item in scene.objects]
     lights: list[Any] = [as_written(light, write_image) for light in lights_of(scene)]
@@ -65,7 +69,7 @@ def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
         found.render = render
     if scene.style != Style():
         found.style = scene.style
-    data = msgspec.json.format(_encode(found, target), indent=2) + b"\n"
+    data = msgspec.json.format(_encode(found, target, write_image), indent=2) + b"\n"
 
     def write(file: BinaryIO) -> None:
         file.write(data)
@@ -84,13 +88,13 @@ def _unused_name(scene: Path, used: Container[str]) -> str:
     return next(name for name in names if name not in used and name != scene.name)
 
 
-def _check_own(scene: Path, name: str, arrays: ArrayHolder) -> None:
+def _check_own(scene: Path, name: str, sources: Iterable[Path]) -> None:
     """Raise OutputError if a file in the place of a scene's arrays is not its own."""
     file = scene.with_name(name)
     if not file.exists():
         return
-    own = arrays.source is not None and arrays.source.exists() and file.samefile(arrays.source)
-    if not own and name not in _arrays_of(scene):
+    is_own = any(source.exists() and file.samefile(source) for source in sources)
+    if not is_own and name not in _arrays_of(scene):
         remedy = "save the scene under another name, or delete that file first"
         raise OutputError(f"{file}: is there already and does not belong to {scene.name}; {remedy}")
 
@@ -100,24 +104,22 @@ def _arrays_of(scene: Path) -> list[str]:
     from vtray.base.input_file import read_input
 
     try:
-        return _named_in(msgspec.json.decode(read_input(scene), type=_Naming))
+        return list(_named_in(msgspec.json.decode(read_input(scene))))
     except (OSError, msgspec.DecodeError, RecursionError):
         return []
 
 
-class _Naming(msgspec.Struct):
-    """A scene file, or an object or a light in it, as far as it names files."""
-
-    data: str = ""
-    image: Any = ""
-    objects: "list[_Naming]" = []
-    lights: "list[_Naming]" = []
-
-
-def _named_in(found: _Naming) -> list[str]:
-    """Return the names of files, "" where none is named."""
-    within = (name for item in (*found.objects, *found.lights) for name in _named_in(item))
-    return [found.data, str(found.image), *within]
+def _named_in(found: Any) -> Iterator[str]:  # noqa: ANN401
+    """Give the names of files that what stands in a scene file names."""
+    if isinstance(found, list):
+        for item in found:
+            yield from _named_in(item)
+    elif isinstance(found, dict):
+        for key, item in found.items():
+            if key in ("data", "image") and isinstance(item, str):
+                yield item
+            else:
+                yield from _named_in(item)
 
 
 def _split(
@@ -139,10 +141,10 @@ def _split(
     return kind(data=name, **shared), arrays
 
 
-def _encode(scene: SceneInFile, target: Path) -> bytes:
-    """Write a scene as JSON."""
+def _encode(scene: SceneInFile, target: Path, write_image: Callable[[PatternImage], str]) -> bytes:
+    """Write a scene as JSON, with what stands for the pictures of patterns."""
     try:
-        return msgspec.json.encode(scene)
+        return msgspec.json.encode(scene, enc_hook=write_image)
     except UnicodeEncodeError:
         message = f"{target}: cannot be written: the name is not UTF-8, as JSON needs it"
         raise OutputError(message) from None

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from functools import partial
 from typing import Any, cast
 
 import msgspec
@@ -16,9 +17,10 @@ from vtray.scene.copies import Copies
 from vtray.scene.default_light import lights_of
 from vtray.scene.files.in_file import without_integrator
 from vtray.scene.files.named_materials import with_named
-from vtray.scene.files.scene_file import Warn, loads
+from vtray.scene.files.pattern_images import PatternImages, without_image
+from vtray.scene.files.scene_file import Warn, loads_bytes
 from vtray.scene.light_types import AnyLight
-from vtray.scene.materials import AnyMaterial, is_default
+from vtray.scene.materials import AnyMaterial, images_in, is_default
 from vtray.scene.objects import ARRAY_KINDS, Object
 from vtray.scene.scene import Scene
 from vtray.scene.sky_image import sky_image
@@ -31,6 +33,9 @@ _PLACEHOLDER = msgspec.Raw(
 )
 
 
+PICTURE_AXES = 3
+
+
 def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | None = None) -> Scene:
     """Make a scene of a dictionary, with the checks and the words of a scene file.
 
@@ -41,7 +46,8 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
         may be a tuple or an array of NumPy. Many spheres, cylinders or cones may hold their arrays
         themselves: ``{"type": "spheres", "center": array, "radius": 0.5, "color": array,
         "lambert": 1}``, which are not copied where `Spheres` does not; so may copies hold ``"at":
-        array``, and a sky ``"image": array``. Paths are relative to the current folder.
+        array``, and skies and patterns ``"image": array``. Paths are relative to the current
+        folder.
     name : str
         What messages call the dictionary.
     warn : callable, optional
@@ -65,13 +71,15 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
         given["objects"] = [_without_arrays(item) for item in given["objects"]]
     if isinstance(given, dict) and isinstance(given.get("lights"), (list, tuple)):
         given["lights"] = [_without_image(item) for item in given["lights"]]
+    pictures: dict[str, object] = {}
     try:
-        text = msgspec.json.encode(given, enc_hook=_as_json)
+        text = msgspec.json.encode(given, enc_hook=partial(_as_json, pictures))
     except (TypeError, ValueError, OverflowError, RecursionError, UnicodeEncodeError) as error:
         _check(given, "", name)
         raise SceneError(f"{name}: {error}") from None
     try:
-        scene = loads(text, name, warn=warnings.append)
+        images = PatternImages("", pictures)
+        scene = loads_bytes(text, name, images, "", warnings.append)
     except SceneError:
         # Not a number is null in JSON; say what it was.
         _check(given, "", name)
@@ -145,7 +153,9 @@ def _object_to_dict(item: Object) -> dict[str, Any]:
         objects = [_object_to_dict(part) for part in item.objects]
         return {"type": item.__struct_config__.tag, "objects": objects, "at": item.at}
     if not isinstance(item, Arrays):
-        plain: dict[str, Any] = msgspec.to_builtins(object_as_written(item))
+        plain: dict[str, Any] = msgspec.to_builtins(object_as_written(item), enc_hook=without_image)
+        if "material" in plain:
+            plain["material"] = _material_to_dict(item.material)
         return plain
     values: dict[str, Any] = {"type": item.__struct_config__.tag}
     for key, column in item.COLUMNS.items():
@@ -155,8 +165,18 @@ def _object_to_dict(item: Object) -> dict[str, Any]:
         elif value is not None:
             values[key] = value
     if not is_default(item.material):
-        values["material"] = msgspec.to_builtins(item.material)
+        values["material"] = _material_to_dict(item.material)
     return values
+
+
+def _material_to_dict(material: Any) -> Any:  # noqa: ANN401
+    """Return materials as what a scene file says of them, or with the pixels of their pictures."""
+    if isinstance(material, tuple):
+        return [_material_to_dict(one) for one in material]
+    written = msgspec.to_builtins(material, enc_hook=without_image)
+    for image in images_in(material):
+        written["pattern"]["image"] = image.pixels
+    return written
 
 
 def _kind_of_arrays(item: object) -> type[Arrays] | None:
@@ -250,8 +270,10 @@ def _material_of(given: Any, place: str) -> Any:  # noqa: ANN401
     if not isinstance(given, Mapping):
         return given
     try:
-        return msgspec.convert(given, AnyMaterial)
+        return msgspec.convert(given, AnyMaterial, dec_hook=PatternImages(""))
     except msgspec.ValidationError as error:
+        if isinstance(error.__cause__, SceneError):
+            raise SceneError(f"{place}.pattern.image: {error.__cause__}") from None
         raise SceneError(f"{place}: {error}") from None
 
 
@@ -262,10 +284,18 @@ def _warn(message: str) -> None:
     warnings.warn(message, stacklevel=3)
 
 
-def _as_json(value: object) -> object:
-    """Turn what NumPy makes, and any mapping, into what JSON knows."""
+def _as_json(pictures: dict[str, object], value: object) -> object:
+    """Turn what NumPy makes, and any mapping, into what JSON knows.
+
+    An array that can only be the picture of a pattern is kept, and a text stands for it that is no
+    path.
+    """
     if isinstance(value, Mapping):
         return dict(value)
+    if getattr(value, "ndim", 0) == PICTURE_AXES:
+        name = f"\0{len(pictures)}"
+        pictures[name] = value
+        return name
     if hasattr(value, "tolist"):
         return value.tolist()
     raise TypeError(type(value).__name__)

@@ -7,7 +7,7 @@ problem is slow, lives in `vtray.scene.checks`, and is imported only then.
 import os
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import msgspec
@@ -29,6 +29,7 @@ from vtray.scene.files.in_file import (
 from vtray.scene.files.light_reader import count_known, count_least, read_light, read_lights
 from vtray.scene.files.named_materials import KEY as NAMES_MATERIALS
 from vtray.scene.files.named_materials import in_their_places, names_in
+from vtray.scene.files.pattern_images import PatternImages, without_image
 from vtray.scene.files.skies import names_images, with_skies
 from vtray.scene.light_types import AnyLight
 from vtray.scene.objects import Object
@@ -52,8 +53,6 @@ class _Found(msgspec.Struct):
 
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
-_DECODER = msgspec.json.Decoder(_Found)
-_OBJECT = msgspec.json.Decoder(ObjectInFile)
 
 
 def load(path: str | os.PathLike[str], *, warn: Warn | None = None) -> Scene:
@@ -86,7 +85,7 @@ def load(path: str | os.PathLike[str], *, warn: Warn | None = None) -> Scene:
         raise SceneError(f"{name}: {why_unreadable(error, 'scene file')}") from None
     folder = "" if is_given(path) else os.path.dirname(name)
     try:
-        return _loads(raw, name, folder, warn or _warn)
+        return loads_bytes(raw, name, PatternImages(folder), folder, warn or _warn)
     except SceneError:
         if not raw.lstrip().startswith((b"{", _BYTE_ORDER_MARK)) and _is_data(name):
             problem = "is data by its name, which vtray.read reads; expected a scene file"
@@ -128,28 +127,41 @@ def loads(text: str | bytes, name: str = "<string>", *, warn: Warn | None = None
         got = f"got {type(given).__name__} (vtray.load reads a file, vtray.load_dict a dictionary)"
         raise SceneError(f"{name}: expected the text of a scene, as str or bytes, {got}")
     if isinstance(text, bytes):
-        return _loads(text, name, "", warn or _warn)
+        return loads_bytes(text, name, PatternImages(""), "", warn or _warn)
     try:
         raw = text.encode()
     except UnicodeEncodeError as error:
         line = text.count("\n", 0, error.start) + 1
         problem = f"half of a surrogate pair stands alone in line {line}; expected whole characters"
         raise SceneError(f"{name}: {problem}") from None
-    return _loads(raw, name, "", warn or _warn)
+    return loads_bytes(raw, name, PatternImages(""), "", warn or _warn)
 
 
-def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
+def loads_bytes(raw: bytes, name: str, images: PatternImages, folder: str, warn: Warn) -> Scene:
+    """Read a scene from JSON in UTF-8.
+
+    Parameters
+    ----------
+    raw, name
+        The JSON, and what messages call it.
+    images
+        Reads the pictures of patterns.
+    folder
+        What other paths are relative to.
+    warn
+        As for `load`.
+    """
     if not raw.isascii():
         _check_utf8(raw, name)
         raw = raw.removeprefix(_BYTE_ORDER_MARK)
     text, is_plain = raw, True
     try:
         if NAMES_MATERIALS in raw:
-            text, is_plain = in_their_places(raw)
-        found = _DECODER.decode(text)
+            text, is_plain = in_their_places(raw, images)
+        found = msgspec.json.Decoder(_Found, dec_hook=images).decode(text)
         lights = read_lights(found.lights)
     except (msgspec.MsgspecError, RecursionError) as error:
-        _explain(raw, name, warn)
+        _explain(raw, name, images, warn)
         # The slow look should have raised; if it saw nothing, msgspec's own words have to do.
         raise SceneError(f"{name}: {error}") from None
     keys, in_files = _count_keys(
@@ -161,7 +173,7 @@ def _loads(raw: bytes, name: str, folder: str, warn: Warn) -> Scene:
     are_known = others == count_least(lights) or others == count_known(found.lights, lights)
     has_paths = in_files or names_images(lights)
     if not is_plain or not are_known or (has_paths and b"\\u003" in raw):
-        _explain(raw, name, warn)
+        _explain(raw, name, images, warn)
     objects: list[Any] = found.objects
     if in_files:
         objects = _read_arrays(found, name, folder, warn)
@@ -222,7 +234,7 @@ def _count_optional(item: Any) -> int:  # noqa: ANN401
     """Count the optional keys of a single object; one that is given with its default is not."""
     keys = int(item.opacity != 1.0)
     if item.material != "lambert":
-        keys += 1 + _colons_in(msgspec.to_builtins(item.material))
+        keys += 1 + _colons_in(msgspec.to_builtins(item.material, enc_hook=without_image))
     return keys
 
 
@@ -259,7 +271,7 @@ def _count_within(value: object) -> int:
     if isinstance(value, tuple):
         return sum(map(_count_within, value))
     if isinstance(value, msgspec.Struct):
-        return _colons_in(msgspec.to_builtins(value))
+        return _colons_in(msgspec.to_builtins(value, enc_hook=without_image))
     return value.count(":") if isinstance(value, str) else 0
 
 
@@ -270,7 +282,7 @@ class _Split(msgspec.Struct):
     objects: msgspec.Raw = msgspec.Raw(b"[]")
 
 
-def _explain(raw: bytes, name: str, warn: Warn) -> None:
+def _explain(raw: bytes, name: str, images: PatternImages, warn: Warn) -> None:
     """Look for what is wrong, slowly: raise SceneError, or warn about unknown keys."""
     from vtray.scene.checks.json_tree import JsonTree
     from vtray.scene.checks.scene_check import FileChecker
@@ -283,9 +295,9 @@ def _explain(raw: bytes, name: str, warn: Warn) -> None:
     try:
         names = names_in(raw)
         # What names a material of the file looks wrong to who does not know the name.
-        clean, ignored = ({}, 0) if names else _clean_parts(raw)
+        clean, ignored = ({}, 0) if names else _clean_parts(raw, images)
         tree = JsonTree(raw, clean, SceneInFile.__struct_fields__)
-        checker = FileChecker(tree.line, ignored, names)
+        checker = FileChecker(tree.line, ignored, names, images)
         checker.check(tree.read(), SceneInFile)
     except SceneError as problem:
         raise SceneError(f"{name}: {problem}") from None
@@ -323,7 +335,7 @@ def _warn(message: str) -> None:
     warnings.warn(message, stacklevel=5)
 
 
-def _clean_parts(raw: bytes) -> tuple[dict[int, int] | None, int]:
+def _clean_parts(raw: bytes, images: PatternImages) -> tuple[dict[int, int] | None, int]:
     """Find the lights and objects that need not be read, so that a million of them cost little.
 
     They are right; or so are they but for unknown keys, after enough others of which there will be
@@ -347,7 +359,8 @@ def _clean_parts(raw: bytes) -> tuple[dict[int, int] | None, int]:
     clean: dict[int, int] = {}
     ignored = 0
     readers: tuple[tuple[str, Callable[[bytes], tuple[msgspec.Struct, int]]], ...]
-    readers = (("lights", read_light), ("objects", _read_object))
+    decoder = msgspec.json.Decoder(ObjectInFile, dec_hook=images)
+    readers = (("lights", read_light), ("objects", partial(_read_object, decoder)))
     for key, read in readers:
         whole = getattr(split, key)
         end = max(raw.find(whole), 0)
@@ -374,9 +387,11 @@ def _clean_parts(raw: bytes) -> tuple[dict[int, int] | None, int]:
     return clean, ignored
 
 
-def _read_object(part: bytes) -> tuple[msgspec.Struct, int]:
+def _read_object(
+    decoder: msgspec.json.Decoder[ObjectInFile], part: bytes
+) -> tuple[msgspec.Struct, int]:
     """Read an object, and count the colons that it has if all its keys are known."""
-    value = _OBJECT.decode(part)
+    value = decoder.decode(part)
     return value, _count_colons(value)
 
 

@@ -26,6 +26,7 @@ from vtray.scene.files.in_file import (
 from vtray.scene.lens import Lens
 from vtray.scene.light_types import Ambient, Lamp, Light
 from vtray.scene.materials import Blend, Material
+from vtray.scene.pattern_image import PatternImage
 from vtray.scene.patterns import Pattern
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient
@@ -59,7 +60,9 @@ def scene_schema() -> dict[str, Any]:
         *KINDS,
         *values,
     ]
-    (_, parts) = msgspec.json.schema_components(classes, ref_template="#/$defs/{name}")
+    (_, parts) = msgspec.json.schema_components(
+        classes, schema_hook=_path_schema, ref_template="#/$defs/{name}"
+    )
     for cls in classes:
         _describe(parts[cls.__name__], inspect.getdoc(cls) or "")
     # What Direction.__post_init__ checks.
@@ -119,6 +122,13 @@ def scene_schema() -> dict[str, Any]:
         "title": "vtray scene",
         "$defs": parts,
     }
+
+
+def _path_schema(kind: type) -> dict[str, Any]:
+    """Give the schema of a picture of a pattern: that of its path."""
+    if not issubclass(kind, PatternImage):
+        raise NotImplementedError
+    return {"type": "string"}
 
 
 def _allow_names(kind: dict[str, Any]) -> None:

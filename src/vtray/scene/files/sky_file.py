@@ -11,20 +11,15 @@ from typing import TYPE_CHECKING, Any
 from vtray.base.errors import SceneError, why_unreadable
 from vtray.base.extras import need
 from vtray.base.input_file import is_given, open_input
-from vtray.base.memory import lack_of_memory
 from vtray.scene.checks.json_tree import short
+from vtray.scene.files.picture_file import ARRAYS, check_room, read_image_array
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array = NDArray[Any]
 
-NAME = "image"
-"""The array of a .npz file."""
-
-ENDINGS = (".exr", ".hdr", ".png", ".jpg", ".jpeg", ".npy", ".npz")
-
-_ARRAYS = (".npy", ".npz")
+ENDINGS = (".exr", ".hdr", ".png", ".jpg", ".jpeg", *ARRAYS)
 
 _BYTES = 64
 """Of memory for a pixel, as it is read, checked, and turned into a table."""
@@ -59,8 +54,8 @@ def read_sky(path: Path) -> "Array":
     ending = path.suffix
     if ending not in ENDINGS:
         raise SceneError(f"expected a name that ends with {', '.join(ENDINGS)}")
-    if ending in _ARRAYS:
-        return _read_array(path)
+    if ending in ARRAYS:
+        return read_image_array(path, _BYTES)
     try:
         with open_input(path) as file:
             beginning = file.read(16)
@@ -71,20 +66,6 @@ def read_sky(path: Path) -> "Array":
         problem = "holds something else" if size else "is empty"
         raise SceneError(f"{problem}; expected a {ending} file")
     return _read_picture(path)
-
-
-def _read_array(path: Path) -> "Array":
-    """Read the array of a .npy file, or the one called `image` of a .npz file."""
-    from vtray.scene.files.array_file import read_arrays
-
-    def check(arrays: dict[str, Any], others: list[str]) -> None:
-        if NAME not in arrays:
-            found = ", ".join(others) or "none"
-            raise SceneError(f"expected an array {NAME}, got {short(found, 100)}")
-        _check_room(*arrays[NAME].shape[:2])
-
-    arrays, _ = read_arrays(path, (NAME,), alone=NAME, check=check)
-    return arrays[NAME]
 
 
 def _read_picture(path: Path) -> "Array":
@@ -99,7 +80,7 @@ def _read_picture(path: Path) -> "Array":
         raise _damaged(oiio.geterror())
     try:
         found = picture.spec()
-        _check_room(found.height, found.width)
+        check_room(found.width, found.height, _BYTES)
         channels = _colors_of(list(found.channelnames))
         kind = {"uint8": "uint8", "uint16": "uint16"}.get(str(found.format), "float")
         read = picture.read_image(0, 0, 0, found.nchannels, kind)
@@ -122,17 +103,6 @@ def _colors_of(names: list[str]) -> list[int]:
         return 3 * [names.index("Y")]
     shown = short(", ".join(names), 100)
     raise SceneError(f"has the channels {shown}; expected R, G and B, or Y alone")
-
-
-def _check_room(*sides: int) -> None:
-    """Raise SceneError if a picture does not fit into memory."""
-    pixels = 1
-    for side in sides:
-        pixels *= side
-    lack = lack_of_memory(_BYTES * pixels)
-    if lack:
-        shown = " x ".join(map(str, sides[::-1]))
-        raise SceneError(f"{shown} pixels are too large to hold in memory: they need {lack}")
 
 
 def _damaged(why: str) -> SceneError:
