@@ -17,7 +17,7 @@ from vtray.base import memory
 from vtray.base.errors import OutputError
 from vtray.base.extras import ExtraError
 from vtray.scene.fingerprint import scene_hash
-from vtray.scene.sky_image import SkyImage
+from vtray.scene.pictures.sky_image import SkyImage
 
 LIGHT = np.arange(4 * 8 * 3, dtype=np.float32).reshape(4, 8, 3) / 16
 

@@ -501,7 +501,7 @@ def test_unreadable_file(error: Exception, message: str, monkeypatch: pytest.Mon
     def refuse_to_open(*_: object) -> None:
         raise error
 
-    monkeypatch.setattr("vtray.scene.files.array_file.open_input", refuse_to_open)
+    monkeypatch.setattr("vtray.scene.array_file.open_input", refuse_to_open)
     assert message_of(text_of()).startswith(f"{WHERE}: {message}")
 
 

@@ -12,8 +12,8 @@ from vtray.rendering.joined import joined, rows_of
 from vtray.rendering.pack_looks import MadeOf, Rows
 from vtray.rendering.pack_skies import up_of
 from vtray.scene.colors.color_light import light_of, light_of_numbers
-from vtray.scene.pattern_image import PatternImage
 from vtray.scene.patterns import Checker, ImagePattern, Pattern
+from vtray.scene.pictures.pattern_image import PatternImage
 from vtray.scene.placing.directions import beside, unit
 from vtray.scene.scene import Scene
 from vtray.scene.vectors import Color

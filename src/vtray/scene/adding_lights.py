@@ -19,7 +19,7 @@ from vtray.scene.light_types import (
     SphereLight,
     Sun,
 )
-from vtray.scene.sky_image import SkyImage, sky_image
+from vtray.scene.pictures.sky_image import SkyImage, sky_image
 from vtray.scene.sky_types import Gradient
 from vtray.scene.vectors import Color, Direction, Vector
 

@@ -16,9 +16,9 @@ from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import Arrays
 from vtray.scene.copies import Copies
 from vtray.scene.materials import is_default, materials_of
-from vtray.scene.pattern_image import PatternImage
+from vtray.scene.pictures.pattern_image import PatternImage
+from vtray.scene.pictures.sky_image import SkyImage
 from vtray.scene.scene import Scene
-from vtray.scene.sky_image import SkyImage
 from vtray.scene.written_lights import as_written
 from vtray.scene.written_objects import object_as_written
 

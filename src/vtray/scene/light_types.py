@@ -16,8 +16,8 @@ from msgspec import Meta
 
 from vtray.scene.checks.checked import Checked, Frozen, bind
 from vtray.scene.checks.limits import AngularSize, FieldError, NonNegative, Reach, Real, YesOrNo
+from vtray.scene.pictures.sky_image import SkyImage, sky_image
 from vtray.scene.placing.directions import are_square, unit
-from vtray.scene.sky_image import SkyImage, sky_image
 from vtray.scene.sky_types import Gradient, check_one_of
 from vtray.scene.vectors import Color, Direction, Vector
 

@@ -7,8 +7,8 @@ from msgspec import Meta
 from vtray.scene.checks.checked import Frozen
 from vtray.scene.checks.limits import FieldError, NonNegative, YesOrNo
 from vtray.scene.metals import MetalName
-from vtray.scene.pattern_image import PatternImage
 from vtray.scene.patterns import ImagePattern, Pattern
+from vtray.scene.pictures.pattern_image import PatternImage
 
 Index = Annotated[float, Meta(ge=0.1, le=10, description="a number from 0.1 to 10")]
 Share = Annotated[float, Meta(ge=0, le=1, description="a number from 0 to 1")]

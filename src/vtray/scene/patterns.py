@@ -6,7 +6,7 @@ from msgspec import Meta
 
 from vtray.scene.checks.checked import Checked, Frozen, bind
 from vtray.scene.checks.limits import Positive, Real
-from vtray.scene.pattern_image import PatternImage, pattern_image
+from vtray.scene.pictures.pattern_image import PatternImage, pattern_image
 from vtray.scene.vectors import Color, Direction
 
 if TYPE_CHECKING:

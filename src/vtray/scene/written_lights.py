@@ -7,7 +7,7 @@ from typing import Any
 import msgspec
 
 from vtray.scene.light_types import WHITE, AnyLight, Light
-from vtray.scene.sky_image import SkyImage
+from vtray.scene.pictures.sky_image import SkyImage
 
 
 def as_written(light: AnyLight, write_image: Callable[[SkyImage], object]) -> dict[str, Any]:

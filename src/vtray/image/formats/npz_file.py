@@ -24,6 +24,6 @@ def write_npz(picture: Picture, how: How, file: BinaryIO) -> None:
 
 def read_npz(file: BinaryIO) -> str | None:
     """Return what a .npz file says of how its picture was made, None if it says nothing."""
-    from vtray.scene.files.array_file import read_text
+    from vtray.scene.array_file import read_text
 
     return read_text(file, NAME, LONGEST_TEXT)

@@ -9,12 +9,12 @@ from msgspec import UNSET
 
 from vtray.base.capacity import MAX_SPHERES
 from vtray.base.errors import SceneError
+from vtray.scene.array_file import ArrayFileError, read_arrays
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.checks.columns import array_words, check_shapes
 from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.scene_check import hints_of
 from vtray.scene.checks.scene_words import Unknown, expected, nearest, tags
-from vtray.scene.files.array_file import ArrayFileError, read_arrays
 from vtray.scene.files.in_file import ArraysInFile, CopiesInFile, ObjectInFile
 from vtray.scene.objects import Object
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 
-from vtray.scene.pattern_image import PatternImage, read_pattern_image
+from vtray.scene.pictures.pattern_image import PatternImage, read_pattern_image
 
 NONE: Mapping[str, object] = MappingProxyType({})
 

@@ -22,9 +22,9 @@ from vtray.scene.files.in_file import (
     without_integrator,
 )
 from vtray.scene.materials import is_default
-from vtray.scene.pattern_image import PatternImage
+from vtray.scene.pictures.pattern_image import PatternImage
+from vtray.scene.pictures.sky_image import SkyImage
 from vtray.scene.settings import RenderSettings
-from vtray.scene.sky_image import SkyImage
 from vtray.scene.style import Style
 from vtray.scene.vectors import Color
 from vtray.scene.written_lights import as_written
@@ -75,7 +75,7 @@ def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
         file.write(data)
 
     for name, columns in arrays.items():
-        from vtray.scene.files.array_file import write_arrays
+        from vtray.scene.array_file import write_arrays
 
         write_arrays(target.with_name(name), columns)
     write_whole(target, write)

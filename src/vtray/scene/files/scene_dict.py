@@ -22,8 +22,8 @@ from vtray.scene.files.scene_file import Warn, loads_bytes
 from vtray.scene.light_types import AnyLight
 from vtray.scene.materials import AnyMaterial, images_in, is_default
 from vtray.scene.objects import ARRAY_KINDS, Object
+from vtray.scene.pictures.sky_image import sky_image
 from vtray.scene.scene import Scene
-from vtray.scene.sky_image import sky_image
 from vtray.scene.written_lights import as_written
 from vtray.scene.written_objects import object_as_written
 

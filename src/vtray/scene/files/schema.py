@@ -26,8 +26,8 @@ from vtray.scene.files.in_file import (
 from vtray.scene.lens import Lens
 from vtray.scene.light_types import Ambient, Lamp, Light
 from vtray.scene.materials import Blend, Material
-from vtray.scene.pattern_image import PatternImage
 from vtray.scene.patterns import Pattern
+from vtray.scene.pictures.pattern_image import PatternImage
 from vtray.scene.settings import RenderSettings
 from vtray.scene.sky_types import Gradient
 from vtray.scene.style import EyeDome, Fog, Outline, Style

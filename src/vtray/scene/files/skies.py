@@ -9,7 +9,7 @@ from vtray.scene.checks.checked import make_unchecked
 from vtray.scene.checks.json_tree import short
 from vtray.scene.files.in_file import LightInFile, SkyInFile
 from vtray.scene.light_types import AnyLight, Sky
-from vtray.scene.sky_image import read_sky_image
+from vtray.scene.pictures.sky_image import read_sky_image
 
 
 def with_skies(lights: Iterable[LightInFile], folder: str) -> list[AnyLight]:

@@ -126,7 +126,7 @@ def _column(entries: list[str]) -> "Array":
 
 def _read_npz(given: Given) -> "dict[str, Array]":
     """Read the arrays of a .npz file."""
-    from vtray.scene.files.array_file import read_arrays
+    from vtray.scene.array_file import read_arrays
 
     def check(arrays: "dict[str, Array]", _: list[str]) -> None:
         needed = sum(array.size * array.dtype.itemsize for array in arrays.values())

@@ -97,7 +97,7 @@ def pattern_image(given: object, place: str) -> PatternImage:
 
 def read_pattern_image(path: Path, place: str) -> PatternImage:
     """Return the picture in a file; messages begin with the place."""
-    from vtray.scene.files.picture_file import read_picture
+    from vtray.scene.pictures.picture_file import read_picture
 
     try:
         pixels = read_picture(path)

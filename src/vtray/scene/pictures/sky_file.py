@@ -12,7 +12,7 @@ from vtray.base.errors import SceneError, why_unreadable
 from vtray.base.extras import need
 from vtray.base.input_file import is_given, open_input
 from vtray.scene.checks.json_tree import short
-from vtray.scene.files.picture_file import ARRAYS, check_room, read_image_array
+from vtray.scene.pictures.picture_file import ARRAYS, check_room, read_image_array
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

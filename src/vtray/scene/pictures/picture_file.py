@@ -78,7 +78,7 @@ def read_image_array(path: Path, each: int) -> "Array":
     each
         Of memory for a pixel, how many bytes.
     """
-    from vtray.scene.files.array_file import read_arrays
+    from vtray.scene.array_file import read_arrays
 
     def check(arrays: dict[str, Any], others: list[str]) -> None:
         if NAME not in arrays:

@@ -102,7 +102,7 @@ def sky_image(given: object, place: str) -> SkyImage:
 
 def read_sky_image(path: Path, place: str) -> SkyImage:
     """Return the picture in a file; messages begin with the place."""
-    from vtray.scene.files.sky_file import read_sky
+    from vtray.scene.pictures.sky_file import read_sky
 
     try:
         pixels = read_sky(path)
