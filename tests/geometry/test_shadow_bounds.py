@@ -21,12 +21,15 @@ from vtray.geometry.packets.packet import (
     NORMAL,
     PLANE_DEPTH,
     POINT,
+    REACH,
+    SETTLED,
     SOURCE,
     join_met,
     load,
     new_packet,
     store,
 )
+from vtray.geometry.packets.patch import MIDDLE, OPEN, UNEVEN_ALREADY, widest_reach
 from vtray.geometry.packets.workspace import new_workspace
 from vtray.geometry.ray import Segment
 from vtray.geometry.rounding import ROUNDING
@@ -170,3 +173,15 @@ def test_a_sphere_hides_no_point_on_it_that_faces_the_light(radius: float) -> No
         assert own_sphere(packet, 5, world) == 0
         numbers[MET + numbers[SOURCE + 4]] = join_met(0, 0)  # a plane
         assert own_sphere(packet, 5, world) == -1
+
+
+def test_patches_that_are_settled_widen_nothing() -> None:
+    packet = new_packet()
+    packet[BLOCKED : BLOCKED + 4] = 0.0, 1.0, 0.0, 0.0
+    packet[SETTLED : SETTLED + 4] = OPEN, MIDDLE, UNEVEN_ALREADY, MIDDLE
+    # A plane towards its horizon is seen by patches of any size, which get samples whatever light
+    # they have. If they counted, shadow rays of all others were looked for in all of the scene.
+    packet[REACH : REACH + 4] = 0.5, 70.0, 1e30, 0.25
+    assert widest_reach(packet, 0, 4, True) == 0.5
+    assert widest_reach(packet, 1, 4, True) == 0.25
+    assert widest_reach(packet, 1, 3, True) == 0.0

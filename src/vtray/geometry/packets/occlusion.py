@@ -26,7 +26,7 @@ from vtray.geometry.packets.packet import (
     load,
     split_met,
 )
-from vtray.geometry.packets.patch import is_open, note_plane, note_solid
+from vtray.geometry.packets.patch import is_open, note_plane, note_solid, widest_reach
 from vtray.geometry.packets.shaft import outside_shaft
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Segment
@@ -119,9 +119,7 @@ def widened_box(packet: Packet, hits: int, box: PointBox, is_wide: bool | None) 
     """Return a box of points widened by their patches, if these are asked for."""
     if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
         if is_wide:
-            most = 0.0
-            for lane in range(hits):
-                most = max(most, packet[REACH + lane])
+            most = widest_reach(packet, 0, hits, is_wide)
             return PointBox(box.center, add(box.half, (most, most, most)), box.error_scale)
     return box
 

@@ -20,6 +20,7 @@ from vtray.geometry.packets.packet import (
     OWNER,
     PATCH,
     POINT,
+    REACH,
     SETTLED,
     STRETCH,
     THICKEST,
@@ -51,6 +52,19 @@ def is_open(packet: Packet, lane: int, is_wide: bool | None) -> bool:
             is_asked: bool = (settled == OPEN) | ((settled == MIDDLE) & is_hit_open)
             return is_asked
     return is_hit_open
+
+
+@device
+def widest_reach(packet: Packet, begin: int, end: int, is_wide: bool | None) -> float:
+    """Return how far the patches of some lanes reach at the most: of those that are still asked.
+
+    Towards the horizon of a plane they have no end, and are settled before anything is looked for.
+    """
+    most = 0.0
+    for lane in range(begin, end):
+        if is_open(packet, lane, is_wide):
+            most = max(most, packet[REACH + lane])
+    return most
 
 
 @device

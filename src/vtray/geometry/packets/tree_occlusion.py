@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.from_light import Box, search_from_light
 from vtray.geometry.packets.occlusion import PointBox, Target, block_by_slot, in_shaft
-from vtray.geometry.packets.packet import ERROR_SCALE, POINT, REACH, Packet, load
-from vtray.geometry.packets.patch import is_open
+from vtray.geometry.packets.packet import ERROR_SCALE, POINT, Packet, load
+from vtray.geometry.packets.patch import is_open, widest_reach
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.vector import add, lower, scale, sub, upper
@@ -174,9 +174,7 @@ def _widened(packet: Packet, begin: int, end: int, box: Box, is_wide: bool | Non
     """Return a box of points widened by their patches, if these are asked for."""
     if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
         if is_wide:
-            most = 0.0
-            for lane in range(begin, end):
-                most = max(most, packet[REACH + lane])
+            most = widest_reach(packet, begin, end, is_wide)
             reach = most, most, most
             return Box(sub(box.low, reach), add(box.high, reach), box.error_scale)
     return box
