@@ -13,7 +13,7 @@ from vtray.geometry.dispatch import with_any, with_bounded
 from vtray.geometry.faded.chords import End, chord_of
 from vtray.geometry.faded.nearby import Tube, touches_ball
 from vtray.geometry.packets.fan_rays import NONE, ONE, first_bit
-from vtray.geometry.packets.from_light import Box, search_from_light
+from vtray.geometry.packets.from_light import FOR_EVER, Box, search_from_light
 from vtray.geometry.packets.layer_notes import ROOM, SIDE_BY_SIDE, SideBySide
 from vtray.geometry.packets.occlusion import Target
 from vtray.geometry.packets.packet import OCTET, join_met
@@ -136,7 +136,7 @@ def collect_side_by_side(world: World, faded: Faded, band: Band, stack: Stack) -
 @device
 def _collect_in_group(band: Band, world: World, group: Group, stack: Stack, base: int) -> None:
     hierarchy = hierarchy_of(group)
-    _search_shapes(0, band, world, hierarchy, stack, base, _visit_slots, group)
+    _search_shapes(0, band, world, hierarchy, stack, base, FOR_EVER, _visit_slots, group)
 
 
 @device
@@ -145,7 +145,7 @@ def _collect_placed(
 ) -> None:
     # An argument that is None is known to the compiler, which drops what depends on that alone.
     if places is not None:
-        _search_places(0, band, world, faded.places, stack, 0, _visit_places, places)
+        _search_places(0, band, world, faded.places, stack, 0, FOR_EVER, _visit_places, places)
 
 
 @device

@@ -20,6 +20,9 @@ from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import Vec, add, scale
 from vtray.geometry.world import NO_TREE, Hierarchy, ToBoxes, World
 
+FOR_EVER = 2**62
+"""The patience of a search that is never given up."""
+
 
 class Box(NamedTuple):
     """A box of points relative to a light, and what their rounding errors are relative to."""
@@ -55,6 +58,7 @@ def search_from_light(
     hierarchy: Hierarchy,
     stack: Stack,
     base: int,
+    patience: int,
     visit: Callable[[int, AnyPoints, World, Any, int, int, Stack, int], int],
     subject: Any,  # noqa: ANN401
 ) -> int:
@@ -68,6 +72,8 @@ def search_from_light(
         The hierarchy.
     stack, base
         Scratch memory, and what waits there already, which stays.
+    patience
+        After how many leaves the search is given up.
     visit, subject
         What is called for each leaf, and what it is given, beside the range that the leaf names. It
         returns the first point that is left then.
@@ -75,7 +81,8 @@ def search_from_light(
     Returns
     -------
     int
-        The first point that is left, their end if there is none.
+        The first point that is left, their end if there is none; if it was given up, ``-1`` less
+        that point.
     """
     if hierarchy.root == NO_TREE:
         first, after = hierarchy.begin, hierarchy.end
@@ -84,7 +91,7 @@ def search_from_light(
     beam = _box_beam(points.box, hierarchy.to_boxes, points.target)
     near, far = lower_limit(beam, 0.0), upper_limit(beam, 1.0 + MARGIN)
     nodes[base] = hierarchy.root
-    waiting = base + 1
+    waiting, leaves = base + 1, 0
     while waiting > base:
         waiting -= 1
         node = nodes[waiting]
@@ -97,7 +104,10 @@ def search_from_light(
                     fetch_node(bvh, child)
                     nodes[waiting] = child
                     waiting += 1
+                elif leaves == patience:
+                    return -1 - begin
                 else:
+                    leaves += 1
                     first, after = leaf_range(child)
                     begin = visit(begin, points, world, subject, first, after, stack, waiting)
                     if begin == points.end:

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.from_light import Box, search_from_light
+from vtray.geometry.packets.from_light import FOR_EVER, Box, search_from_light
 from vtray.geometry.packets.occlusion import PointBox, Target, block_by_slot, in_shaft
 from vtray.geometry.packets.packet import ERROR_SCALE, POINT, Packet, load
 from vtray.geometry.packets.patch import is_open, widest_reach
@@ -14,6 +14,7 @@ from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.vector import add, lower, scale, sub, upper
 from vtray.geometry.world import (
     Group,
+    Hierarchy,
     Places,
     World,
     hierarchy_of,
@@ -24,6 +25,9 @@ from vtray.geometry.world import (
 
 SOONER = 16
 """So few points are tested sooner than a shape is found to be outside their shaft."""
+
+PATIENCE = 256
+"""After so many leaves, points of a cluster are taken to be far apart, and go on one by one."""
 
 
 class Cluster(NamedTuple):
@@ -78,9 +82,14 @@ def _search_all(
         begin, end = work.cluster[k], work.cluster[k + 1]
         begin = _first_open(packet, begin, end, target.is_wide)
         if begin < end:
-            box = _cluster_box(packet, begin, end, target)
-            cluster = Cluster(packet, end, box, _point_box(box, target), target)
-            block(begin, cluster, world, subject, work.stack, 0)
+            block(begin, _new_cluster(packet, begin, end, target), world, subject, work.stack, 0)
+
+
+@device
+def _new_cluster(packet: Packet, begin: int, end: int, target: Target) -> Cluster:
+    """Return the cluster of those points of a range that nothing blocks so far."""
+    box = _cluster_box(packet, begin, end, target)
+    return Cluster(packet, end, box, _point_box(box, target), target)
 
 
 @device
@@ -97,7 +106,33 @@ def _block_by_group(
 ) -> int:
     """Mark the points of a cluster that a group hides; return the first that is left."""
     hierarchy = hierarchy_of(group)
-    return _search_shapes(begin, cluster, world, hierarchy, stack, base, _block_by_leaf, group)
+    return _search(
+        begin, cluster, world, hierarchy, stack, base, _search_shapes, _block_by_leaf, group
+    )
+
+
+@device
+def _search(
+    begin: int,
+    cluster: Cluster,
+    world: World,
+    hierarchy: Hierarchy,
+    stack: Stack,
+    base: int,
+    search: Callable[[int, Cluster, World, Hierarchy, Stack, int, int, Any, Any], int],
+    visit: Callable[[int, Cluster, World, Any, int, int, Stack, int], int],
+    subject: Any,  # noqa: ANN401
+) -> int:
+    """Search with a cluster, and if that is given up, with one of its points after the other."""
+    packet, is_wide = cluster.packet, cluster.target.is_wide
+    part, at = cluster, begin
+    patience = PATIENCE if cluster.end - begin > 1 else FOR_EVER
+    while at < cluster.end:
+        left = search(at, part, world, hierarchy, stack, base, patience, visit, subject)
+        at = _first_open(packet, part.end if left >= 0 else -1 - left, cluster.end, is_wide)
+        if at < cluster.end:
+            part, patience = _new_cluster(packet, at, at + 1, cluster.target), FOR_EVER
+    return _first_open(packet, begin, cluster.end, is_wide)
 
 
 @device
@@ -125,7 +160,9 @@ def _block_by_all(
 ) -> int:
     """Mark the points of a cluster that something placed hides; return the first that is left."""
     hierarchy = hierarchy_of_places(places)
-    return _search_places(begin, cluster, world, hierarchy, stack, base, _block_by_places, places)
+    return _search(
+        begin, cluster, world, hierarchy, stack, base, _search_places, _block_by_places, places
+    )
 
 
 @device
