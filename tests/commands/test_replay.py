@@ -20,7 +20,7 @@ GIVEN = [
     *("--exposure", "0.3", "--background", "#0a141E"),
 ]
 
-AOV_NAMES = "depth, normals, ids, copies, raw, albedo, error, samples"
+AOV_NAMES = "depth, normals, ids, copies, raw, albedo, error, samples, direct, indirect, emission"
 
 
 @pytest.fixture

@@ -55,7 +55,8 @@ def picture(monkeypatch: pytest.MonkeyPatch) -> WithMore:
 
 def test_new_row_is_an_option(picture: WithMore) -> None:
     assert options.parse(["a.json", "a.npz", "--aov", "shares,ids"]).aov == ("shares", "ids")
-    names = "depth, normals, ids, copies, raw, albedo, error, samples, samples_taken, shares"
+    names = "depth, normals, ids, copies, raw, albedo, error, samples, direct, indirect, emission"
+    names += ", samples_taken, shares"
     with pytest.raises(argparse.ArgumentTypeError, match=f"expected names of {names} with"):
         options._aov("light")
     assert check_format(Path("a.npz"), aov=["shares", "ids"]).aov == ("ids", "shares")

@@ -175,7 +175,7 @@ def test_files_are_equal_on_every_run(ending: str, tmp_path: Path) -> None:
     assert one == two
 
 
-NAMES = "depth, normals, ids, copies, raw, albedo, error, samples"
+NAMES = "depth, normals, ids, copies, raw, albedo, error, samples, direct, indirect, emission"
 
 BAD = [
     ("a.gif", {}, {}, 'cannot write ".gif" files; the formats are .png, .tif, .tiff, .jpg'),

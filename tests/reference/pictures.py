@@ -8,6 +8,7 @@ import msgspec
 import numpy as np
 
 import vtray
+from vtray.image.orders import Orders
 from vtray.image.surfaces import Surfaces
 from vtray.scene.settings import RenderSettings
 
@@ -49,7 +50,13 @@ def hand_made(
     how = RenderSettings(**settings)
     white = float(linear.max()) if how.exposure == "max" else 255 / how.exposure
     shares = random.uniform(0, 1, (height, width, 3))
+
+    def orders(_scene: vtray.Scene) -> Orders:
+        assert covered, "this picture must do without"
+        return Orders(linear * shares, linear * (1 - shares), 0 * linear)
+
     given: dict[str, Any] = {"look": look, "albedo": lambda _: shares, "alpha": alpha}
+    given["orders"] = orders
     return HandMade(linear, None, white, SCENE, how, {}, **given)
 
 

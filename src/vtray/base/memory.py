@@ -32,6 +32,9 @@ BYTES_PER_PIXEL_DENOISED = 300
 BYTES_PER_PIXEL_STARRY = 120
 """For the light of points that shine, as measured at 2000 x 2000 and 4000 x 4000 pixels: 113."""
 
+BYTES_PER_PIXEL_IN_ORDERS = 150
+"""For light by how often it was scattered: a film of it, and an array for each."""
+
 BYTES_PER_SPHERE = 80
 """The hierarchy, and what it takes to build it, beside the arrays that were given."""
 

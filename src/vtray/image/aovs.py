@@ -34,6 +34,9 @@ AOVS = {
     "albedo": Aov("float64", ("albedo.R", "albedo.G", "albedo.B")),
     "error": Aov("float64", ("error",), 255.0),
     "samples": Aov("int32", ("samples",)),
+    "direct": Aov("float64", ("direct.R", "direct.G", "direct.B"), 255.0),
+    "indirect": Aov("float64", ("indirect.R", "indirect.G", "indirect.B"), 255.0),
+    "emission": Aov("float64", ("emission.R", "emission.G", "emission.B"), 255.0),
 }
 """The AOVs by their names, in their usual order."""
 

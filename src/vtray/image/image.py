@@ -219,8 +219,9 @@ class Image(Rendered):
         bits
             Bits of each channel: 8, or 16 in ``.png``, ``.tif`` and ``.npz``; ``.exr`` has 32.
         aov
-            What to write beside the picture in ``.exr`` and ``.npz``: ``"depth"``, ``"normals"``,
-            ``"ids"``.
+            What to write beside the picture in ``.exr`` and ``.npz``, by the names of attributes:
+            ``"depth"``, ``"normals"``, ``"ids"``, ``"copies"``, ``"raw"``, ``"albedo"``,
+            ``"error"``, ``"samples"``, ``"direct"``, ``"indirect"``, ``"emission"``.
 
         Raises
         ------

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import RenderError
 from vtray.image.exposure import Drawn, Overlay, check_brightness, develop, develop_drawn
+from vtray.image.orders import Orders, unknown_orders
 from vtray.image.surfaces import Surfaces
 from vtray.image.toned import Toning, develop_toned
 from vtray.image.white import white_of
@@ -41,6 +42,8 @@ class Rendered:
         Gives what the middle rays meet; called once, when it is first asked for.
     albedo
         Gives what share of light the surfaces of a scene scatter; called when it is asked for.
+    orders
+        Gives the light of a scene as it was traced by how often it was scattered; likewise.
     alpha
         How much of each pixel is covered, if that is known; None for what `look` says.
     fog
@@ -86,6 +89,7 @@ class Rendered:
         *,
         look: Callable[[], Surfaces],
         albedo: Callable[[Scene], Floats],
+        orders: Callable[[Scene], Orders],
         alpha: Floats | None = None,
         fog: Floats | None = None,
         lines: Shares | None = None,
@@ -111,6 +115,7 @@ class Rendered:
         self.stats = stats
         self._look = look
         self._albedo = albedo
+        self._orders_of = orders
         self._seen: list[Surfaces] = []  # what it gave; shared with other exposures of the view
         self._pixels = pixels
         self._alpha = alpha
@@ -229,6 +234,48 @@ class Rendered:
         where there is a lens.
         """
         return self._albedo(self.scene)
+
+    @cached_property
+    def _orders(self) -> Orders:
+        height, width = self.linear.shape[:2]
+        if self.partial is not None:
+            return unknown_orders(height, width)
+        found, shine = self._orders_of(self.scene), self.starlight
+        return found if shine is None else found._replace(emission=found.emission + shine)
+
+    @property
+    def emission(self) -> Floats:
+        """The part of `raw` that no surface has scattered, (height, width, 3).
+
+        That is the light of lamps that are seen, of stars, and of emissive surfaces that are the
+        first on the way. It is 0 in a mirror, as a mirror scatters what is seen in it, and where
+        the sky is the background, which is laid behind `linear` and no part of it.
+
+        It is known by tracing all rays once more when `emission`, `direct` or `indirect` is first
+        asked for. These three add up to `raw`: to the last bit where only one of them is not 0,
+        else as exactly as sums of doubles are. Of a part of a picture they are not known: NaN.
+        """
+        return self._orders.emission
+
+    @property
+    def direct(self) -> Floats:
+        """The part of `raw` that one surface has scattered, (height, width, 3).
+
+        That is light of lamps, skies and emissive surfaces that reaches the first surface that is
+        seen, and is seen there: on a matt one by its colour, in a mirror or in glass by what it
+        shows. See `emission` for how it is known, and how exactly.
+        """
+        return self._orders.direct
+
+    @property
+    def indirect(self) -> Floats:
+        """The part of `raw` that two surfaces or more have scattered, (height, width, 3).
+
+        It is 0 with the integrator direct. With whitted it is what mirrors and glass show of lit
+        surfaces, and of lamps through two of them, such as the two sides of a ball of glass. See
+        `emission` for how it is known, and how exactly.
+        """
+        return self._orders.indirect
 
     @cached_property
     def alpha(self) -> Floats:
@@ -371,7 +418,8 @@ class Rendered:
     def _again(self, lock: object, **changes: object) -> Self:
         """Return a picture of the same view with other attributes, exposed anew."""
         other = copy.copy(self)
-        for name in ("scene_hash", "with_sky", "error", "albedo"):
+        of_scene = ("_orders",) if "scene" in changes else ()
+        for name in ("scene_hash", "with_sky", "error", "albedo", *of_scene):
             vars(other).pop(name, None)
         vars(other).update(changes, _pixels=None, locked=lock is not None)
         other.white = white_of(other.settings, other.linear, lock)

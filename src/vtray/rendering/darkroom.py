@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.image.image import Image
+from vtray.image.orders import Orders
 from vtray.image.surfaces import Surfaces
 from vtray.image.white import white_of
 from vtray.rendering.growth import Part
@@ -33,8 +34,9 @@ class Darkroom:
         The settings.
     style
         How pictures are drawn, beside their light.
-    look, albedo
-        Give what the middle rays meet, and what share of light the surfaces of a scene scatter.
+    look, albedo, orders
+        Give what the middle rays meet, what share of light the surfaces of a scene scatter, and how
+        often they have scattered that of the picture.
     sky
         Gives the light of the skies of a scene where its pixels are not covered.
     starlight
@@ -51,6 +53,7 @@ class Darkroom:
     style: Style
     look: Callable[[], Surfaces]
     albedo: Callable[[Scene], Floats]
+    orders: Callable[[Scene], Orders]
     sky: Callable[[Scene, Floats], Floats]
     starlight: Callable[[Scene], Floats | None]
     lock: object
@@ -112,6 +115,7 @@ class Darkroom:
             {},
             look=self.look,
             albedo=self.albedo,
+            orders=self.orders,
             alpha=coverage,
             fog=fog,
             lines=lines,

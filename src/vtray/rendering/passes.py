@@ -90,7 +90,7 @@ class Tracer:
     growth
         Collects the light as it grows; None where nobody looks, and there is no draft.
     more
-        What else is wanted of middle rays, of `SURFACES`.
+        What else is wanted of a film: of `SURFACES`, for middle rays, or light in ``"orders"``.
     """
 
     def __init__(

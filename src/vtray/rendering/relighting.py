@@ -1,10 +1,12 @@
-"""Other lights and colours for a picture, without tracing it again."""
+"""Other lights and colours for a picture, without tracing it again; or its light in orders."""
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.base.memory import BYTES_PER_PIXEL_IN_ORDERS, check_memory
 from vtray.base.pool import run_tasks
 from vtray.base.tiles import TILE
+from vtray.image.orders import Orders
 from vtray.rendering.acceleration import Acceleration
 from vtray.rendering.pack import pack
 from vtray.rendering.passes import Tracer
@@ -12,6 +14,7 @@ from vtray.rendering.styled import styled
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 from vtray.scene.style import Style
+from vtray.transport.film import Film
 from vtray.transport.light_buffer import KeptLight, add_up_rows
 
 
@@ -60,30 +63,53 @@ class Relighting:
 
 
 class Rerendering:
-    """Traces a picture again with other lights or colours, where rays see several layers.
+    """Traces a picture again: with other lights or colours, or to have its light in orders.
 
     Parameters
     ----------
     kept
         The shapes of the scene that was traced.
-    settings, style
-        How the picture was taken.
+    settings, style, white
+        How the picture was taken, and the light that becomes 255, if that was known before.
     threads
         How many threads to use at the most.
+    keep_lights
+        Whether its lights were kept, by which rays are chosen in other ways.
     """
 
     def __init__(
-        self, kept: Acceleration, settings: RenderSettings, style: Style, threads: int
+        self,
+        kept: Acceleration,
+        settings: RenderSettings,
+        style: Style,
+        white: float | None,
+        threads: int,
+        *,
+        keep_lights: bool,
     ) -> None:
         self._kept = kept
         self._settings = settings
         self._style = style
+        self._white = white
         self._threads = threads
+        self._keep_lights = keep_lights
 
     def __call__(self, scene: Scene) -> NDArray[np.float64]:
         """Return the linear light, as `Relighting` does."""
+        linear: NDArray[np.float64] = self._trace(scene).linear
+        return linear
+
+    def orders(self, scene: Scene) -> Orders:
+        """Return the light in orders of the scene that was traced, maybe with other lights."""
+        width, height = map(int, scene.camera.size)
+        samples = int(self._settings.samples)
+        check_memory(width, height, samples, more=BYTES_PER_PIXEL_IN_ORDERS)
+        found = self._trace(scene, "orders").orders
+        return Orders(*(np.ascontiguousarray(found[..., k : k + 3]) for k in (0, 3, 6)))
+
+    def _trace(self, scene: Scene, *more: str) -> Film:
+        """Trace the same rays again; return their light, and what else is wanted."""
         packed = pack(scene, self._kept.with_colors_of(scene.objects))
         arrays = styled(packed, self._style).arrays
-        light = Tracer(arrays, self._threads).light(self._settings, None, keep=True).film.linear
-        linear: NDArray[np.float64] = light
-        return linear
+        tracer = Tracer(arrays, self._threads, more=more)
+        return tracer.light(self._settings, self._white, keep=self._keep_lights).film

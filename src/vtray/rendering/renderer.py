@@ -247,6 +247,8 @@ def render(
     sky.warm_up(shown)
     clock.lap("compile")
     look, guiding = Look(shown, packed, threads), Guiding(kept, settings, threads)
+    white = known_white(settings, lock)
+    rerendering = Rerendering(kept, settings, style, white, threads, keep_lights=keep_lights)
     darkroom = Darkroom(
         shown,
         Scene(scene.camera, lights, list(scene.objects), scene.render, scene.style),
@@ -254,6 +256,7 @@ def render(
         style,
         look,
         guiding.albedo,
+        rerendering.orders,
         sky,
         Starlight(lambda: look().depth, kept.rooms),
         lock,
@@ -263,7 +266,6 @@ def render(
     tracer = Tracer(
         packed.arrays, threads, tile, _step_of(progress, "trace"), growth, drawing.wanted
     )
-    white = known_white(settings, lock)
     with growth or nullcontext():
         traced = tracer.light(settings, white, keep=keep_lights)
     clock.lap("trace")
@@ -276,13 +278,14 @@ def render(
     relighting = (
         Relighting(kept, traced.kept, int(settings.samples), threads)
         if packed.arrays.world.faded is None and packed.arrays.materials.patterns is None
-        else Rerendering(kept, settings, style, threads)
+        else rerendering
     )
-    coverage = traced.film.coverage
-    denoising = Denoising(None if _is_blurred(packed, settings) else guiding, coverage, threads)
+    denoising = Denoising(
+        None if _is_blurred(packed, settings) else guiding, traced.film.coverage, threads
+    )
     image = darkroom.picture(
         traced.film.linear,
-        coverage,
+        traced.film.coverage,
         traced.peak,
         fog=traced.film.fog,
         lines=drawing.lines(traced.film),

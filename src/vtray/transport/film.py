@@ -71,6 +71,9 @@ class Film(NamedTuple):
         As in field ``HALF`` of a packet, 0 where nothing is hit, (height, width).
     albedo
         The share of light that what the middle ray hits scatters, (height, width, 3).
+    orders
+        Linear light that surfaces scattered not at all, once, and more often: three channels for
+        each, (height, width, 9).
     kept
         What is kept of all rays to change lights and colours afterwards; never None.
     """
@@ -87,6 +90,7 @@ class Film(NamedTuple):
     primitive: Rows
     half: Rows
     albedo: Rows
+    orders: Rows
     kept: KeptLight
 
 
@@ -109,6 +113,7 @@ def new_film(width: int, height: int, *wanted: str, left: int = 0, top: int = 0)
         primitive=rows("primitive", np.int32),
         half=rows("half", np.int8),
         albedo=rows("albedo", np.float64, 3),
+        orders=rows("orders", np.float64, 9),
         kept=nothing_kept(has_fog="fog" in wanted),
     )
 
@@ -130,7 +135,7 @@ def keep_rays(
         return
     samples = last - first
     for lane in range((end - begin) * samples):
-        row, column = _place(block, pixels[begin + lane // samples])
+        row, column = place_of(block, pixels[begin + lane // samples])
         keep_ray(packet, lane, kept.first[row, column] + first + lane % samples, kept, fog)
 
 
@@ -253,7 +258,7 @@ def write_pixels(
     if linear is None or coverage is None:
         return peak
     for k in range(end - begin):
-        row, column = _place(block, pixels[begin + k])
+        row, column = place_of(block, pixels[begin + k])
         weight = sums.weight[k]
         red, green, blue = load(sums.light, 0, k)
         linear[row, column, 0] = red / weight
@@ -327,7 +332,7 @@ def _write_distances(
     if distance is None:
         return
     for lane in range(end - begin):
-        row, column = _place(block, pixels[begin + lane])
+        row, column = place_of(block, pixels[begin + lane])
         distance[row, column] = packet[DISTANCE + lane]
 
 
@@ -347,7 +352,7 @@ def _write_primitives(
     field = PRIMITIVE if mixed is None else SEEN
     numbers = integers(packet)
     for lane in range(end - begin):
-        row, column = _place(block, pixels[begin + lane])
+        row, column = place_of(block, pixels[begin + lane])
         primitive[row, column] = numbers[field + lane]
 
 
@@ -360,7 +365,7 @@ def _write_halves(
         return
     numbers = integers(packet)
     for lane in range(end - begin):
-        row, column = _place(block, pixels[begin + lane])
+        row, column = place_of(block, pixels[begin + lane])
         is_hit = numbers[PRIMITIVE + lane] > NO_PRIMITIVE
         half[row, column] = numbers[HALF + lane] if is_hit else 0
 
@@ -379,7 +384,7 @@ def _write_coverage(
     if coverage is None:
         return
     for lane in range(end - begin):
-        row, column = _place(block, pixels[begin + lane])
+        row, column = place_of(block, pixels[begin + lane])
         coverage[row, column] = _cover_of(packet, lane, faded)
 
 
@@ -398,7 +403,7 @@ def _write_fog(
     if rows is not None:  # noqa: SIM102 - by itself, it is known to the compiler
         if fog is not None:
             for lane in range(end - begin):
-                row, column = _place(block, pixels[begin + lane])
+                row, column = place_of(block, pixels[begin + lane])
                 rows[row, column] = _fog_of(packet, lane, fog, faded)
 
 
@@ -410,12 +415,12 @@ def _write_mixed(
     if mixed is None:
         return
     for lane in range(end - begin):
-        row, column = _place(block, pixels[begin + lane])
+        row, column = place_of(block, pixels[begin + lane])
         mixed[row, column] = packet[MIXED + lane] != 0.0
 
 
 @device
-def _place(block: Block, pixel: int) -> tuple[int, int]:
+def place_of(block: Block, pixel: int) -> tuple[int, int]:
     """Return row and column of a pixel of a block in the film."""
     return block.row + pixel // BLOCK, block.column + (pixel & (BLOCK - 1))
 
@@ -426,7 +431,7 @@ def _clear(
 ) -> None:
     """Write zeros for pixels of a block's list."""
     for lane in range(end - begin):
-        row, column = _place(block, pixels[begin + lane])
+        row, column = place_of(block, pixels[begin + lane])
         vectors[row, column, 0] = 0.0
         vectors[row, column, 1] = 0.0
         vectors[row, column, 2] = 0.0
@@ -463,7 +468,7 @@ def _write_light(
 @device
 def _write_pixel(block: Block, pixel: int, light: Vec, linear: NDArray[np.float64]) -> float:
     """Write the light of a pixel; return its largest channel."""
-    row, column = _place(block, pixel)
+    row, column = place_of(block, pixel)
     linear[row, column, 0] = light[0]
     linear[row, column, 1] = light[1]
     linear[row, column, 2] = light[2]
@@ -486,7 +491,7 @@ def _write_normals(
     _clear(block, begin, end, pixels, normals)
     numbers = integers(packet)
     for hit in range(hits):
-        row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
+        row, column = place_of(block, pixels[begin + numbers[SOURCE + hit]])
         for axis in range(3):
             normals[row, column, axis] = packet[NORMAL + axis * LANES + hit]
 
@@ -507,7 +512,7 @@ def _write_albedos(
     _clear(block, begin, end, pixels, albedo)
     numbers = integers(packet)
     for hit in range(hits):
-        row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
+        row, column = place_of(block, pixels[begin + numbers[SOURCE + hit]])
         color, lambert = load(packet, COLOR, hit), packet[LAMBERT + hit]
         for axis in range(3):
             share = color[axis] / 255.0 * lambert
@@ -529,8 +534,8 @@ def _write_noise(
         return
     numbers = integers(packet)
     for lane in range(end - begin):
-        row, column = _place(block, pixels[begin + lane])
+        row, column = place_of(block, pixels[begin + lane])
         error[row, column] = 0.0
     for hit in range(hits):
-        row, column = _place(block, pixels[begin + numbers[SOURCE + hit]])
+        row, column = place_of(block, pixels[begin + numbers[SOURCE + hit]])
         error[row, column] = math.sqrt(packet[NOISE + hit])

@@ -175,6 +175,12 @@ TOUCHED = _fields.scalar()
 SETTLED = _fields.scalar()
 """What is known of that part and the light; see `patch`."""
 
+# The light along the rays in orders, by the same lanes, if that is asked.
+EMISSION = _fields.vector()
+DIRECT = _fields.vector()
+INDIRECT = _fields.vector()
+"""What surfaces have scattered not at all, once, and more often: one field after the other."""
+
 SIZE = _fields.size
 
 NO_PRIMITIVE = -1

@@ -33,6 +33,8 @@ class Sums(NamedTuple):
         What fog covers times weight, if there is any.
     plain, squares
         Light and its squares without weights, in three rows, from which its error is estimated.
+    orders
+        Light in orders times weight, in nine rows, if that is asked.
     """
 
     light: NDArray[np.float64]
@@ -41,6 +43,7 @@ class Sums(NamedTuple):
     weight: NDArray[np.float64]
     plain: NDArray[np.float64]
     squares: NDArray[np.float64]
+    orders: NDArray[np.float64]
 
 
 UNKNOWN = -1.0
@@ -170,7 +173,7 @@ def new_workspace(world: World, sharing: int = 0, bounces: int = -1) -> Workspac
         cluster=integers(LANES + 2),
         curve=curve_of_block(),
         pixels=integers(LANES),
-        sums=Sums(*(np.zeros(size * LANES) for size in (3, 1, 1, 1, 3, 3))),
+        sums=Sums(*(np.zeros(size * LANES) for size in (3, 1, 1, 1, 3, 3, 9))),
         fan=new_fan(),
         touching=new_touching(),
         shared=new_shared(sharing),

@@ -5,7 +5,8 @@ Channels have the names that compositing programs look for:
 - ``R``, ``G``, ``B`` and ``A``, with colour multiplied by alpha, and ``Z`` for depth: OpenEXR's
   "Technical Introduction" and "Interpreting OpenEXR Deep Pixels";
 - ``N.X``, ``N.Y``, ``N.Z`` for normals: a layer ``N`` of a vector, as Arnold and pbrt write it;
-- ``raw.R``, ``raw.G``, ``raw.B`` for light before it was denoised, in a layer ``raw``;
+- ``raw.R``, ``raw.G``, ``raw.B`` for light before it was denoised, in a layer ``raw``; likewise in
+  layers ``direct``, ``indirect`` and ``emission``, as Arnold names these;
 - ``objectid`` and ``particleid``, of 32-bit unsigned integers: "Standard ID Channel names" in the
   "OpenEXR Deep IDs Specification".
 

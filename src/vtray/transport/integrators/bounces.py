@@ -46,6 +46,7 @@ from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, add, dot, scale, sub
 from vtray.geometry.world import World, load_group
 from vtray.transport.far_light import far_light
+from vtray.transport.film import Rows
 from vtray.transport.integrators.glossy_light import light_met
 from vtray.transport.integrators.lamps import nearest_lamp
 from vtray.transport.interaction import surface_at
@@ -63,6 +64,7 @@ from vtray.transport.materials.look import (
 )
 from vtray.transport.materials.material import Materials, load_look
 from vtray.transport.materials.metal import metal_shares
+from vtray.transport.orders import add_in_order, limit_orders
 from vtray.transport.sampling.paths import Paths
 
 
@@ -139,9 +141,10 @@ def mirrored_share(looks: Looks, look: Look, cosine: float, seen: Vec, tinted: V
 
 
 @device
-def shine(packet: Packet, lane: int, looks: Looks, look: Look, tinted: Vec) -> None:
+def shine(packet: Packet, lane: int, looks: Looks, look: Look, tinted: Vec, orders: Rows) -> None:
     """Add the light of what shines to that of a lane; `tinted` is as for `mirrored_share`."""
-    gather_at(packet, lane, scale(255.0 * first_number(looks, look), tinted))
+    light = scale(255.0 * first_number(looks, look), tinted)
+    gather_at(packet, lane, light, integers(packet)[BOUNCES + lane], orders)
 
 
 @device
@@ -204,11 +207,13 @@ def follow_rays(
     pending: Pending,
     most: int,
     work: Workspace,
+    orders: Rows,
 ) -> int:
     """Let the next ray of each lane that meets a surface take the lane; return how many rays go.
 
     The light of lamps that are met instead, or of skies, is added to that of the lane. What rays
-    meet after more than `most` surfaces is not followed.
+    meet after more than `most` surfaces is not followed. Light is added in its order, too, where
+    `orders` is not None.
     """
     numbers, cast = integers(packet), 0
     for lane in range(lanes):
@@ -221,9 +226,21 @@ def follow_rays(
                 lamp, distance = nearest_lamp(ray, distance, lights.mirrored)
             if within != EMPTY:
                 seen = times(seen, transmitted(three_numbers(looks, within, 1), distance))
-            _gather_met(packet, lane, looks.albedos, lights, ray, seen, normal, hit, density)
+            _gather_met(
+                packet,
+                lane,
+                looks.albedos,
+                lights,
+                ray,
+                seen,
+                normal,
+                hit,
+                density,
+                bounces,
+                orders,
+            )
             if lamp != NOTHING:
-                gather_at(packet, lane, times(seen, lamp_light(lights, lamp)))
+                gather_at(packet, lane, times(seen, lamp_light(lights, lamp)), bounces, orders)
             elif hit.primitive != NOTHING and bounces > most:
                 continue
             elif hit.primitive != NOTHING:
@@ -235,7 +252,7 @@ def follow_rays(
                 store_ray(packet, lane, ray)
             else:
                 light = far_light(lights.surroundings, ray.direction, sees_lights)
-                gather_at(packet, lane, times(seen, light))
+                gather_at(packet, lane, times(seen, light), bounces, orders)
     return cast
 
 
@@ -250,23 +267,26 @@ def _gather_met(
     normal: Vec,
     hit: Hit,
     density: float,
+    bounces: int,
+    orders: Rows,
 ) -> None:
     """Add the light of lamps and skies that shadow rays find, too, to that of a lane, in part."""
     # An argument that is None is known to the compiler, which drops what depends on that alone.
     if albedos is not None:  # noqa: SIM102
         if density > 0.0:
             light = light_met(lights, ray, normal, hit.distance, density)
-            gather_at(packet, lane, times(seen, light))
+            gather_at(packet, lane, times(seen, light), bounces, orders)
 
 
 @device
-def gather_at(packet: Packet, lane: int, light: Vec) -> None:
-    """Add light to that of a lane."""
+def gather_at(packet: Packet, lane: int, light: Vec, number: int, orders: Rows) -> None:
+    """Add light to that of a lane: surfaces have scattered it so often."""
     store(packet, GATHERED, lane, add(load(packet, GATHERED, lane), light))
+    add_in_order(packet, lane, light, number, orders)
 
 
 @device
-def end_bounces(packet: Packet, lanes: int, brightest: float) -> int:
+def end_bounces(packet: Packet, lanes: int, brightest: float, orders: Rows) -> int:
     """Make one hit of all that each lane sees; return how many there are.
 
     No channel is brighter than `brightest`: what is, becomes darker as a whole.
@@ -283,6 +303,7 @@ def end_bounces(packet: Packet, lanes: int, brightest: float) -> int:
             store(
                 packet, VALUE, hits, scale(brightest / peak, light) if peak > brightest else light
             )
+            limit_orders(packet, lane, brightest, peak, orders)
             packet[NOISE + hits] = packet[VARIANCE + lane]
             hits += 1
     return hits

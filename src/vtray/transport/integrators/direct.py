@@ -59,6 +59,15 @@ from vtray.transport.lights.crowd import Crowd
 from vtray.transport.lights.light import points_of
 from vtray.transport.lights.soft_light import SoftLights
 from vtray.transport.materials.look import Looks
+from vtray.transport.orders import (
+    add_orders,
+    clear_orders,
+    clear_sums_of_orders,
+    order_hits,
+    order_lamps,
+    write_orders,
+    write_sums_of_orders,
+)
 from vtray.transport.sampling.adaptive import (
     find_patches,
     leave_mixed,
@@ -143,11 +152,13 @@ def _trace_pixels(
     rays = 0
     if sampling.rays > 1:
         clear_sums(work.sums, end - begin, film.coverage)
+        clear_sums_of_orders(work.sums, end - begin, film.orders)
     for first in range(0, sampling.rays, LANES):
         last = min(first + LANES, sampling.rays)
         lens = scene.camera.lens
         lanes = place_samples(packet, block, begin, end, sampling, first, last, work.pixels, lens)
         _meet(packet, lanes, scene, scene.world.faded, sampling, film.linear, film.mixed, work)
+        clear_orders(packet, lanes, film.orders)
         hits, cast = _light_lanes(
             packet,
             lanes,
@@ -165,6 +176,7 @@ def _trace_pixels(
             work,
             stop,
         )
+        order_lamps(packet, lanes, film.orders)
         rays += lanes + cast
         if sampling.rays > 1:
             add_samples(
@@ -177,10 +189,12 @@ def _trace_pixels(
                 scene.fog,
                 scene.world.faded,
             )
+            add_orders(packet, lanes, last - first, work.sums, film.orders)
         else:
             peak = write_middles(
                 packet, block, begin, end, hits, work.pixels, film, scene.fog, scene.world.faded
             )
+            write_orders(packet, block, begin, end, work.pixels, film.orders)
     if sampling.rays > 1:
         peak = write_pixels(
             block,
@@ -194,6 +208,7 @@ def _trace_pixels(
             film.fog,
             film.error,
         )
+        write_sums_of_orders(block, begin, end, work.pixels, work.sums, film.orders)
     return peak, rays
 
 
@@ -305,6 +320,7 @@ def _light_lanes(
         packet, hits, scene, sampling, block, begin, first, last, film, work, stop, 0
     )
     veil(packet, lanes, hits, film.linear, film.error, scene.fog)
+    order_hits(packet, hits, film.orders)
     return hits, cast
 
 
@@ -330,13 +346,14 @@ def _light_layers(
         listed = list_lanes(packet, lanes, skipped, sheaf, scene.world, faded, work)
         waiting = listed
         while waiting > 0 and not stop[0]:
-            waiting -= take_round(packet, lanes, skipped, work.layers, scene.fog)
+            waiting -= take_round(packet, lanes, skipped, work.layers, scene.fog, film.orders)
             hits = _gather(packet, lanes, scene, sampling, film.mixed, work)
             weigh_colors(packet, hits)
             cast += _light_hits(
                 packet, hits, scene, sampling, block, begin, first, last, film, work, stop, 0
             )
             gather_light(packet, hits)
+            order_hits(packet, hits, film.orders)
         skipped += AT_ONCE
     return end_layers(packet, lanes, work.layers), cast
 
@@ -376,14 +393,28 @@ def _light_bounces(
                 paths,
                 sampling.seed,
                 work,
+                film.orders,
             )
         else:
-            split_hits(packet, hits, world, materials, looks, forward, pending, looks.depth)
+            split_hits(
+                packet,
+                hits,
+                world,
+                materials,
+                looks,
+                forward,
+                pending,
+                looks.depth,
+                film.orders,
+            )
         cast += _light_hits(
             packet, hits, scene, sampling, block, begin, first, last, film, work, stop, steps
         )
         gather_light(packet, hits)
-        cast += follow_rays(packet, lanes, world, scene.lights, looks, pending, looks.depth, work)
+        order_hits(packet, hits, film.orders)
+        cast += follow_rays(
+            packet, lanes, world, scene.lights, looks, pending, looks.depth, work, film.orders
+        )
         hits = gather_interactions(
             packet,
             lanes,
@@ -398,7 +429,7 @@ def _light_bounces(
         )
         steps += 1
     cast_rays(packet, lanes, scene.camera)
-    return end_bounces(packet, lanes, looks.brightest), cast
+    return end_bounces(packet, lanes, looks.brightest, film.orders), cast
 
 
 @device

@@ -44,7 +44,9 @@ from vtray.geometry.ray import Footprint, growth_of, width_at
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import add, scale
 from vtray.geometry.world import Faded, World, load_body
+from vtray.transport.film import Rows
 from vtray.transport.fog import FogFrame, lane_share
+from vtray.transport.orders import add_in_order
 
 
 @device
@@ -175,12 +177,18 @@ def _restore(packet: Packet, lane: int) -> None:
 
 @device
 def take_round(
-    packet: Packet, lanes: int, skipped: int, layers: Layers, fog: FogFrame | None
+    packet: Packet,
+    lanes: int,
+    skipped: int,
+    layers: Layers,
+    fog: FogFrame | None,
+    orders: Rows,
 ) -> int:
     """Let the next of what is listed take some lanes, or what is behind the last of it.
 
     These are the lanes in which that is nearer than on average: so what takes them is near each
-    other, and so are the shadow rays from there.
+    other, and so are the shadow rays from there. With `orders`, the light of lamps that are seen is
+    added in its order, too.
 
     Returns
     -------
@@ -210,6 +218,7 @@ def take_round(
             if numbers[PRIMITIVE + lane] < NO_PRIMITIVE:
                 light = scale(packet[SHARE + lane], load(packet, LIGHT, lane))
                 store(packet, GATHERED, lane, add(load(packet, GATHERED, lane), light))
+                add_in_order(packet, lane, light, 0, orders)
         else:
             numbers[PRIMITIVE + lane] = NO_PRIMITIVE
     return taken

@@ -42,6 +42,7 @@ from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.vector import Vec, dot, scale
 from vtray.geometry.warps import cosine_direction
+from vtray.transport.film import Rows
 from vtray.transport.integrators.bounces import (
     comes_from_within,
     gather_at,
@@ -125,6 +126,7 @@ def scatter_hits(
     paths: Paths,
     seed: int,
     work: Workspace,
+    orders: Rows,
 ) -> int:
     """Let a ray go on from each hit, and weigh the colours of hits by what is seen.
 
@@ -140,6 +142,8 @@ def scatter_hits(
         How paths choose.
     work
         Scratch memory; out: the rays that wait.
+    orders
+        Not None if light is added in its order, too.
 
     Returns
     -------
@@ -158,7 +162,7 @@ def scatter_hits(
         is_matt = look.kind == MATT
         store(packet, COLOR, hit, times(seen, color) if is_matt else (0.0, 0.0, 0.0))
         if look.kind == EMISSIVE:
-            shine(packet, lane, looks, look, times(seen, scale(1.0 / 255.0, color)))
+            shine(packet, lane, looks, look, times(seen, scale(1.0 / 255.0, color)), orders)
             continue
         # After the last surface that is lit, a ray only looks for what shines far away.
         is_last, has_coat = number == looks.depth, is_glossy(looks, looks.albedos, look)
@@ -168,7 +172,7 @@ def scatter_hits(
         onward = onward_from(packet, hit, scene, looks, look, color, step, chance, work.stack)
         cast += onward.cast
         if has_coat:
-            gather_at(packet, lane, times(seen, onward.light))
+            gather_at(packet, lane, times(seen, onward.light), number + 1, orders)
             if is_last and onward.density == 0.0:
                 continue
         goes_on = chance_to_go_on(onward.seen, number)

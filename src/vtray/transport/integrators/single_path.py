@@ -211,11 +211,11 @@ def _leave(
     if paths is not None:
         choice = _choose(scene, looks, paths, seed, place, packet, work)
         block = Block(place.column, place.row, 1, 1, 0, 0)
-        scatter_hits(packet, 1, scene, looks, 1, place.sample, block, 0, paths, seed, work)
+        scatter_hits(packet, 1, scene, looks, 1, place.sample, block, 0, paths, seed, work, None)
         return choice
     forward, pending = scene.camera.forward, work.pending
     look = load_look(scene.materials, looks, integers(packet)[PRIMITIVE])
-    split_hits(packet, 1, scene.world, scene.materials, looks, forward, pending, looks.depth)
+    split_hits(packet, 1, scene.world, scene.materials, looks, forward, pending, looks.depth, None)
     return Choice(look.row, 1.0, False, 1.0, MIRRORED, 0.0, 1.0)
 
 
@@ -427,5 +427,5 @@ def follow_ray(scene: SceneArrays, looks: Looks, packet: Packet, work: Workspace
     passes = (1.0, 1.0, 1.0)
     if waiting.within != EMPTY:
         passes = transmitted(three_numbers(looks, waiting.within, 1), distance)
-    follow_rays(packet, 1, scene.world, lights, looks, pending, looks.depth, work)
+    follow_rays(packet, 1, scene.world, lights, looks, pending, looks.depth, work, None)
     return Followed(waiting, distance, lamp, passes)

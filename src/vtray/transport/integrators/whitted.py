@@ -28,6 +28,7 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.pending import Pending
 from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.geometry.world import World
+from vtray.transport.film import Rows
 from vtray.transport.integrators.bounces import (
     comes_from_within,
     mirrored_share,
@@ -73,6 +74,7 @@ def split_hits(
     forward: Vec,
     pending: Pending,
     most: int,
+    orders: Rows,
 ) -> None:
     """Let the rays that go on from hits wait, and weigh the colours of hits by what is seen.
 
@@ -88,6 +90,8 @@ def split_hits(
         Out: the rays.
     most
         How many bounces there are at the most.
+    orders
+        Not None if light is added in its order, too.
     """
     numbers = integers(packet)
     for hit in range(hits):
@@ -99,7 +103,17 @@ def split_hits(
         for part in range(parts_of(look)):
             one, share = nth_of_blend(looks, look, part)
             scattered = _split_part(
-                packet, hit, world, looks, one, scale(share, seen), color, forward, pending, most
+                packet,
+                hit,
+                world,
+                looks,
+                one,
+                scale(share, seen),
+                color,
+                forward,
+                pending,
+                most,
+                orders,
             )
             matt = add(matt, times(scattered, color))
         store(packet, COLOR, hit, matt)
@@ -117,6 +131,7 @@ def _split_part(
     forward: Vec,
     pending: Pending,
     most: int,
+    orders: Rows,
 ) -> Vec:
     """Let the rays that go on from one material wait; return how much is seen of it as matt."""
     numbers = integers(packet)
@@ -125,7 +140,7 @@ def _split_part(
         return seen
     tinted = times(seen, scale(1.0 / 255.0, color))
     if look.kind == EMISSIVE:
-        shine(packet, lane, looks, look, tinted)
+        shine(packet, lane, looks, look, tinted, orders)
         return nothing
     direction, normal = load(packet, TOWARDS, hit), load(packet, NORMAL, hit)
     cosine, matt = -dot(direction, normal), nothing

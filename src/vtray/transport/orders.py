@@ -1,0 +1,142 @@
+"""Light in orders: how often surfaces have scattered it on its way to the camera.
+
+Not at all: a lamp that is seen, or a surface that shines. Once: light of lamps and skies from the
+first surface, be that matt, glossy, a mirror or glass. Or more often. What an order has of the
+light of a lane is added up beside it. Nothing is compiled where that is not asked: an argument that
+is None is known to the compiler, which drops what depends on that alone.
+
+References
+----------
+Heckbert, "Adaptive Radiosity Textures for Bidirectional Ray Tracing", SIGGRAPH 1990 (paths of light
+as words: emission is LE, direct is L.E, indirect is L..+E).
+"""
+
+from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.packet import (
+    BOUNCES,
+    EMISSION,
+    LANES,
+    LIGHT,
+    NO_PRIMITIVE,
+    PRIMITIVE,
+    SOURCE,
+    VALUE,
+    WEIGHT,
+    Block,
+    Packet,
+    integers,
+    load,
+    store,
+)
+from vtray.geometry.packets.workspace import Pixels, Sums
+from vtray.geometry.vector import Vec, add
+from vtray.transport.film import Rows, place_of
+
+MOST = 2
+"""Light that was scattered so often or more often has the last order."""
+
+ROWS = 9
+"""Numbers of a lane: three channels for each order."""
+
+
+@device
+def clear_orders(packet: Packet, lanes: int, orders: Rows) -> None:
+    """Begin with no light in any order, and no surface between the lanes and the camera."""
+    if orders is None:
+        return
+    numbers = integers(packet)
+    for lane in range(lanes):
+        numbers[BOUNCES + lane] = 0
+        for row in range(ROWS):
+            packet[EMISSION + row * LANES + lane] = 0.0
+
+
+@device
+def add_in_order(packet: Packet, lane: int, light: Vec, number: int, orders: Rows) -> None:
+    """Add light that was scattered so often to that of a lane."""
+    if orders is None:
+        return
+    field = EMISSION + 3 * LANES * min(number, MOST)
+    store(packet, field, lane, add(load(packet, field, lane), light))
+
+
+@device
+def order_hits(packet: Packet, hits: int, orders: Rows) -> None:
+    """Add the light of hits to that of their lanes: their surfaces have scattered it, too."""
+    if orders is None:
+        return
+    numbers = integers(packet)
+    for hit in range(hits):
+        lane = numbers[SOURCE + hit]
+        number = numbers[BOUNCES + lane] + 1
+        add_in_order(packet, lane, load(packet, VALUE, hit), number, orders)
+
+
+@device
+def order_lamps(packet: Packet, lanes: int, orders: Rows) -> None:
+    """Set the light of the lanes in which a lamp is seen."""
+    if orders is None:
+        return
+    numbers = integers(packet)
+    for lane in range(lanes):
+        if numbers[PRIMITIVE + lane] < NO_PRIMITIVE:
+            store(packet, EMISSION, lane, load(packet, LIGHT, lane))
+
+
+@device
+def limit_orders(packet: Packet, lane: int, brightest: float, peak: float, orders: Rows) -> None:
+    """Let all orders of a lane become darker alike if its peak is brighter than it may be."""
+    if orders is None:
+        return
+    if peak > brightest:
+        for row in range(ROWS):
+            packet[EMISSION + row * LANES + lane] *= brightest / peak
+
+
+@device
+def clear_sums_of_orders(sums: Sums, pixels: int, orders: Rows) -> None:
+    """Start to add up the orders of the samples of some pixels."""
+    if orders is None:
+        return
+    for k in range(pixels):
+        for row in range(ROWS):
+            sums.orders[row * LANES + k] = 0.0
+
+
+@device
+def add_orders(packet: Packet, lanes: int, samples: int, sums: Sums, orders: Rows) -> None:
+    """Add the orders of the samples of a packet to their pixels, as `film.add_samples` does."""
+    if orders is None:
+        return
+    for k in range(lanes // samples):
+        for row in range(ROWS):
+            total = sums.orders[row * LANES + k]
+            for lane in range(k * samples, (k + 1) * samples):
+                total += packet[WEIGHT + lane] * packet[EMISSION + row * LANES + lane]
+            sums.orders[row * LANES + k] = total
+
+
+@device
+def write_sums_of_orders(
+    block: Block, begin: int, end: int, pixels: Pixels, sums: Sums, orders: Rows
+) -> None:
+    """Write the orders of pixels of a block's list to the film, as `film.write_pixels` does."""
+    if orders is None:
+        return
+    for k in range(end - begin):
+        at, column = place_of(block, pixels[begin + k])
+        for row in range(ROWS):
+            orders[at, column, row] = sums.orders[row * LANES + k] / sums.weight[k]
+
+
+@device
+def write_orders(
+    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, orders: Rows
+) -> None:
+    """Write the orders of pixels with one ray to the film, as `film.write_middles` does."""
+    if orders is None:
+        return
+    for lane in range(end - begin):
+        at, column = place_of(block, pixels[begin + lane])
+        for row in range(ROWS):
+            orders[at, column, row] = packet[EMISSION + row * LANES + lane]
