@@ -225,3 +225,20 @@ def test_light_through_a_lens_is_nearer_to_the_truth() -> None:
     truth = np.mean(many, axis=0)
     image = vtray.render(given, samples=4, tolerance=10, denoise=True)
     assert error(image.linear, truth) < 0.8 * error(image.raw, truth)
+
+
+def test_background_behind_what_a_lens_blurs_has_no_grain() -> None:
+    given = vtray.Scene()
+    given.add_sphere((0, 0, 0), 1.2, color="black")
+    given.camera = vtray.Camera.look_at(
+        (0, 0, 20), target=(0, 0, 0), fov_degrees=14, size=(48, 48), lens=vtray.Lens(1.5, 60)
+    )
+    given.lights = [vtray.Sky(1)]
+    options = {"background": "sky", "exposure": 1, "seed": 2}
+    truth = vtray.render(given, samples=1024, **options)
+    rough = vtray.render(given, samples=16, **options)
+    image = vtray.render(given, samples=16, denoise=True, **options)
+    assert error(image.alpha, truth.alpha) < 0.5 * error(rough.alpha, truth.alpha)
+    assert error(1.0 * image.pixels, truth.pixels) < 0.5 * error(1.0 * rough.pixels, truth.pixels)
+    assert image.alpha.min() >= 0
+    assert image.alpha.max() <= 1

@@ -46,3 +46,13 @@ class Denoising:
         if self._coverage is not None:
             clean[self._coverage == 0.0] = 0.0
         return clean
+
+    def shares(self) -> Floats | None:
+        """Return how much of each pixel is covered, without the grain that a lens gives it.
+
+        Without a lens, only edges are partly covered, and these stay as they are.
+        """
+        if self._guiding is not None or self._coverage is None:
+            return self._coverage
+        grey = self._coverage[..., None].repeat(3, axis=2)
+        return denoise(grey, np.ones_like(grey), None, self._threads)[..., 0].clip(0.0, 1.0)

@@ -282,7 +282,7 @@ def render(
     denoising = Denoising(None if _is_blurred(packed, settings) else guiding, coverage, threads)
     image = darkroom.picture(
         traced.film.linear,
-        coverage,
+        denoising.shares() if settings.denoise else coverage,
         traced.peak,
         fog=traced.film.fog,
         lines=drawing.lines(traced.film),
