@@ -42,10 +42,13 @@ class Denoising:
         if self._guiding is None:
             return denoise(light, np.ones_like(light), None, self._threads)
         guides = self._guiding(scene)
-        clean = denoise(light, guides.albedo, guides.normals, self._threads)
+        albedo = guides.albedo
         if self._coverage is not None:
-            clean[self._coverage == 0.0] = 0.0
-        return clean
+            # Guides have samples of their own: at edges, these cover other parts of a pixel.
+            none, is_covered = np.zeros_like(guides.cover), guides.cover > 0.0
+            parts = np.divide(self._coverage, guides.cover, out=none, where=is_covered)
+            albedo = albedo * parts[..., None]
+        return denoise(light, albedo, guides.normals, self._threads)
 
     def shares(self) -> Floats | None:
         """Return how much of each pixel is covered, without the grain that a lens gives it.
