@@ -33,7 +33,9 @@ from typing import Any, NamedTuple
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 PICTURES = DOCS / "images" / "pages"
-NOT_RUN = ("architecture", "benchmarks", "changelog", "gallery", "measured", "reference", "rules")
+GALLERY = ("gallery", "frames")
+"""Pages of pictures, each by a script in `examples`."""
+NOT_RUN = ("architecture", "benchmarks", "changelog", *GALLERY, "measured", "reference", "rules")
 PAGES = sorted(page for page in DOCS.glob("*.md") if page.stem not in NOT_RUN)
 NEEDED = {
     "eight-figures": ("MDAnalysisTests",),

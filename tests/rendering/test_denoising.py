@@ -225,3 +225,35 @@ def test_light_through_a_lens_is_nearer_to_the_truth() -> None:
     truth = np.mean(many, axis=0)
     image = vtray.render(given, samples=4, tolerance=10, denoise=True)
     assert error(image.linear, truth) < 0.8 * error(image.raw, truth)
+
+
+def test_background_behind_what_a_lens_blurs_has_no_grain() -> None:
+    given = vtray.Scene()
+    given.add_sphere((0, 0, 0), 1.2, color="black")
+    given.camera = vtray.Camera.look_at(
+        (0, 0, 20), target=(0, 0, 0), fov_degrees=14, size=(48, 48), lens=vtray.Lens(1.5, 60)
+    )
+    given.lights = [vtray.Sky(1)]
+    options = {"background": "sky", "exposure": 1, "seed": 2}
+    truth = vtray.render(given, samples=1024, **options)
+    rough = vtray.render(given, samples=16, **options)
+    image = vtray.render(given, samples=16, denoise=True, **options)
+    assert error(image.alpha, truth.alpha) < 0.5 * error(rough.alpha, truth.alpha)
+    assert error(1.0 * image.pixels, truth.pixels) < 0.5 * error(1.0 * rough.pixels, truth.pixels)
+    assert image.alpha.min() >= 0
+    assert image.alpha.max() <= 1
+
+
+def test_horizon_is_even() -> None:
+    given = vtray.Scene()
+    given.add_plane((0, 0, 0), normal=(0, 0, 1), color="#0b2230", material="plastic")
+    given.camera = vtray.Camera.look_at(
+        (0, -60, 7), target=(0, 0, 6), up=(0, 0, 1), fov_degrees=24, size=(64, 48)
+    )
+    given.lights = [vtray.Sky(0.5, color=(250, 200, 160))]
+    image = vtray.render(
+        given, integrator="path", samples=8, exposure=1, background="sky", denoise=True
+    )
+    horizon = ((image.alpha > 0.1) & (image.alpha < 0.9)).any(axis=1)
+    assert horizon.any()
+    assert image.pixels[horizon].std(axis=1).max() < 1.5

@@ -72,7 +72,8 @@ def test_picture_is_what_the_script_makes(name: str, tmp_path: Path) -> None:
 
 
 def test_gallery_shows_each_picture_with_its_script() -> None:
-    page = (ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
+    texts = [(ROOT / "docs" / f"{name}.md").read_text("utf-8") for name in pages.GALLERY]
+    page = "".join(texts)
     shown = re.findall(r"\(images/gallery/([\w.]+)\)", page)
     included = re.findall(r'--8<-- "examples/([\w.]+)"', page)
     assert sorted(shown) == sorted(path.name for path in IMAGES.glob("*"))

@@ -42,7 +42,20 @@ class Denoising:
         if self._guiding is None:
             return denoise(light, np.ones_like(light), None, self._threads)
         guides = self._guiding(scene)
-        clean = denoise(light, guides.albedo, guides.normals, self._threads)
+        albedo = guides.albedo
         if self._coverage is not None:
-            clean[self._coverage == 0.0] = 0.0
-        return clean
+            # Guides have samples of their own: at edges, these cover other parts of a pixel.
+            none, is_covered = np.zeros_like(guides.cover), guides.cover > 0.0
+            parts = np.divide(self._coverage, guides.cover, out=none, where=is_covered)
+            albedo = albedo * parts[..., None]
+        return denoise(light, albedo, guides.normals, self._threads)
+
+    def shares(self) -> Floats | None:
+        """Return how much of each pixel is covered, without the grain that a lens gives it.
+
+        Without a lens, only edges are partly covered, and these stay as they are.
+        """
+        if self._guiding is not None or self._coverage is None:
+            return self._coverage
+        grey = self._coverage[..., None].repeat(3, axis=2)
+        return denoise(grey, np.ones_like(grey), None, self._threads)[..., 0].clip(0.0, 1.0)

@@ -280,12 +280,11 @@ def render(
         if packed.arrays.world.faded is None and packed.arrays.materials.patterns is None
         else rerendering
     )
-    denoising = Denoising(
-        None if _is_blurred(packed, settings) else guiding, traced.film.coverage, threads
-    )
+    coverage = traced.film.coverage
+    denoising = Denoising(None if _is_blurred(packed, settings) else guiding, coverage, threads)
     image = darkroom.picture(
         traced.film.linear,
-        traced.film.coverage,
+        denoising.shares() if settings.denoise else coverage,
         traced.peak,
         fog=traced.film.fog,
         lines=drawing.lines(traced.film),
