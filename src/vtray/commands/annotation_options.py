@@ -11,7 +11,7 @@ from vtray.base.errors import OutputError
 from vtray.commands.command import Parser
 from vtray.commands.setting_options import wrong
 
-WITH_VALUE = ("--scale-bar", "--color-bar")
+WITH_VALUE = ("--scale-bar", "--color-bar", "--boundary")
 """Options whose value is only what follows an equals sign, so that a file after them is none."""
 
 KEYWORDS = ("title", "time", "axes", "scalebar", "colorbar", "legend")

@@ -119,6 +119,8 @@ def _share_beside(
 
 def _labels(drawn: "Drawn", particles: "Particles", name: str) -> list[PointLabel]:
     """Return what a column says of each particle that is drawn, and where it is."""
+    from vtray.scene.particles.made_of import made_of
+
     try:
         values = particles[name]
     except SceneError as error:
@@ -132,7 +134,13 @@ def _labels(drawn: "Drawn", particles: "Particles", name: str) -> list[PointLabe
     rows = values[drawn.indices]
     texts = [f"{value:.4g}" for value in rows] if rows.dtype.kind == "f" else [*map(str, rows)]
     times = len(places) // max(len(texts), 1)
-    pairs = zip(texts * times, places.tolist(), strict=True)
+    pairs = [*zip(texts * times, places.tolist(), strict=True)]
+    if drawn.boundary is not None:
+        again = drawn.boundary[0]
+        text_of = dict(zip(drawn.indices.tolist(), texts, strict=True))
+        source = made_of(again)
+        which = [] if source is None else source.indices.tolist()
+        pairs += [(text_of[k], at) for k, at in zip(which, again.center.tolist(), strict=True)]
     return [PointLabel(text, (x, y, z)) for text, (x, y, z) in pairs if text.strip()]
 
 
