@@ -220,6 +220,19 @@ def test_particles_leave_room_for_what_stands_beside(water: Path, mark: str) -> 
     assert beside <= 300 * (1 - taken) + 1
 
 
+def test_points_that_shine_leave_room_for_their_bars(water: Path) -> None:
+    shining = ["--emission", "y", "--color", "charge", "--cmap", "viridis", "--view", "front"]
+    given = [*shining, "--size", "600x400", str(water)]
+    widest = []
+    for marks in ([], ["--color-bar"], ["--color-bar=q;mass"]):
+        scene = scene_of(*given, *marks)
+        widest.append(scene.camera.project(scene.objects[0].center)[:, 0].max())
+    # Without a text, "emission per pixel" stands there.
+    assert widest[0] > widest[2] > widest[1] > 400
+    options = parse([*given, *marks, "picture.png"])
+    assert annotations_of(options)["colorbar"] == ["q", "mass"]
+
+
 def test_legend_of_data(water: Path) -> None:
     options = parse(["--legend", str(water), "picture.png"])
     _, of_data = load_data(options)

@@ -1,6 +1,7 @@
 """A file of data as a scene: what the options of data say."""
 
 import argparse
+from functools import partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -55,6 +56,7 @@ def draw_data(
     fixed
         What else `Scene.add_particles` is given, where the options do not say it.
     """
+    from vtray.rendering.beside import fit_beside
     from vtray.scene.particles.view import SIZE, VIEW, camera_of, taken
     from vtray.scene.scene import Scene
 
@@ -75,8 +77,9 @@ def draw_data(
         drawn = scene.add_particles(particles, **drawing)
         marks = _marks(options, drawn, particles)
         if camera is None:
-            beside = _share_beside(options, scene, marks.get("legend"), size)
-            scene.camera = camera_of(scene, has_cell, size, beside=beside, **view)
+            annotate = {"colorbar": value_of(options, "colorbar"), **marks}
+            fit = partial(camera_of, scene, has_cell, size, **view)
+            scene.camera = fit_beside(fit, scene.objects, annotate)
         settings = taken(scene.camera, drawn.spheres, is_alone=camera is None)
         scene.render = scene.render.replace(**settings)
     except SceneError as error:
@@ -98,23 +101,6 @@ def _marks(options: argparse.Namespace, drawn: "Drawn", particles: "Particles") 
         # Of atoms behind others, too, would be too many.
         marks["hide_labels"] = True
     return marks
-
-
-def _share_beside(
-    options: argparse.Namespace,
-    scene: "Scene",
-    legend: Any,  # noqa: ANN401
-    size: tuple[int, int],
-) -> float:
-    """Return the share of the picture's width that a legend and colour bars take."""
-    colorbar = value_of(options, "colorbar")
-    if legend is None and colorbar is None:
-        return 0.0
-    from vtray.figures.annotations import Annotations
-    from vtray.figures.painted.picture import share_beside
-
-    wanted = Annotations(legend=legend, colorbar=colorbar or False)
-    return share_beside(scene.objects, wanted, size)
 
 
 def _labels(drawn: "Drawn", particles: "Particles", name: str) -> list[PointLabel]:

@@ -4,11 +4,14 @@ import math
 from functools import partial
 from typing import Any
 
+from vtray.figures.brightness_scale import BrightnessScale
 from vtray.figures.round_marks import round_marks, spread_marks
 
 
 def share_of(scale: Any, value: float) -> float:  # noqa: ANN401
     """Return how far up the bar of a scale a value stands, from 0 to 1."""
+    if isinstance(scale, BrightnessScale):
+        return scale.share(value)
     low, high = scale.low, scale.high
     if low == high:
         return 0.5

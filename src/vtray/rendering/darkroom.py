@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.image.image import Image
+from vtray.image.rendered import GivesStarlight
 from vtray.image.surfaces import Surfaces
 from vtray.image.white import white_of
 from vtray.rendering.growth import Part
@@ -52,7 +53,7 @@ class Darkroom:
     look: Callable[[], Surfaces]
     albedo: Callable[[Scene], Floats]
     sky: Callable[[Scene, Floats], Floats]
-    starlight: Callable[[Scene], Floats | None]
+    starlight: GivesStarlight
     lock: object
     threads: int
 

@@ -40,11 +40,11 @@ def camera_of(
     subject: Any,  # noqa: ANN401
     has_cell: bool,
     size: tuple[int, int],
+    beside: float = 0.0,
     *,
     view: str | tuple[float, float] | None = None,
     zoom: float = 1.0,
     orthographic: bool = False,
-    beside: float = 0.0,
 ) -> Camera:
     """Return the camera that shows everything.
 
@@ -56,12 +56,12 @@ def camera_of(
         Whether there is a cell: a box is known by its faces, and what has none by its shape.
     size
         Width and height of the picture in pixels.
+    beside
+        What a legend takes on the right, as a share of the picture's width.
     view, zoom
         As for `Camera.fit`; by default, that of a cell, or the one that shows the shape.
     orthographic
         Whether there is no perspective.
-    beside
-        What a legend takes on the right, as a share of the picture's width.
     """
     right = beside if MARGIN < beside < MOST_BESIDE else MARGIN
     return Camera.fit(
