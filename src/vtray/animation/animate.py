@@ -3,6 +3,7 @@
 import os
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -27,6 +28,7 @@ from vtray.animation.stage import Look, Shot, Warn
 from vtray.animation.swept import fit_around, upright
 from vtray.animation.turned_lights import turned_light
 from vtray.base.errors import SceneError
+from vtray.rendering.beside import MARGIN, Margin, fit_beside
 from vtray.scene.camera import Camera
 from vtray.scene.checks.scene_words import show
 from vtray.scene.default_light import has_default_light
@@ -165,12 +167,12 @@ def animate(
             name = next(iter(options))
             message = f"animate() argument {name!r} is for particles, or unknown"
             raise TypeError(message)
-        make: Make = SceneShots(first)
+        make: Make = SceneShots(first, look)
     else:
         if opacity is not None and not is_moving(opacity):
             options["opacity"], opacity = opacity, None  # may be the name of a column
         drawing = Drawing(options, settings.get("size"), settings.get("background"))
-        make = ParticleScenes(drawing.draw, drawing.fit, looked_at(source, first))
+        make = ParticleScenes(drawing.draw, drawing.fit, looked_at(source, first), look.annotate)
     if opacity is not None:
         ways["opacity"] = way_of_opacity(opacity)
     if camera is not None:
@@ -247,17 +249,33 @@ def turntable(
     ways = {name: way_of_part(name, part) for name, part in parts.items()}
     if opacity is not None:
         ways["opacity"] = way_of_opacity(opacity)
-    camera, about = camera_around(scene)
+    camera, about = camera_around(scene, look)
     go_around(film, scene, camera, about, seconds, degrees, lights, moving=Moving(ways))
     return film.output.path
 
 
-def camera_around(scene: Scene) -> tuple[Camera, Vector]:
+def camera_around(scene: Scene, look: Look) -> tuple[Camera, Vector]:
     """Return the camera of a scene, or one that shows it from all sides, and what it goes about."""
     if _is_none(scene.camera):
-        return fit_around(scene, Camera.fit(scene, view=USUAL))
+        return around_beside(scene, _usual_camera(scene, look), look.annotate)
     x, y, z = map(float, middle_of(balls_of(scene, "turntable")))
     return upright(scene.camera), Vector(x, y, z)
+
+
+def around_beside(
+    scene: Scene, start: Camera, annotate: Mapping[str, Any], zoom: float = 1.0
+) -> tuple[Camera, Vector]:
+    """Return what `fit_around` does, with room for what is painted beside what is shown."""
+    _, about = fit_around(scene, start, zoom)
+    fit = lambda margin: fit_around(scene, start, zoom, margin)[0]  # noqa: E731
+    return fit_beside(fit, scene.objects, annotate), about
+
+
+def _usual_camera(scene: Scene, look: Look, margin: Margin = MARGIN) -> Camera:
+    """Return the camera of scenes that have none."""
+    size = look.settings.get("size") or scene.render.size
+    more: dict[str, Any] = {} if size is None else {"size": size}
+    return Camera.fit(scene, view=USUAL, margin=margin, **more)
 
 
 def go_around(
@@ -362,8 +380,11 @@ def _film(
 class SceneShots:
     """Makes shots of scenes, of which those without a camera get that of the first."""
 
-    def __init__(self, first: Scene) -> None:
-        self._fitted = first.camera if not _is_none(first.camera) else Camera.fit(first, view=USUAL)
+    def __init__(self, first: Scene, look: Look) -> None:
+        self._fitted = first.camera
+        if _is_none(first.camera):
+            fit = partial(_usual_camera, first, look)
+            self._fitted = fit_beside(fit, first.objects, look.annotate)
 
     def __call__(self, scene: Any, k: int, opacity: Opacity | None = None) -> Shot:  # noqa: ANN401
         """Return what a picture is taken of."""

@@ -56,7 +56,7 @@ def draw_data(
     fixed
         What else `Scene.add_particles` is given, where the options do not say it.
     """
-    from vtray.rendering.beside import fit_beside
+    from vtray.rendering.beside import MARGIN, fit_beside
     from vtray.scene.particles.view import SIZE, VIEW, camera_of, taken
     from vtray.scene.scene import Scene
 
@@ -71,7 +71,7 @@ def draw_data(
         if camera is not None:
             scene.camera = camera
         elif drawing.get("style") == "points":
-            scene.camera = camera_of(particles.positions, has_cell, size, **view)
+            scene.camera = camera_of(particles.positions, has_cell, size, MARGIN, **view)
         if options.background is not None and not isinstance(options.background, str):
             drawing["background"] = options.background
         drawn = scene.add_particles(particles, **drawing)

@@ -16,9 +16,23 @@ from vtray.scene.stars import Stars
 MARKS = ("legend", "colorbar")
 """What stands beside what is shown, as keywords of `vtray.Image.annotated`."""
 
+MARGIN = 0.05
+"""What stays free at each side, as a share of width and height."""
+
+MOST_BESIDE = 0.4
+"""The share of the width from which on a legend stands on what is shown, so that it stays large."""
+
+Margin = float | tuple[float, float, float, float]
+"""As for `Camera.fit`."""
+
+
+def has_beside(annotate: Mapping[str, Any]) -> bool:
+    """Tell whether something stands beside what is shown."""
+    return any(annotate.get(name) for name in MARKS)
+
 
 def fit_beside(
-    fit: Callable[[float], Camera],
+    fit: Callable[[Margin], Camera],
     objects: Sequence[Object],
     annotate: Mapping[str, Any],
     size: tuple[int, int] | None = None,
@@ -28,7 +42,7 @@ def fit_beside(
     Parameters
     ----------
     fit
-        Gives the camera, by the share of the picture's width that these take on the right.
+        Gives the camera, by what stays free at the sides of the picture.
     objects
         What is shown.
     annotate
@@ -41,16 +55,19 @@ def fit_beside(
     FigureError
         The legend or the colour bars are not right.
     """
-    camera = fit(0.0)
-    given = {name: annotate[name] for name in MARKS if annotate.get(name)}
-    if not given:
+    camera = fit(MARGIN)
+    if not has_beside(annotate):
         return camera
+    given = {name: annotate[name] for name in MARKS if annotate.get(name)}
     width, height = map(int, size or camera.size)
     brightness = (
         _brightness(objects, camera.resized((width, height))) if "colorbar" in given else []
     )
     wanted, fontsize = Annotations(**given), annotate.get("fontsize")
-    return fit(share_beside(objects, wanted, (width, height), brightness, fontsize))
+    right = share_beside(objects, wanted, (width, height), brightness, fontsize)
+    if not MARGIN < right < MOST_BESIDE:
+        return camera
+    return fit((MARGIN, MARGIN, right, MARGIN))
 
 
 def _brightness(objects: Sequence[Object], camera: Camera) -> list[BrightnessScale]:
