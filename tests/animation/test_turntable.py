@@ -9,9 +9,9 @@ from PIL import Image
 
 import vtray
 from conftest import compiled_only
-from vtray.animation.animate import camera_around
 from vtray.animation.between_cameras import between_cameras
 from vtray.animation.keyframes import Keyframes
+from vtray.animation.shots import camera_around
 from vtray.animation.stage import Look
 from vtray.animation.swept import fit_around, upright
 from vtray.animation.turned_lights import turned_light

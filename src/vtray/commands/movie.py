@@ -8,12 +8,13 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from vtray.animation.animate import around_beside, camera_around, go_around, run
+from vtray.animation.animate import go_around, run
 from vtray.animation.cluster import check_client, connect
 from vtray.animation.film import Film
 from vtray.animation.output import Output
 from vtray.animation.particle_scenes import Objects, ParticleScenes, looked_at
 from vtray.animation.script import Script
+from vtray.animation.shots import around_beside, camera_around
 from vtray.animation.sources import first_of, source_of
 from vtray.animation.stage import Look, Shot
 from vtray.animation.swept import upright
