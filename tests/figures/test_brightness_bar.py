@@ -37,7 +37,13 @@ def bars(image: vtray.Image, colorbar: Any = True, *, flat: bool = False) -> Any
 @pytest.mark.parametrize("stretch", ["linear", "asinh", "log"])
 @pytest.mark.parametrize(
     "options",
-    [{}, {"color": "orange"}, {"tonemap": "agx", "exposure": 0.5}, {"background": (0, 0, 90)}],
+    [
+        {},
+        {"color": "orange"},
+        {"tonemap": "agx", "exposure": 0.5},
+        {"background": (0, 0, 90)},
+        {"tonemap": "filmic", "background": (0, 0, 90)},
+    ],
 )
 def test_shades_are_those_of_the_picture(stretch: Any, options: dict[str, Any]) -> None:
     image = picture(stretch, **options)
@@ -47,7 +53,7 @@ def test_shades_are_those_of_the_picture(stretch: Any, options: dict[str, Any]) 
     for step, pixel in zip(STEPS, image.pixels[15, 4::4].astype(int), strict=False):
         row = share_of(scale, 7.0 * min(step, 1.0)) * (len(scale.table) - 1)
         assert np.abs(scale.table[round(row)] - pixel).max() <= 2
-    assert image.pixels[15, 4:37:4].min(axis=0).any()
+    assert (image.pixels[15, 20] > image.pixels[0, 0]).any()
 
 
 def test_the_peak_is_that_of_the_picture() -> None:
