@@ -8,6 +8,7 @@ import pytest
 from PIL import Image
 
 import vtray
+from vtray.animation import gif_file
 from vtray.animation.feed import spread
 from vtray.animation.times import ends_of
 
@@ -87,3 +88,16 @@ def test_times_add_up() -> None:
 def test_spread() -> None:
     assert spread(3, 8) == [0, 1, 2]
     assert spread(100, 4) == [0, 33, 66, 99]
+
+
+def test_few_pixels_of_a_colour_keep_it_in_a_gif() -> None:
+    # Balls of eight colours, whose dark rims are far fewer pixels than their bright middles.
+    hues = np.array([*np.ndindex(2, 2, 2)]) * 170 + 85
+    shade = np.sqrt(1 - np.linspace(-0.995, 0.995, 60) ** 2)
+    picture = (hues[:, None, None] * (shade[:, None] * shade)[None, :, :, None]).astype(np.uint8)
+    picture = picture.reshape(-1, 60, 3)
+    table = gif_file._table_of([picture, np.full((600, 60, 3), 255, np.uint8)])
+    off = np.linalg.norm(table[gif_file._nearest(picture, table)] - picture.astype(int), axis=2)
+    assert len(table) == 256
+    assert np.percentile(off, 99) < 13
+    assert off.mean() < 3

@@ -9,9 +9,10 @@ from PIL import Image
 
 import vtray
 from conftest import compiled_only
-from vtray.animation.animate import camera_around
 from vtray.animation.between_cameras import between_cameras
 from vtray.animation.keyframes import Keyframes
+from vtray.animation.shots import camera_around
+from vtray.animation.stage import Look
 from vtray.animation.swept import fit_around, upright
 from vtray.animation.turned_lights import turned_light
 from vtray.base.errors import SceneError
@@ -111,7 +112,7 @@ def test_all_is_seen_from_all_sides(projection: str) -> None:
 
 def test_scene_without_a_camera() -> None:
     scene = pair()
-    camera, about = camera_around(scene)
+    camera, about = camera_around(scene, Look())
     assert (about.x, about.y, about.z) == (0, 0, 0)
     assert camera.up == vtray.Direction(*UP)
 

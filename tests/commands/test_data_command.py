@@ -66,6 +66,8 @@ def test_data_becomes_a_scene(water: Path) -> None:
     assert last.camera.size == (1024, 1024)
     bound = scene_of(water, "--cutoff", "1.2", "--wrap", "--replicate", "2,1,1", "--no-cell")
     assert [len(item) for item in bound.objects] == [6, 6]
+    again = scene_of(water, "--boundary", "--no-cell")
+    assert [len(item) for item in again.objects] == [3, 8]
     dashed = scene_of(water, "--hydrogen-bonds", "--no-cell")
     assert [len(item) for item in dashed.objects] == [3, 0]
     shining = scene_of(water, "--emission", "z", "--stretch", "log", "--peak", "2")
@@ -131,6 +133,7 @@ def test_values_that_look_like_options() -> None:
             "argument --softening: expected a number from 1e-9 to 1e9, got 0",
         ),
         (["--frame", "1.5"], "argument --frame: expected an integer such as 0, or -1 for the last"),
+        (["--boundary=1"], "argument --boundary: expected a part of the cell's edge, up to 0.5"),
         (["--replay", "a.png"], "--replay is for scene files, and DATA is none; "),
     ],
 )
@@ -175,6 +178,8 @@ def test_labels_of_data(water: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert of_data["hide_labels"]
     twice = load_data(parse(["--label=z", "--replicate=1,2,1", str(water), "picture.png"]))[1]
     assert len(twice["labels"]) == 6
+    again = load_data(parse(["--label=element", "--boundary", str(water), "picture.png"]))[1]
+    assert [text for text, _ in again["labels"]].count("O") == 8
     monkeypatch.setattr(data_scene, "MOST_LABELS", 2)
     with pytest.raises(SceneError, match="--label z: expected at most 2 particles to label, got 3"):
         scene_of(water, "--label", "z")
@@ -213,6 +218,19 @@ def test_particles_leave_room_for_what_stands_beside(water: Path, mark: str) -> 
     )
     assert 0.1 < taken < 0.4
     assert beside <= 300 * (1 - taken) + 1
+
+
+def test_points_that_shine_leave_room_for_their_bars(water: Path) -> None:
+    shining = ["--emission", "y", "--color", "charge", "--cmap", "viridis", "--view", "front"]
+    given = [*shining, "--size", "600x400", str(water)]
+    widest = []
+    for marks in ([], ["--color-bar"], ["--color-bar=q;mass"]):
+        scene = scene_of(*given, *marks)
+        widest.append(scene.camera.project(scene.objects[0].center)[:, 0].max())
+    # Without a text, "emission per pixel" stands there.
+    assert widest[0] > widest[2] > widest[1] > 400
+    options = parse([*given, *marks, "picture.png"])
+    assert annotations_of(options)["colorbar"] == ["q", "mass"]
 
 
 def test_legend_of_data(water: Path) -> None:

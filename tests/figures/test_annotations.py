@@ -11,9 +11,9 @@ from conftest import JIT
 from vtray.figures.annotations import Annotations, find_marks
 from vtray.figures.caption import frame_caption
 from vtray.figures.legend import ball, legend_entries
-from vtray.figures.painted.round_marks import round_marks
 from vtray.figures.point_labels import shown_labels
 from vtray.figures.projection import project
+from vtray.figures.round_marks import round_marks
 from vtray.figures.sheet import FigureError
 from vtray.figures.triad import ARM, DOT, arrow, extent, name_places, triad
 

@@ -27,7 +27,11 @@ def figure(wanted: dict[str, Any], color: int = 0, **arguments: Any) -> Any:
     scene.camera = vtray.Camera.orthographic((0, 0, 9), (0, 0, 0), 20, size=(320, 200))
     pixels = np.full((200, 320, 3), color, np.uint8)
     image: Any = SimpleNamespace(
-        scene=scene, pixels=pixels, linear=np.zeros((200, 320, 3)), flat=lambda: pixels
+        scene=scene,
+        pixels=pixels,
+        linear=np.zeros((200, 320, 3)),
+        brightness_scales=(),
+        flat=lambda: pixels,
     )
     made = make_figure(image, Annotations(**wanted), **(USUAL | arguments))
     made.canvas.draw()

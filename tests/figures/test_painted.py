@@ -42,7 +42,8 @@ def subject(pixels: Array) -> Any:
     scene.camera = vtray.Camera.orthographic(
         (0, 0, 9), (0, 0, 0), 0.1 * height, size=(width, height)
     )
-    return SimpleNamespace(scene=scene, pixels=pixels, linear=np.zeros((height, width, 3)))
+    light = np.zeros((height, width, 3))
+    return SimpleNamespace(scene=scene, pixels=pixels, linear=light, brightness_scales=())
 
 
 def plain(width: int, height: int, color: Any = (0, 0, 0)) -> Any:

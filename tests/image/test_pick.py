@@ -45,3 +45,21 @@ def test_picked_particles(written_out: int, monkeypatch: pytest.MonkeyPatch) -> 
     assert at(1, 4) is None
     with pytest.raises(RenderError, match="pick: there is no pixel 80, 0 in a picture of 80 x 80"):
         image.pick(80, 0)
+
+
+def test_picked_particles_on_far_faces() -> None:
+    scene = vtray.Scene()
+    pair = Particles([(0, 2, 2), (1, 2, 2)], {"name": np.array(["left", "right"])}, cell=PAIR.cell)
+    scene.add_particles(pair, bonds=1.2, radii=0.3, cell=False, replicate=(1, 1, 2), boundary=True)
+    scene.camera = vtray.Camera.orthographic((2, -3, 4), (2, 2, 4), 8, up=(0, 0, 1), size=(80, 80))
+    scene.add_light((2, -9, 4))
+    image = vtray.render(scene)
+    near, far = image.pick(20, 20), image.pick(60, 20)
+    bond = image.pick(64, 20)
+    assert near is not None
+    assert far is not None
+    assert bond is not None
+    assert (near.object, far.object) == (0, 2)
+    assert (near.particle, near.copy) == (far.particle, far.copy) == (0, 1)
+    assert far.values["name"] == "left"
+    assert (bond.object, bond.kind, bond.particle, bond.copy) == (3, "bond", 0, 1)

@@ -248,4 +248,4 @@ def test_figures_of_stars() -> None:
     assert image.pixels[0, 0].max() < 20
     shown = image.annotated(colorbar=True, axes=True, scalebar=True)
     assert shown.pixels.shape == (90, 120, 3)
-    assert len(image.figure().axes) == 2
+    assert len(image.figure().axes) == 3

@@ -129,6 +129,21 @@ def test_stars_are_decoded() -> None:
         assert np.abs(brightest - (255, 165, 0)).max() <= 1
 
 
+@pytest.mark.parametrize("tonemap", ENCODED)
+def test_stars_are_added_to_a_background(tonemap: Any) -> None:
+    scene = vtray.Scene()
+    scene.add_particles([(0, 0, 0)], emission=1.0, peak=0.5, color="red")
+    scene.camera = vtray.Camera.look_at((0, 0, 8), target=(0, 0, 0), size=(12, 9))
+    blue, black = (
+        vtray.render(scene, exposure=1, tonemap=tonemap, background=color).pixels.astype(int)
+        for color in ((0, 0, 90), "black")
+    )
+    assert (blue[0, 0] == (0, 0, 90)).all()
+    assert np.abs(blue[4, 6, 0] - black[4, 6, 0]) <= 1
+    assert blue[4, 6, 0] > 100
+    assert blue[4, 6, 2] >= 90
+
+
 @pytest.mark.parametrize("samples", [1, 4])
 @pytest.mark.parametrize("tonemap", ENCODED)
 def test_background_has_exactly_its_color(samples: int, tonemap: Any) -> None:

@@ -2,12 +2,10 @@
 
 import os
 from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from vtray.animation.cluster import check_client
-from vtray.animation.fading import Opacity
 from vtray.animation.film import Film, Progress
 from vtray.animation.moving import (
     STYLE,
@@ -22,15 +20,13 @@ from vtray.animation.output import Output
 from vtray.animation.particle_scenes import Drawing, ParticleScenes, looked_at
 from vtray.animation.script import Make, Script
 from vtray.animation.shooting import shoot
+from vtray.animation.shots import SceneShots, TurnedShots, camera_around
 from vtray.animation.sources import READING, first_of, source_of
 from vtray.animation.stage import Look, Shot, Warn
-from vtray.animation.swept import fit_around, upright
-from vtray.animation.turned_lights import turned_light
 from vtray.base.errors import SceneError
 from vtray.scene.camera import Camera
 from vtray.scene.checks.scene_words import show
 from vtray.scene.default_light import has_default_light
-from vtray.scene.particles.view import USUAL
 from vtray.scene.placing.bounds import balls_of, middle_of
 from vtray.scene.placing.directions import Vec, unit
 from vtray.scene.placing.moved import axes_of
@@ -165,12 +161,12 @@ def animate(
             name = next(iter(options))
             message = f"animate() argument {name!r} is for particles, or unknown"
             raise TypeError(message)
-        make: Make = SceneShots(first)
+        make: Make = SceneShots(first, look)
     else:
         if opacity is not None and not is_moving(opacity):
             options["opacity"], opacity = opacity, None  # may be the name of a column
         drawing = Drawing(options, settings.get("size"), settings.get("background"))
-        make = ParticleScenes(drawing.draw, drawing.fit, looked_at(source, first))
+        make = ParticleScenes(drawing.draw, drawing.fit, looked_at(source, first), look.annotate)
     if opacity is not None:
         ways["opacity"] = way_of_opacity(opacity)
     if camera is not None:
@@ -247,17 +243,9 @@ def turntable(
     ways = {name: way_of_part(name, part) for name, part in parts.items()}
     if opacity is not None:
         ways["opacity"] = way_of_opacity(opacity)
-    camera, about = camera_around(scene)
+    camera, about = camera_around(scene, look)
     go_around(film, scene, camera, about, seconds, degrees, lights, moving=Moving(ways))
     return film.output.path
-
-
-def camera_around(scene: Scene) -> tuple[Camera, Vector]:
-    """Return the camera of a scene, or one that shows it from all sides, and what it goes about."""
-    if _is_none(scene.camera):
-        return fit_around(scene, Camera.fit(scene, view=USUAL))
-    x, y, z = map(float, middle_of(balls_of(scene, "turntable")))
-    return upright(scene.camera), Vector(x, y, z)
 
 
 def go_around(
@@ -287,43 +275,6 @@ def go_around(
     turns = lights == "turn" and not has_default_light(scene)
     shots = TurnedShots(shot or Shot(Scene(), camera), camera, about, axis, angle, count, turns)
     run(film, Script(source_of(scene, count), scene, shots, moving or Moving()))
-
-
-@dataclass(frozen=True)
-class TurnedShots:
-    """Makes shots of a scene that a camera goes around.
-
-    Attributes
-    ----------
-    usual
-        What is painted on each picture.
-    camera, about, axis
-        The first camera, and the point and the unit axis that it goes about.
-    degrees, count
-        How far it goes, and in how many pictures.
-    turns_lights
-        Whether the lights of the scene go with it.
-    """
-
-    usual: Shot
-    camera: Camera
-    about: Vector
-    axis: Vec
-    degrees: float
-    count: int
-    turns_lights: bool
-
-    def __call__(self, scene: Scene, k: int, opacity: Opacity | None = None) -> Shot:
-        """Return what a picture is taken of."""
-        turn = self.degrees * k / self.count
-        middle = (self.about.x, self.about.y, self.about.z)
-        lights = [turned_light(light, turn, middle, self.axis) for light in scene.lights]
-        return self.usual._replace(
-            scene=scene,
-            camera=self.camera.orbit(turn, about=self.about),
-            lights=lights if self.turns_lights else None,
-            opacity=opacity,
-        )
 
 
 def run(film: Film, script: Script) -> None:
@@ -357,20 +308,6 @@ def _film(
         check_client(client)
     bar = _Bar() if progress is True else progress or None
     return Film(output, rate, look, resume, bar, warn or _warn, client)
-
-
-class SceneShots:
-    """Makes shots of scenes, of which those without a camera get that of the first."""
-
-    def __init__(self, first: Scene) -> None:
-        self._fitted = first.camera if not _is_none(first.camera) else Camera.fit(first, view=USUAL)
-
-    def __call__(self, scene: Any, k: int, opacity: Opacity | None = None) -> Shot:  # noqa: ANN401
-        """Return what a picture is taken of."""
-        if not isinstance(scene, Scene):
-            raise SceneError(f"scenes: expected a Scene for picture {k}, got {show(scene)}")
-        camera = self._fitted if _is_none(scene.camera) else scene.camera
-        return Shot(scene, camera, opacity=opacity)
 
 
 def _pivot(scene: Scene) -> Vec:
@@ -417,7 +354,3 @@ def _warn(message: str) -> None:
     import warnings
 
     warnings.warn(message, stacklevel=2)
-
-
-def _is_none(value: object) -> bool:
-    return value is None

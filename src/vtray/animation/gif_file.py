@@ -34,6 +34,9 @@ EXACT = 16
 COMMON = 0.002
 """Those are that so large a part of all pixels has."""
 
+ROUNDS = 5
+"""How often the others are moved to the middle of what they stand for."""
+
 STEP = 1 << 14
 """Colours that are looked for at a time."""
 
@@ -67,15 +70,23 @@ def _table_of(pictures: "list[Pixels]") -> "NDArray[np.int64]":
         step = max(1, -(-max(pixels.shape[:2]) // SIDE))
         parts.append(pixels[::step, ::step, :3].reshape(-1, 3))
     row = np.concatenate(parts)
-    kinds, which, counts = np.unique(_numbers(row), return_inverse=True, return_counts=True)
+    kinds, counts = np.unique(_numbers(row), return_counts=True)
     # Such as the background, which a mean of colours would tint.
     order = np.argsort(-counts, kind="stable")[:EXACT]
     common = order[counts[order] >= COMMON * len(row)]
     exact = [(number >> 16, number >> 8 & 255, number & 255) for number in kinds[common].tolist()]
     colors = [part for color in exact for part in color]
-    others = row[~np.isin(which, common)]
-    if len(others):
-        mixed = Image.fromarray(others[None]).quantize(256 - len(exact), Image.Quantize.MEDIANCUT)
+    is_other = np.ones(len(kinds), np.bool_)
+    is_other[common] = False
+    if is_other.any():
+        # By the roots of their numbers: else the few pixels of an edge, or of a shadow, get the
+        # colour of something else. Measured, what 99 of 100 pixels stay below halves by that.
+        times = np.rint(np.sqrt(counts[is_other])).astype(np.int64)
+        parts_of = [kinds[is_other] >> shift & 255 for _, shift in SHIFTS]
+        others = np.repeat(np.stack(parts_of, axis=1).astype(np.uint8), times, axis=0)
+        mixed = Image.fromarray(others[None]).quantize(
+            256 - len(exact), Image.Quantize.MEDIANCUT, kmeans=ROUNDS
+        )
         colors += (mixed.getpalette() or [])[: 3 * (256 - len(exact))]
     return np.array(colors, np.int64).reshape(-1, 3)
 

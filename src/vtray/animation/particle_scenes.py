@@ -5,12 +5,14 @@ them are in the picture, and the scale has all their values.
 """
 
 from collections.abc import Callable, Iterable, Mapping
+from types import MappingProxyType
 from typing import Any
 
 from vtray.animation.fading import Opacity
 from vtray.animation.feed import spread
 from vtray.animation.sources import Source
 from vtray.animation.stage import Shot
+from vtray.rendering.beside import MARGIN, Margin, fit_beside, has_beside
 from vtray.scene.camera import Camera
 from vtray.scene.colors.color_scale import ColorScale
 from vtray.scene.objects import Object
@@ -31,8 +33,8 @@ Draw = Callable[[Particles, Camera | None, Fixed], tuple[Scene, Drawn, Mapping[s
 """Makes a scene of particles, with a camera where one is given, and with what colours mean, and
 says what is in it, and what is painted on its picture."""
 
-Fit = Callable[["Objects", bool], Camera]
-"""Gives the camera that shows objects, by whether there is a cell."""
+Fit = Callable[["Objects", bool, Margin], Camera]
+"""Gives the camera that shows objects, by whether there is a cell and what stays free around."""
 
 
 class Objects:
@@ -53,6 +55,9 @@ class ParticleScenes:
         Gives the camera.
     looked_at
         The frames that both are taken from.
+    annotate
+        What is painted on each picture, beside what is said of single ones, as keywords of
+        `vtray.Image.annotated`.
 
     Attributes
     ----------
@@ -63,21 +68,29 @@ class ParticleScenes:
         colour each; nothing where colours stand for neither.
     """
 
-    def __init__(self, draw: Draw, fit: Fit, looked_at: Iterable[Any]) -> None:
+    def __init__(
+        self,
+        draw: Draw,
+        fit: Fit,
+        looked_at: Iterable[Any],
+        annotate: Mapping[str, Any] = MappingProxyType({}),
+    ) -> None:
         self._draw = draw
+        shown: Any = None
+        marks: Mapping[str, Any] = {}
         seen = Objects([])
         scales: list[ColorScale] = []
         categories: dict[Any, None] = {}
         has_cell = False
         for given in looked_at:
             particles = as_particles(given)
-            scene, drawn, _ = draw(particles, None, {})
+            scene, drawn, marks = draw(particles, None, {})
+            shown = particles
             seen.objects += scene.objects
             has_cell |= particles.cell is not None
             if drawn.color_scale is not None:
                 scales.append(drawn.color_scale)
             categories.update(dict.fromkeys(drawn.categories or ()))
-        self.camera = fit(seen, has_cell)
         self.fixed: dict[str, Any] = {}
         if scales:
             low, high = min(scale.low for scale in scales), max(scale.high for scale in scales)
@@ -86,6 +99,13 @@ class ParticleScenes:
             # Names come after numbers, which they cannot be compared with.
             in_order = sorted(categories, key=lambda kind: (isinstance(kind, str), kind))
             self.fixed["categories"] = in_order
+        last: list[Object] = []
+        if has_beside({**annotate, **marks}):
+            scene, _, marks = draw(shown, None, self.fixed)
+            last = scene.objects
+        self.camera = fit_beside(
+            lambda margin: fit(seen, has_cell, margin), last, {**annotate, **marks}
+        )
 
     def __call__(self, given: Any, _: int, opacity: Opacity | None = None) -> Shot:  # noqa: ANN401
         """Return what a picture is taken of."""
@@ -131,10 +151,10 @@ class Drawing:
         if camera is not None:
             scene.camera = camera
         elif self._drawn.get("style") == "points":
-            scene.camera = self.fit(particles.positions, particles.cell is not None)
+            scene.camera = self.fit(particles.positions, particles.cell is not None, MARGIN)
         drawn = {name: value for name, value in self._drawn.items() if value is not None}
         return scene, scene.add_particles(particles, **{**fixed, **drawn}), {}
 
-    def fit(self, subject: Any, has_cell: bool) -> Camera:  # noqa: ANN401
+    def fit(self, subject: Any, has_cell: bool, margin: Margin) -> Camera:  # noqa: ANN401
         """Return the camera that shows objects, or places; see `Fit`."""
-        return camera_of(subject, has_cell, self._size, **self._view)
+        return camera_of(subject, has_cell, self._size, margin, **self._view)

@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
 from vtray.base.exact_math import cosine, sine
+from vtray.rendering.beside import MARGIN, Margin
 from vtray.scene.camera import Camera
 from vtray.scene.cylinders import Cylinders
 from vtray.scene.placing.bounding_sphere import bounding_sphere
@@ -29,7 +30,9 @@ SLICES = 64
 """Discs, one above the other, that stand for what is swept."""
 
 
-def fit_around(subject: object, camera: Camera, zoom: float = 1.0) -> tuple[Camera, Vector]:
+def fit_around(
+    subject: object, camera: Camera, zoom: float = 1.0, margin: Margin = MARGIN
+) -> tuple[Camera, Vector]:
     """Return a camera that shows objects from all sides as it orbits, and what it orbits about.
 
     Parameters
@@ -38,8 +41,8 @@ def fit_around(subject: object, camera: Camera, zoom: float = 1.0) -> tuple[Came
         A scene, or what else `Camera.fit` takes.
     camera
         Whose direction, size, projection and `up` it has; it turns about that.
-    zoom
-        How many times as large all is shown.
+    zoom, margin
+        As for `Camera.fit`.
     """
     camera = upright(camera)
     axis, forward = unit(camera.up or Direction(*WORLD[0])), unit(camera.normal)
@@ -53,6 +56,7 @@ def fit_around(subject: object, camera: Camera, zoom: float = 1.0) -> tuple[Came
         up=axis,
         projection="orthographic" if camera.projection == "orthographic" else "perspective",
         size=(width, height),
+        margin=margin,
         zoom=zoom,
     )
     return found, Vector(x, y, z)

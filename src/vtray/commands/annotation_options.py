@@ -11,7 +11,7 @@ from vtray.base.errors import OutputError
 from vtray.commands.command import Parser
 from vtray.commands.setting_options import wrong
 
-WITH_VALUE = ("--scale-bar", "--color-bar")
+WITH_VALUE = ("--scale-bar", "--color-bar", "--boundary")
 """Options whose value is only what follows an equals sign, so that a file after them is none."""
 
 KEYWORDS = ("title", "time", "axes", "scalebar", "colorbar", "legend")
@@ -85,16 +85,19 @@ def add_annotations(parser: Parser) -> None:
         "--color-bar",
         metavar="TEXT",
         dest="colorbar",
-        help="show what values colours stand for, =TEXT to write above that",
+        help="show what values colours stand for, and how bright points shine; =TEXT to write "
+        "above that, =TEXT;TEXT of several",
     )
 
 
 def value_of(options: argparse.Namespace, name: str) -> Any:  # noqa: ANN401
     """Return the value of an option of `KEYWORDS`, None if it was not given.
 
-    That of a bar without one is True.
+    That of a bar without one is True, and for several bars, texts stand between semicolons.
     """
     value = getattr(options, name, None)
+    if name == "colorbar" and value is not None and ";" in value:
+        return [text.strip() for text in value.split(";")]
     return True if value == "" and name in ("scalebar", "colorbar") else value
 
 

@@ -56,6 +56,11 @@ def _times(text: str) -> tuple[int, ...]:
     return tuple(map(int, text.split(",")))
 
 
+def _boundary(text: str) -> bool | float:
+    """Return the value of ``--boundary``, of which "" stands for none."""
+    return _between(0.0, 0.5, "a part of the cell's edge, up to 0.5")(text) if text else True
+
+
 def _radii(text: str) -> str | float:
     return float(text) if re.fullmatch(_NUMBER, text) else text
 
@@ -77,6 +82,12 @@ WHAT: dict[str, dict[str, Any]] = {
     "columns": {**FLAG, "help": "write no image, print what is known of the particles"},
     "select": {"metavar": "EXPR", "help": "draw those alone, such as \"element == 'O' and z > 3\""},
     "replicate": {"metavar": "A,B,C", "type": _times, "help": "show the cell so many times"},
+    "boundary": {
+        "metavar": "PART",
+        "type": _boundary,
+        "help": "show what is on faces of the cell on the opposite ones, too; =0.1 for a tenth of "
+        "a cell more on each side",
+    },
     "wrap": {**FLAG, "help": "bring particles into the cell"},
     "unwrap": {**FLAG, "help": "make molecules whole that the cell's border cuts"},
 }

@@ -1,6 +1,7 @@
 """A file of data as a scene: what the options of data say."""
 
 import argparse
+from functools import partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -55,6 +56,7 @@ def draw_data(
     fixed
         What else `Scene.add_particles` is given, where the options do not say it.
     """
+    from vtray.rendering.beside import MARGIN, fit_beside
     from vtray.scene.particles.view import SIZE, VIEW, camera_of, taken
     from vtray.scene.scene import Scene
 
@@ -69,14 +71,15 @@ def draw_data(
         if camera is not None:
             scene.camera = camera
         elif drawing.get("style") == "points":
-            scene.camera = camera_of(particles.positions, has_cell, size, **view)
+            scene.camera = camera_of(particles.positions, has_cell, size, MARGIN, **view)
         if options.background is not None and not isinstance(options.background, str):
             drawing["background"] = options.background
         drawn = scene.add_particles(particles, **drawing)
         marks = _marks(options, drawn, particles)
         if camera is None:
-            beside = _share_beside(options, scene, marks.get("legend"), size)
-            scene.camera = camera_of(scene, has_cell, size, beside=beside, **view)
+            annotate = {"colorbar": value_of(options, "colorbar"), **marks}
+            fit = partial(camera_of, scene, has_cell, size, **view)
+            scene.camera = fit_beside(fit, scene.objects, annotate)
         settings = taken(scene.camera, drawn.spheres, is_alone=camera is None)
         scene.render = scene.render.replace(**settings)
     except SceneError as error:
@@ -100,25 +103,10 @@ def _marks(options: argparse.Namespace, drawn: "Drawn", particles: "Particles") 
     return marks
 
 
-def _share_beside(
-    options: argparse.Namespace,
-    scene: "Scene",
-    legend: Any,  # noqa: ANN401
-    size: tuple[int, int],
-) -> float:
-    """Return the share of the picture's width that a legend and colour bars take."""
-    colorbar = value_of(options, "colorbar")
-    if legend is None and colorbar is None:
-        return 0.0
-    from vtray.figures.annotations import Annotations
-    from vtray.figures.painted.picture import share_beside
-
-    wanted = Annotations(legend=legend, colorbar=colorbar or False)
-    return share_beside(scene.objects, wanted, size)
-
-
 def _labels(drawn: "Drawn", particles: "Particles", name: str) -> list[PointLabel]:
     """Return what a column says of each particle that is drawn, and where it is."""
+    from vtray.scene.particles.made_of import made_of
+
     try:
         values = particles[name]
     except SceneError as error:
@@ -132,7 +120,13 @@ def _labels(drawn: "Drawn", particles: "Particles", name: str) -> list[PointLabe
     rows = values[drawn.indices]
     texts = [f"{value:.4g}" for value in rows] if rows.dtype.kind == "f" else [*map(str, rows)]
     times = len(places) // max(len(texts), 1)
-    pairs = zip(texts * times, places.tolist(), strict=True)
+    pairs = [*zip(texts * times, places.tolist(), strict=True)]
+    if drawn.boundary is not None:
+        again = drawn.boundary[0]
+        text_of = dict(zip(drawn.indices.tolist(), texts, strict=True))
+        source = made_of(again)
+        which = [] if source is None else source.indices.tolist()
+        pairs += [(text_of[k], at) for k, at in zip(which, again.center.tolist(), strict=True)]
     return [PointLabel(text, (x, y, z)) for text, (x, y, z) in pairs if text.strip()]
 
 

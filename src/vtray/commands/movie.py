@@ -8,15 +8,16 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from vtray.animation.animate import camera_around, go_around, run
+from vtray.animation.animate import go_around, run
 from vtray.animation.cluster import check_client, connect
 from vtray.animation.film import Film
 from vtray.animation.output import Output
 from vtray.animation.particle_scenes import Objects, ParticleScenes, looked_at
 from vtray.animation.script import Script
+from vtray.animation.shots import around_beside, camera_around
 from vtray.animation.sources import first_of, source_of
 from vtray.animation.stage import Look, Shot
-from vtray.animation.swept import fit_around, upright
+from vtray.animation.swept import upright
 from vtray.base.errors import printable
 from vtray.base.signals import LastStep
 from vtray.commands import data_options
@@ -25,6 +26,7 @@ from vtray.commands.command import print_note
 from vtray.commands.data_scene import draw_data, read_particles
 from vtray.commands.movie_options import FPS
 from vtray.commands.options import settings_of
+from vtray.rendering.beside import Margin
 from vtray.scene.camera import Camera
 from vtray.scene.particles.view import SIZE, VIEW, camera_of
 from vtray.scene.placing.views import TILT
@@ -109,12 +111,13 @@ def _make(options: argparse.Namespace, film: Film, load: "Callable[[], Scene] | 
         _go_through(options, film)
     elif load is not None:
         scene = load()
-        go_around(film, scene, *camera_around(scene), seconds)
+        go_around(film, scene, *camera_around(scene, film.look), seconds)
     else:
         particles = read_particles(options)
         scene, _, marks = draw_data(options, particles)
         zoom = data_options.given(options).get("zoom", 1.0)
-        camera, about = fit_around(scene, upright(scene.camera, TILT), zoom)
+        start = upright(scene.camera, TILT)
+        camera, about = around_beside(scene, start, {**film.look.annotate, **marks}, zoom)
         shot = Shot(scene, camera, None, particles.frame, particles.time, marks)
         go_around(film, scene, camera, about, seconds, shot=shot)
 
@@ -126,8 +129,9 @@ def _go_through(options: argparse.Namespace, film: Film) -> None:
     given = data_options.given(options)
     view = {name: given[name] for name in VIEW if name in given}
 
-    def fit(subject: Objects, has_cell: bool) -> Camera:
-        return camera_of(subject, has_cell, options.size or SIZE, **view)
+    def fit(subject: Objects, has_cell: bool, margin: Margin) -> Camera:
+        return camera_of(subject, has_cell, options.size or SIZE, margin, **view)
 
-    make = ParticleScenes(partial(draw_data, options), fit, looked_at(source, first))
+    draw, annotate = partial(draw_data, options), film.look.annotate
+    make = ParticleScenes(draw, fit, looked_at(source, first), annotate)
     run(film, Script(source, first, make))

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from vtray.figures.brightness_scale import BrightnessScale
 from vtray.figures.caption import frame_caption
 from vtray.figures.color_bar import bar_labels, color_scales
 from vtray.figures.legend import Entry, legend_entries
@@ -49,7 +50,7 @@ class Marks(NamedTuple):
     legend
         The lines of the legend.
     scales, bar_labels
-        The colour scales that are shown, and what stands beside each.
+        The scales that are shown, of colours and then of brightness, and what stands beside each.
     scale_bar
         The scale bar, None for none.
     triad
@@ -68,8 +69,8 @@ class Marks(NamedTuple):
     labels: list[Label]
 
 
-def find_marks(image: Subject, wanted: Annotations) -> Marks:
-    """Return what a picture shall carry.
+def find_marks(image: Subject, wanted: Annotations, *, flat: bool = False) -> Marks:
+    """Return what a picture shall carry, or a flat one, in which nothing shines.
 
     Raises
     ------
@@ -81,7 +82,8 @@ def find_marks(image: Subject, wanted: Annotations) -> Marks:
         message = f"title: expected a text or None, got {title!r}"
         raise FigureError(message)
     caption = frame_caption(wanted.time, wanted.frame)
-    return marks_beside(image.scene.objects, wanted)._replace(
+    brightness = image.brightness_scales if wanted.colorbar and not flat else []
+    return marks_beside(image.scene.objects, wanted, brightness)._replace(
         title=title or "",
         caption=caption,
         scale_bar=scale_bar(image, wanted.scalebar, wanted.at),
@@ -90,14 +92,25 @@ def find_marks(image: Subject, wanted: Annotations) -> Marks:
     )
 
 
-def marks_beside(objects: "Sequence[Object]", wanted: Annotations) -> Marks:
+def marks_beside(
+    objects: "Sequence[Object]", wanted: Annotations, brightness: Sequence[BrightnessScale] = ()
+) -> Marks:
     """Return the legend and the colour bars of a picture of objects, and nothing else of `Marks`.
+
+    Parameters
+    ----------
+    objects
+        What is shown.
+    wanted
+        What is asked for.
+    brightness
+        How bright points are that shine.
 
     Raises
     ------
     FigureError
         One of them is not right.
     """
-    scales = color_scales(objects) if wanted.colorbar else []
+    scales = [*color_scales(objects), *dict.fromkeys(brightness)] if wanted.colorbar else []
     entries = [] if wanted.legend is None else legend_entries(wanted.legend)
-    return Marks("", "", entries, scales, bar_labels(wanted.colorbar, len(scales)), None, [], [])
+    return Marks("", "", entries, scales, bar_labels(wanted.colorbar, scales), None, [], [])

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.figures.bar_marks import marks_of, share_of
+from vtray.figures.brightness_scale import LABEL, BrightnessScale
 from vtray.figures.flat import lit_colors
 from vtray.figures.lettering import write
 from vtray.figures.sheet import INCH, FigureError
@@ -42,13 +44,20 @@ def color_scales(objects: Sequence[Object]) -> list[Any]:
     return scales
 
 
-def bar_labels(colorbar: bool | str | Sequence[str], count: int) -> list[str]:
-    """Return the text beside each colour bar."""
+def bar_labels(colorbar: bool | str | Sequence[str], scales: Sequence[Any]) -> list[str]:
+    """Return the text beside the colour bar of each scale.
+
+    Those of brightness, which come last, have one of their own unless it is said.
+    """
+    usual = [LABEL if isinstance(scale, BrightnessScale) else "" for scale in scales]
     if isinstance(colorbar, (bool, np.bool_)):
-        return [""] * count
+        return usual
     labels: list[Any] = [colorbar]
     if isinstance(colorbar, (list, tuple)):
         labels = list(colorbar)
+    count, of_colors = len(scales), usual.count("")
+    if len(labels) == max(of_colors, 1) and count:
+        labels += usual[len(labels) :]
     if len(labels) != count or not all(isinstance(label, str) for label in labels):
         bars = "a label" if count == 1 else f"a list of {count} labels"
         expected = f"True, False or {bars}" if count else "True or False, as no object has a cmap"
@@ -61,6 +70,9 @@ def _ticks(scale: Any, most: int) -> tuple[list[float], list[str]]:  # noqa: ANN
     """Return where a colour bar has marks, and what is written there."""
     from matplotlib.ticker import LogLocator, MaxNLocator, ScalarFormatter
 
+    if isinstance(scale, BrightnessScale):
+        found = marks_of(scale, most)
+        return [share_of(scale, value) for value, _ in found], [text for _, text in found]
     low, high = scale.low, scale.high
     if low == high:
         return [low], [f"{low:g}"]
@@ -117,7 +129,9 @@ class ColorBar:
 
         table: Pixels = scale.table
         low, high = (0.0, 1.0) if scale.low == scale.high else (scale.low, scale.high)
-        if scale.norm == "log" and scale.low < scale.high:
+        if isinstance(scale, BrightnessScale):
+            low, high = 0.0, 1.0
+        elif scale.norm == "log" and scale.low < scale.high:
             low, high = math.log10(low), math.log10(high)
         if scale.low == scale.high:
             table = table[:1]

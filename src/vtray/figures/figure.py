@@ -52,7 +52,7 @@ def make_figure(
     sizes = (
         {} if fontsize is None else dict.fromkeys(FONT_SIZES, check_number("fontsize", fontsize))
     )
-    marks = find_marks(image, wanted)
+    marks = find_marks(image, wanted, flat=flat)
     if ax is not None:
         _check_axes(ax, width, dpi)
     pixels = image.flat() if flat else image.pixels

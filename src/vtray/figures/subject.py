@@ -1,10 +1,12 @@
 """What figures are made from, as this room sees it."""
 
+from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.figures.brightness_scale import BrightnessScale
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 
@@ -58,6 +60,10 @@ class Subject(HasPixels, Protocol):
     @property
     def halves(self) -> NDArray[np.int8]:
         """Which half of a cylinder or cone is seen, 1 for that at its end, (height, width)."""
+
+    @property
+    def brightness_scales(self) -> Sequence[BrightnessScale]:
+        """How bright points that shine make its pixels."""
 
     def flat(self) -> Pixels:
         """Return the picture with light that changes lightness only, (height, width, 3)."""

@@ -290,8 +290,10 @@ class Image(Rendered):
             Names and colours to show at the top right as small balls: ``{"O": "red",
             "H": "white"}`` or pairs of these.
         colorbar
-            Whether to show a colour bar on the right for each colour scale of the objects; a text
-            to write above it, such as ``"energy (eV)"``; or a list of texts if there are more.
+            Whether to show a colour bar on the right for each colour scale of the objects, and
+            where points shine, one that tells how much of their emission adds up in a pixel of each
+            shade; a text to write above it, such as ``"energy (eV)"``; or a list of texts if there
+            are more. Without one, that of brightness is "emission per pixel".
         scalebar
             Whether to show a scale bar at the bottom right, in scene units; or the name of the
             unit, such as ``"nm"``. In perspective, at which distance from the eye it is right is
@@ -376,8 +378,10 @@ class Image(Rendered):
         Parameters
         ----------
         colorbar
-            Whether to show a colour bar for each colour scale of the objects; a text to write
-            beside it, such as ``"energy (eV)"``; or a list of texts if there are more scales.
+            Whether to show a colour bar for each colour scale of the objects, and where points
+            shine, one that tells how much of their emission adds up in a pixel of each shade; a
+            text to write beside it, such as ``"energy (eV)"``; or a list of texts if there are
+            more. Without one, that of brightness is "emission per pixel".
         scalebar
             Whether to show a scale bar, in scene units; or the name of the unit, such as ``"nm"``.
             In perspective, things look smaller the farther away they are: the bar is right for

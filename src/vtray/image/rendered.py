@@ -3,12 +3,13 @@
 import copy
 from collections.abc import Callable, Mapping
 from functools import cached_property
-from typing import Any, Self
+from typing import Any, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import RenderError
+from vtray.figures.brightness_scale import SHADES, BrightnessScale
 from vtray.image.exposure import Drawn, Overlay, check_brightness, develop, develop_drawn
 from vtray.image.orders import Orders, unknown_orders
 from vtray.image.surfaces import Surfaces
@@ -19,6 +20,7 @@ from vtray.scene.colors.tone_map_names import is_encoded
 from vtray.scene.fingerprint import scene_hash
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
+from vtray.scene.stars import Stars
 from vtray.scene.style import Fog, Outline, Style
 from vtray.scene.vectors import Color
 
@@ -27,6 +29,17 @@ Shares = NDArray[np.float32]
 
 PLAIN = Style()
 BLACK = Color(0, 0, 0)
+WHITE = (255, 255, 255)
+
+
+class GivesStarlight(Protocol):
+    """Gives the light of the points that shine in a scene."""
+
+    def __call__(self, scene: Scene) -> Floats | None:
+        """Return their light, (height, width, 3); None without any."""
+
+    def peaks(self, scene: Scene) -> list[tuple[Stars, float]]:
+        """Return those that are seen, and the light of a pixel that is as bright as can be."""
 
 
 class Rendered:
@@ -105,7 +118,7 @@ class Rendered:
         locked: bool = False,
         partial: float | None = None,
         sky: Callable[[Scene, Floats], Floats] | None = None,
-        starlight: Callable[[Scene], Floats | None] | None = None,
+        starlight: GivesStarlight | None = None,
         style: Style = PLAIN,
     ) -> None:
         self.linear = linear
@@ -364,6 +377,31 @@ class Rendered:
     def starlight(self) -> Floats | None:
         """The part of `linear` that points give which shine; None if there are none."""
         return None if self._starlight is None else self._starlight(self.scene)
+
+    @property
+    def brightness_scales(self) -> list[BrightnessScale]:
+        """How bright points that shine make pixels: a scale for each of `Stars` that is seen."""
+        found = [] if self._starlight is None else self._starlight.peaks(self.scene)
+        return [
+            BrightnessScale(peak, stars.stretch, stars.soft, self._shades_of(stars))
+            for stars, peak in found
+        ]
+
+    def _shades_of(self, stars: Stars) -> NDArray[np.uint8]:
+        """Return pixels that points light more and more up to their peak, (m, 3).
+
+        They have the colour of the points, if that is one, and else are white.
+        """
+        each = stars.color.reshape(-1, 3)
+        red, green, blue = (int(part) for part in (each[0] if (each == each[0]).all() else WHITE))
+        color = np.array(light_of(Color(red, green, blue), self.settings.tonemap))
+        light = np.linspace(0.0, 1.0, SHADES)[:, None, None] * color
+        nothing = lambda: np.zeros(light.shape[:2])  # noqa: E731
+        tonemap, background = self.settings.tonemap, self.settings.background
+        if is_encoded(tonemap):
+            toning = Toning(tonemap, self.white, background, 255)
+            return develop_toned(light, toning, nothing)[:, 0]
+        return develop(light, self.white, background, nothing)[:, 0]
 
     @cached_property
     def error(self) -> Floats:

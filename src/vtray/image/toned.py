@@ -97,6 +97,10 @@ def _developed(
     shown = own * show(
         np.divide(light, own, out=np.zeros_like(light), where=own > 0.0).clip(0.0, MOST)
     )
+    # Light of what covers nothing, such as stars, is added to what is behind it.
+    alone = (own[..., 0] == 0.0) & (light > 0.0).any(axis=2)
+    if alone.any():
+        shown[alone] = show(light[alone][:, None])[:, 0]
     for overlay in overlays:
         shown = shown + overlay.share[..., None] * _shown(overlay.color, toning.tonemap)
     if isinstance(toning.background, Color):

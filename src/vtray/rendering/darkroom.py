@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from vtray.image.image import Image
 from vtray.image.orders import Orders
+from vtray.image.rendered import GivesStarlight
 from vtray.image.surfaces import Surfaces
 from vtray.image.white import white_of
 from vtray.rendering.growth import Part
@@ -55,7 +56,7 @@ class Darkroom:
     albedo: Callable[[Scene], Floats]
     orders: Callable[[Scene], Orders]
     sky: Callable[[Scene, Floats], Floats]
-    starlight: Callable[[Scene], Floats | None]
+    starlight: GivesStarlight
     lock: object
     threads: int
 

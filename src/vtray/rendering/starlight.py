@@ -4,14 +4,13 @@ It is an image of projected points, not of rays. Sums have a fixed order and not
 a library of C, so it is the same to the last bit on every machine.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import RenderError
-from vtray.base.exact_math import logarithm
 from vtray.figures.projection import Places, project
 from vtray.rendering.rooms import Rooms, Wall
 from vtray.scene.camera import Camera
@@ -20,6 +19,7 @@ from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 from vtray.scene.stars import Stars
+from vtray.scene.stretch import stretched
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -81,15 +81,42 @@ class Starlight:
             return None
         width, height = map(int, scene.camera.size)
         light = np.zeros((height, width, 3))
-        hidden_behind = None
-        if not all(isinstance(item, Stars) for item in scene.objects):
-            hidden_behind = _along_view(scene.camera, self._depth())
+        hidden_behind = self._hidden_behind(scene)
+        for stars in self._left(scene):
+            light += _light_of(stars, scene, hidden_behind)
+        return light
+
+    def peaks(self, scene: Scene) -> list[tuple[Stars, float]]:
+        """Return those points that are seen, and the light of a pixel as bright as can be.
+
+        Parameters
+        ----------
+        scene
+            The scene, with the camera of the picture.
+        """
+        hidden_behind = self._hidden_behind(scene) if has_stars(scene) else None
+        found = []
+        for stars in self._left(scene):
+            peak = stars.peak
+            if peak is None:
+                peak = peak_of(stars, scene.camera, hidden_behind)
+            if peak is not None:
+                found.append((stars, peak))
+        return found
+
+    def _left(self, scene: Scene) -> Iterator[Stars]:
+        """Give the points that no clip plane leaves out."""
         for place, item in enumerate(scene.objects):
             if isinstance(item, Stars):
                 left = item if self._rooms is None else _left_of(item, self._rooms.walls_of(place))
                 if len(left):
-                    light += _light_of(left, scene, hidden_behind)
-        return light
+                    yield left
+
+    def _hidden_behind(self, scene: Scene) -> Floats | None:
+        """Return how far along the view what hides points is; None for nothing."""
+        if all(isinstance(item, Stars) for item in scene.objects):
+            return None
+        return _along_view(scene.camera, self._depth())
 
 
 def _left_of(stars: Stars, walls: Sequence[Wall]) -> Stars:
@@ -109,14 +136,14 @@ def _left_of(stars: Stars, walls: Sequence[Wall]) -> Stars:
     return Stars(**columns)
 
 
-def peak_of(stars: Stars, camera: Camera) -> float | None:
-    """Return the peak that points have in a picture where none is said, with nothing before them.
+def peak_of(stars: Stars, camera: Camera, hidden_behind: Floats | None = None) -> float | None:
+    """Return the peak that points have in a picture where none is said.
 
-    None if none of them is seen.
+    None if none of them is seen. What hides them is told as in `_add`.
     """
     if not len(stars) or not float(np.max(stars.emission)):
         return None
-    inner, unit, _ = _collected(stars, camera, None)
+    inner, unit, _ = _collected(stars, camera, hidden_behind)
     usual = _usual(inner[0])
     return None if usual is None else float(np.ldexp(max(usual, LEAST_PEAK), -unit))
 
@@ -135,7 +162,9 @@ def _light_of(stars: Stars, scene: Scene, hidden_behind: Floats | None) -> Float
         return np.zeros((height, width, 3))
     peak = float(usual if stars.peak is None else np.ldexp(stars.peak, unit))
     with np.errstate(over="ignore"):
-        bright = _stretched(np.minimum(total / max(peak, LEAST_PEAK), 1.0), stars)
+        bright = stretched(
+            np.minimum(total / max(peak, LEAST_PEAK), 1.0), stars.stretch, stars.soft
+        )
     if len(inner) == 1:
         return bright[..., None] * color
     share = bright / np.where(total > 0.0, total, 1.0)
@@ -253,21 +282,6 @@ def _shares(offset: Floats) -> tuple[Floats, Floats, Floats]:
     """Return what falls onto the pixel before, that itself and the one after, from -0.5 to 0.5."""
     before, after = 0.5 - offset, 0.5 + offset
     return 0.5 * (before * before), 0.75 - offset * offset, 0.5 * (after * after)
-
-
-def _stretched(light: Floats, stars: Stars) -> Floats:
-    """Return brightness from 0 to 1 for light from 0 to 1."""
-    if stars.stretch == "linear":
-        return light
-    one = np.ones(1)
-    if stars.stretch == "log":
-        return logarithm(1.0 + light / stars.soft) / logarithm(1.0 + one / stars.soft)
-    return _asinh(light / stars.soft) / _asinh(one / stars.soft)
-
-
-def _asinh(x: Floats) -> Floats:
-    """Return the inverse hyperbolic sine of numbers from 0 to 1e9, to within 2**-49."""
-    return logarithm(x + np.sqrt(x * x + 1.0))
 
 
 def _along_view(camera: Camera, distance: Floats) -> Floats:

@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 
+from vtray.figures.bar_marks import marks_of, share_of
 from vtray.figures.lettering import broken
 from vtray.figures.painted.canvas import Canvas
 from vtray.figures.painted.letters import Letters
-from vtray.figures.painted.round_marks import round_marks
 from vtray.figures.painted.words import Words
 
 THICK = 0.9
@@ -54,7 +54,7 @@ class PaintedColorBar:
         self.length = round(min(max(room, LEAST * em), MOST * em))
         self.thick, self.tick = round(THICK * em), max(2, round(0.25 * em))
         self.line = max(1, round(0.06 * em))
-        self.marks = round_marks(scale.low, scale.high, max(1, min(6, self.length // (2 * em))))
+        self.marks = marks_of(scale, max(1, min(6, self.length // (2 * em))))
         self.indent = self.thick + self.tick + round(0.3 * em)
         numbers = max((letters.width(text) for _, text in self.marks), default=0)
         self.width = max(self.label.width, self.indent + numbers)
@@ -72,15 +72,10 @@ class PaintedColorBar:
         colors = np.repeat(self._colors(inside)[:, None], thick - 2 * line, axis=1)
         canvas.rectangle(left + line, top + line, thick - 2 * line, inside, colors)
         for value, text in self.marks:
-            y = top + line + round((1.0 - self._share(value)) * (inside - 1))
+            y = top + line + round((1.0 - share_of(self.scale, value)) * (inside - 1))
             canvas.rectangle(left + thick, y - line // 2, self.tick, line, ink.color)
             baseline = y + (self.letters.capital + 1) // 2
             canvas.write(self.letters, text, left + self.indent, baseline, ink)
-
-    def _share(self, value: float) -> float:
-        """Return how far up a value is, from 0 to 1."""
-        low, high = self.scale.low, self.scale.high
-        return 0.5 if low == high else (value - low) / (high - low)
 
     def _colors(self, count: int) -> Any:  # noqa: ANN401
         """Return the colours of so many rows, the highest value first, (count, 3)."""

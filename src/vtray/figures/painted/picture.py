@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from vtray.figures.annotations import Annotations, Marks, find_marks, marks_beside
+from vtray.figures.brightness_scale import LABEL, BrightnessScale
 from vtray.figures.painted.canvas import Canvas
 from vtray.figures.painted.layout import MARGIN, Placed, arranged
 from vtray.figures.painted.letters import check_letters, letters
@@ -53,9 +54,10 @@ def annotated_pixels(image: Subject, wanted: Annotations, fontsize: float | None
     marks = _checked(find_marks(image, wanted))
     pixels = image.pixels
     height, width = pixels.shape[:2]
-    found = _largest(marks, fontsize, width, height)
-    if found is not None:
-        return _painted(pixels, marks, *found)
+    for some in _more_and_less(marks):
+        found = _largest(some, fontsize, width, height)
+        if found is not None:
+            return _painted(pixels, some, *found)
     remedy = "render it larger, or ask for less"
     if fontsize is not None:
         remedy += ", or give a smaller fontsize"
@@ -74,7 +76,13 @@ def _largest(
     return None
 
 
-def share_beside(objects: "Sequence[Object]", wanted: Annotations, size: tuple[int, int]) -> float:
+def share_beside(
+    objects: "Sequence[Object]",
+    wanted: Annotations,
+    size: tuple[int, int],
+    brightness: "Sequence[BrightnessScale]" = (),
+    fontsize: float | None = None,
+) -> float:
     """Return the share of a picture's width that a legend and colour bars take on its right.
 
     Parameters
@@ -85,6 +93,10 @@ def share_beside(objects: "Sequence[Object]", wanted: Annotations, size: tuple[i
         What to paint.
     size
         Width and height of the picture in pixels.
+    brightness
+        How bright points are that shine.
+    fontsize
+        As for `annotated_pixels`.
 
     Raises
     ------
@@ -92,10 +104,11 @@ def share_beside(objects: "Sequence[Object]", wanted: Annotations, size: tuple[i
         One of them is not right.
     """
     width, height = size
-    found = _largest(_checked(marks_beside(objects, wanted)), None, width, height)
-    if found is None or not found[0]:
+    marks = _checked(marks_beside(objects, wanted, brightness))
+    all_found = (_largest(some, fontsize, width, height) for some in _more_and_less(marks))
+    placed, em = next(filter(None, all_found), ([], 0))
+    if not placed:
         return 0.0
-    placed, em = found
     return 1.0 - min(one.left for one in placed) / width + round(MARGIN * em) / width
 
 
@@ -114,6 +127,19 @@ def _checked(marks: Marks) -> Marks:
             for label in marks.labels
         ],
     )
+
+
+def _more_and_less(marks: Marks) -> Iterator[Marks]:
+    """Give marks, and those for a picture in which there is no room for all of them.
+
+    Bars of brightness that nobody has named are then left out beside those of colours.
+    """
+    yield marks
+    bars = [*zip(marks.scales, marks.bar_labels, strict=True)]
+    kept = [bar for bar in bars if not isinstance(bar[0], BrightnessScale) or bar[1] != LABEL]
+    if 0 < len(kept) < len(bars):
+        scales, labels = zip(*kept, strict=True)
+        yield marks._replace(scales=[*scales], bar_labels=[*labels])
 
 
 def _sizes(fontsize: float | None, width: int, height: int) -> Iterator[int]:

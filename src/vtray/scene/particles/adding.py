@@ -58,6 +58,7 @@ class AddingParticles:
         peak: float | None = None,
         cell: bool | None = None,
         replicate: Sequence[int] = (1, 1, 1),
+        boundary: bool | float = False,
         wrap: bool = False,
         unwrap: bool = False,
         camera: "Camera | None" = None,
@@ -142,6 +143,12 @@ class AddingParticles:
             How many times the cell is shown along each of its edges. Where all
             cells together have more than half a million objects, they are `Copies`, which take no
             memory.
+        boundary
+            Whether particles on faces, edges and corners of the cell, or of the block of cells, are
+            shown on the opposite ones, too, with their halves of all their bonds. On a face is what
+            is at most a thousandth of the cell's edge away from it, along the edge; a number is
+            another part, up to 0.5, so that 0.1 shows a tenth of a cell more on each side. What
+            lies outside the cell is not repeated: `wrap` brings it in.
         wrap
             Whether particles outside the cell are brought into it.
         unwrap
@@ -202,6 +209,7 @@ class AddingParticles:
             stretched={"stretch": stretch, "softening": softening, "peak": peak},
             cell=cell,
             replicate=replicate,
+            boundary=boundary,
             wrap=wrap,
             unwrap=unwrap,
             camera=camera,

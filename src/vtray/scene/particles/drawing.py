@@ -12,6 +12,7 @@ from vtray.scene.checks.scene_words import show
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
 from vtray.scene.particles.bonds import Bonds, bonds_between, find_bonds
+from vtray.scene.particles.boundary import Images, images_on_boundary, tolerance_of
 from vtray.scene.particles.cell import (
     THIN,
     cell_edges,
@@ -24,11 +25,11 @@ from vtray.scene.particles.coloring import Coloring, color_particles, faded
 from vtray.scene.particles.expression import mask
 from vtray.scene.particles.from_objects import as_particles
 from vtray.scene.particles.hydrogen_bonds import criterion_of, dashes, find_hydrogen_bonds
-from vtray.scene.particles.lattice import columns_of, lattice_of
-from vtray.scene.particles.made_of import MadeOf, remember, written_out
+from vtray.scene.particles.made_of import MadeOf, remember, repeated, written_out
 from vtray.scene.particles.opacity import opacities, see_through
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.shining import check_shining, shining
+from vtray.scene.particles.sticks import sticks
 from vtray.scene.particles.styles import (
     COVERED,
     STYLES,
@@ -49,7 +50,6 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
-Bytes = NDArray[np.uint8]
 
 SCALES = (1e-20, 1e20, "a number from 1e-20 to 1e20")
 """What radii may be multiplied by: enough for any two units of length."""
@@ -82,6 +82,8 @@ class Drawn:
         The bonds: first those that are whole, then the halves of those that cross the border.
     hydrogen_bonds : Cylinders or None
         The hydrogen bonds: six dashes for each.
+    boundary : tuple of Spheres, Cylinders or None, and Cylinders or None; or None
+        The particles that far faces of the cell show again, with their bonds and hydrogen bonds.
     cell : tuple of Cylinders and Spheres, or None
         The cell's edges, and its corners.
     copies : Copies or None
@@ -107,6 +109,7 @@ class Drawn:
     spheres: Spheres
     bonds: Cylinders | None
     hydrogen_bonds: Cylinders | None
+    boundary: "tuple[Spheres, Cylinders | None, Cylinders | None] | None"
     cell: tuple[Cylinders, Spheres] | None
     copies: Copies | None
     stars: Stars | None
@@ -130,6 +133,8 @@ class _Placed(NamedTuple):
         Which are drawn, (k,).
     places
         Translations of the copies of all, (m, 3).
+    images
+        Which of them are shown again on the boundary; None if that is not asked for.
     """
 
     positions: NDArray[Any]
@@ -137,6 +142,7 @@ class _Placed(NamedTuple):
     hydrogen_bonds: Bonds | None
     rows: Integers
     places: Floats
+    images: Images | None
 
 
 class _Solid(NamedTuple):
@@ -167,6 +173,14 @@ class _Solid(NamedTuple):
         )
         return _Solid(written_out(spheres, places), bonds, hydrogen_bonds)
 
+    def repeated(self, images: Images) -> "_Solid":
+        """Return what belongs to particles that are shown again."""
+        spheres, *others = self
+        bonds, hydrogen_bonds = (
+            None if part is None else repeated(part, *images) for part in others
+        )
+        return _Solid(repeated(spheres, *images), bonds, hydrogen_bonds)
+
 
 def draw(
     scene: HasObjects,
@@ -187,6 +201,7 @@ def draw(
     stretched: Mapping[str, Any],
     cell: bool | None,
     replicate: Sequence[int],
+    boundary: Any,  # noqa: ANN401
     wrap: bool,
     unwrap: bool,
     camera: "Camera | None",
@@ -198,13 +213,14 @@ def draw(
     if shines and opacity is not None:
         raise SceneError("opacity: expected None with emission, as what shines hides nothing")
     if shines:
-        coloring = check_shining(style, coloring, radii=radii, bonds=bonds, hydrogen=hydrogen_bonds)
+        asked = {"radii": radii, "bonds": bonds, "hydrogen_bonds": hydrogen_bonds}
+        coloring = check_shining(style, coloring, {**asked, "boundary": boundary})
     name = "points" if shines else style_of(style, particles, bonds)
     times = times_of(replicate)
     rows = np.flatnonzero(chosen(particles, select, "select"))
     wanted = criterion_of(hydrogen_bonds)
     pairs = None if wanted is None else find_hydrogen_bonds(particles, wanted)
-    placed = _place(particles, name, rows, bonds, pairs, times, wrap=wrap, unwrap=unwrap)
+    placed = _place(particles, name, rows, bonds, pairs, times, boundary, wrap=wrap, unwrap=unwrap)
     found = color_particles(particles, rows, **coloring)
     kept = None if highlight is None else chosen(particles, highlight, "highlight")
     if kept is not None and opacity is None:
@@ -215,30 +231,22 @@ def draw(
         positions, places = placed.positions[rows], placed.places
         stars = shining(particles, rows, positions, places, emission, found, stretched)
         solid = _Solid(Spheres(np.zeros((0, 3)), 0.0), None, None)
-        copies = None
+        again = copies = None
         scene.objects.append(stars)
     else:
         stars = None
-        solid = _solid(
+        solid, again = _solid(
             particles, placed, found, name, radii, size, bond_radius, camera or scene.camera
         )
-        if seen_through is not None:
-            solid = solid.see_through(seen_through)
-        copies = None
-        if 1 < len(placed.places) <= WRITTEN_OUT // max(sum(map(len, solid.parts)), 1):
-            solid = solid.written_out(placed.places)
-        elif len(placed.places) > 1:
-            copies = Copies(solid.parts, placed.places)
-        if copies is None and seen_through is not None and len(solid.parts) > 1:
-            # One object, so that balls and bonds are one body.
-            copies = Copies(solid.parts, np.zeros((1, 3)))
-        scene.objects.extend(solid.parts if copies is None else [copies])
+        solid, again, copies = _add(scene, solid, again, placed.places, seen_through)
     edges = None
     if cell if cell is not None else particles.cell is not None and not shines:
         edges = _edges(particles, times)
         scene.objects.extend(edges)
     legend = list(found.legend)
-    return Drawn(*solid, edges, copies, stars, found.scale, legend, rows, name, found.categories)
+    return Drawn(
+        *solid, again, edges, copies, stars, found.scale, legend, rows, name, found.categories
+    )
 
 
 def _solid(
@@ -250,20 +258,66 @@ def _solid(
     scale: float,
     bond_radius: float | None,
     camera: "Camera | None",
-) -> "_Solid":
-    """Return particles, bonds and hydrogen bonds as objects, without the copies of their cell."""
+) -> tuple[_Solid, _Solid | None]:
+    """Return particles, bonds and hydrogen bonds as objects, and those on the boundary.
+
+    They are without the copies of their cell.
+    """
     radius = _radii(particles, style, radii, scale, placed, camera)
-    spheres = _spheres(particles, placed, radius, found)
-    sticks = dashed = None
+    balls = _spheres(particles, placed, radius, found)
+    whole = halves = dashed = None
     if placed.bonds is not None or placed.hydrogen_bonds is not None:
         thick = stick_radius(particles, style, radii, scale)
         if bond_radius is not None:
             thick = _number(bond_radius, "bond_radius")
         if placed.bonds is not None:
-            sticks = _cylinders(particles, placed, thick, radius, found)
+            drawn = particles, placed.positions, placed.rows, placed.bonds
+            whole = sticks(*drawn, thick, radius, found.colors)
+            if placed.images is not None:
+                halves = sticks(*drawn, thick, radius, found.colors, halves=True)
         if placed.hydrogen_bonds is not None:
             dashed = dashes(particles, placed.positions, placed.hydrogen_bonds, thick)
-    return _Solid(spheres, sticks, dashed)
+    again = None
+    if placed.images is not None:
+        # Each has its halves of its bonds, which meet those of its neighbours.
+        again = _Solid(balls, halves, dashed).repeated(placed.images)
+    return _Solid(balls, whole, dashed), again
+
+
+def _add(
+    scene: HasObjects,
+    solid: _Solid,
+    again: _Solid | None,
+    places: Floats,
+    seen_through: Floats | None,
+) -> tuple[_Solid, _Solid | None, Copies | None]:
+    """Add objects to a scene, at all places; return what they have become.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    solid, again
+        Those of a cell, and those on the boundary.
+    places
+        Translations of the copies of the cell, (m, 3).
+    seen_through
+        How opaque particles are, (n,), if they are not.
+    """
+    if seen_through is not None:
+        solid = solid.see_through(seen_through)
+        again = None if again is None else again.see_through(seen_through)
+    copies = None
+    beside = [] if again is None else [part for part in again.parts if len(part)]
+    if 1 < len(places) <= WRITTEN_OUT // max(sum(map(len, solid.parts)), 1):
+        solid = solid.written_out(places)
+    elif len(places) > 1:
+        copies = Copies(solid.parts, places)
+    if copies is None and seen_through is not None and len(solid.parts + beside) > 1:
+        # One object, so that balls and bonds are one body.
+        copies, beside = Copies(solid.parts + beside, np.zeros((1, 3))), []
+    scene.objects.extend([*(solid.parts if copies is None else [copies]), *beside])
+    return solid, again, copies
 
 
 def chosen(particles: Particles, given: Any, name: str) -> NDArray[np.bool_]:  # noqa: ANN401
@@ -292,6 +346,7 @@ def _place(
     bonds: Any,  # noqa: ANN401
     hydrogen_bonds: Bonds | None,
     times: tuple[int, int, int],
+    boundary: Any,  # noqa: ANN401
     *,
     wrap: bool,
     unwrap: bool,
@@ -316,7 +371,10 @@ def _place(
         drawn = np.zeros(len(particles), np.bool_)
         drawn[rows] = True
         found, hydrogen_bonds = _among(found, drawn), _among(hydrogen_bonds, drawn)
-    return _Placed(positions, found, hydrogen_bonds, rows, translations(particles, times))
+    tolerance, images = tolerance_of(boundary), None
+    if tolerance is not None:
+        images = images_on_boundary(particles, positions, rows, times, tolerance)
+    return _Placed(positions, found, hydrogen_bonds, rows, translations(particles, times), images)
 
 
 def _among(bonds: Bonds | None, drawn: NDArray[np.bool_]) -> Bonds | None:
@@ -354,8 +412,10 @@ def _radii(
             raise SceneError(
                 f'style: "points" are as large as pixels, which needs a camera; {remedy}'
             )
-        positions = placed.positions[placed.rows]
-        return screen_radii(positions, camera, COVERED * scale, placed.places)
+        positions, places = placed.positions[placed.rows], placed.places
+        if placed.images is not None:
+            places = np.concatenate([places, np.unique(placed.images.steps, axis=0)])
+        return screen_radii(positions, camera, COVERED * scale, places)
     found = ball_radii(particles, style, radii, scale)
     return found if isinstance(found, float) else found[placed.rows]
 
@@ -368,76 +428,6 @@ def _spheres(
     positions = placed.positions if whole else placed.positions[placed.rows]
     spheres = Spheres(positions, radius, found.colors).with_scale(found.scale)
     return remember(spheres, MadeOf(particles, placed.rows, "particle"))
-
-
-def _cylinders(
-    particles: Particles,
-    placed: _Placed,
-    thick: float,
-    radius: Floats | float,
-    found: Coloring,
-) -> Cylinders:
-    """Return bonds as cylinders, those that cross the border as halves at both of its sides.
-
-    Colours change, and halves end, in the middle of what is seen between the balls.
-    """
-    bonds = placed.bonds
-    assert bonds is not None  # noqa: S101
-    crosses = (bonds.shifts != 0).any(axis=1)
-    one, two = bonds.pairs[~crosses].T
-    begin, end = bonds.pairs[crosses].T
-    near, far = placed.positions[begin], placed.positions[end]
-    across = far
-    lattice = lattice_of(particles)
-    if lattice is not None and len(begin):
-        across = np.stack(lattice.moved(columns_of(far), bonds.shifts[crosses].T), axis=1)
-    place = np.zeros(len(particles), np.int64)
-    place[placed.rows] = np.arange(len(placed.rows))
-    starts, ends = placed.positions[one], placed.positions[two]
-    way = ends - starts
-    share = _larger_by(way, radius, place[one], place[two])
-    # The end in the larger ball moves, so that the middle is where it should be.
-    starts, ends = starts + np.maximum(share, 0.0) * way, ends + np.minimum(share, 0.0) * way
-    way = across - near
-    half = (1.0 + _larger_by(way, radius, place[begin], place[end])) / 2 * way
-    starts = np.concatenate([starts, near, far])
-    ends = np.concatenate([ends, near + half, far - (way - half)])
-    indices = np.concatenate(
-        [
-            np.stack([one, two], axis=1),
-            np.stack([begin, begin], axis=1),
-            np.stack([end, end], axis=1),
-        ]
-    )
-    first: Bytes = found.colors
-    last: Bytes | None = None
-    if found.colors.ndim == 2:
-        each = place[indices]
-        first, last = found.colors[each[:, 0]], found.colors[each[:, 1]]
-    sticks = Cylinders(starts, ends, thick, first, color_end=last)
-    return remember(sticks, MadeOf(particles, indices, "bond"))
-
-
-def _larger_by(
-    way: NDArray[Any], radius: Floats | float, one: Integers, two: Integers
-) -> Floats | float:
-    """Return by how much balls are larger than others, in parts of their distance, (m, 1).
-
-    Parameters
-    ----------
-    way
-        From each ball to the other, (m, 3).
-    radius
-        Of all balls that are drawn, (k,), or one for all.
-    one, two
-        Which balls they are, (m,).
-    """
-    if isinstance(radius, float):
-        return 0.0
-    x, y, z = way.T.astype(np.float64)
-    length = np.sqrt(x * x + y * y + z * z)
-    share = (radius[one] - radius[two]) / np.where(length > 0.0, length, 1.0)
-    return np.clip(share, -1.0, 1.0)[:, None]
 
 
 def _edges(particles: Particles, times: tuple[int, int, int]) -> tuple[Cylinders, Spheres]:

@@ -31,11 +31,15 @@ class MadeOf(NamedTuple):
         at several places come n at a time.
     kind
         What the objects stand for.
+    copies
+        At which of several places stands what each object repeats, (n,); None where it is told by
+        their order.
     """
 
     particles: "Particles"
     indices: Integers
     kind: str
+    copies: Integers | None = None
 
     def particle(self, index: int, half: int) -> int:
         """Return the particle of an object; of a cylinder, that at its start or, 1, its end."""
@@ -44,7 +48,7 @@ class MadeOf(NamedTuple):
 
     def image(self, index: int) -> int:
         """Return at which of several places an object stands."""
-        return index // len(self.indices)
+        return index // len(self.indices) if self.copies is None else int(self.copies[index])
 
     def values(self, particle: int) -> dict[str, Any]:
         """Return what is known of a particle, by name: its place, and its columns."""
@@ -71,6 +75,41 @@ def written_out(item: Kind, places: "NDArray[np.float64]") -> Kind:
     made: Kind = item.replace(**changed).with_scale(item.color_scale)
     source = made_of(item)
     return made if source is None else remember(made, source)
+
+
+def repeated(item: Kind, which: Integers, steps: "NDArray[np.float64]", copies: Integers) -> Kind:
+    """Return what of objects belongs to particles that are shown again.
+
+    Parameters
+    ----------
+    item
+        The objects; cylinders belong to the particle at their start.
+    which
+        The particles, (n,).
+    steps
+        By how much each is moved, (n, 3).
+    copies
+        At which of several places stands what each repeats, (n,).
+    """
+    import numpy as np
+
+    source = made_of(item)
+    assert source is not None  # noqa: S101 - they are made of particles
+    owner = source.indices if source.indices.ndim == 1 else source.indices[:, 0]
+    order = np.argsort(owner, kind="stable")
+    first, end = (np.searchsorted(owner[order], which, side=side) for side in ("left", "right"))
+    count = end - first
+    image = np.repeat(np.arange(len(which)), count)
+    rows = order[np.arange(len(image)) + np.repeat(end - np.cumsum(count), count)]
+    changed = {}
+    for name, column in item.COLUMNS.items():
+        value = getattr(item, name)
+        if column is POINT:
+            changed[name] = value[rows] + steps[image]
+        elif getattr(value, "ndim", 0) == (2 if column.kind is Byte else 1):
+            changed[name] = value[rows]
+    made: Kind = item.replace(**changed).with_scale(item.color_scale)
+    return remember(made, source._replace(indices=source.indices[rows], copies=copies[image]))
 
 
 def remember(item: Kind, source: MadeOf) -> Kind:

@@ -19,14 +19,16 @@ PLACE = "add_particles: "
 
 
 def check_shining(
-    style: str | None,
-    coloring: Mapping[str, Any],
-    *,
-    radii: object,
-    bonds: object,
-    hydrogen: object,
+    style: str | None, coloring: Mapping[str, Any], asked: Mapping[str, object]
 ) -> Mapping[str, Any]:
     """Return how particles are coloured that shine: white, unless something else is asked for.
+
+    Parameters
+    ----------
+    style, coloring
+        What is said of both.
+    asked
+        By name what else is asked for, which must be None or False.
 
     Raises
     ------
@@ -36,7 +38,6 @@ def check_shining(
     if style not in (None, "points"):
         words = 'expected "points" with emission, as only points shine'
         raise SceneError(f"style: {words}, got {show(style)}")
-    asked = {"radii": radii, "bonds": bonds, "hydrogen_bonds": hydrogen}
     for name, value in asked.items():
         if value is not None and value is not False:
             raise SceneError(f"{name}: points that shine have none; leave out it or emission")

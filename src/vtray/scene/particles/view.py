@@ -26,12 +26,6 @@ MOVING = 0.02
 USUAL = (-65.0, 20.0)
 """Azimuth and elevation of the view of a cell: three faces are seen, that in front most."""
 
-MARGIN = 0.05
-"""What stays free at each side, as a share of width and height."""
-
-MOST_BESIDE = 0.4
-"""The share of the width from which on a legend stands on what is shown, so that it stays large."""
-
 VIEW = ("view", "zoom", "orthographic")
 """What says from where particles are seen."""
 
@@ -40,11 +34,11 @@ def camera_of(
     subject: Any,  # noqa: ANN401
     has_cell: bool,
     size: tuple[int, int],
+    margin: float | tuple[float, float, float, float],
     *,
     view: str | tuple[float, float] | None = None,
     zoom: float = 1.0,
     orthographic: bool = False,
-    beside: float = 0.0,
 ) -> Camera:
     """Return the camera that shows everything.
 
@@ -56,17 +50,16 @@ def camera_of(
         Whether there is a cell: a box is known by its faces, and what has none by its shape.
     size
         Width and height of the picture in pixels.
+    margin
+        What stays free at the sides of the picture, as for `Camera.fit`.
     view, zoom
         As for `Camera.fit`; by default, that of a cell, or the one that shows the shape.
     orthographic
         Whether there is no perspective.
-    beside
-        What a legend takes on the right, as a share of the picture's width.
     """
-    right = beside if MARGIN < beside < MOST_BESIDE else MARGIN
     return Camera.fit(
         subject,
-        margin=(MARGIN, MARGIN, right, MARGIN),
+        margin=margin,
         projection="orthographic" if orthographic else "perspective",
         size=size,
         view=(USUAL if has_cell else "auto") if view is None else view,

@@ -1,8 +1,15 @@
 """Round numbers between two others, for the marks of a scale."""
 
+from collections.abc import Callable
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 
 MINUS = "\N{MINUS SIGN}"
+
+DIGITS = (1, 5, 2)
+"""First digits of numbers that are not spread evenly, those first that people look for most."""
+
+LEAST_POWER = -308
+"""Power of ten below which no number is written."""
 
 LONGEST = 7
 """How many digits a number has at most that is written out."""
@@ -31,6 +38,39 @@ def round_marks(low: float, high: float, most: int) -> list[tuple[float, str]]:
         (float(v), _signed(f"{v:.{digits}f}") if written_out else number_text(float(v)))
         for v in values
     ]
+
+
+def spread_marks(
+    low: float, high: float, share: Callable[[float], float], most: int
+) -> list[tuple[float, str]]:
+    """Return round numbers from `low` to `high` where these are not spread evenly.
+
+    They are 0 and powers of ten, the greatest first, and between these five and two times such,
+    as far as they are apart: so that `most` of them would fill the scale.
+
+    Parameters
+    ----------
+    low, high
+        The ends of the scale, 0 ≤ low < high.
+    share
+        Gives how far up a number stands, from 0 to 1.
+    most
+        About how many there are at most.
+    """
+    gap = 1.0 / max(most, 1) - 1e-9
+    found: dict[float, float] = {} if low > 0.0 else {0.0: share(0.0)}
+    top = Decimal(high).adjusted()
+    for digit in DIGITS:
+        for power in range(top, LEAST_POWER, -1):
+            value = float(Decimal(digit).scaleb(power))
+            if value < low or (low == 0.0 and share(value) < gap):
+                break
+            place = share(value)
+            if value <= high and all(abs(place - other) >= gap for other in found.values()):
+                found[value] = place
+    if len(found) < 2:
+        return round_marks(low, high, most)
+    return [(value, number_text(value)) for value in sorted(found)]
 
 
 def number_text(value: float) -> str:

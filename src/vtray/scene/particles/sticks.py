@@ -1,0 +1,107 @@
+"""Bonds as cylinders: whole ones, and halves where they cross the border of the cell."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vtray.scene.cylinders import Cylinders
+from vtray.scene.particles.bonds import Bonds
+from vtray.scene.particles.lattice import columns_of, lattice_of
+from vtray.scene.particles.made_of import MadeOf, remember
+
+if TYPE_CHECKING:
+    from vtray.scene.particles.particles import Particles
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+Bytes = NDArray[np.uint8]
+
+
+def sticks(
+    particles: "Particles",
+    positions: NDArray[Any],
+    rows: Integers,
+    bonds: Bonds,
+    thick: float,
+    radius: Floats | float,
+    colors: Bytes,
+    *,
+    halves: bool = False,
+) -> Cylinders:
+    """Return bonds as cylinders, those that cross the border as halves at both of its sides.
+
+    Colours change, and halves end, in the middle of what is seen between the balls.
+
+    Parameters
+    ----------
+    particles
+        All particles.
+    positions
+        Where they are drawn, (n, 3).
+    rows
+        Which of them are drawn, (k,).
+    bonds
+        Those between them.
+    thick
+        The radius of bonds.
+    radius, colors
+        Those of the balls that are drawn, (k,) and (k, 3), or one for all.
+    halves
+        Whether all are halves.
+    """
+    crosses = (bonds.shifts != 0).any(axis=1) | halves
+    one, two = bonds.pairs[~crosses].T
+    begin, end = bonds.pairs[crosses].T
+    near, far = positions[begin], positions[end]
+    across = far
+    lattice = lattice_of(particles)
+    if lattice is not None and len(begin):
+        across = np.stack(lattice.moved(columns_of(far), bonds.shifts[crosses].T), axis=1)
+    place = np.zeros(len(particles), np.int64)
+    place[rows] = np.arange(len(rows))
+    starts, ends = positions[one], positions[two]
+    way = ends - starts
+    share = _larger_by(way, radius, place[one], place[two])
+    # The end in the larger ball moves, so that the middle is where it should be.
+    starts, ends = starts + np.maximum(share, 0.0) * way, ends + np.minimum(share, 0.0) * way
+    way = across - near
+    half = (1.0 + _larger_by(way, radius, place[begin], place[end])) / 2 * way
+    starts = np.concatenate([starts, near, far])
+    ends = np.concatenate([ends, near + half, far - (way - half)])
+    indices = np.concatenate(
+        [
+            np.stack([one, two], axis=1),
+            np.stack([begin, begin], axis=1),
+            np.stack([end, end], axis=1),
+        ]
+    )
+    first: Bytes = colors
+    last: Bytes | None = None
+    if colors.ndim == 2:
+        each = place[indices]
+        first, last = colors[each[:, 0]], colors[each[:, 1]]
+    made = Cylinders(starts, ends, thick, first, color_end=last)
+    return remember(made, MadeOf(particles, indices, "bond"))
+
+
+def _larger_by(
+    way: NDArray[Any], radius: Floats | float, one: Integers, two: Integers
+) -> Floats | float:
+    """Return by how much balls are larger than others, in parts of their distance, (m, 1).
+
+    Parameters
+    ----------
+    way
+        From each ball to the other, (m, 3).
+    radius
+        Of all balls that are drawn, (k,), or one for all.
+    one, two
+        Which balls they are, (m,).
+    """
+    if isinstance(radius, float):
+        return 0.0
+    x, y, z = way.T.astype(np.float64)
+    length = np.sqrt(x * x + y * y + z * z)
+    share = (radius[one] - radius[two]) / np.where(length > 0.0, length, 1.0)
+    return np.clip(share, -1.0, 1.0)[:, None]
