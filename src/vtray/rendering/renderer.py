@@ -280,11 +280,12 @@ def render(
         if packed.arrays.world.faded is None and packed.arrays.materials.patterns is None
         else rerendering
     )
-    coverage = traced.film.coverage
-    denoising = Denoising(None if _is_blurred(packed, settings) else guiding, coverage, threads)
+    denoising = Denoising(
+        None if _is_blurred(packed, settings) else guiding, traced.film.coverage, threads
+    )
     image = darkroom.picture(
         traced.film.linear,
-        denoising.shares() if settings.denoise else coverage,
+        denoising.shares() if settings.denoise else traced.film.coverage,
         traced.peak,
         fog=traced.film.fog,
         lines=drawing.lines(traced.film),
