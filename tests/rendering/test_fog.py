@@ -212,3 +212,17 @@ def test_parts_of_a_picture_have_it() -> None:
     assert shown[-1].style == image.style
     plain = vtray.render(found, samples=4)
     assert shown[-1].alpha.sum() < 0.9 * plain.alpha.sum()
+
+
+@pytest.mark.parametrize("samples", [1, 4])
+def test_a_lamp_is_as_dim_beside_what_fades(samples: int) -> None:
+    found = world()
+    lamp = vtray.SphereLight((-3.4, -2, 5), 1.2, radiance=4, visible=True)
+    found.lights.append(lamp)
+    alone = vtray.render(found, samples=samples, fog=(11, 19), exposure=1.0)
+    # It hides nothing, and only now is light looked for layer by layer.
+    found.add_sphere((0, 0, 60), 0.5, opacity=0.5)
+    image = vtray.render(found, samples=samples, fog=(11, 19), exposure=1.0)
+    seen = alone.linear.max(axis=2) > 300
+    assert seen.any()
+    np.testing.assert_allclose(image.linear[seen], alone.linear[seen], rtol=1e-12)

@@ -305,4 +305,7 @@ def end_layers(packet: Packet, lanes: int, layers: Layers) -> int:
             store(packet, VALUE, hits, load(packet, GATHERED, lane))
             packet[NOISE + hits] = packet[VARIANCE + lane]
             hits += 1
+        elif behind < NO_PRIMITIVE:
+            # A lamp with nothing before it: what fog leaves of its light.
+            store(packet, LIGHT, lane, load(packet, GATHERED, lane))
     return hits
