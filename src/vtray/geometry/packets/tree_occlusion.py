@@ -106,33 +106,9 @@ def _block_by_group(
 ) -> int:
     """Mark the points of a cluster that a group hides; return the first that is left."""
     hierarchy = hierarchy_of(group)
-    return _search(
-        begin, cluster, world, hierarchy, stack, base, _search_shapes, _block_by_leaf, group
+    return _search_shapes(
+        begin, cluster, world, hierarchy, stack, base, _go_through_shapes, _block_by_leaf, group
     )
-
-
-@device
-def _search(
-    begin: int,
-    cluster: Cluster,
-    world: World,
-    hierarchy: Hierarchy,
-    stack: Stack,
-    base: int,
-    search: Callable[[int, Cluster, World, Hierarchy, Stack, int, int, Any, Any], int],
-    visit: Callable[[int, Cluster, World, Any, int, int, Stack, int], int],
-    subject: Any,  # noqa: ANN401
-) -> int:
-    """Search with a cluster, and if that is given up, with one of its points after the other."""
-    packet, is_wide = cluster.packet, cluster.target.is_wide
-    part, at = cluster, begin
-    patience = PATIENCE if cluster.end - begin > 1 else FOR_EVER
-    while at < cluster.end:
-        left = search(at, part, world, hierarchy, stack, base, patience, visit, subject)
-        at = _first_open(packet, part.end if left >= 0 else -1 - left, cluster.end, is_wide)
-        if at < cluster.end:
-            part, patience = _new_cluster(packet, at, at + 1, cluster.target), FOR_EVER
-    return _first_open(packet, begin, cluster.end, is_wide)
 
 
 @device
@@ -160,8 +136,8 @@ def _block_by_all(
 ) -> int:
     """Mark the points of a cluster that something placed hides; return the first that is left."""
     hierarchy = hierarchy_of_places(places)
-    return _search(
-        begin, cluster, world, hierarchy, stack, base, _search_places, _block_by_places, places
+    return _search_places(
+        begin, cluster, world, hierarchy, stack, base, _go_through_places, _block_by_places, places
     )
 
 
@@ -187,7 +163,31 @@ def _block_by_places(
     return begin
 
 
-_search_places, _search_shapes = device(search_from_light), device(search_from_light)
+def _search_with(
+    begin: int,
+    cluster: Cluster,
+    world: World,
+    hierarchy: Hierarchy,
+    stack: Stack,
+    base: int,
+    search: Callable[[int, Cluster, World, Hierarchy, Stack, int, int, Any, Any], int],
+    visit: Callable[[int, Cluster, World, Any, int, int, Stack, int], int],
+    subject: Any,  # noqa: ANN401
+) -> int:
+    """Search with a cluster, and if that is given up, with one of its points after the other."""
+    packet, is_wide = cluster.packet, cluster.target.is_wide
+    part, at = cluster, begin
+    patience = PATIENCE if cluster.end - begin > 1 else FOR_EVER
+    while at < cluster.end:
+        left = search(at, part, world, hierarchy, stack, base, patience, visit, subject)
+        at = _first_open(packet, part.end if left >= 0 else -1 - left, cluster.end, is_wide)
+        if at < cluster.end:
+            part, patience = _new_cluster(packet, at, at + 1, cluster.target), FOR_EVER
+    return _first_open(packet, begin, cluster.end, is_wide)
+
+
+_go_through_places, _go_through_shapes = device(search_from_light), device(search_from_light)
+_search_places, _search_shapes = device(_search_with), device(_search_with)
 """Two searches: one through what is placed, one through what stands at a place. They are
 two, as the compiler takes what calls itself for recursion, whatever it is given."""
 
