@@ -134,9 +134,7 @@ def test_what_does_not_go_together() -> None:
 @pytest.mark.parametrize("material", [Emissive(1.7e308), Blend("glass", Emissive(1.7e308))])
 def test_what_shines_is_no_brighter_than_a_double_holds(material: AnyMaterial) -> None:
     scene = room((material, "lambert", "lambert", "lambert"), (6, 5))
-    words = (
-        r"^material\.radiance: expected at most 1\.37153e\+303, got 1\.7e\+308; give"
-    )
+    words = r"^material\.radiance: expected at most 1\.37153e\+303, got 1\.7e\+308; give"
     for integrator in ("whitted", "path"):
         with pytest.raises(vtray.RenderError, match=words):
             vtray.render(scene, integrator=integrator)
