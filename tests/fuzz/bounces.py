@@ -1,8 +1,9 @@
 """Random scenes of all materials, taken in all ways: what is promised of their pictures.
 
 No number of threads, tile or hierarchy changes a bit; copies are what they are written out; light
-is neither below 0 nor infinite; a traced pixel tells the light that the picture shows; a scene that
-is larger by a power of two looks the same; and a picture that is replayed has the same bytes.
+is neither below 0 nor infinite, and under a white sky nothing is brighter than that; a traced pixel
+tells the light that the picture shows; a scene that is larger by a power of two looks the same; and
+a picture that is replayed has the same bytes.
 """
 
 import json
@@ -66,7 +67,11 @@ def fault_of(scene: Scene, how: dict[str, Any], folder: Path) -> str | None:
     except vtray.VtrayError as error:
         words = str(error)
         return None if words.isprintable() and ": " in words else f"unclear error: {words}"
-    return _fault_of_light(first) or _fault_of_repetition(scene, how, folder, first)
+    return (
+        _fault_of_light(first)
+        or _fault_of_repetition(scene, how, folder, first)
+        or _fault_of_energy(scene, how, folder)
+    )
 
 
 def taken(scene: Scene, folder: Path, few: int, how: dict[str, Any], **more: Any) -> vtray.Image:
@@ -85,9 +90,12 @@ def _fault_of_light(image: vtray.Image) -> str | None:
     """Return what is wrong with the light of a picture by itself."""
     parts = {"light": image.linear, "light with the sky": image.with_sky, "albedo": image.albedo}
     parts["alpha"], parts["error"] = image.alpha, image.error
+    # The filter of Mitchell and Netravali takes light away at edges.
+    least = -np.inf if image.settings.filter == "mitchell" else 0.0
     for name, part in parts.items():
-        if not np.isfinite(part).all() or (part < 0).any():
-            where = np.argwhere(~(np.isfinite(part) & (part >= 0)))[0]
+        is_right = np.isfinite(part) & (part >= least)
+        if not is_right.all():
+            where = np.argwhere(~is_right)[0]
             return f"{name} is not finite, or below 0, first at {where.tolist()}"
     if not image.white >= 0:
         return f"white is {image.white}"
@@ -106,8 +114,10 @@ def _fault_of_repetition(
     }
     if plain != scene:
         others["copies"] = taken(plain, folder, truth.ALL, how)
-    if how.get("fog") is None and not has_length_of_its_own(scene):
-        others["the size"] = taken(larger(scene), folder, truth.FEW, how)
+    grown = larger(scene)
+    is_number = "Infinity" not in json.dumps(grown)
+    if how.get("fog") is None and is_number and not has_length_of_its_own(scene):
+        others["the size"] = taken(grown, folder, truth.FEW, how)
     for name, other in others.items():
         if other.linear.tobytes() != first.linear.tobytes():
             row, column = np.argwhere((other.linear != first.linear).any(axis=2))[0]
@@ -115,6 +125,30 @@ def _fault_of_repetition(
         if other.pixels.tobytes() != first.pixels.tobytes():
             return f"{name}: other pixels of the same light"
     return _fault_of_traced(first) or _fault_of_replay(scene, folder, how)
+
+
+def _fault_of_energy(scene: Scene, how: dict[str, Any], folder: Path) -> str | None:
+    """Return where smooth surfaces under a white sky are brighter than that."""
+    if not numba.config.DISABLE_JIT:
+        return None  # few lights need kernels of their own
+    if how["integrator"] == "path" and "plastic" in json.dumps(scene):
+        return None  # a single path may bring more, as others bring less
+    sky = {"type": "sky", "radiance": 1.0}
+    plain = {**scene, "objects": _smooth(scene["objects"]), "lights": [sky]}
+    more = {"firefly": "off", "samples": 1, "fog": False, "outline": False}
+    image = taken(plain, folder, truth.FEW, how, **more)
+    most = float(image.linear.max(initial=0.0)) / 255.0
+    return None if most <= 1 + 1e-9 else f"under a white sky, something is {most} as bright"
+
+
+def _smooth(part: Any) -> Any:
+    """Return a part of a scene without what is rough, and with nothing that shines brighter."""
+    if isinstance(part, list):
+        return [_smooth(one) for one in part]
+    if not isinstance(part, dict):
+        return part
+    found = {key: _smooth(value) for key, value in part.items() if key != "roughness"}
+    return found | {"radiance": 1.0} if part.get("type") == "emissive" else found
 
 
 def _fault_of_traced(image: vtray.Image) -> str | None:
