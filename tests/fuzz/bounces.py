@@ -71,6 +71,7 @@ def fault_of(scene: Scene, how: dict[str, Any], folder: Path) -> str | None:
         _fault_of_light(first)
         or _fault_of_repetition(scene, how, folder, first)
         or _fault_of_energy(scene, how, folder)
+        or _fault_of_relighting(scene, how, folder)
     )
 
 
@@ -139,6 +140,19 @@ def _fault_of_energy(scene: Scene, how: dict[str, Any], folder: Path) -> str | N
     image = taken(plain, folder, truth.FEW, how, **more)
     most = float(image.linear.max(initial=0.0)) / 255.0
     return None if most <= 1 + 1e-9 else f"under a white sky, something is {most} as bright"
+
+
+def _fault_of_relighting(scene: Scene, how: dict[str, Any], folder: Path) -> str | None:
+    """Return whether a picture with other lights and colours is not what a new one would be."""
+    if how["integrator"] != "direct":
+        return None
+    image = taken(scene, folder, truth.ALL, how, keep_lights=True)
+    changed = image.relight([0.25 * (k % 3) for k in range(len(scene["lights"]))])
+    changed = changed.recolor(0, "teal")
+    fresh = vtray.render(changed.scene, threads=2, warn=str, keep_lights=True, **how)
+    if changed.linear.tobytes() != fresh.linear.tobytes():
+        return "with other lights and colours, it is not what a new render gives"
+    return None if np.array_equal(changed.pixels, fresh.pixels) else "relit, it has other pixels"
 
 
 def _smooth(part: Any) -> Any:
