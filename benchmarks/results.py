@@ -11,6 +11,7 @@ from measures.movies import MovieRow
 from measures.own_scenes import ByThreads
 from measures.rendering import Row
 from measures.soft_light import SoftLight
+from measures.whitted import Whitted
 from timing.jobs import Timing
 
 
@@ -40,6 +41,8 @@ class Results:
         For numbers of samples and of threads, vtray's times for this cube.
     soft_light
         Whether soft light is right, and what it costs; None if that was not measured.
+    whitted
+        Whether mirrors and glass are right, and what they cost; None if that was not measured.
     arrays
         As `cube`, from arrays in memory to a PNG.
     bonds
@@ -60,6 +63,7 @@ class Results:
     scaling: dict[int, list[Row]] = field(default_factory=dict)
     samples: dict[str, Timing] = field(default_factory=dict)
     soft_light: SoftLight | None = None
+    whitted: Whitted | None = None
     arrays: dict[str, list[ArraysRow]] = field(default_factory=dict)
     bonds: dict[str, ByThreads] = field(default_factory=dict)
     copies: dict[str, ByThreads] = field(default_factory=dict)

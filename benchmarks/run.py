@@ -24,6 +24,7 @@ from measures.machine import cores, machine
 from measures.movies import time_movies
 from measures.rendering import THREADS, time_cube, time_scene, time_threads
 from measures.soft_light import FULL, QUICK, measure_soft_light
+from measures.whitted import measure_whitted
 from peers.programs import CUBE_PEERS
 from report.pages import full_report, readme_table, replace_between_markers
 from report.plot import draw_scaling
@@ -40,7 +41,7 @@ WRITTEN = {ROOT / "docs" / "benchmarks.md": full_report, ROOT / "README.md": rea
 """The pages with tables, and what writes them."""
 PARTS = (
     *("startup", *SCENES, "threads", "cube", "samples"),
-    *("soft-light", "bonds", "copies", "movies", "arrays", "scaling"),
+    *("soft-light", "whitted", "bonds", "copies", "movies", "arrays", "scaling"),
 )
 REPEATS, QUICK_REPEATS = 5, 2
 QUICK_SIDE = 256
@@ -113,11 +114,7 @@ def measure(folder: Path, parts: list[str], *, quick: bool) -> Results:
         _say("samples")
         scene = write_cube(spheres, folder, side)
         results.samples = time_samples(scene, THREADS, repeats)
-    if "soft-light" in parts:
-        _say("soft light")
-        times = min(repeats, SOFT_REPEATS)
-        sizes = QUICK if quick else FULL
-        results.soft_light = measure_soft_light(sizes, THREADS, folder, times)
+    _measure_light(results, folder, parts, quick=quick)
     _measure_own_scenes(results, folder, parts, quick=quick)
     _measure_movies(results, folder, parts, quick=quick)
     if "arrays" in parts:
@@ -131,6 +128,19 @@ def measure(folder: Path, parts: list[str], *, quick: bool) -> Results:
             times = min(repeats, SCALING_REPEATS)
             results.scaling[count] = time_cube(count, side, peers, (1,), folder, times)
     return results
+
+
+def _measure_light(results: Results, folder: Path, parts: list[str], *, quick: bool) -> None:
+    """Measure soft light, mirrors and glass, if they are among the parts."""
+    if "soft-light" in parts:
+        _say("soft light")
+        times = min(results.repeats, SOFT_REPEATS)
+        sizes = QUICK if quick else FULL
+        results.soft_light = measure_soft_light(sizes, THREADS, folder, times)
+    if "whitted" in parts:
+        _say("mirrors and glass")
+        side = QUICK_SIDE if quick else SIDE
+        results.whitted = measure_whitted(side, THREADS, folder, results.repeats)
 
 
 def _measure_own_scenes(results: Results, folder: Path, parts: list[str], *, quick: bool) -> None:

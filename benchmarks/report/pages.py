@@ -19,6 +19,7 @@ from report.own_scenes_tables import BONDS_NOTE, COPIES_NOTE, own_scenes_table
 from report.samples_tables import samples_table
 from report.soft_light_tables import soft_light_parts
 from report.tables import ratio, table
+from report.whitted_tables import whitted_parts
 from results import Results
 from scenes.few_objects import SCENES
 from timing import same_picture, vtray_process
@@ -57,13 +58,15 @@ def full_report(results: Results) -> str:
 
 
 def _own_scenes(results: Results) -> list[str]:
-    """Write what samples, soft light, bonds and copies cost."""
+    """Write what samples, soft light, mirrors, bonds and copies cost."""
     parts = []
     if results.samples:
         rows = samples_table(results.samples, THREADS)
         parts += ["## Antialiasing", "The cube, with vtray.", rows, samples_tables.NOTE]
     if results.soft_light:
         parts += ["## Soft light", *soft_light_parts(results.soft_light)]
+    if results.whitted:
+        parts += ["## Mirrors and glass", *whitted_parts(results.whitted)]
     if results.bonds:
         parts += ["## Bonds", own_scenes_table(results.bonds), BONDS_NOTE]
     if results.copies:

@@ -15,6 +15,8 @@ FINDERS = {
     "kernels": "damaged kernels on disk",
     "faults": "signals and limits at random moments",
     "truth": "random scenes beside their picture as the rules say it",
+    "values": "strange values in code",
+    "bounces": "random scenes of all materials, taken in all ways",
 }
 
 

@@ -8,6 +8,8 @@ import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
+import numba
+
 from vtray.commands import cli
 
 STARTS = ("Error: ", "Warning: ")
@@ -27,6 +29,8 @@ def run_quietly(arguments: Sequence[str]) -> None:
     err = io.StringIO()
     with warnings.catch_warnings(), contextlib.redirect_stderr(err), _streams_apart():
         warnings.simplefilter("error")
+        if numba.config.DISABLE_JIT:  # kernels that are not compiled warn of what they mean
+            warnings.simplefilter("ignore", RuntimeWarning)
         status = cli.run(arguments)
     if "--stats" in arguments and status == 0:
         return

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 from examples import light, plane, scene, sphere, xyz
+from PIL import Image
 
-from fuzz import copies
+from fuzz import copies, looks
 from fuzz.damage import damaged_json
 from fuzz.promises import run_quietly
 
@@ -26,6 +27,37 @@ LIGHTS: list[dict[str, Any]] = [
     {"type": "ambient"},
 ]
 """Lights of all kinds, with all of their keys and with few."""
+
+
+MATERIALS: list[Any] = [
+    *("mirror", "glass", "plastic", "water"),
+    {"type": "lambert", "pattern": {"type": "checker", "colors": [None, None], "size": 0.3}},
+    {"type": "glass", "ior": 1.33, "absorption": [0.5, 0, 1], "roughness": 0.2},
+    {"type": "glass", "thin": True, "pattern": {"type": "image", "image": "a.png"}},
+    {"type": "metal", "name": "gold", "roughness": 0.3},
+    {"type": "plastic", "ior": 1.6, "roughness": 0},
+    {"type": "emissive", "radiance": 2},
+    {"type": "blend", "first": "water", "second": {"type": "mirror"}, "weight": 0.3},
+    {
+        "type": "mirror",
+        "pattern": {
+            "type": "stripes",
+            "colors": [{"r": 1, "g": 2, "b": 3}, None],
+            "size": 0.2,
+            "up": xyz(0, 1, 1),
+            "rotation": 30,
+            "run": "along",
+        },
+    },
+    {"type": "metal", "pattern": {"type": "image", "image": "b.npy", "size": 0.5, "rotation": -9}},
+]
+"""Materials of all kinds, with all of their keys and with few."""
+
+LENSES: list[dict[str, Any]] = [
+    {"radius": 0.2, "focus_distance": 6},
+    {"radius": 0.1, "focus_on": xyz(0, 0, 5), "blades": 5},
+]
+"""Lenses by all of their keys."""
 
 
 def attempt(random: Random, folder: Path) -> None:
@@ -67,7 +99,38 @@ def _document(random: Random, folder: Path) -> dict[str, Any]:
             "tonemap": random.choice(["linear", "srgb", "filmic", "agx"]),
             "background": random.choice(["transparent", {"r": 1, "g": 2, "b": 3}]),
         }
+    if looks.SHARE and random.random() < looks.SHARE:
+        _give_looks(random, found, folder)
     return found
+
+
+def _give_looks(random: Random, found: dict[str, Any], folder: Path) -> None:
+    """Let objects of a scene be made of something, and be taken in other ways."""
+    render = found.setdefault("render", {})
+    if random.random() < 0.3:
+        render["firefly"] = random.choice(["off", 2, 1e-9])
+    if random.random() < 0.5:
+        render["tolerance"] = random.choice([0.008, 1e9])
+    if random.random() < 0.1:
+        render["denoise"] = True
+    if random.random() < 0.3:
+        found["camera"]["projection"] = "panorama"
+    elif random.random() < 0.3:
+        found["camera"]["lens"] = random.choice(LENSES)
+    np.save(folder / "b.npy", np.full((1, 1, 4), 99, np.uint8))
+    Image.new("RGB", (3, 2), (9, 99, 255)).save(folder / "a.png")
+    found["materials"] = {"water": {"type": "glass", "ior": 1.33}}
+    found["integrator"] = random.choice(
+        ["direct", "whitted", "path", {"type": "path", "depth": 2}, {"type": "whitted", "depth": 0}]
+    )
+    for item in found["objects"]:
+        if random.random() < 0.7:
+            item["material"] = random.choice(MATERIALS)
+        if item["type"] == "spheres" and random.random() < 0.3:
+            name = random.choice(["material_index", "roughness", "metalness"])
+            arrays = dict(np.load(folder / "a.npz"))
+            np.savez(folder / "a.npz", **arrays, **{name: [0, 1]})
+            item["material"] = random.sample(MATERIALS, 2) if name[0] != "r" else "plastic"
 
 
 def _is_huge(file: Path) -> bool:

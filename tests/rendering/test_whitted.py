@@ -8,7 +8,7 @@ from oracle_whitted import Ball, Floor, View, seen
 
 import vtray
 from conftest import JIT
-from vtray.scene.materials import AnyMaterial, Blend, Glass, Metal, Plastic
+from vtray.scene.materials import AnyMaterial, Blend, Emissive, Glass, Metal, Plastic
 
 A = np.array
 
@@ -129,6 +129,20 @@ def test_what_does_not_go_together() -> None:
     scene.objects[1] = scene.objects[1].replace(opacity=0.5)
     with pytest.raises(vtray.RenderError, match="opacity: not between 0 and 1"):
         vtray.render(scene, integrator="whitted")
+
+
+@pytest.mark.parametrize("material", [Emissive(1.7e308), Blend("glass", Emissive(1.7e308))])
+def test_what_shines_is_no_brighter_than_a_double_holds(material: AnyMaterial) -> None:
+    scene = room((material, "lambert", "lambert", "lambert"), (6, 5))
+    words = r"^material\.radiance: expected at most 1\.37153e\+303, got 1\.7e\+308; give"
+    for integrator in ("whitted", "path"):
+        with pytest.raises(vtray.RenderError, match=words):
+            vtray.render(scene, integrator=integrator)
+    vtray.render(scene, integrator="direct", warn=str)
+    scene.objects[0] = scene.objects[0].replace(material=Emissive(1e303))
+    image = vtray.render(scene, integrator="whitted")
+    assert np.isfinite(image.linear).all()
+    assert image.pixels.max() == 255
 
 
 @pytest.mark.parametrize(

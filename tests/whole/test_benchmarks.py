@@ -347,7 +347,7 @@ def test_results_are_read_as_they_were_kept(tmp_path: Path) -> None:
     found = cube_results()
     found.arrays = {"many": [arrays.ArraysRow("vtray", 1, *[spread] * 3, memory=9e7, note="")]}
     found.copies = {"spheres": {1: timing(0.5, 0.25), 2: timing(0.3, 0.1)}}
-    found.soft_light = soft_light()
+    found.soft_light, found.whitted = soft_light(), whitted()
     kept.save_results(found, tmp_path / "results.json")
     again = kept.load_results(tmp_path / "results.json")
     assert report.full_report(again) == report.full_report(found)
@@ -635,6 +635,55 @@ def test_report_has_soft_light() -> None:
         "| a molecule | 1.50 | 25.0 | 0.62 |",
     ):
         assert row in report
+
+
+def whitted() -> Any:
+    """Return made-up results for mirrors and glass."""
+    measure = module("measures.whitted")
+    apart = {"with vtray's rules": measure.Apart(1e-6, 2.5e-6, 0.0012)}
+    timings = {"vtray": {2: timing(2.0, 0.5)}, "POV-Ray": {2: timing(1.0, 1.0)}}
+    return measure.Whitted(1024, apart, timings, "On a busy machine.")
+
+
+def test_report_has_mirrors_and_glass() -> None:
+    found = results()
+    found.whitted = whitted()
+    report = module("report.pages").full_report(found)
+    for row in (
+        "| with vtray's rules | 0.0000010 | 0.0000025 | 0.12% |",
+        "| POV-Ray | 2 | 1.00 | 1.00 | 0.50 | 2.00 |",
+        "On a busy machine.",
+    ):
+        assert f"\n{row}\n" in f"{report}\n"
+    found.whitted.apart = {}
+    assert "\n| not installed | - | - | - |\n" in module("report.pages").full_report(found)
+
+
+@compiled_only
+def test_mirrors_and_glass_are_those_of_povray(tmp_path: Path) -> None:
+    """To half a step of 16 bits, and where it keeps its rules, in shadows and mirrors alone."""
+    measure, side = module("measures.whitted"), 40
+    found = measure.measure_whitted(side, (2,), tmp_path, 1)
+    assert all(0 < by_threads[2].inner.median < 60 for by_threads in found.timings.values())
+    if not module("peers.programs").is_installed(module("peers.povray.program").PEER):
+        assert (found.apart, found.timings.keys()) == ({}, {"vtray"})
+        pytest.skip("POV-Ray is not installed")
+    same, *others = found.apart.values()
+    assert same.largest < 0.51 / 65535 + 1e-6
+    assert same.share == 0
+    assert all(other.largest > 0.1 and 0.001 < other.share < 0.1 for other in others)
+
+
+def test_scenes_of_mirrors_are_given_to_povray_with_the_rules_asked_for(tmp_path: Path) -> None:
+    mirrors, scene = module("peers.povray.mirrors"), module("scenes.mirror_and_glass").make_scene(8)
+    texts = []
+    for rules in (mirrors.Rules(True, True), mirrors.Rules(False, False)):
+        mirrors.write_scene(scene, tmp_path / "a.pov", 8, rules)
+        texts.append((tmp_path / "a.pov").read_text())
+    assert ["no_image" in text for text in texts] == [True, False]
+    assert ["clipped_by" in text for text in texts] == [True, False]
+    assert all(text.count("sphere {") == 5 + ("no_image" in text) for text in texts)
+    assert all("max_trace_level 9 " in text and "interior { ior 1.5 }" in text for text in texts)
 
 
 def test_difference_is_told_from_noise() -> None:

@@ -8,11 +8,9 @@ from random import Random
 import oracle
 import pytest
 
-from conftest import compiled_only
-from fuzz import damage, truth
+from conftest import JIT, compiled_only
+from fuzz import damage, looks, truth
 from fuzz.finders import FINDERS, try_once
-
-pytestmark = compiled_only
 
 ATTEMPTS: dict[str, Iterable[int]] = {
     "scenes": range(40),
@@ -27,14 +25,29 @@ ATTEMPTS: dict[str, Iterable[int]] = {
 }
 
 
-@pytest.mark.parametrize("name", FINDERS)
-def test_nothing_is_found(name: str, tmp_path: Path) -> None:
+UNCOMPILED: dict[str, Iterable[int]] = {"bounces": range(3), "values": range(60)}
+"""Those whose attempts need kernels of more kinds than tests have the time to compile."""
+
+
+@pytest.mark.skipif(JIT, reason="would compile for minutes")
+@pytest.mark.parametrize("name", UNCOMPILED)
+def test_nothing_is_found_without_the_compiler(name: str, tmp_path: Path) -> None:
+    failed = [k for k in UNCOMPILED[name] if not try_once(name, 1, k, tmp_path)]
+    why = [(tmp_path / f"{name}-1-{k}" / "why.txt").read_text() for k in failed]
+    assert not failed, "\n\n".join(why)
+
+
+@compiled_only
+@pytest.mark.parametrize("name", [name for name in FINDERS if name not in UNCOMPILED])
+def test_nothing_is_found(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(looks, "SHARE", 0.0)
     failed = [k for k in ATTEMPTS.get(name, range(10)) if not try_once(name, 1, k, tmp_path)]
     why = [(tmp_path / f"{name}-1-{k}" / "why.txt").read_text() for k in failed]
     assert not failed, "\n\n".join(why)
     assert list(tmp_path.iterdir()) == []
 
 
+@compiled_only
 def test_what_is_found_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("fuzz.kernels.read_object_code", lambda _: None)
     assert not try_once("kernels", 5, 3, tmp_path)
@@ -44,6 +57,7 @@ def test_what_is_found_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     assert "AssertionError" in (folder / "why.txt").read_text()
 
 
+@compiled_only
 def test_a_wrong_picture_is_found_and_saved_as_a_small_scene(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -55,6 +69,7 @@ def test_a_wrong_picture_is_found_and_saved_as_a_small_scene(
     assert len(small["objects"]) <= len(scene["objects"])
 
 
+@compiled_only
 def test_the_same_seed_makes_the_same_attempt(tmp_path: Path) -> None:
     one, two = (damage.damaged_bytes(bytes(100), Random(7)) for _ in range(2))
     assert one == two != bytes(100)

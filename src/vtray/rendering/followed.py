@@ -5,10 +5,19 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from vtray.base.errors import RenderError
+from vtray.image.exposure import BRIGHTEST
 from vtray.rendering.acceleration import Acceleration
 from vtray.scene.camera import Camera
 from vtray.scene.copies import Copies
-from vtray.scene.materials import Lambert, blended_in, can_vary, materials_of
+from vtray.scene.materials import (
+    Blend,
+    Emissive,
+    Lambert,
+    Material,
+    blended_in,
+    can_vary,
+    materials_of,
+)
 from vtray.scene.objects import Object
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
@@ -45,6 +54,17 @@ def check_followed(kept: Acceleration, settings: RenderSettings, *, keep_lights:
         raise RenderError(message)
 
 
+def check_radiances(scene: Scene) -> None:
+    """Raise RenderError if what shines is so bright that a pixel could overflow."""
+    if scene.render.integrator == "direct":
+        return
+    for _, material in _singles(scene.objects):
+        if isinstance(material, Emissive) and material.radiance > BRIGHTEST:
+            words = f"expected at most {BRIGHTEST:g}, got {material.radiance:g}"
+            message = f"material.radiance: {words}; give a lower one, and more exposure"
+            raise RenderError(message)
+
+
 def shines(scene: Scene) -> bool:
     """Tell whether any object of a scene shines, and is shown so."""
     return scene.render.integrator != "direct" and "emissive" in dict(_kinds(scene.objects))
@@ -71,13 +91,21 @@ def _kinds(objects: Sequence[Object]) -> Iterator[tuple[str, bool]]:
     name, is_rough
         The name of each, and whether its surface is rough.
     """
+    for item, one in _singles(objects):
+        if not isinstance(one, Lambert):
+            own = getattr(one, "roughness", 0.0)
+            each = getattr(item, "roughness", None)
+            rough = each if each is not None and can_vary(one, "roughness") else own
+            yield type(one).__name__.lower(), bool(np.any(np.greater(rough, 0)))
+
+
+def _singles(objects: Sequence[Object]) -> Iterator[tuple[Object, Material]]:
+    """Give the materials of objects, and of what is copied, none of them a blend, with those."""
     for item in objects:
         if isinstance(item, Copies):
-            yield from _kinds(item.objects)
+            yield from _singles(item.objects)
         for material in materials_of(getattr(item, "material", "lambert")):
-            for one in blended_in(material) or (material,):
-                if not isinstance(one, Lambert):
-                    own = getattr(one, "roughness", 0.0)
-                    each = getattr(item, "roughness", None)
-                    rough = each if each is not None and can_vary(one, "roughness") else own
-                    yield type(one).__name__.lower(), bool(np.any(np.greater(rough, 0)))
+            for one in blended_in(material):
+                yield item, one
+            if not isinstance(material, Blend):
+                yield item, material

@@ -28,7 +28,13 @@ from vtray.rendering.darkroom import Darkroom
 from vtray.rendering.denoising import Denoising
 from vtray.rendering.drawing import Drawing
 from vtray.rendering.fog import ball_around, fitted
-from vtray.rendering.followed import check_followed, followed, shines, simpler_looks
+from vtray.rendering.followed import (
+    check_followed,
+    check_radiances,
+    followed,
+    shines,
+    simpler_looks,
+)
 from vtray.rendering.growth import Growth
 from vtray.rendering.guides import Guiding
 from vtray.rendering.hierarchy import accelerate
@@ -365,6 +371,7 @@ def _check(scene: Scene, settings: RenderSettings, *, is_shown: bool) -> None:
     """Raise RenderError if there can be no picture."""
     _check_memory(scene, settings, is_shown=is_shown)
     check_brightness(scene.lights)
+    check_radiances(scene)
     check_sky(scene.lights, settings)
     check_stars(scene, settings)
 
