@@ -1,9 +1,11 @@
 """Which values are written beside a colour bar, and where they stand."""
 
-import math
 from functools import partial
 from typing import Any
 
+import numpy as np
+
+from vtray.base.exact_math import logarithm
 from vtray.figures.brightness_scale import BrightnessScale
 from vtray.figures.round_marks import round_marks, spread_marks
 
@@ -16,7 +18,8 @@ def share_of(scale: Any, value: float) -> float:  # noqa: ANN401
     if low == high:
         return 0.5
     if scale.norm == "log":
-        return (math.log10(value) - math.log10(low)) / (math.log10(high) - math.log10(low))
+        below, at, above = logarithm(np.array([low, value, high], np.float64))
+        return float((at - below) / (above - below))
     return float((value - low) / (high - low))
 
 
