@@ -74,3 +74,19 @@ def test_picked_particles_on_far_faces(written_out: int, monkeypatch: pytest.Mon
         ("bond", 1, 1),
     ]
     assert at(-0.4, 6) is None
+
+
+@pytest.mark.parametrize("written_out", [0, 100])
+@pytest.mark.parametrize("faded", [{"opacity": 0.6}, {"opacity": 0.5, "highlight": "index == 0"}])
+def test_picked_particles_that_are_faded(
+    faded: dict[str, Any], written_out: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(drawing, "WRITTEN_OUT", written_out)
+    scene = vtray.Scene()
+    options: dict[str, Any] = {"bonds": 1.2, "radii": 0.3, "cell": False, "replicate": (1, 1, 2)}
+    drawn = scene.add_particles(PAIR, **faded, **options)
+    assert drawn.copies is not None
+    scene.camera = vtray.Camera.orthographic((2, -3, 4), (2, 2, 4), 8, up=(0, 0, 1), size=(80, 80))
+    image = vtray.render(scene)
+    found = [image.pick(25, y) for y in (60, 20)]
+    assert [(p.particle, p.copy) for p in found if p is not None] == [(0, 0), (0, 1)]

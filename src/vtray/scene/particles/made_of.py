@@ -129,7 +129,22 @@ def remember_ends(item: "Copies", copies: Integers) -> "Copies":
     return item
 
 
-def copy_of_end(item: "Copies", place: int, half: int) -> int:
-    """Return in which cell an end is of what stands at one of the places of copies."""
+def copy_of(item: "Copies", place: int, source: MadeOf, within: int, half: int) -> int:
+    """Return which copy of a cell something is in that stands at one of the places of copies.
+
+    Parameters
+    ----------
+    item
+        The copies.
+    place
+        At which of their places it stands.
+    source, within
+        What the objects were made of, and which of these it is.
+    half
+        Of a cylinder, which half.
+    """
     ends = item.__dict__.get("ends_")
-    return place if ends is None else int(ends[place, half])
+    if ends is not None:
+        return int(ends[place, half])
+    # All cells, written out, may stand at one place, so that they are one body.
+    return source.image(within, half) if len(item) == 1 else place
