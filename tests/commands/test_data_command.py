@@ -77,6 +77,25 @@ def test_data_becomes_a_scene(water: Path) -> None:
     assert points.camera.size == (80, 60)
 
 
+@pytest.mark.parametrize(
+    "given",
+    [
+        ("--no-cell", "--legend"),
+        ("--color", "z", "--color-bar=charge"),
+        ("--replicate", "3,1,2", "--boundary", "--orthographic"),
+    ],
+)
+def test_points_are_as_large_as_pixels_of_the_picture(water: Path, given: tuple[str, ...]) -> None:
+    scene = scene_of(water, "--style", "points", "--size", "200x100", *given)
+    camera, points = scene.camera, scene.objects[0]
+    away = camera.normal.x, camera.normal.y, camera.normal.z
+    side = np.cross(away, (0, 0, 1))
+    side /= np.linalg.norm(side)
+    radii = np.broadcast_to(points.radius, len(points))
+    ends = camera.project(points.center + radii[:, None] * side)
+    assert ends[:, 0] - camera.project(points.center)[:, 0] == pytest.approx(0.75, abs=1e-6)
+
+
 def test_large_balls_have_less_grain(water: Path) -> None:
     def tolerance(*options: str) -> float:
         return scene_of(water, "--no-cell", "--orthographic", *options).render.tolerance

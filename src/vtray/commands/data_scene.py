@@ -80,6 +80,10 @@ def draw_data(
             annotate = {"colorbar": value_of(options, "colorbar"), **marks}
             fit = partial(camera_of, scene, has_cell, size, **view)
             scene.camera = fit_beside(fit, scene.objects, annotate)
+            if drawn.style == "points" and drawn.stars is None:
+                # They are as large as its pixels, not as those of the camera before it.
+                scene.objects.clear()
+                drawn = scene.add_particles(particles, **drawing)
         settings = taken(scene.camera, drawn.spheres, is_alone=camera is None)
         scene.render = scene.render.replace(**settings)
     except SceneError as error:
