@@ -122,6 +122,28 @@ def test_views(water: Path) -> None:
     assert scene_of(water, "--orthographic").camera.projection == "orthographic"
 
 
+def test_nothing_but_a_cell(water: Path) -> None:
+    none = ["--select", "charge > 9", "--legend", "--boundary", "--bonds"]
+    scene = scene_of(water, *none)
+    assert [len(item) for item in scene.objects] == [0, 0, 12, 8]
+    empty = water.with_name("empty.xyz")
+    empty.write_text('0\nLattice="6 0 0 0 6 0 0 0 6"\n')
+    scene = scene_of(empty, "--style", "points", "--legend")
+    assert [len(item) for item in scene.objects] == [0, 12, 8]
+
+
+@pytest.mark.parametrize("style", ["spacefill", "points"])
+def test_nothing_at_all(style: str, tmp_path: Path) -> None:
+    path = tmp_path / "few.xyz"
+    path.write_text("0\n\n2\n\nC 0 0 0\nC 1 0 0\n")
+    with pytest.raises(SceneError, match=r"few.xyz: frame 0: expected particles, got none, nor a"):
+        scene_of(path, "--style", style, "--legend")
+    some = "--style", style, "--frame=1", "--select"
+    with pytest.raises(SceneError, match=r"few.xyz: --select: expected some of the 2 particles"):
+        scene_of(path, *some, "x > 1")
+    assert len(scene_of(path, *some, "x > 0").objects[0]) == 1
+
+
 def test_values_that_look_like_options() -> None:
     given = ["--view", "-x", "--clim", "-1,1", "-t", "2", "--view", "--zoom", "2"]
     assert joined(given) == ["--view=-x", "--clim=-1,1", "-t", "2", "--view", "--zoom", "2"]

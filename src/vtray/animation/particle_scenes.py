@@ -19,7 +19,7 @@ from vtray.scene.objects import Object
 from vtray.scene.particles.drawing import Drawn
 from vtray.scene.particles.from_objects import as_particles
 from vtray.scene.particles.particles import Particles
-from vtray.scene.particles.view import MOVING, SAMPLES, SIZE, VIEW, camera_of
+from vtray.scene.particles.view import MOVING, SAMPLES, SIZE, VIEW, camera_of, places_of
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 
@@ -151,7 +151,7 @@ class Drawing:
         if camera is not None:
             scene.camera = camera
         elif self._drawn.get("style") == "points":
-            scene.camera = self.fit(particles.positions, particles.cell is not None, MARGIN)
+            scene.camera = self.fit(places_of(particles), particles.cell is not None, MARGIN)
         drawn = {name: value for name, value in self._drawn.items() if value is not None}
         return scene, scene.add_particles(particles, **{**fixed, **drawn}), {}
 

@@ -57,7 +57,7 @@ def draw_data(
         What else `Scene.add_particles` is given, where the options do not say it.
     """
     from vtray.rendering.beside import MARGIN, fit_beside
-    from vtray.scene.particles.view import SIZE, VIEW, camera_of, taken
+    from vtray.scene.particles.view import SIZE, VIEW, camera_of, places_of, taken
     from vtray.scene.scene import Scene
 
     given = data_options.given(options)
@@ -71,10 +71,12 @@ def draw_data(
         if camera is not None:
             scene.camera = camera
         elif drawing.get("style") == "points":
-            scene.camera = camera_of(particles.positions, has_cell, size, MARGIN, **view)
+            scene.camera = camera_of(places_of(particles), has_cell, size, MARGIN, **view)
         if options.background is not None and not isinstance(options.background, str):
             drawing["background"] = options.background
         drawn = scene.add_particles(particles, **drawing)
+        if camera is None:
+            _check_shown(drawn, particles)
         marks = _marks(options, drawn, particles)
         if camera is None:
             annotate = {"colorbar": value_of(options, "colorbar"), **marks}
@@ -91,11 +93,20 @@ def draw_data(
     return scene, drawn, marks
 
 
+def _check_shown(drawn: "Drawn", particles: "Particles") -> None:
+    """Raise SceneError if there is nothing that a camera could be fitted to."""
+    if len(drawn.indices) or drawn.cell is not None:
+        return
+    if len(particles):
+        raise SceneError(f"--select: expected some of the {len(particles)} particles, got none")
+    raise SceneError(f"frame {particles.frame}: expected particles, got none, nor a cell")
+
+
 def _marks(options: argparse.Namespace, drawn: "Drawn", particles: "Particles") -> dict[str, Any]:
     """Return what is painted on a picture of particles: a legend, and labels."""
     marks: dict[str, Any] = {}
     if data_options.given(options).get("legend"):
-        if not drawn.legend:
+        if not drawn.legend and len(drawn.indices):
             message = "--legend: colours have no names; --color-bar says what values they stand for"
             raise SceneError(message)
         marks["legend"] = drawn.legend
