@@ -235,6 +235,32 @@ def test_columns_are_listed(water: Path, capfd: pytest.CaptureFixture[str]) -> N
     assert lines[-1] == "cell c      0, 0, 6"
 
 
+@pytest.mark.parametrize(
+    ("rows", "line"),
+    [
+        ("0,0,0,1\n1,0,0,\n2,0,0,3\n", "mass        float64, from 1 to 3, 1 NaN"),
+        ("0,0,0,\n1,0,0,nan\n", "mass        float64, 2 NaN"),
+    ],
+)
+def test_columns_that_lack_numbers(
+    rows: str, line: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "some.csv"
+    path.write_text("x,y,z,mass\n" + rows)
+    assert cli.run([str(path), "--columns"]) == 0
+    assert capfd.readouterr().out.splitlines()[-1] == line
+
+
+def test_columns_of_nothing(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "none.xyz"
+    path.write_text("0\n\n")
+    assert cli.run([str(path), "--columns"]) == 0
+    assert capfd.readouterr().out.splitlines()[:2] == [
+        "0 particles, frame 0",
+        "x           float64",
+    ]
+
+
 @compiled_only
 def test_picture_of_data(water: Path, capfd: pytest.CaptureFixture[str]) -> None:
     picture = water.with_name("water.png")

@@ -12,6 +12,8 @@ from vtray.commands.annotation_options import PointLabel, labels_of, value_of
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from numpy.typing import NDArray
+
     from vtray.scene.particles.drawing import Drawn
     from vtray.scene.particles.particles import Particles
     from vtray.scene.scene import Camera, Scene
@@ -161,8 +163,8 @@ def describe(options: argparse.Namespace) -> str:
     for name in ("x", "y", "z", *particles.columns):
         values = particles[name]
         kind = "" if values.ndim == 1 else f" of {values.shape[1]}"
-        if values.dtype.kind in "biuf" and values.size:
-            range_ = f"{values.dtype.name}{kind}, from {values.min():g} to {values.max():g}"
+        if values.dtype.kind in "biuf":
+            range_ = f"{values.dtype.name}{kind}{_range_of(values)}"
         else:
             words = [str(word) for word in np.unique(values)[:9].tolist()]
             range_ = f"names{kind}: {', '.join(words[:8])}{', ...' if len(words) > 8 else ''}"
@@ -173,3 +175,13 @@ def describe(options: argparse.Namespace) -> str:
         for name, edge in zip("abc", particles.cell.tolist(), strict=True):
             lines.append(f"{'cell ' + name:12}{', '.join(f'{part:g}' for part in edge)}")
     return "\n".join(lines) + "\n"
+
+
+def _range_of(values: "NDArray[Any]") -> str:
+    """Say from where to where numbers go, and how many are none, to follow their type."""
+    import numpy as np
+
+    known = values[~np.isnan(values)] if values.dtype.kind == "f" else values
+    words = f", from {known.min():g} to {known.max():g}" if known.size else ""
+    missing = values.size - known.size
+    return f"{words}, {missing} NaN" if missing else words
