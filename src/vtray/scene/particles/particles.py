@@ -48,6 +48,7 @@ class Particles:
         The cell's corner; 0 by default.
     periodic : tuple of bool
         For each edge, whether the cell repeats along it; by default, wherever there is a cell.
+        Along an edge of no length, such as that of a system in a plane, it never does.
     frame : int
         Which frame of its file this is, from 0.
     time : float or None
@@ -102,13 +103,16 @@ class Particles:
             _check_finite(cell, "cell")
         if periodic is None:
             periodic = (cell is not None,) * 3
+        periodic = _three_of_bool(periodic)
+        if cell is not None:
+            periodic = periodic & cell.any(axis=1)
         found: dict[str, object] = {
             "positions": positions,
             "columns": MappingProxyType(columns),
             "bonds": bonds,
             "cell": cell,
             "origin": _array(self.origin, "origin", np.float64).reshape(3),
-            "periodic": tuple(map(bool, periodic)),
+            "periodic": tuple(periodic.tolist()),
         }
         for name, value in found.items():
             object.__setattr__(self, name, value)
@@ -232,6 +236,19 @@ def _array(values: object, name: str, dtype: Any) -> "NDArray[Any]":  # noqa: AN
         return np.asarray(values, dtype)
     except (TypeError, ValueError) as error:
         raise SceneError(f"Particles.{name}: must be numbers: {error}") from error
+
+
+def _three_of_bool(given: object) -> "NDArray[np.bool_]":
+    """Return for each edge of a cell whether it repeats, (3,)."""
+    import numpy as np
+
+    found = np.asarray(given)
+    if found.shape != (3,) or found.dtype.kind not in "biuf":
+        from vtray.scene.checks.scene_words import show
+
+        words = "expected three of True and False, one for each edge"
+        raise SceneError(f"Particles.periodic: {words}, got {show(given)}")
+    return found.astype(np.bool_)
 
 
 def _check_finite(array: "NDArray[Any]", name: str) -> None:
