@@ -227,6 +227,7 @@ def test_cell_is_drawn_where_there_is_one() -> None:
         ({"emission": 1.0, "stretch": "root"}, "add_particles: stretch: expected"),
         ({"select": [True]}, "select: expected an expression, or an array of 3 bool"),
         ({"select": "x >"}, "select"),
+        ({"highlight": "heat > 1"}, "highlight 'heat > 1': at 1: no column 'heat'"),
         ({"bonds": [(0, 3)]}, r"bonds[0]: expected indices from 0 to 2, got [0, 3]"),
         ({"bonds": "yes"}, "bonds: expected indices of shape (m, 2), got 'yes'"),
         ({"radii": "size"}, "radii: expected covalent, vdw, a number, or a column"),

@@ -348,7 +348,7 @@ def chosen(particles: Particles, given: Any, name: str) -> NDArray[np.bool_]:  #
     if given is None:
         return np.ones(len(particles), np.bool_)
     if isinstance(given, str):
-        return mask(particles, given)
+        return mask(particles, given, name)
     found = np.asarray(given)
     if found.dtype != np.bool_ or found.shape != (len(particles),):
         words = f"expected an expression, or an array of {len(particles)} bool"
