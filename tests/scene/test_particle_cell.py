@@ -42,6 +42,18 @@ def test_a_cell_without_height(periodic: Any) -> None:
         vtray.Scene().add_particles(flat, replicate=(1, 1, 2))
 
 
+@pytest.mark.parametrize(
+    ("origin", "message"),
+    [
+        ([0, 0], r"Particles.origin: must have shape \(3,\), got \(2,\)"),
+        ([0, 0, np.nan], r"Particles.origin\[2\]: must be finite, got nan"),
+    ],
+)
+def test_wrong_origins(origin: Any, message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        Particles([(0, 0, 0)], cell=np.eye(3), origin=origin)
+
+
 @pytest.mark.parametrize("given", [True, (True, True), "TTT", ("T", "T", "F")])
 def test_along_which_edges_a_cell_repeats(given: Any) -> None:
     with pytest.raises(SceneError, match=r"Particles.periodic: expected three of True and False"):
@@ -123,6 +135,10 @@ def test_bonds_across_the_border_are_halves_that_meet_in_copies(
         ({"replicate": (2, 2)}, r"replicate: expected three integers ≥ 1, such as \(3, 3, 1\)"),
         ({"replicate": (1, 1, 0)}, "replicate: expected three integers"),
         ({"replicate": (1, 1, 2)}, r"replicate\[2\]: the cell does not repeat along this edge"),
+        (
+            {"replicate": (10**6, 10**6, 1)},
+            "replicate: 1000000000000 cells need about 100,000.0 GB",
+        ),
         ({"unwrap": True}, "unwrap: needs bonds, or the columns ix, iy and iz"),
         ({"wrap": True, "unwrap": True}, "unwrap: expected False with wrap=True"),
     ],

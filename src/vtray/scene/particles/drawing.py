@@ -405,6 +405,9 @@ def _among(bonds: Bonds | None, drawn: NDArray[np.bool_]) -> Bonds | None:
 def _bonds_of(particles: Particles, bonds: Any) -> Bonds:  # noqa: ANN401
     """Return the bonds that are asked for."""
     if bonds is True:
+        if "element" not in particles.columns and len(particles):
+            words = "which ones there are follows from elements, and there is no column element"
+            raise SceneError(f"bonds: {words}; give a length, as bonds=2.5 or --cutoff 2.5")
         return find_bonds(particles)
     if isinstance(bonds, str) and bonds == "file":
         if particles.bonds is None:

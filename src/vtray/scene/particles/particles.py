@@ -95,24 +95,20 @@ class Particles:
         if bonds is not None:
             bonds = _array(bonds, "bonds", np.int64).reshape(-1, 2)
             _check_bonds(bonds, len(positions))
-        cell, periodic = self.cell, self.periodic
+        cell = self.cell
         if cell is not None:
-            cell = _array(cell, "cell", np.float64)
-            if cell.shape != (3, 3):
-                raise SceneError(f"Particles.cell: must have shape (3, 3), got {cell.shape}")
-            _check_finite(cell, "cell")
-        if periodic is None:
-            periodic = (cell is not None,) * 3
-        periodic = _three_of_bool(periodic)
+            cell = _numbers_of(cell, "cell", (3, 3))
+        given = (cell is not None,) * 3 if self.periodic is None else self.periodic
+        repeats = _three_of_bool(given)
         if cell is not None:
-            periodic = periodic & cell.any(axis=1)
+            repeats &= cell.any(axis=1)
         found: dict[str, object] = {
             "positions": positions,
             "columns": MappingProxyType(columns),
             "bonds": bonds,
             "cell": cell,
-            "origin": _array(self.origin, "origin", np.float64).reshape(3),
-            "periodic": tuple(periodic.tolist()),
+            "origin": _numbers_of(self.origin, "origin", (3,)),
+            "periodic": tuple(repeats.tolist()),
         }
         for name, value in found.items():
             object.__setattr__(self, name, value)
@@ -236,6 +232,17 @@ def _array(values: object, name: str, dtype: Any) -> "NDArray[Any]":  # noqa: AN
         return np.asarray(values, dtype)
     except (TypeError, ValueError) as error:
         raise SceneError(f"Particles.{name}: must be numbers: {error}") from error
+
+
+def _numbers_of(values: object, name: str, shape: tuple[int, ...]) -> "NDArray[np.float64]":
+    """Return finite numbers as an array of a shape."""
+    import numpy as np
+
+    found = _array(values, name, np.float64)
+    if found.shape != shape:
+        raise SceneError(f"Particles.{name}: must have shape {shape}, got {found.shape}")
+    _check_finite(found, name)
+    return found
 
 
 def _three_of_bool(given: object) -> "NDArray[np.bool_]":
