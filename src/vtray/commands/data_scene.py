@@ -35,8 +35,27 @@ def load_data(options: argparse.Namespace) -> "tuple[Scene, dict[str, Any]]":
     SceneError
         The file cannot be read, or what is asked for is not in it.
     """
-    scene, _, marks = draw_data(options, read_particles(options))
-    return scene, marks
+    return shown_data(options, read_particles(options))
+
+
+def shown_data(
+    options: argparse.Namespace, particles: "Particles"
+) -> "tuple[Scene, dict[str, Any]]":
+    """Return a scene of particles as `draw_data` does, and what is painted on it.
+
+    Raises
+    ------
+    SceneError
+        There is nothing to be seen, or what is asked for is not right.
+    """
+    scene, drawn, marks = draw_data(options, particles)
+    if not _is_empty(drawn):
+        return scene, marks
+    if len(particles):
+        words = f"--select: expected some of the {len(particles)} particles, got none"
+    else:
+        words = f"frame {particles.frame}: expected particles, got none, nor a cell"
+    raise SceneError(f"{options.scene}: {words}")
 
 
 def draw_data(
@@ -54,7 +73,7 @@ def draw_data(
     particles
         The particles.
     camera
-        The camera; None for one that shows all of them.
+        The camera; None for one that shows all of them, if there is anything to be seen.
     fixed
         What else `Scene.add_particles` is given, where the options do not say it.
     """
@@ -77,10 +96,8 @@ def draw_data(
         if options.background is not None and not isinstance(options.background, str):
             drawing["background"] = options.background
         drawn = scene.add_particles(particles, **drawing)
-        if camera is None:
-            _check_shown(drawn, particles)
         marks = _marks(options, drawn, particles)
-        if camera is None:
+        if camera is None and not _is_empty(drawn):
             annotate = {"colorbar": value_of(options, "colorbar"), **marks}
             fit = partial(camera_of, scene, has_cell, size, **view)
             scene.camera = fit_beside(fit, scene.objects, annotate)
@@ -88,20 +105,17 @@ def draw_data(
                 # They are as large as its pixels, not as those of the camera before it.
                 scene.objects.clear()
                 drawn = scene.add_particles(particles, **drawing)
-        settings = taken(scene.camera, drawn.spheres, is_alone=camera is None)
-        scene.render = scene.render.replace(**settings)
+        if not _is_empty(drawn):
+            settings = taken(scene.camera, drawn.spheres, is_alone=camera is None)
+            scene.render = scene.render.replace(**settings)
     except SceneError as error:
         raise SceneError(f"{options.scene}: {error}") from None
     return scene, drawn, marks
 
 
-def _check_shown(drawn: "Drawn", particles: "Particles") -> None:
-    """Raise SceneError if there is nothing that a camera could be fitted to."""
-    if len(drawn.indices) or drawn.cell is not None:
-        return
-    if len(particles):
-        raise SceneError(f"--select: expected some of the {len(particles)} particles, got none")
-    raise SceneError(f"frame {particles.frame}: expected particles, got none, nor a cell")
+def _is_empty(drawn: "Drawn") -> bool:
+    """Tell whether there is nothing that a camera could be fitted to."""
+    return not len(drawn.indices) and drawn.cell is None
 
 
 def _marks(options: argparse.Namespace, drawn: "Drawn", particles: "Particles") -> dict[str, Any]:
@@ -111,7 +125,7 @@ def _marks(options: argparse.Namespace, drawn: "Drawn", particles: "Particles") 
         if not drawn.legend and len(drawn.indices):
             message = "--legend: colours have no names; --color-bar says what values they stand for"
             raise SceneError(message)
-        marks["legend"] = drawn.legend
+        marks["legend"] = drawn.legend or None
     _, columns = labels_of(options)
     if columns:
         marks["labels"] = [label for name in columns for label in _labels(drawn, particles, name)]
