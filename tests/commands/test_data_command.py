@@ -77,6 +77,25 @@ def test_data_becomes_a_scene(water: Path) -> None:
     assert points.camera.size == (80, 60)
 
 
+@pytest.mark.parametrize(
+    "given",
+    [
+        ("--no-cell", "--legend"),
+        ("--color", "z", "--color-bar=charge"),
+        ("--replicate", "3,1,2", "--boundary", "--orthographic"),
+    ],
+)
+def test_points_are_as_large_as_pixels_of_the_picture(water: Path, given: tuple[str, ...]) -> None:
+    scene = scene_of(water, "--style", "points", "--size", "200x100", *given)
+    camera, points = scene.camera, scene.objects[0]
+    away = camera.normal.x, camera.normal.y, camera.normal.z
+    side = np.cross(away, (0, 0, 1))
+    side /= np.linalg.norm(side)
+    radii = np.broadcast_to(points.radius, len(points))
+    ends = camera.project(points.center + radii[:, None] * side)
+    assert ends[:, 0] - camera.project(points.center)[:, 0] == pytest.approx(0.75, abs=1e-6)
+
+
 def test_large_balls_have_less_grain(water: Path) -> None:
     def tolerance(*options: str) -> float:
         return scene_of(water, "--no-cell", "--orthographic", *options).render.tolerance
@@ -101,6 +120,30 @@ def test_views(water: Path) -> None:
     near, far = (scene_of(water, *zoom).camera for zoom in (["--zoom", "2"], []))
     assert near.resolution[0] * 2 == far.resolution[0]
     assert scene_of(water, "--orthographic").camera.projection == "orthographic"
+
+
+def test_nothing_but_a_cell(water: Path) -> None:
+    none = ["--select", "charge > 9", "--legend", "--boundary", "--bonds"]
+    scene = scene_of(water, *none)
+    assert [len(item) for item in scene.objects] == [0, 0, 12, 8]
+    options = parse([*none, str(water), "picture.png"])
+    assert annotations_of(options, load_data(options)[1])["legend"] is None
+    empty = water.with_name("empty.xyz")
+    empty.write_text('0\nLattice="6 0 0 0 6 0 0 0 6"\n')
+    scene = scene_of(empty, "--style", "points", "--legend")
+    assert [len(item) for item in scene.objects] == [0, 12, 8]
+
+
+@pytest.mark.parametrize("style", ["spacefill", "points"])
+def test_nothing_at_all(style: str, tmp_path: Path) -> None:
+    path = tmp_path / "few.xyz"
+    path.write_text("0\n\n2\n\nC 0 0 0\nC 1 0 0\n")
+    with pytest.raises(SceneError, match=r"few.xyz: frame 0: expected particles, got none, nor a"):
+        scene_of(path, "--style", style, "--legend")
+    some = "--style", style, "--frame=1", "--select"
+    with pytest.raises(SceneError, match=r"few.xyz: --select: expected some of the 2 particles"):
+        scene_of(path, *some, "x > 1")
+    assert len(scene_of(path, *some, "x > 0").objects[0]) == 1
 
 
 def test_values_that_look_like_options() -> None:
@@ -192,6 +235,32 @@ def test_columns_are_listed(water: Path, capfd: pytest.CaptureFixture[str]) -> N
     assert "element     names: H, O" in lines
     assert "charge      float64, from -0.8 to 0.5" in lines
     assert lines[-1] == "cell c      0, 0, 6"
+
+
+@pytest.mark.parametrize(
+    ("rows", "line"),
+    [
+        ("0,0,0,1\n1,0,0,\n2,0,0,3\n", "mass        float64, from 1 to 3, 1 NaN"),
+        ("0,0,0,\n1,0,0,nan\n", "mass        float64, 2 NaN"),
+    ],
+)
+def test_columns_that_lack_numbers(
+    rows: str, line: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "some.csv"
+    path.write_text("x,y,z,mass\n" + rows)
+    assert cli.run([str(path), "--columns"]) == 0
+    assert capfd.readouterr().out.splitlines()[-1] == line
+
+
+def test_columns_of_nothing(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "none.xyz"
+    path.write_text("0\n\n")
+    assert cli.run([str(path), "--columns"]) == 0
+    assert capfd.readouterr().out.splitlines()[:2] == [
+        "0 particles, frame 0",
+        "x           float64",
+    ]
 
 
 @compiled_only

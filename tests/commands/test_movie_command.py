@@ -73,6 +73,30 @@ def test_frames_of_a_file(run: Path, capfd: pytest.CaptureFixture[str]) -> None:
 
 
 @compiled_only
+def test_frames_without_particles(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    path, there = tmp_path / "few.xyz", tmp_path / "made" / "%d.png"
+    path.write_text("0\n\n2\n\nC 5 0 0\nO 6 0 0\n0\n\n")
+    size = ["--size", "48x36", "-t1"]
+    assert cli.run([*size, "--frames", ":", "--legend", str(path), str(there)]) == 0
+    assert capfd.readouterr() == ("", "")
+    before, some, after = pictures(there.parent)
+    assert (before == 255).all()
+    assert (after == 255).all()
+    assert (some < 255).any()
+    # The scale of colours is that of the frames with particles.
+    colors = []
+    for limits in ([], ["--clim=5,6"]):
+        there = tmp_path / f"scale{len(limits)}" / "%d.png"
+        options = [*size, "--frames", ":", "--color", "x", *limits]
+        assert cli.run([*options, str(path), str(there)]) == 0
+        colors.append(pictures(there.parent)[1])
+    assert (colors[0] == colors[1]).all()
+    only = ["--frames", ":", "--select", "x > 9", str(path), str(tmp_path / "none.gif")]
+    assert cli.run(only) == 1
+    assert capfd.readouterr().err == "Error: frames: expected particles, got none\n"
+
+
+@compiled_only
 def test_turntables(run: Path, scene: Path) -> None:
     turn = ["--turntable", "0.3", "--fps", "10", "-t1"]
     there = run.with_name("data") / "%d.png"

@@ -17,7 +17,7 @@ from vtray.figures.painted.canvas import Canvas
 from vtray.figures.painted.cover import Cover, polygon, rectangle
 from vtray.figures.painted.layout import arranged
 from vtray.figures.painted.letters import FONT, RANGES, check_letters, letters
-from vtray.figures.painted.picture import annotated_pixels
+from vtray.figures.painted.picture import annotated_pixels, share_beside
 from vtray.figures.sheet import FigureError
 
 Array = np.ndarray
@@ -247,6 +247,16 @@ def test_ends_of_lines_are_kept_or_become_spaces() -> None:
     two = annotated_pixels(image, Annotations(**(ALL | {"colorbar": "a\nb", "time": "1\ns"})))
     assert (one == two).all()
     assert changed(image, title="A\nB", labels={"C\nD": (0, 0, 0)}).any()
+
+
+def test_long_legends_leave_room_for_what_is_shown() -> None:
+    legend = Annotations(legend={f"kind {k}": "red" for k in range(40)})
+    assert 0.2 < share_beside([], legend, (1024, 1024)) < 0.4
+    wide = Annotations(legend={"poly(ethylene terephthalate)": "red"})
+    assert 0.2 < share_beside([], wide, (1024, 1024)) < 0.4
+    # Where letters would be tiny, a legend stands on what is shown.
+    assert share_beside([], legend, (240, 240)) > 0.6
+    assert share_beside([], wide, (1024, 1024), fontsize=40) > 0.6
 
 
 def test_long_titles_are_broken_beside_the_legend() -> None:

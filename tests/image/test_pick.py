@@ -47,19 +47,46 @@ def test_picked_particles(written_out: int, monkeypatch: pytest.MonkeyPatch) -> 
         image.pick(80, 0)
 
 
-def test_picked_particles_on_far_faces() -> None:
+@pytest.mark.parametrize("written_out", [0, 100])
+def test_picked_particles_on_far_faces(written_out: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(drawing, "WRITTEN_OUT", written_out)
     scene = vtray.Scene()
-    pair = Particles([(0, 2, 2), (1, 2, 2)], {"name": np.array(["left", "right"])}, cell=PAIR.cell)
-    scene.add_particles(pair, bonds=1.2, radii=0.3, cell=False, replicate=(1, 1, 2), boundary=True)
+    columns = {"name": np.array(["left", "right", "high"])}
+    three = Particles([(0, 2, 2), (3, 2, 2), (3, 2, 3.6)], columns, cell=PAIR.cell)
+    scene.add_particles(three, bonds=2.5, radii=0.3, cell=False, replicate=(1, 1, 2), boundary=True)
     scene.camera = vtray.Camera.orthographic((2, -3, 4), (2, 2, 4), 8, up=(0, 0, 1), size=(80, 80))
     scene.add_light((2, -9, 4))
     image = vtray.render(scene)
-    near, far = image.pick(20, 20), image.pick(60, 20)
-    bond = image.pick(64, 20)
-    assert near is not None
-    assert far is not None
-    assert bond is not None
-    assert (near.object, far.object) == (0, 2)
+
+    def at(x: float, z: float) -> Any:
+        return image.pick(round(40 + 10 * (x - 2)), round(40 - 10 * (z - 4)))
+
+    near, far = at(0, 6), at(4, 6)
+    assert (near.kind, far.kind, near.object) == ("particle", "particle", 0)
+    assert near.object != far.object
     assert (near.particle, near.copy) == (far.particle, far.copy) == (0, 1)
     assert far.values["name"] == "left"
-    assert (bond.object, bond.kind, bond.particle, bond.copy) == (3, "bond", 0, 1)
+    found = [at(x, z) for x, z in ((3.4, 6), (3.6, 6), (3, 4.6), (3, 5))]
+    assert [(p.kind, p.particle, p.copy) for p in found] == [
+        ("bond", 1, 1),
+        ("bond", 0, 1),
+        ("bond", 2, 0),
+        ("bond", 1, 1),
+    ]
+    assert at(-0.4, 6) is None
+
+
+@pytest.mark.parametrize("written_out", [0, 100])
+@pytest.mark.parametrize("faded", [{"opacity": 0.6}, {"opacity": 0.5, "highlight": "index == 0"}])
+def test_picked_particles_that_are_faded(
+    faded: dict[str, Any], written_out: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(drawing, "WRITTEN_OUT", written_out)
+    scene = vtray.Scene()
+    options: dict[str, Any] = {"bonds": 1.2, "radii": 0.3, "cell": False, "replicate": (1, 1, 2)}
+    drawn = scene.add_particles(PAIR, **faded, **options)
+    assert drawn.copies is not None
+    scene.camera = vtray.Camera.orthographic((2, -3, 4), (2, 2, 4), 8, up=(0, 0, 1), size=(80, 80))
+    image = vtray.render(scene)
+    found = [image.pick(25, y) for y in (60, 20)]
+    assert [(p.particle, p.copy) for p in found if p is not None] == [(0, 0), (0, 1)]

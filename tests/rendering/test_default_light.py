@@ -103,3 +103,16 @@ def test_single_rays_see_the_same() -> None:
     scene = balls()
     image = render(scene)
     assert vtray.trace_pixel(scene, SIZE[0] // 2, SIZE[1] // 2).scene.lights == image.scene.lights
+
+
+@pytest.mark.parametrize("opacity", [None, 0.5])
+def test_objects_that_hold_nothing_need_no_light(opacity: float | None) -> None:
+    scene = vtray.Scene(camera=balls().camera)
+    scene.add_particles(np.zeros((0, 3)), bonds=[], opacity=opacity)
+    assert len(scene.objects) > 0
+    said: list[str] = []
+    image = render(scene, warn=said.append)
+    assert (image.pixels == WHITE).all()
+    assert said == []
+    scene.add_plane((0, 0, -1), (0, 0, 1))
+    assert render(scene).scene.lights == [vtray.Ambient()]

@@ -227,6 +227,8 @@ def test_cell_is_drawn_where_there_is_one() -> None:
         ({"emission": 1.0, "stretch": "root"}, "add_particles: stretch: expected"),
         ({"select": [True]}, "select: expected an expression, or an array of 3 bool"),
         ({"select": "x >"}, "select"),
+        ({"replicate": (2, 1, 1)}, "replicate: there is no cell that repeats"),
+        ({"highlight": "heat > 1"}, "highlight 'heat > 1': at 1: no column 'heat'"),
         ({"bonds": [(0, 3)]}, r"bonds[0]: expected indices from 0 to 2, got [0, 3]"),
         ({"bonds": "yes"}, "bonds: expected indices of shape (m, 2), got 'yes'"),
         ({"radii": "size"}, "radii: expected covalent, vdw, a number, or a column"),
@@ -256,3 +258,12 @@ def test_color_scale_by_logarithms() -> None:
     assert repr(scale).endswith(", norm='log')")
     assert copy.deepcopy(scale) == scale
     assert scale != vtray.ColorScale("viridis", 1.0, 100.0)
+
+
+@pytest.mark.parametrize("options", [{"bonds": True}, {"style": "licorice"}])
+def test_bonds_without_elements(options: dict[str, Any]) -> None:
+    with pytest.raises(
+        SceneError, match=r"no column element; give a length, as bonds=2.5 or --cut"
+    ):
+        vtray.Scene().add_particles([(0, 0, 0)], **options)
+    assert vtray.Scene().add_particles(np.zeros((0, 3)), **options).spheres.center.size == 0

@@ -126,13 +126,6 @@ def test_wrong_arguments(options: dict[str, Any], message: str) -> None:
         find_bonds(particles, **options)
 
 
-@pytest.mark.parametrize(
-    ("cell", "message"),
-    [
-        ([[1, 0, 0], [0, 0, 0], [0, 0, 1]], r"Particles.cell\[1\]: must have a length"),
-        ([[1, 0, 0], [1, 1, 0], [2, 1, 0]], "its edges must not lie in one plane"),
-    ],
-)
-def test_wrong_cells(cell: Any, message: str) -> None:
-    with pytest.raises(SceneError, match=message):
-        find_bonds(Particles([(0, 0, 0)], cell=cell), cutoff=1)
+def test_edges_in_one_plane() -> None:
+    with pytest.raises(SceneError, match="its edges must not lie in one plane"):
+        find_bonds(Particles([(0, 0, 0)], cell=[[1, 0, 0], [1, 1, 0], [2, 1, 0]]), cutoff=1)

@@ -8,8 +8,10 @@ import pytest
 
 import vtray
 from vtray.base.errors import SceneError
+from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
 from vtray.scene.particles import drawing
+from vtray.scene.particles.bonds import find_bonds
 from vtray.scene.particles.made_of import made_of
 from vtray.scene.particles.particles import Particles
 
@@ -87,31 +89,111 @@ def halves_of(item: Cylinders) -> list[tuple[float, ...]]:
     return rounded(np.concatenate([item.start, item.end], axis=1))
 
 
-def test_bonds_of_repeated_particles_are_halves() -> None:
-    particles = Particles([(0, 2, 2), (1, 2, 2), (3, 2, 2)], {"element": list("HFO")}, cell=CUBE)
+def test_bonds_join_what_is_shown_and_lead_nowhere_else() -> None:
+    atoms = [(0, 2, 2), (1, 2, 2), (3, 2, 2), (2, 3.5, 2), (2, 0.5, 2)]
+    particles = Particles(atoms, {"element": list("HFOCC")}, cell=CUBE)
     drawn = drawn_of(particles, bonds=1.2, style="ball-and-stick")
-    # The whole bond, then the halves toward the border; beyond it, those of the repeated one.
-    assert halves_of(drawn.bonds) == rounded(
-        [(0, 2, 2, 1, 2, 2), (0, 2, 2, -0.5, 2, 2), (3, 2, 2, 3.5, 2, 2)]
-    )
+    assert halves_of(drawn.bonds) == rounded([(0, 2, 2, 1, 2, 2)])
     assert drawn.boundary[0].center.tolist() == [[4, 2, 2]]
-    assert halves_of(drawn.boundary[1]) == rounded([(4, 2, 2, 3.5, 2, 2), (4, 2, 2, 4.5, 2, 2)])
+    # To the first one shown again; carbons across the border, inside the cell, are not bound.
+    assert halves_of(drawn.boundary[1]) == rounded([(4, 2, 2, 3, 2, 2)])
     assert (drawn.boundary[1].color == drawn.spheres.color[0]).all()
+    assert (drawn.boundary[1].color_end == drawn.spheres.color[2]).all()
     source = made_of(drawn.boundary[1])
     assert source is not None
-    assert (source.kind, source.indices.tolist()) == ("bond", [[0, 0], [0, 0]])
+    assert (source.kind, source.indices.tolist()) == ("bond", [[0, 2]])
     assert drawn.boundary[2] is None
+
+
+def standing(objects: Any, kind: str) -> list[tuple[float, ...]]:
+    """Return where all cylinders of a kind are, those of copies too, in order."""
+    found = []
+    for item in objects:
+        places = item.at if isinstance(item, Copies) else np.zeros((1, 3))
+        for part in item.objects if isinstance(item, Copies) else [item]:
+            source = made_of(part)
+            if source is not None and source.kind == kind:
+                for place in places:
+                    found.extend(
+                        halves_of(part.replace(start=part.start + place, end=part.end + place))
+                    )
+    return sorted(found)
+
+
+@pytest.mark.parametrize("written_out", [True, False])
+@pytest.mark.parametrize("times", [(1, 1, 1), (2, 1, 3)])
+@pytest.mark.parametrize("tolerance", [True, 0.35])
+def test_bonds_of_skew_cells(
+    written_out: bool,
+    times: tuple[int, int, int],
+    tolerance: float,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    if not written_out:
+        monkeypatch.setattr(drawing, "WRITTEN_OUT", 0)
+    generator = np.random.default_rng(5)
+    fractions = generator.choice([0, 0.1, 0.3, 0.5, 0.75, 0.9995, 1.4], (30, 3))
+    fractions = np.unique(fractions, axis=0)
+    particles = Particles(fractions @ SKEW, cell=SKEW)
+    scene = vtray.Scene()
+    scene.add_particles(
+        particles, radii=0.3, bonds=3.1, boundary=tolerance, replicate=times, cell=False
+    )
+    bonds = find_bonds(particles, cutoff=3.1)
+    most = 0.001 if tolerance is True else tolerance
+    shown = {
+        (k, *s)
+        for k, f in enumerate(fractions)
+        for s in product(*(range(-1, n + 1) for n in times))
+        if all(0 <= i < n for i, n in zip(s, times, strict=True))
+        or (
+            all(f >= -most)
+            and all(f <= 1 + most)
+            and all(f + s >= -most)
+            and all(f + s <= np.array(times) + most)
+        )
+    }
+    expected = []
+    for (one, two), shift in zip(bonds.pairs.tolist(), bonds.shifts, strict=True):
+        for s in product(*(range(-3, n + 3) for n in times)):
+            if {(one, *s), (two, *(shift + s).tolist())} <= shown:
+                ends = fractions[one] + s, fractions[two] + s + shift
+                expected.append(np.concatenate([end @ SKEW for end in ends]))
+    assert len(expected) > 40
+    assert standing(scene.objects, "bond") == rounded(expected)
+
+
+def test_only_bonds_that_are_shown_are_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    made = []
+    real = Cylinders.from_arrays.__func__  # type: ignore[attr-defined]
+    monkeypatch.setattr(
+        Cylinders,
+        "from_arrays",
+        classmethod(lambda cls, values, place: made.append(real(cls, values, place)) or made[-1]),
+    )
+    chain = [(0, 2, 2), *((0.5 + 0.03 * k, 2, 2) for k in range(100))]
+    drawn_of(Particles(chain, cell=CUBE), bonds=0.035)
+    assert max(map(len, made)) == 99
 
 
 def test_hydrogen_bonds_of_repeated_particles() -> None:
     water = [(2, 0, 2), (2.76, 0.59, 2), (1.24, 0.59, 2), (2, -2.5, 2), (2, -1.55, 2)]
     cell = np.diag([8.0, 8, 8])
     particles = Particles(water, {"element": list("OHHOH")}, cell=cell)
-    drawn = drawn_of(particles, bonds=True, hydrogen_bonds=True)
-    dashes, again = drawn.hydrogen_bonds, drawn.boundary[2]
-    assert (len(dashes), len(again)) == (6, 3)
-    mine = np.array([k for k, (owner, _) in enumerate(made_of(dashes).indices) if owner == 0])
-    assert np.allclose(again.start, dashes.start[mine] + [0, 8, 0])
+    options: dict[str, Any] = {"bonds": True, "hydrogen_bonds": True}
+    drawn = drawn_of(particles, **options)
+    # The molecule outside the cell is not shown again, and nothing leads to it.
+    assert (len(drawn.hydrogen_bonds), len(drawn.boundary[2])) == (6, 0)
+    drawn = drawn_of(particles, wrap=True, **options)
+    assert len(drawn.hydrogen_bonds) == 0
+    again = drawn.boundary[2]
+    ends = rounded(np.concatenate([again.start, again.end]))
+    assert ends == rounded(
+        [(2, 6.45 + 1.55 * k / 24, 2) for k in (1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23)]
+    )
+    source = made_of(again)
+    assert source is not None
+    assert [sorted(source.indices[:, k].tolist()) for k in (0, 1)] == [[0, 0, 0, 4, 4, 4]] * 2
 
 
 def test_what_is_drawn_and_in_which_colours() -> None:
@@ -138,12 +220,12 @@ def test_among_copies_and_as_one_body(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = vtray.Scene()
     drawn = scene.add_particles(particles, opacity=0.5, **options)
     assert scene.objects == [drawn.copies]
-    assert [len(part) for part in drawn.copies.objects] == [2, 1, 1, 1]
+    assert [len(part) for part in drawn.copies.objects] == [2, 1, 1]
     assert drawn.boundary[0].opacity == 0.5
     monkeypatch.setattr(drawing, "WRITTEN_OUT", 0)
     scene = vtray.Scene()
     drawn = scene.add_particles(particles, replicate=(1, 2, 1), **options)
-    assert scene.objects == [drawn.copies, *drawn.boundary[:2]]
+    assert scene.objects == [drawn.copies, drawn.boundary[0]]
     assert drawn.boundary[0].center.tolist() == [[4, 2, 2], [4, 6, 2]]
     scene = vtray.Scene()
     assert len(scene.add_particles([(9, 9, 9)], cell=False).spheres) == 1

@@ -31,6 +31,35 @@ def test_wrapped_particles_are_in_the_cell() -> None:
     assert np.allclose(particles.positions - moves @ SKEW, positions)
 
 
+@pytest.mark.parametrize("periodic", [None, (True, True, True), (True, True, False)])
+def test_a_cell_without_height(periodic: Any) -> None:
+    flat = Particles([(0.2, 1, 0), (3.8, 1, 0)], cell=np.diag([4.0, 4, 0]), periodic=periodic)
+    assert flat.periodic == (True, True, False)
+    drawn = vtray.Scene().add_particles(flat, radii=0.1, bonds=0.5, replicate=(2, 1, 1))
+    assert len(drawn.spheres) == len(drawn.bonds) == 4
+    assert drawn.bonds.start[:, 2].tolist() == [0] * 4
+    with pytest.raises(SceneError, match=r"replicate\[2\]: the cell does not repeat along"):
+        vtray.Scene().add_particles(flat, replicate=(1, 1, 2))
+
+
+@pytest.mark.parametrize(
+    ("origin", "message"),
+    [
+        ([0, 0], r"Particles.origin: must have shape \(3,\), got \(2,\)"),
+        ([0, 0, np.nan], r"Particles.origin\[2\]: must be finite, got nan"),
+    ],
+)
+def test_wrong_origins(origin: Any, message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        Particles([(0, 0, 0)], cell=np.eye(3), origin=origin)
+
+
+@pytest.mark.parametrize("given", [True, (True, True), "TTT", ("T", "T", "F")])
+def test_along_which_edges_a_cell_repeats(given: Any) -> None:
+    with pytest.raises(SceneError, match=r"Particles.periodic: expected three of True and False"):
+        Particles([(0, 0, 0)], cell=np.eye(3), periodic=given)
+
+
 def test_molecules_are_made_whole_by_their_bonds() -> None:
     particles = chain()
     bonds = find_bonds(particles, cutoff=1.4)
@@ -106,6 +135,10 @@ def test_bonds_across_the_border_are_halves_that_meet_in_copies(
         ({"replicate": (2, 2)}, r"replicate: expected three integers ≥ 1, such as \(3, 3, 1\)"),
         ({"replicate": (1, 1, 0)}, "replicate: expected three integers"),
         ({"replicate": (1, 1, 2)}, r"replicate\[2\]: the cell does not repeat along this edge"),
+        (
+            {"replicate": (10**6, 10**6, 1)},
+            "replicate: 1000000000000 cells need about 100,000.0 GB",
+        ),
         ({"unwrap": True}, "unwrap: needs bonds, or the columns ix, iy and iz"),
         ({"wrap": True, "unwrap": True}, "unwrap: expected False with wrap=True"),
     ],

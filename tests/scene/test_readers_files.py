@@ -475,8 +475,39 @@ def test_broken(name: str, content: bytes, tmp_path: Path) -> None:
         assert message.startswith(f"{path}: {BROKEN[name]}"), message
 
 
+@pytest.mark.parametrize(
+    ("arrays", "message"),
+    [
+        (
+            {"x": (3,), "y": (2,), "z": (3,)},
+            "column 'y': expected 3 numbers, as column 'x' has, got",
+        ),
+        (
+            {"positions": (4, 2, 3)},
+            r"Particles.positions: must have shape \(n, 3\), got \(4, 2, 3\)",
+        ),
+        (
+            {"pos": (4,), "xyz": (4, 2)},
+            r"Particles.positions: must have shape \(n, 3\), got \(4, 2\)",
+        ),
+    ],
+)
+def test_arrays_of_wrong_shapes(
+    arrays: dict[str, tuple[int, ...]], message: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "a.npz"
+    np.savez(path, **{name: np.zeros(shape) for name, shape in arrays.items()})  # type: ignore[arg-type]
+    with pytest.raises(SceneError, match=message):
+        vtray.read(path)
+
+
 WRONG = [
     ("a.csv", "px,py\n1,2\n", "expected the columns x, y and z, got px, py; name them, as in col"),
+    (
+        "a.csv",
+        "x,y,m\n1,2,3\n",
+        "expected the columns x, y and z, got x, y, m; places in a plane ne",
+    ),
     ("a.csv", "x,y,z\n1,2\n", "line 2: expected 3 entries, got 2"),
     ("a.csv", "x,y,z\n1,2,a\n", "line 2: column 'z': expected numbers, got such as 'a'"),
     ("a.csv", "x,x\n1,2\n", "line 1: expected each column once, got 'x' twice"),
@@ -491,6 +522,7 @@ WRONG = [
     ("a.pdb", PDB.replace("80.00  90.00 110.00", "10.00  90.00 170.00"), "line 1: no cell has"),
     ("a.dump", dump(box="1 2\n3 x\n5 6"), "line 9: expected the bounds of the box, got '1 2 / 3 x"),
     ("a.dump", dump(places="a b c"), "line 9: expected the columns x y z, got 'id type a b c vx"),
+    ("a.dump", dump(places="x y m"), "line 9: expected the columns x y z, got 'id type x y m vx"),
     ("a.dump", dump(one="0 1"), "line 10: expected 9 entries, got 8"),
     ("a.dump", dump().replace("\n2\n", "\n3\n"), "line 11: the file ends after 2 of 3 rows"),
     ("a.dump", "ITEM: TIMESTEP\n0\n", "line 2: the file ends; expected ITEM: ATOMS"),

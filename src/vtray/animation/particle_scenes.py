@@ -12,14 +12,16 @@ from vtray.animation.fading import Opacity
 from vtray.animation.feed import spread
 from vtray.animation.sources import Source
 from vtray.animation.stage import Shot
+from vtray.base.errors import SceneError
 from vtray.rendering.beside import MARGIN, Margin, fit_beside, has_beside
+from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.camera import Camera
 from vtray.scene.colors.color_scale import ColorScale
 from vtray.scene.objects import Object
 from vtray.scene.particles.drawing import Drawn
 from vtray.scene.particles.from_objects import as_particles
 from vtray.scene.particles.particles import Particles
-from vtray.scene.particles.view import MOVING, SAMPLES, SIZE, VIEW, camera_of
+from vtray.scene.particles.view import MOVING, SAMPLES, SIZE, VIEW, camera_of, places_of
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 
@@ -84,10 +86,13 @@ class ParticleScenes:
         has_cell = False
         for given in looked_at:
             particles = as_particles(given)
-            scene, drawn, marks = draw(particles, None, {})
-            shown = particles
+            scene, drawn, of_data = draw(particles, None, {})
             seen.objects += scene.objects
             has_cell |= particles.cell is not None
+            if shown is None or len(drawn.indices):
+                shown, marks = particles, of_data
+            if not len(drawn.indices):
+                continue
             if drawn.color_scale is not None:
                 scales.append(drawn.color_scale)
             categories.update(dict.fromkeys(drawn.categories or ()))
@@ -100,6 +105,8 @@ class ParticleScenes:
             in_order = sorted(categories, key=lambda kind: (isinstance(kind, str), kind))
             self.fixed["categories"] = in_order
         last: list[Object] = []
+        if all(len(item) == 0 for item in seen.objects if isinstance(item, ArrayHolder)):
+            raise SceneError("frames: expected particles, got none")
         if has_beside({**annotate, **marks}):
             scene, _, marks = draw(shown, None, self.fixed)
             last = scene.objects
@@ -151,7 +158,7 @@ class Drawing:
         if camera is not None:
             scene.camera = camera
         elif self._drawn.get("style") == "points":
-            scene.camera = self.fit(particles.positions, particles.cell is not None, MARGIN)
+            scene.camera = self.fit(places_of(particles), particles.cell is not None, MARGIN)
         drawn = {name: value for name, value in self._drawn.items() if value is not None}
         return scene, scene.add_particles(particles, **{**fixed, **drawn}), {}
 

@@ -12,6 +12,8 @@ from vtray.commands.annotation_options import PointLabel, labels_of, value_of
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from numpy.typing import NDArray
+
     from vtray.scene.particles.drawing import Drawn
     from vtray.scene.particles.particles import Particles
     from vtray.scene.scene import Camera, Scene
@@ -33,8 +35,27 @@ def load_data(options: argparse.Namespace) -> "tuple[Scene, dict[str, Any]]":
     SceneError
         The file cannot be read, or what is asked for is not in it.
     """
-    scene, _, marks = draw_data(options, read_particles(options))
-    return scene, marks
+    return shown_data(options, read_particles(options))
+
+
+def shown_data(
+    options: argparse.Namespace, particles: "Particles"
+) -> "tuple[Scene, dict[str, Any]]":
+    """Return a scene of particles as `draw_data` does, and what is painted on it.
+
+    Raises
+    ------
+    SceneError
+        There is nothing to be seen, or what is asked for is not right.
+    """
+    scene, drawn, marks = draw_data(options, particles)
+    if not _is_empty(drawn):
+        return scene, marks
+    if len(particles):
+        words = f"--select: expected some of the {len(particles)} particles, got none"
+    else:
+        words = f"frame {particles.frame}: expected particles, got none, nor a cell"
+    raise SceneError(f"{options.scene}: {words}")
 
 
 def draw_data(
@@ -52,12 +73,12 @@ def draw_data(
     particles
         The particles.
     camera
-        The camera; None for one that shows all of them.
+        The camera; None for one that shows all of them, if there is anything to be seen.
     fixed
         What else `Scene.add_particles` is given, where the options do not say it.
     """
     from vtray.rendering.beside import MARGIN, fit_beside
-    from vtray.scene.particles.view import SIZE, VIEW, camera_of, taken
+    from vtray.scene.particles.view import SIZE, VIEW, camera_of, places_of, taken
     from vtray.scene.scene import Scene
 
     given = data_options.given(options)
@@ -71,30 +92,40 @@ def draw_data(
         if camera is not None:
             scene.camera = camera
         elif drawing.get("style") == "points":
-            scene.camera = camera_of(particles.positions, has_cell, size, MARGIN, **view)
+            scene.camera = camera_of(places_of(particles), has_cell, size, MARGIN, **view)
         if options.background is not None and not isinstance(options.background, str):
             drawing["background"] = options.background
         drawn = scene.add_particles(particles, **drawing)
         marks = _marks(options, drawn, particles)
-        if camera is None:
+        if camera is None and not _is_empty(drawn):
             annotate = {"colorbar": value_of(options, "colorbar"), **marks}
             fit = partial(camera_of, scene, has_cell, size, **view)
             scene.camera = fit_beside(fit, scene.objects, annotate)
-        settings = taken(scene.camera, drawn.spheres, is_alone=camera is None)
-        scene.render = scene.render.replace(**settings)
+            if drawn.style == "points" and drawn.stars is None:
+                # They are as large as its pixels, not as those of the camera before it.
+                scene.objects.clear()
+                drawn = scene.add_particles(particles, **drawing)
+        if not _is_empty(drawn):
+            settings = taken(scene.camera, drawn.spheres, is_alone=camera is None)
+            scene.render = scene.render.replace(**settings)
     except SceneError as error:
         raise SceneError(f"{options.scene}: {error}") from None
     return scene, drawn, marks
+
+
+def _is_empty(drawn: "Drawn") -> bool:
+    """Tell whether there is nothing that a camera could be fitted to."""
+    return not len(drawn.indices) and drawn.cell is None
 
 
 def _marks(options: argparse.Namespace, drawn: "Drawn", particles: "Particles") -> dict[str, Any]:
     """Return what is painted on a picture of particles: a legend, and labels."""
     marks: dict[str, Any] = {}
     if data_options.given(options).get("legend"):
-        if not drawn.legend:
+        if not drawn.legend and len(drawn.indices):
             message = "--legend: colours have no names; --color-bar says what values they stand for"
             raise SceneError(message)
-        marks["legend"] = drawn.legend
+        marks["legend"] = drawn.legend or None
     _, columns = labels_of(options)
     if columns:
         marks["labels"] = [label for name in columns for label in _labels(drawn, particles, name)]
@@ -146,8 +177,8 @@ def describe(options: argparse.Namespace) -> str:
     for name in ("x", "y", "z", *particles.columns):
         values = particles[name]
         kind = "" if values.ndim == 1 else f" of {values.shape[1]}"
-        if values.dtype.kind in "biuf" and values.size:
-            range_ = f"{values.dtype.name}{kind}, from {values.min():g} to {values.max():g}"
+        if values.dtype.kind in "biuf":
+            range_ = f"{values.dtype.name}{kind}{_range_of(values)}"
         else:
             words = [str(word) for word in np.unique(values)[:9].tolist()]
             range_ = f"names{kind}: {', '.join(words[:8])}{', ...' if len(words) > 8 else ''}"
@@ -158,3 +189,13 @@ def describe(options: argparse.Namespace) -> str:
         for name, edge in zip("abc", particles.cell.tolist(), strict=True):
             lines.append(f"{'cell ' + name:12}{', '.join(f'{part:g}' for part in edge)}")
     return "\n".join(lines) + "\n"
+
+
+def _range_of(values: "NDArray[Any]") -> str:
+    """Say from where to where numbers go, and how many are none, to follow their type."""
+    import numpy as np
+
+    known = values[~np.isnan(values)] if values.dtype.kind == "f" else values
+    words = f", from {known.min():g} to {known.max():g}" if known.size else ""
+    missing = values.size - known.size
+    return f"{words}, {missing} NaN" if missing else words

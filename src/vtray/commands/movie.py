@@ -23,7 +23,7 @@ from vtray.base.signals import LastStep
 from vtray.commands import data_options
 from vtray.commands.annotation_options import annotations_of
 from vtray.commands.command import print_note
-from vtray.commands.data_scene import draw_data, read_particles
+from vtray.commands.data_scene import draw_data, read_particles, shown_data
 from vtray.commands.movie_options import FPS
 from vtray.commands.options import settings_of
 from vtray.rendering.beside import Margin
@@ -114,7 +114,7 @@ def _make(options: argparse.Namespace, film: Film, load: "Callable[[], Scene] | 
         go_around(film, scene, *camera_around(scene, film.look), seconds)
     else:
         particles = read_particles(options)
-        scene, _, marks = draw_data(options, particles)
+        scene, marks = shown_data(options, particles)
         zoom = data_options.given(options).get("zoom", 1.0)
         start = upright(scene.camera, TILT)
         camera, about = around_beside(scene, start, {**film.look.annotate, **marks}, zoom)

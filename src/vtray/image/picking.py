@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import RenderError
 from vtray.scene.copies import Copies
-from vtray.scene.particles.made_of import made_of
+from vtray.scene.particles.made_of import copy_of, made_of
 
 if TYPE_CHECKING:
     from vtray.image.rendered import Rendered
@@ -59,16 +59,19 @@ def pick(image: "Rendered", x: int, y: int) -> Pick | None:
     place, index = (int(part) for part in image.ids[row, column])
     if place < 0:
         return None
-    copy = int(image.copies[row, column])
+    copy, half = int(image.copies[row, column]), int(image.halves[row, column])
     item: Any = image.scene.objects[place]
-    within = index
+    within, copies = index, None
     if isinstance(item, Copies):
         part, within = item.locate(index)
-        item = item.objects[part]
+        item, copies = item.objects[part], item
     source, particle, kind, values = made_of(item), None, None, {}
     if source is not None:
-        particle = source.particle(within, int(image.halves[row, column]))
+        particle = source.particle(within, half)
         kind, values = source.kind, source.values(particle)
-        copy = source.image(within) if copy == NONE else copy
+        if copies is None:
+            copy = source.image(within, half)
+        else:
+            copy = copy_of(copies, copy, source, within, half)
     distance = float(image.depth[row, column])
     return Pick(place, index, None if copy == NONE else copy, distance, particle, kind, values)

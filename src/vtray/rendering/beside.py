@@ -7,7 +7,7 @@ import numpy as np
 
 from vtray.figures.annotations import Annotations
 from vtray.figures.brightness_scale import BrightnessScale
-from vtray.figures.painted.picture import share_beside
+from vtray.figures.painted.picture import MOST_BESIDE, share_beside
 from vtray.rendering.starlight import peak_of
 from vtray.scene.camera import Camera
 from vtray.scene.objects import Object
@@ -18,9 +18,6 @@ MARKS = ("legend", "colorbar")
 
 MARGIN = 0.05
 """What stays free at each side, as a share of width and height."""
-
-MOST_BESIDE = 0.4
-"""The share of the width from which on a legend stands on what is shown, so that it stays large."""
 
 Margin = float | tuple[float, float, float, float]
 """As for `Camera.fit`."""

@@ -46,12 +46,11 @@ from vtray.rendering.starlight import Starlight, check_stars, has_stars
 from vtray.rendering.styled import styled
 from vtray.rendering.surfaces import Look
 from vtray.scene.checks.unknown_names import explain_unknown
-from vtray.scene.default_light import lights_of, settings_of
+from vtray.scene.default_light import lights_of, lit_objects, settings_of
 from vtray.scene.files.scene_file import Warn
 from vtray.scene.light_types import AnyLight, strength_of
 from vtray.scene.scene import Camera, Scene
 from vtray.scene.settings import RenderSettings, overridden
-from vtray.scene.stars import Stars
 
 Progress = Callable[[str, int, int], None]
 
@@ -330,8 +329,11 @@ def _problems(scene: Scene, settings: RenderSettings, *, keep_lights: bool) -> t
 
 def _darkness(scene: Scene, *, keep_lights: bool) -> str:
     """Say why all that is seen is black, if that is known before; "" if it is not."""
-    seen = [item for item in scene.objects if not isinstance(item, Stars)]
-    if not seen or any(strength_of(light) > 0 for light in scene.lights) or shines(scene):
+    if (
+        not lit_objects(scene)
+        or any(strength_of(light) > 0 for light in scene.lights)
+        or shines(scene)
+    ):
         return ""
     if not scene.lights:
         remedy = "add one by scene.add_light, or some of vtray.lights; in a file, under that key"

@@ -1,7 +1,9 @@
 """How scenes look whose lights were never set: as in a studio, with a white wall behind."""
 
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
+from vtray.scene.arrays import Arrays
+from vtray.scene.copies import Copies
 from vtray.scene.light_presets import studio
 from vtray.scene.light_types import Ambient, AnyLight, NeverSet
 from vtray.scene.objects import Plane
@@ -9,6 +11,9 @@ from vtray.scene.settings import RenderSettings
 from vtray.scene.stars import Stars
 from vtray.scene.studio import HasCamera
 from vtray.scene.vectors import Color
+
+if TYPE_CHECKING:
+    from vtray.scene.objects import Object
 
 
 class HasLights(HasCamera, Protocol):
@@ -33,14 +38,26 @@ def lights_of(scene: HasLights) -> list[AnyLight]:
     """Return the lights of a checked scene; those of `vtray.lights.studio` if none were ever set.
 
     Without anything for a studio to be built around, planes alone, all light is ambient; points
-    that shine need none.
+    that shine need none, nor does what has no objects in it.
     """
-    kinds = set(map(type, scene.objects)) - {Stars}
+    kinds = set(map(type, lit_objects(scene)))
     if not has_default_light(scene) or not kinds:
         return list(scene.lights)
     if kinds == {Plane}:
         return [Ambient()]
     return studio(scene)
+
+
+def lit_objects(scene: HasCamera) -> "list[Object]":
+    """Return the objects that light falls on: points that shine, and what holds none, need none."""
+    return [item for item in scene.objects if not isinstance(item, Stars) and not _is_empty(item)]
+
+
+def _is_empty(item: object) -> bool:
+    """Tell whether an object is one of many that holds none."""
+    if isinstance(item, Copies):
+        return len(item) == 0 or all(map(_is_empty, item.objects))
+    return isinstance(item, Arrays) and len(item) == 0
 
 
 def settings_of(scene: HasSettings) -> RenderSettings:

@@ -9,6 +9,7 @@ from vtray.figures.annotations import Annotations, Marks, find_marks, marks_besi
 from vtray.figures.brightness_scale import LABEL, BrightnessScale
 from vtray.figures.painted.canvas import Canvas
 from vtray.figures.painted.layout import MARGIN, Placed, arranged
+from vtray.figures.painted.legend import PaintedLegend
 from vtray.figures.painted.letters import check_letters, letters
 from vtray.figures.painted.words import Words
 from vtray.figures.point_labels import Label
@@ -26,6 +27,12 @@ LEGIBLE = 11
 
 LEAST = 7
 """The least size with which all is still written, in pixels."""
+
+MOST_BESIDE = 0.4
+"""The share of the width from which on a legend stands on what is shown, so that it stays large."""
+
+SMALLER = 0.5
+"""How small letters may become for a long legend to take less than that, in their usual size."""
 
 
 def annotated_pixels(image: Subject, wanted: Annotations, fontsize: float | None = None) -> Pixels:
@@ -68,12 +75,28 @@ def annotated_pixels(image: Subject, wanted: Annotations, fontsize: float | None
 def _largest(
     marks: Marks, fontsize: float | None, width: int, height: int
 ) -> tuple[list[Placed], int] | None:
-    """Return where marks stand, and the largest size of letters with which there is room."""
-    for em in _sizes(fontsize, width, height):
+    """Return where marks stand, and the largest size of letters with which there is room.
+
+    There is room beside what is shown, for a legend too, unless letters would have to be tiny.
+    """
+    largest = None
+    sizes = [*_sizes(fontsize, width, height)]
+    for em in sizes:
         placed = arranged(marks, em, width, height)
-        if placed is not None:
+        if placed is None:
+            continue
+        if _leaves_room(placed, em, width):
             return placed, em
-    return None
+        largest = largest or (placed, em)
+        if em <= max(LEGIBLE, SMALLER * sizes[0]):
+            break
+    return largest
+
+
+def _leaves_room(placed: list[Placed], em: int, width: int) -> bool:
+    """Tell whether what is shown has room beside a legend."""
+    legends = (one for one in placed if isinstance(one.block, PaintedLegend))
+    return all(_share_of(one, em, width) < MOST_BESIDE for one in legends)
 
 
 def share_beside(
@@ -109,7 +132,12 @@ def share_beside(
     placed, em = next(filter(None, all_found), ([], 0))
     if not placed:
         return 0.0
-    return 1.0 - min(one.left for one in placed) / width + round(MARGIN * em) / width
+    return max(_share_of(one, em, width) for one in placed)
+
+
+def _share_of(one: Placed, em: int, width: int) -> float:
+    """Return the share of a picture's width from a mark and a gap before it to its right edge."""
+    return 1.0 - one.left / width + round(MARGIN * em) / width
 
 
 def _checked(marks: Marks) -> Marks:

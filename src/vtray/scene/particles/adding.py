@@ -145,10 +145,10 @@ class AddingParticles:
             memory.
         boundary
             Whether particles on faces, edges and corners of the cell, or of the block of cells, are
-            shown on the opposite ones, too, with their halves of all their bonds. On a face is what
-            is at most a thousandth of the cell's edge away from it, along the edge; a number is
-            another part, up to 0.5, so that 0.1 shows a tenth of a cell more on each side. What
-            lies outside the cell is not repeated: `wrap` brings it in.
+            shown on the opposite ones, too, and only bonds between what is shown are drawn, whole.
+            On a face is what is at most a thousandth of the cell's edge away from it, along the
+            edge; a number is another part, up to 0.5, so that 0.1 shows a tenth of a cell more on
+            each side. What lies outside the cell is not repeated: `wrap` brings it in.
         wrap
             Whether particles outside the cell are brought into it.
         unwrap

@@ -31,13 +31,16 @@ class Images(NamedTuple):
     ----------
     particles
         Which ones, (n,).
+    shifts
+        By how many edges of the cell each is moved, (n, 3).
     steps
-        By how much each is moved, (n, 3), in the unit of the positions.
+        The same in the unit of the positions.
     copies
         Where the cell is shown several times, in which of its copies the repeated one is, (n,).
     """
 
     particles: Integers
+    shifts: Integers
     steps: Floats
     copies: Integers
 
@@ -117,4 +120,4 @@ def images_on_boundary(
     zeros = [np.zeros(len(shift))] * 3
     steps = np.stack(lattice.moved(zeros, list(shift.T)), axis=1)
     copies = np.ravel_multi_index((shift % times).T, times)
-    return Images(np.concatenate(indices), steps, copies)
+    return Images(np.concatenate(indices), shift, steps, copies)

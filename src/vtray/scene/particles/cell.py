@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
 from vtray.base.exact_math import hypotenuse
+from vtray.base.memory import lack_of_memory
 from vtray.scene.checks.scene_words import show
 from vtray.scene.particles.bonds import Bonds
 from vtray.scene.particles.lattice import columns_of, lattice_from, lattice_of
@@ -23,6 +24,9 @@ THIN = 0.0035
 
 IMAGES = (("ix", "iy", "iz"),)
 """Names of columns that say how many cells away a particle is from where it stands."""
+
+_BYTES = 100
+"""Of memory for each copy of a cell while they are placed."""
 
 _CORNERS = tuple(product((0.0, 1.0), repeat=3))
 _EDGES = tuple(
@@ -180,14 +184,20 @@ def translations(particles: "Particles", times: tuple[int, int, int]) -> Floats:
     Raises
     ------
     SceneError
-        There is no cell, or it does not repeat along an edge.
+        There is no cell, it does not repeat along an edge, or there is no memory for so many.
     """
     lattice = lattice_of(particles)
+    if lattice is None and max(times) > 1:
+        raise SceneError("replicate: there is no cell that repeats")
     for k, count in enumerate(times):
-        if count > 1 and (lattice is None or not lattice.periodic[k]):
+        if count > 1 and lattice is not None and not lattice.periodic[k]:
             raise SceneError(f"replicate[{k}]: the cell does not repeat along this edge")
     if lattice is None:
         return np.zeros((1, 3))
+    count = times[0] * times[1] * times[2]
+    lack = lack_of_memory(_BYTES * count)
+    if lack:
+        raise SceneError(f"replicate: {count} cells need about {lack}")
     steps = list(np.indices(times).reshape(3, -1))
     zeros = [np.zeros(len(steps[0]))] * 3
     return np.stack(lattice.moved(zeros, steps), axis=1)

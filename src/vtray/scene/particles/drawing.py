@@ -11,6 +11,7 @@ from vtray.base.errors import SceneError
 from vtray.scene.checks.scene_words import show
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
+from vtray.scene.particles.bond_objects import Between, BondObjects
 from vtray.scene.particles.bonds import Bonds, bonds_between, find_bonds
 from vtray.scene.particles.boundary import Images, images_on_boundary, tolerance_of
 from vtray.scene.particles.cell import (
@@ -24,12 +25,12 @@ from vtray.scene.particles.cell import (
 from vtray.scene.particles.coloring import Coloring, color_particles, faded
 from vtray.scene.particles.expression import mask
 from vtray.scene.particles.from_objects import as_particles
-from vtray.scene.particles.hydrogen_bonds import criterion_of, dashes, find_hydrogen_bonds
-from vtray.scene.particles.made_of import MadeOf, remember, repeated, written_out
+from vtray.scene.particles.hydrogen_bonds import DASHES, criterion_of, find_hydrogen_bonds
+from vtray.scene.particles.made_of import MadeOf, remember, remember_ends, repeated, written_out
 from vtray.scene.particles.opacity import opacities, see_through
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.shining import check_shining, shining
-from vtray.scene.particles.sticks import sticks
+from vtray.scene.particles.shown_bonds import Times, crossing, within_cell
 from vtray.scene.particles.styles import (
     COVERED,
     STYLES,
@@ -80,10 +81,13 @@ class Drawn:
         The particles; none where they shine.
     bonds : Cylinders or None
         The bonds: first those that are whole, then the halves of those that cross the border.
+        Where far faces show particles again, those within a cell.
     hydrogen_bonds : Cylinders or None
-        The hydrogen bonds: six dashes for each.
+        The hydrogen bonds, six dashes for each; as `bonds`.
     boundary : tuple of Spheres, Cylinders or None, and Cylinders or None; or None
-        The particles that far faces of the cell show again, with their bonds and hydrogen bonds.
+        The particles that far faces of the cell show again, and all bonds and hydrogen bonds
+        that lead to them or from one cell to another. Where there are `copies`, those between
+        cells are `Copies`, too, which follow it in the scene.
     cell : tuple of Cylinders and Spheres, or None
         The cell's edges, and its corners.
     copies : Copies or None
@@ -133,6 +137,8 @@ class _Placed(NamedTuple):
         Which are drawn, (k,).
     places
         Translations of the copies of all, (m, 3).
+    times
+        How many times the cell is shown along each of its edges.
     images
         Which of them are shown again on the boundary; None if that is not asked for.
     """
@@ -142,7 +148,19 @@ class _Placed(NamedTuple):
     hydrogen_bonds: Bonds | None
     rows: Integers
     places: Floats
+    times: Times
     images: Images | None
+
+    @property
+    def stands_as_copies(self) -> bool:
+        """Whether several cells are shown that have too many objects to be written out."""
+        count = len(self.rows)
+        if self.bonds is not None:
+            count += len(self.bonds) + len(crossing(self.bonds))
+        if self.hydrogen_bonds is not None:
+            count += 2 * DASHES * len(self.hydrogen_bonds)
+        most = WRITTEN_OUT // max(count, 1)
+        return len(self.places) > 1 and len(self.places) > most
 
 
 class _Solid(NamedTuple):
@@ -172,14 +190,6 @@ class _Solid(NamedTuple):
             None if part is None else written_out(part, places) for part in others
         )
         return _Solid(written_out(spheres, places), bonds, hydrogen_bonds)
-
-    def repeated(self, images: Images) -> "_Solid":
-        """Return what belongs to particles that are shown again."""
-        spheres, *others = self
-        bonds, hydrogen_bonds = (
-            None if part is None else repeated(part, *images) for part in others
-        )
-        return _Solid(repeated(spheres, *images), bonds, hydrogen_bonds)
 
 
 def draw(
@@ -235,10 +245,10 @@ def draw(
         scene.objects.append(stars)
     else:
         stars = None
-        solid, again = _solid(
+        solid, again, between = _solid(
             particles, placed, found, name, radii, size, bond_radius, camera or scene.camera
         )
-        solid, again, copies = _add(scene, solid, again, placed.places, seen_through)
+        solid, again, copies = _add(scene, solid, again, between, placed, seen_through)
     edges = None
     if cell if cell is not None else particles.cell is not None and not shines:
         edges = _edges(particles, times)
@@ -258,37 +268,36 @@ def _solid(
     scale: float,
     bond_radius: float | None,
     camera: "Camera | None",
-) -> tuple[_Solid, _Solid | None]:
-    """Return particles, bonds and hydrogen bonds as objects, and those on the boundary.
+) -> tuple[_Solid, _Solid | None, list[Between]]:
+    """Return particles, bonds and hydrogen bonds as objects, and those on and across the boundary.
 
-    They are without the copies of their cell.
+    The first are without the copies of their cell.
     """
     radius = _radii(particles, style, radii, scale, placed, camera)
     balls = _spheres(particles, placed, radius, found)
-    whole = halves = dashed = None
-    if placed.bonds is not None or placed.hydrogen_bonds is not None:
+    bonds, times = (placed.bonds, placed.hydrogen_bonds), placed.times
+    thick = 0.0
+    if bonds != (None, None):
         thick = stick_radius(particles, style, radii, scale)
         if bond_radius is not None:
             thick = _number(bond_radius, "bond_radius")
-        if placed.bonds is not None:
-            drawn = particles, placed.positions, placed.rows, placed.bonds
-            whole = sticks(*drawn, thick, radius, found.colors)
-            if placed.images is not None:
-                halves = sticks(*drawn, thick, radius, found.colors, halves=True)
-        if placed.hydrogen_bonds is not None:
-            dashed = dashes(particles, placed.positions, placed.hydrogen_bonds, thick)
-    again = None
-    if placed.images is not None:
-        # Each has its halves of its bonds, which meet those of its neighbours.
-        again = _Solid(balls, halves, dashed).repeated(placed.images)
-    return _Solid(balls, whole, dashed), again
+    made = BondObjects(particles, placed.positions, placed.rows, thick, radius, found.colors)
+    if placed.images is None:
+        return _Solid(balls, *made.of_cell(*bonds)), None, []
+    one, two = (None if some is None else within_cell(some) for some in bonds)
+    solid = _Solid(balls, *made.of_cell(one, two))
+    alone = not placed.stands_as_copies
+    beyond = made.beyond(*bonds, placed.images, times, between=alone)
+    again = _Solid(_again(balls, placed.images), *beyond)
+    return solid, again, [] if alone else made.between(*bonds, times)
 
 
 def _add(
     scene: HasObjects,
     solid: _Solid,
     again: _Solid | None,
-    places: Floats,
+    between: Sequence[Between],
+    placed: _Placed,
     seen_through: Floats | None,
 ) -> tuple[_Solid, _Solid | None, Copies | None]:
     """Add objects to a scene, at all places; return what they have become.
@@ -297,10 +306,10 @@ def _add(
     ----------
     scene
         The scene.
-    solid, again
-        Those of a cell, and those on the boundary.
-    places
-        Translations of the copies of the cell, (m, 3).
+    solid, again, between
+        Those of a cell, those on the boundary, and what joins copies of the cell.
+    placed
+        Where these are.
     seen_through
         How opaque particles are, (n,), if they are not.
     """
@@ -308,16 +317,24 @@ def _add(
         solid = solid.see_through(seen_through)
         again = None if again is None else again.see_through(seen_through)
     copies = None
-    beside = [] if again is None else [part for part in again.parts if len(part)]
-    if 1 < len(places) <= WRITTEN_OUT // max(sum(map(len, solid.parts)), 1):
-        solid = solid.written_out(places)
-    elif len(places) > 1:
-        copies = Copies(solid.parts, places)
-    if copies is None and seen_through is not None and len(solid.parts + beside) > 1:
+    parts = [] if again is None else [part for part in again.parts if len(part)]
+    joining = [_joining(some, placed.places, seen_through) for some in between]
+    if placed.stands_as_copies:
+        copies = Copies(solid.parts, placed.places)
+    elif len(placed.places) > 1:
+        solid = solid.written_out(placed.places)
+    if copies is None and seen_through is not None and len(solid.parts + parts) > 1:
         # One object, so that balls and bonds are one body.
-        copies, beside = Copies(solid.parts + beside, np.zeros((1, 3))), []
-    scene.objects.extend([*(solid.parts if copies is None else [copies]), *beside])
+        copies, parts = Copies(solid.parts + parts, np.zeros((1, 3))), []
+    scene.objects.extend([*(solid.parts if copies is None else [copies]), *joining, *parts])
     return solid, again, copies
+
+
+def _joining(between: Between, places: Floats, seen_through: Floats | None) -> Copies:
+    """Return what joins copies of the cell, which stand at places, (m, 3)."""
+    part, ends = between
+    part = part if seen_through is None else see_through(part, seen_through)
+    return remember_ends(Copies(part, places[ends[:, 0]]), ends)
 
 
 def chosen(particles: Particles, given: Any, name: str) -> NDArray[np.bool_]:  # noqa: ANN401
@@ -331,7 +348,7 @@ def chosen(particles: Particles, given: Any, name: str) -> NDArray[np.bool_]:  #
     if given is None:
         return np.ones(len(particles), np.bool_)
     if isinstance(given, str):
-        return mask(particles, given)
+        return mask(particles, given, name)
     found = np.asarray(given)
     if found.dtype != np.bool_ or found.shape != (len(particles),):
         words = f"expected an expression, or an array of {len(particles)} bool"
@@ -374,7 +391,8 @@ def _place(
     tolerance, images = tolerance_of(boundary), None
     if tolerance is not None:
         images = images_on_boundary(particles, positions, rows, times, tolerance)
-    return _Placed(positions, found, hydrogen_bonds, rows, translations(particles, times), images)
+    places = translations(particles, times)
+    return _Placed(positions, found, hydrogen_bonds, rows, places, times, images)
 
 
 def _among(bonds: Bonds | None, drawn: NDArray[np.bool_]) -> Bonds | None:
@@ -387,6 +405,9 @@ def _among(bonds: Bonds | None, drawn: NDArray[np.bool_]) -> Bonds | None:
 def _bonds_of(particles: Particles, bonds: Any) -> Bonds:  # noqa: ANN401
     """Return the bonds that are asked for."""
     if bonds is True:
+        if "element" not in particles.columns and len(particles):
+            words = "which ones there are follows from elements, and there is no column element"
+            raise SceneError(f"bonds: {words}; give a length, as bonds=2.5 or --cutoff 2.5")
         return find_bonds(particles)
     if isinstance(bonds, str) and bonds == "file":
         if particles.bonds is None:
@@ -428,6 +449,11 @@ def _spheres(
     positions = placed.positions if whole else placed.positions[placed.rows]
     spheres = Spheres(positions, radius, found.colors).with_scale(found.scale)
     return remember(spheres, MadeOf(particles, placed.rows, "particle"))
+
+
+def _again(balls: Spheres, images: Images) -> Spheres:
+    """Return the balls of particles that are shown again."""
+    return repeated(balls, images.particles, images.steps, images.copies)
 
 
 def _edges(particles: Particles, times: tuple[int, int, int]) -> tuple[Cylinders, Spheres]:

@@ -66,7 +66,7 @@ class Table(Protocol):
         """Places, (n, 3)."""
 
 
-def mask(particles: Table, expression: str) -> "Mask":
+def mask(particles: Table, expression: str, name: str = "select") -> "Mask":
     """Tell for which particles an expression is true.
 
     Its names are ``x``, ``y``, ``z``, ``position``, ``index`` (from 0) and the columns; ``force.x``
@@ -82,6 +82,8 @@ def mask(particles: Table, expression: str) -> "Mask":
         What has the columns.
     expression
         The text.
+    name
+        What messages begin with.
 
     Returns
     -------
@@ -98,33 +100,37 @@ def mask(particles: Table, expression: str) -> "Mask":
 
     text = re.sub(r"\s", " ", expression).strip()
     if len(text) > _LONGEST:
-        raise SceneError(f"select: longer than {_LONGEST} characters: {short(text)!r}")
+        raise SceneError(f"{name}: longer than {_LONGEST} characters: {short(text)!r}")
     try:
         tree = ast.parse(text, mode="eval")
     except SyntaxError as error:
         place = error.offset or 1
-        raise _problem(text, place, f"not understood: {error.msg}") from None
+        words = f"not understood: {error.msg}"
+        if _has_lone_equals(text, place):
+            words = "not understood: =; whether both are equal, == tells"
+        raise _problem(name, text, place, words) from None
     except (ValueError, RecursionError, MemoryError) as error:
-        raise _problem(text, 1, f"not understood: {error}") from None
+        raise _problem(name, text, 1, f"not understood: {error}") from None
     try:
         with np.errstate(all="ignore"):
-            found = _Steps(particles, text).value(tree.body)
+            found = _Steps(particles, text, name).value(tree.body)
     except RecursionError:
-        raise _problem(text, 1, "too many brackets within brackets") from None
+        raise _problem(name, text, 1, "too many brackets within brackets") from None
     count = len(particles.positions)
     if isinstance(found, (bool, np.bool_)):
         return np.full(count, bool(found))
     if not _is_truth(found):
-        raise _problem(text, 1, "expected something true or false, such as z > 0")
+        raise _problem(name, text, 1, "expected something true or false, such as z > 0")
     return np.asarray(found, np.bool_)
 
 
 class _Steps:
     """Works out an expression."""
 
-    def __init__(self, particles: Table, text: str) -> None:
+    def __init__(self, particles: Table, text: str, name: str) -> None:
         self._particles = particles
         self._text = text
+        self._begin = name
 
     def value(self, node: ast.expr) -> Any:  # noqa: ANN401
         """Return the value of a part: an array, a number, a name or a truth."""
@@ -326,7 +332,7 @@ class _Steps:
     def _wrong(self, node: ast.expr, problem: str) -> SceneError:
         # The parser counts bytes.
         before = self._text.encode()[: node.col_offset].decode()
-        return _problem(self._text, len(before) + 1, problem)
+        return _problem(self._begin, self._text, len(before) + 1, problem)
 
 
 def _is_truth(found: Any) -> bool:  # noqa: ANN401
@@ -345,6 +351,11 @@ def _is_text(found: Any) -> bool:  # noqa: ANN401
     )
 
 
-def _problem(text: str, place: int, problem: str) -> SceneError:
+def _has_lone_equals(text: str, place: int) -> bool:
+    """Tell whether an = stands alone near a place in an expression, counted from 1."""
+    return re.search(r"(?<![<>=!])=(?!=)", text[max(place - 2, 0) :]) is not None
+
+
+def _problem(name: str, text: str, place: int, problem: str) -> SceneError:
     """Give the error for an expression."""
-    return SceneError(f"select {short(text, 80)!r}: at {place}: {problem}")
+    return SceneError(f"{name} {short(text, 80)!r}: at {place}: {problem}")

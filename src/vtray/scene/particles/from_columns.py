@@ -45,18 +45,21 @@ def from_columns(
     positions: Any
     left = renamed(columns, called or {})
     places = {name.lower(): name for name in reversed(left)}
-    whole = [name for name in left if canonical(name) == "position" and left[name].ndim == 2]
+    whole = [name for name in left if canonical(name) == "position"]
     if all(name in places for name in POSITION):
         for name in POSITION:
             _check_numbers(left[places[name]], places[name], place_of)
         parts = [left.pop(places[name]) for name in POSITION]
+        _check_lengths(parts, [places[name] for name in POSITION])
         kind = np.float32 if all(part.dtype == np.float32 for part in parts) else np.float64
         positions = np.stack(parts, axis=1).astype(kind, copy=False)
     elif whole:
-        positions = left.pop(whole[0])
+        positions = left.pop(min(whole, key=lambda name: left[name].ndim != 2))
     else:
         known = short(", ".join(columns), 100) or "none"
         remedy = 'name them, as in columns={"x": "px", "y": "py", "z": "pz"}'
+        if "x" in places and "y" in places:
+            remedy = "places in a plane need a column z of zeros"
         raise SceneError(f"expected the columns x, y and z, got {known}; {remedy}")
     return Particles(positions, name_columns(left))
 
@@ -93,6 +96,15 @@ def _check_numbers(part: "Array", name: str, place_of: Callable[[int, str], str]
     if not is_finite.all():
         row = int(np.argmin(is_finite))
         raise SceneError(f"{place_of(row, name)}: must be finite, got {part[row]}")
+
+
+def _check_lengths(parts: "list[Array]", names: list[str]) -> None:
+    """Raise SceneError if one of the columns of places is not as long as the first."""
+    first, count = names[0], len(parts[0])
+    for part, name in zip(parts, names, strict=True):
+        if len(part) != count:
+            words = f"expected {count} numbers, as column {first!r} has, got {len(part)}"
+            raise SceneError(f"column {name!r}: {words}")
 
 
 def _is_number(entry: object) -> bool:

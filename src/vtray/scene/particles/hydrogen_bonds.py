@@ -12,11 +12,13 @@ from vtray.scene.cylinders import Cylinders
 from vtray.scene.particles.bonds import Bonds, bonds_between, find_bonds
 from vtray.scene.particles.lattice import columns_of, lattice_of
 from vtray.scene.particles.made_of import MadeOf, remember
+from vtray.scene.particles.shown_bonds import Standing
 
 if TYPE_CHECKING:
     from vtray.scene.particles.particles import Particles
 
 Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
 
 LENGTH = 2.5
 """How far a hydrogen and its acceptor are apart at the most, in ångström."""
@@ -202,13 +204,43 @@ def dashes(
         The radius of covalent bonds, in the unit of the positions.
     """
     ways = np.stack(steps_of(particles, bonds, positions), axis=1)
-    ends = [(bonds.pairs[:, 0], ways), (bonds.pairs[:, 1], -ways)]
+    near, far = (positions[rows] for rows in bonds.pairs.T)
+    made, indices = _dashed(near, far, ways, bonds.pairs, stick)
+    return remember(made, MadeOf(particles, indices, "hydrogen bond"))
+
+
+def whole_dashes(
+    particles: "Particles", positions: NDArray[Any], bonds: Standing, stick: float
+) -> Cylinders:
+    """Return hydrogen bonds as dashes, all of them whole, as `dashes` does."""
+    near, far = bonds.ends(particles, positions)
+    made, indices = _dashed(near, far, far - near, bonds.bonds.pairs, stick)
+    copies = np.repeat(bonds.copies.T, DASHES, axis=0).ravel()
+    return remember(made, MadeOf(particles, indices, "hydrogen bond", copies))
+
+
+def _dashed(
+    near: NDArray[Any], far: NDArray[Any], ways: Floats, pairs: Integers, stick: float
+) -> tuple[Cylinders, Integers]:
+    """Return dashes from both ends of bonds, and the particle that each belongs to, twice.
+
+    Parameters
+    ----------
+    near, far
+        Where the ends are, (m, 3).
+    ways
+        From the first particle to the second, (m, 3).
+    pairs
+        Which particles they are, (m, 2).
+    stick
+        The radius of covalent bonds.
+    """
     starts, stops, indices = [], [], []
-    for rows, way in ends:
+    for rows, points, way in zip(pairs.T, (near, far), (ways, -ways), strict=True):
         for k in range(DASHES):
             begin, end = ((k + share) / (2 * DASHES) for share in (0.25, 0.75))
-            starts.append(positions[rows] + begin * way)
-            stops.append(positions[rows] + end * way)
+            starts.append(points + begin * way)
+            stops.append(points + end * way)
             indices.append(np.stack([rows, rows], axis=1))
     made = Cylinders(np.concatenate(starts), np.concatenate(stops), SLIM * stick, COLOR)
-    return remember(made, MadeOf(particles, np.concatenate(indices), "hydrogen bond"))
+    return made, np.concatenate(indices)

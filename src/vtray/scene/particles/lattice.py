@@ -93,7 +93,7 @@ def lattice_of(particles: "Particles") -> Lattice | None:
     Raises
     ------
     SceneError
-        The edges along which the cell repeats lie in one plane, or one has no length.
+        The edges lie in one plane.
     """
     if particles.cell is None or not any(particles.periodic or ()):
         return None
@@ -106,13 +106,10 @@ def lattice_from(particles: "Particles") -> Lattice:
     Raises
     ------
     SceneError
-        The edges lie in one plane, or one along which the cell repeats has no length.
+        The edges lie in one plane.
     """
     periodic = particles.periodic or (False, False, False)
     given = [_triple(row) for row in particles.cell]  # type: ignore[union-attr]
-    for k, edge in enumerate(given):
-        if periodic[k] and not any(edge):
-            raise SceneError(f"Particles.cell[{k}]: must have a length, as the cell repeats there")
     a, b, c = edges = _completed(given)
     volume = dot(a, cross(b, c))
     if not abs(volume) > FLAT * hypotenuse(*a) * hypotenuse(*b) * hypotenuse(*c):

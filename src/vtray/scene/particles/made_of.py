@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from vtray.scene.copies import Copies
     from vtray.scene.particles.particles import Particles
 
     Integers = NDArray[np.int64]
@@ -32,8 +33,8 @@ class MadeOf(NamedTuple):
     kind
         What the objects stand for.
     copies
-        At which of several places stands what each object repeats, (n,); None where it is told by
-        their order.
+        At which of several places stands what each object repeats, (n,), or each of its two ends,
+        (n, 2); None where it is told by their order.
     """
 
     particles: "Particles"
@@ -46,9 +47,12 @@ class MadeOf(NamedTuple):
         row = self.indices[index % len(self.indices)]
         return int(row if self.indices.ndim == 1 else row[half])
 
-    def image(self, index: int) -> int:
-        """Return at which of several places an object stands."""
-        return index // len(self.indices) if self.copies is None else int(self.copies[index])
+    def image(self, index: int, half: int) -> int:
+        """Return at which of several places an object stands; of a cylinder, one of its ends."""
+        if self.copies is None:
+            return index // len(self.indices)
+        row = self.copies[index]
+        return int(row if self.copies.ndim == 1 else row[half])
 
     def values(self, particle: int) -> dict[str, Any]:
         """Return what is known of a particle, by name: its place, and its columns."""
@@ -78,12 +82,12 @@ def written_out(item: Kind, places: "NDArray[np.float64]") -> Kind:
 
 
 def repeated(item: Kind, which: Integers, steps: "NDArray[np.float64]", copies: Integers) -> Kind:
-    """Return what of objects belongs to particles that are shown again.
+    """Return the balls of particles that are shown again.
 
     Parameters
     ----------
     item
-        The objects; cylinders belong to the particle at their start.
+        The balls, one of each particle that is drawn.
     which
         The particles, (n,).
     steps
@@ -95,21 +99,16 @@ def repeated(item: Kind, which: Integers, steps: "NDArray[np.float64]", copies: 
 
     source = made_of(item)
     assert source is not None  # noqa: S101 - they are made of particles
-    owner = source.indices if source.indices.ndim == 1 else source.indices[:, 0]
-    order = np.argsort(owner, kind="stable")
-    first, end = (np.searchsorted(owner[order], which, side=side) for side in ("left", "right"))
-    count = end - first
-    image = np.repeat(np.arange(len(which)), count)
-    rows = order[np.arange(len(image)) + np.repeat(end - np.cumsum(count), count)]
+    rows = np.searchsorted(source.indices, which)
     changed = {}
     for name, column in item.COLUMNS.items():
         value = getattr(item, name)
         if column is POINT:
-            changed[name] = value[rows] + steps[image]
+            changed[name] = value[rows] + steps
         elif getattr(value, "ndim", 0) == (2 if column.kind is Byte else 1):
             changed[name] = value[rows]
     made: Kind = item.replace(**changed).with_scale(item.color_scale)
-    return remember(made, source._replace(indices=source.indices[rows], copies=copies[image]))
+    return remember(made, source._replace(indices=which, copies=copies))
 
 
 def remember(item: Kind, source: MadeOf) -> Kind:
@@ -122,3 +121,30 @@ def made_of(item: object) -> MadeOf | None:
     """Return what objects were made of; None where that is not known."""
     found: MadeOf | None = getattr(item, "__dict__", {}).get("made_of_")
     return found
+
+
+def remember_ends(item: "Copies", copies: Integers) -> "Copies":
+    """Let copies of bonds remember in which cells the two ends of each are, (k, 2)."""
+    item.__dict__["ends_"] = copies
+    return item
+
+
+def copy_of(item: "Copies", place: int, source: MadeOf, within: int, half: int) -> int:
+    """Return which copy of a cell something is in that stands at one of the places of copies.
+
+    Parameters
+    ----------
+    item
+        The copies.
+    place
+        At which of their places it stands.
+    source, within
+        What the objects were made of, and which of these it is.
+    half
+        Of a cylinder, which half.
+    """
+    ends = item.__dict__.get("ends_")
+    if ends is not None:
+        return int(ends[place, half])
+    # All cells, written out, may stand at one place, so that they are one body.
+    return source.image(within, half) if len(item) == 1 else place

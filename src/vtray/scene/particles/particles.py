@@ -48,6 +48,7 @@ class Particles:
         The cell's corner; 0 by default.
     periodic : tuple of bool
         For each edge, whether the cell repeats along it; by default, wherever there is a cell.
+        Along an edge of no length, such as that of a system in a plane, it never does.
     frame : int
         Which frame of its file this is, from 0.
     time : float or None
@@ -94,21 +95,20 @@ class Particles:
         if bonds is not None:
             bonds = _array(bonds, "bonds", np.int64).reshape(-1, 2)
             _check_bonds(bonds, len(positions))
-        cell, periodic = self.cell, self.periodic
+        cell = self.cell
         if cell is not None:
-            cell = _array(cell, "cell", np.float64)
-            if cell.shape != (3, 3):
-                raise SceneError(f"Particles.cell: must have shape (3, 3), got {cell.shape}")
-            _check_finite(cell, "cell")
-        if periodic is None:
-            periodic = (cell is not None,) * 3
+            cell = _numbers_of(cell, "cell", (3, 3))
+        given = (cell is not None,) * 3 if self.periodic is None else self.periodic
+        repeats = _three_of_bool(given)
+        if cell is not None:
+            repeats &= cell.any(axis=1)
         found: dict[str, object] = {
             "positions": positions,
             "columns": MappingProxyType(columns),
             "bonds": bonds,
             "cell": cell,
-            "origin": _array(self.origin, "origin", np.float64).reshape(3),
-            "periodic": tuple(map(bool, periodic)),
+            "origin": _numbers_of(self.origin, "origin", (3,)),
+            "periodic": tuple(repeats.tolist()),
         }
         for name, value in found.items():
             object.__setattr__(self, name, value)
@@ -232,6 +232,30 @@ def _array(values: object, name: str, dtype: Any) -> "NDArray[Any]":  # noqa: AN
         return np.asarray(values, dtype)
     except (TypeError, ValueError) as error:
         raise SceneError(f"Particles.{name}: must be numbers: {error}") from error
+
+
+def _numbers_of(values: object, name: str, shape: tuple[int, ...]) -> "NDArray[np.float64]":
+    """Return finite numbers as an array of a shape."""
+    import numpy as np
+
+    found = _array(values, name, np.float64)
+    if found.shape != shape:
+        raise SceneError(f"Particles.{name}: must have shape {shape}, got {found.shape}")
+    _check_finite(found, name)
+    return found
+
+
+def _three_of_bool(given: object) -> "NDArray[np.bool_]":
+    """Return for each edge of a cell whether it repeats, (3,)."""
+    import numpy as np
+
+    found = np.asarray(given)
+    if found.shape != (3,) or found.dtype.kind not in "biuf":
+        from vtray.scene.checks.scene_words import show
+
+        words = "expected three of True and False, one for each edge"
+        raise SceneError(f"Particles.periodic: {words}, got {show(given)}")
+    return found.astype(np.bool_)
 
 
 def _check_finite(array: "NDArray[Any]", name: str) -> None:

@@ -9,6 +9,7 @@ from vtray.scene.cylinders import Cylinders
 from vtray.scene.particles.bonds import Bonds
 from vtray.scene.particles.lattice import columns_of, lattice_of
 from vtray.scene.particles.made_of import MadeOf, remember
+from vtray.scene.particles.shown_bonds import Standing
 
 if TYPE_CHECKING:
     from vtray.scene.particles.particles import Particles
@@ -26,8 +27,6 @@ def sticks(
     thick: float,
     radius: Floats | float,
     colors: Bytes,
-    *,
-    halves: bool = False,
 ) -> Cylinders:
     """Return bonds as cylinders, those that cross the border as halves at both of its sides.
 
@@ -47,10 +46,8 @@ def sticks(
         The radius of bonds.
     radius, colors
         Those of the balls that are drawn, (k,) and (k, 3), or one for all.
-    halves
-        Whether all are halves.
     """
-    crosses = (bonds.shifts != 0).any(axis=1) | halves
+    crosses = (bonds.shifts != 0).any(axis=1)
     one, two = bonds.pairs[~crosses].T
     begin, end = bonds.pairs[crosses].T
     near, far = positions[begin], positions[end]
@@ -58,13 +55,8 @@ def sticks(
     lattice = lattice_of(particles)
     if lattice is not None and len(begin):
         across = np.stack(lattice.moved(columns_of(far), bonds.shifts[crosses].T), axis=1)
-    place = np.zeros(len(particles), np.int64)
-    place[rows] = np.arange(len(rows))
-    starts, ends = positions[one], positions[two]
-    way = ends - starts
-    share = _larger_by(way, radius, place[one], place[two])
-    # The end in the larger ball moves, so that the middle is where it should be.
-    starts, ends = starts + np.maximum(share, 0.0) * way, ends + np.minimum(share, 0.0) * way
+    place = _places(len(particles), rows)
+    starts, ends = _between_balls(positions[one], positions[two], radius, place[one], place[two])
     way = across - near
     half = (1.0 + _larger_by(way, radius, place[begin], place[end])) / 2 * way
     starts = np.concatenate([starts, near, far])
@@ -76,13 +68,57 @@ def sticks(
             np.stack([end, end], axis=1),
         ]
     )
-    first: Bytes = colors
-    last: Bytes | None = None
-    if colors.ndim == 2:
-        each = place[indices]
-        first, last = colors[each[:, 0]], colors[each[:, 1]]
-    made = Cylinders(starts, ends, thick, first, color_end=last)
+    made = _colored(starts, ends, thick, colors, place[indices])
     return remember(made, MadeOf(particles, indices, "bond"))
+
+
+def whole_sticks(
+    particles: "Particles",
+    positions: NDArray[Any],
+    rows: Integers,
+    bonds: Standing,
+    thick: float,
+    radius: Floats | float,
+    colors: Bytes,
+) -> Cylinders:
+    """Return bonds as cylinders, all of them whole, as `sticks` does."""
+    near, far = bonds.ends(particles, positions)
+    place = _places(len(particles), rows)[bonds.bonds.pairs]
+    starts, ends = _between_balls(near, far, radius, *place.T)
+    made = _colored(starts, ends, thick, colors, place)
+    return remember(made, MadeOf(particles, bonds.bonds.pairs, "bond", bonds.copies))
+
+
+def _places(count: int, rows: Integers) -> Integers:
+    """Return for each of all particles its place among those that are drawn, (count,)."""
+    place = np.zeros(count, np.int64)
+    place[rows] = np.arange(len(rows))
+    return place
+
+
+def _between_balls(
+    starts: NDArray[Any],
+    ends: NDArray[Any],
+    radius: Floats | float,
+    one: Integers,
+    two: Integers,
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Return where bonds start and end, so that their middle is that of what is seen of them.
+
+    The end in the larger ball moves. The parameters are as for `_larger_by`.
+    """
+    way = ends - starts
+    share = _larger_by(way, radius, one, two)
+    return starts + np.maximum(share, 0.0) * way, ends + np.minimum(share, 0.0) * way
+
+
+def _colored(
+    starts: NDArray[Any], ends: NDArray[Any], thick: float, colors: Bytes, each: Integers
+) -> Cylinders:
+    """Return cylinders in the colours of the two balls of each, (m, 2), or in one for all."""
+    if colors.ndim == 1:
+        return Cylinders(starts, ends, thick, colors)
+    return Cylinders(starts, ends, thick, colors[each[:, 0]], color_end=colors[each[:, 1]])
 
 
 def _larger_by(

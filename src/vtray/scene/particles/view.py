@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 from vtray.scene.camera import Camera
 
 if TYPE_CHECKING:
+    from vtray.scene.particles.particles import Particles
     from vtray.scene.spheres import Spheres
 
 SIZE = (1024, 1024)
@@ -65,6 +66,11 @@ def camera_of(
         view=(USUAL if has_cell else "auto") if view is None else view,
         zoom=zoom,
     )
+
+
+def places_of(particles: "Particles") -> Any:  # noqa: ANN401
+    """Return where particles are, as a subject for `camera_of`; any point if there are none."""
+    return particles.positions if len(particles) else [(0.0, 0.0, 0.0)]
 
 
 def taken(camera: Camera, spheres: "Spheres", *, is_alone: bool) -> dict[str, Any]:

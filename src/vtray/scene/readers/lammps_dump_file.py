@@ -198,7 +198,8 @@ def _places_of(
         break
     else:
         known = short(" ".join(columns), 80)
-        raise SceneError(f"line {line}: expected the columns x y z, got {known!r}")
+        remedy = "; places in a plane need a column z of zeros" if "x" in columns else ""
+        raise SceneError(f"line {line}: expected the columns x y z, got {known!r}{remedy}")
     for name in ("x", "y", "z"):
         columns.pop(name, None)
     return places
