@@ -25,7 +25,6 @@ from vtray.geometry.packets.packet import (
     PRIMITIVE,
     SOURCE,
     THROUGHPUT,
-    TOWARDS,
     VALUE,
     VARIANCE,
     WITHIN,
@@ -34,7 +33,6 @@ from vtray.geometry.packets.packet import (
     integers,
     join_met,
     load,
-    split_met,
     store,
     store_ray,
 )
@@ -43,13 +41,12 @@ from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.queries import NOTHING, Hit, nearest_hit
 from vtray.geometry.ray import Ray
 from vtray.geometry.rounding import ROUNDING
-from vtray.geometry.vector import Vec, add, dot, scale, sub
-from vtray.geometry.world import World, load_group
+from vtray.geometry.vector import Vec, add, dot, scale
+from vtray.geometry.world import World
 from vtray.transport.far_light import far_light
 from vtray.transport.film import Rows
 from vtray.transport.integrators.glossy_light import light_met
 from vtray.transport.integrators.lamps import nearest_lamp
-from vtray.transport.interaction import surface_at
 from vtray.transport.lights.light import Lights, lamp_light
 from vtray.transport.materials.absorption import transmitted
 from vtray.transport.materials.look import (
@@ -110,16 +107,6 @@ def begin_bounces(packet: Packet, lanes: int, pending: Pending) -> None:
         numbers[BOUNCES + lane], numbers[WITHIN + lane] = 0, EMPTY
         store(packet, GATHERED, lane, (0.0, 0.0, 0.0))
         store(packet, THROUGHPUT, lane, (1.0, 1.0, 1.0))
-
-
-@device
-def comes_from_within(packet: Packet, hit: int, lane: int, world: World) -> bool:
-    """Tell whether a ray meets a surface from within."""
-    row, slot = split_met(integers(packet)[MET + lane])
-    point, direction = load(packet, POINT, hit), load(packet, TOWARDS, hit)
-    surface = surface_at(world, load_group(world, row), slot, point, packet[ERROR_SCALE + hit])
-    outward = sub(point, surface.pole) if surface.is_round else surface.pole
-    return dot(outward, direction) > 0.0
 
 
 @device

@@ -192,7 +192,16 @@ def _trace_pixels(
             add_orders(packet, lanes, last - first, work.sums, film.orders)
         else:
             peak = write_middles(
-                packet, block, begin, end, hits, work.pixels, film, scene.fog, scene.world.faded
+                packet,
+                block,
+                begin,
+                end,
+                hits,
+                work.pixels,
+                film,
+                scene.fog,
+                scene.world,
+                scene.materials,
             )
             write_orders(packet, block, begin, end, work.pixels, film.orders)
     if sampling.rays > 1:
