@@ -15,6 +15,7 @@ from vtray.geometry.packets.packet import (
     DISTANCE,
     ERROR_SCALE,
     GATHERED,
+    LIGHT,
     MET,
     MIXED,
     NO_PRIMITIVE,
@@ -33,10 +34,12 @@ from vtray.geometry.packets.packet import (
     integers,
     join_met,
     load,
+    load_ray,
     store,
     store_ray,
 )
 from vtray.geometry.packets.pending import Pending, Waiting, clear_pending, pop_ray, push_ray
+from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.queries import NOTHING, Hit, nearest_hit
 from vtray.geometry.ray import Ray
@@ -45,6 +48,7 @@ from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.geometry.world import World
 from vtray.transport.far_light import far_light
 from vtray.transport.film import Rows
+from vtray.transport.glass_around import leave_glass
 from vtray.transport.integrators.glossy_light import light_met
 from vtray.transport.integrators.lamps import nearest_lamp
 from vtray.transport.lights.light import Lights, lamp_light
@@ -75,13 +79,17 @@ def bounced_sheaf() -> Sheaf:
 def mix_looks(
     packet: Packet,
     lanes: int,
+    sheaf: Sheaf,
+    world: World,
     materials: Materials,
     looks: Looks | None,
     paths: Paths | None,
+    stack: Stack,
 ) -> None:
     """Set field ``MIXED`` of the lanes whose pixels get samples, as more is seen than surfaces.
 
-    That is where rays meet mirrors or glass; for paths, where they meet anything.
+    That is where rays meet mirrors or glass, or start in glass that takes light; for paths, where
+    they meet anything.
     """
     # Arguments that are None are known to the compiler, which drops what depends on them alone.
     if looks is None:
@@ -92,11 +100,39 @@ def mix_looks(
         if met > NO_PRIMITIVE:  # noqa: SIM102 - the look of nothing is not asked
             if paths is not None or load_look(materials, looks, met).kind != MATT:
                 packet[MIXED + lane] = 1.0
+        ray, distance = load_ray(packet, sheaf, lane), packet[DISTANCE + lane]
+        within, _ = leave_glass(world, materials, looks, ray, distance, stack)
+        if within != EMPTY:
+            packet[MIXED + lane] = 1.0
 
 
 @device
-def begin_bounces(packet: Packet, lanes: int, pending: Pending) -> None:
-    """Keep what the rays of the camera meet, and start with no light."""
+def begin_bounces(
+    packet: Packet,
+    lanes: int,
+    sheaf: Sheaf,
+    world: World,
+    materials: Materials,
+    looks: Looks,
+    pending: Pending,
+    stack: Stack,
+) -> None:
+    """Keep what the rays of the camera meet, and start with no light.
+
+    Parameters
+    ----------
+    packet, lanes
+        The rays of so many lanes; out: of their light, and of that of lamps that they see, is left
+        what glass around the camera leaves of it.
+    sheaf
+        What they have in common.
+    world, materials, looks
+        The scene.
+    pending
+        Out: no rays that wait.
+    stack
+        Scratch memory.
+    """
     numbers = integers(packet)
     clear_pending(pending, lanes)
     for lane in range(lanes):
@@ -104,9 +140,13 @@ def begin_bounces(packet: Packet, lanes: int, pending: Pending) -> None:
         numbers[BEHIND + lane] = numbers[PRIMITIVE + lane]
         numbers[BEHIND_MET + lane] = numbers[MET + lane]
         packet[VARIANCE + lane] = 0.0
-        numbers[BOUNCES + lane], numbers[WITHIN + lane] = 0, EMPTY
+        ray, distance = load_ray(packet, sheaf, lane), packet[DISTANCE + lane]
+        within, left = leave_glass(world, materials, looks, ray, distance, stack)
+        numbers[BOUNCES + lane], numbers[WITHIN + lane] = 0, within
         store(packet, GATHERED, lane, (0.0, 0.0, 0.0))
-        store(packet, THROUGHPUT, lane, (1.0, 1.0, 1.0))
+        store(packet, THROUGHPUT, lane, left)
+        if numbers[PRIMITIVE + lane] < NO_PRIMITIVE:
+            store(packet, LIGHT, lane, times(left, load(packet, LIGHT, lane)))
 
 
 @device

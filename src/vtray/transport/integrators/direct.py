@@ -264,7 +264,16 @@ def _meet(
             find_mixed(packet, lanes)
             mix_lamps(packet, lanes, sheaf, footprint, lights.visible)
             mix_faded(packet, lanes, sheaf, footprint, scene.world, faded, work)
-            mix_looks(packet, lanes, scene.materials, scene.materials.looks, sampling.paths)
+            mix_looks(
+                packet,
+                lanes,
+                sheaf,
+                scene.world,
+                scene.materials,
+                scene.materials.looks,
+                sampling.paths,
+                work.stack,
+            )
             leave_mixed(packet, lanes)
 
 
@@ -386,7 +395,9 @@ def _light_bounces(
     """Find the light of all lanes over many surfaces; the result is that of `_light_lanes`."""
     cast, steps, sheaf, pending = 0, 0, bounced_sheaf(), work.pending
     world, materials, forward = scene.world, scene.materials, scene.camera.forward
-    begin_bounces(packet, lanes, pending)
+    begin_bounces(
+        packet, lanes, sheaf_of(scene.camera), world, materials, looks, pending, work.stack
+    )
     hits = _gather(packet, lanes, scene, sampling, film.mixed, work)
     while hits > 0 and not stop[0]:
         if paths is not None:
