@@ -18,7 +18,6 @@ from vtray.geometry.vector import Vec, dot
 from vtray.geometry.world import (
     CUT,
     PLANE,
-    Group,
     Places,
     World,
     group_count,

@@ -15,6 +15,7 @@ from vtray.geometry.packets.packet import (
     DISTANCE,
     ERROR_SCALE,
     GATHERED,
+    LENGTH,
     LIGHT,
     MET,
     MIXED,
@@ -325,6 +326,7 @@ def end_bounces(packet: Packet, lanes: int, brightest: float, orders: Rows) -> i
         numbers[MET + lane] = numbers[BEHIND_MET + lane]
         if numbers[BEHIND + lane] > NO_PRIMITIVE:
             numbers[SOURCE + hits] = lane
+            packet[LENGTH + hits] = packet[DISTANCE + lane]
             light = load(packet, GATHERED, lane)
             peak = max(light[0], light[1], light[2])
             store(

@@ -65,6 +65,7 @@ from vtray.transport.orders import (
     clear_sums_of_orders,
     order_hits,
     order_lamps,
+    veil_orders,
     write_orders,
     write_sums_of_orders,
 )
@@ -449,7 +450,10 @@ def _light_bounces(
         )
         steps += 1
     cast_rays(packet, lanes, scene.camera)
-    return end_bounces(packet, lanes, looks.brightest, film.orders), cast
+    hits = end_bounces(packet, lanes, looks.brightest, film.orders)
+    veil(packet, lanes, hits, film.linear, film.error, scene.fog)
+    veil_orders(packet, lanes, film.orders, scene.fog)
+    return hits, cast
 
 
 @device
