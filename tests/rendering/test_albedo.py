@@ -37,6 +37,47 @@ def test_albedo_is_color_times_lambert(integrator: str, samples: int) -> None:
     assert is_edge.any() == (samples > 1)
 
 
+RED = np.array([0.8, 0.0, 0.0])
+SHARES = {
+    "mirror": (vtray.Mirror(), RED),
+    "emissive": (vtray.Emissive(3), RED),
+    "plastic": (vtray.Plastic(1.5), 0.04 + 0.96 * 0.5 * RED),
+    "glass": (vtray.Glass(1.5), 0.04 + 0.96 * RED),
+    "thin glass": (vtray.Glass(1.5, thin=True), 0.08 / 1.04 + 0.96 / 1.04 * RED),
+    "metal": (vtray.Metal(), RED),
+    "blend": (vtray.Blend(vtray.Glass(1.5), vtray.Mirror(), 0.25), 0.03 + 0.97 * RED),
+}
+
+
+@pytest.mark.parametrize("integrator", ["whitted", "path"])
+@pytest.mark.parametrize("name", SHARES)
+def test_albedo_counts_what_is_mirrored_and_let_through(integrator: str, name: str) -> None:
+    material, share = SHARES[name]
+    scene = two_balls()
+    scene.objects[0] = vtray.Plane((0, 0, 0), (0, 0, 1), (204, 0, 0), 0.5, material=material)
+    image = vtray.render(scene, integrator=integrator, size=(9, 9))
+    assert image.albedo[4, 4] == pytest.approx(share, abs=1e-3)
+    if material == vtray.Plastic(1.5):
+        assert image.albedo[0, 0, 1] > image.albedo[4, 4, 1]
+
+
+def test_albedo_of_rough_metal_has_the_light_of_many_facets() -> None:
+    scene = two_balls()
+    scene.objects = [vtray.Plane((0, 0, 0), (0, 0, 1), material=vtray.Metal(roughness=1))]
+    image = vtray.render(scene, integrator="path", size=(9, 9))
+    assert image.albedo == pytest.approx(1)
+
+
+def test_albedo_within_glass_is_1_where_all_is_mirrored() -> None:
+    scene = two_balls()
+    scene.objects = [vtray.Sphere((0, 0, 8), 2, (204, 0, 0), material="glass")]
+    scene.camera = vtray.Camera.look_at(
+        (1.8, 0, 8), target=(1.8, 9, 8), up=(0, 0, 1), fov_degrees=25, size=(9, 9)
+    )
+    image = vtray.render(scene, integrator="path")
+    assert (image.albedo[4, 4] == 1).all()
+
+
 def test_colors_of_tone_maps_are_decoded() -> None:
     image = vtray.render(two_balls(), tonemap="agx", warn=[].append)
     decoded = ((128 / 255 + 0.055) / 1.055) ** 2.4 / 2

@@ -257,3 +257,43 @@ def test_horizon_is_even() -> None:
     horizon = ((image.alpha > 0.1) & (image.alpha < 0.9)).any(axis=1)
     assert horizon.any()
     assert image.pixels[horizon].std(axis=1).max() < 1.5
+
+
+@pytest.mark.parametrize("material", ["plastic", "glass", vtray.Metal(roughness=0.3)])
+def test_red_things_have_no_grain_in_what_they_mirror(material: Any) -> None:
+    given = vtray.Scene()
+    given.add_plane((0, 0, 0), normal=(0, 0, 1), color="#c8ccd4")
+    given.add_sphere((0, 0, 1), 1, color=(255, 0, 0), material=material)
+    given.camera = vtray.Camera.look_at(
+        (0, -9, 3), target=(0, 0, 0.9), up=(0, 0, 1), fov_degrees=18, size=(48, 48)
+    )
+    given.lights = [vtray.Sky(0.6), vtray.SphereLight((-6, -7, 9), 4, radiance=4)]
+    truth = vtray.render(given, integrator="path", samples=512)
+    image = vtray.render(given, integrator="path", samples=8, denoise=True)
+    seen = truth.alpha * (truth.ids[..., 0] == 1) > 0
+    for channel in (1, 2):
+        true, rough, clean = (
+            light[..., channel][seen] for light in (truth.linear, image.raw, image.linear)
+        )
+        assert error(clean, true) < 0.8 * error(rough, true)
+
+
+def test_fog_behind_a_lens_has_no_grain() -> None:
+    given = vtray.Scene()
+    given.add_plane((0, 0, 0), normal=(0, 0, 1), color="#c8ccd4")
+    for k in range(5):
+        given.add_sphere((1.5 * ((k * 3) % 5) - 3, 4 + 5 * k, 0.8), 0.8, color=(40, 80, 200))
+    given.camera = vtray.Camera.look_at(
+        (0, -8, 3),
+        target=(0, 6, 0.5),
+        up=(0, 0, 1),
+        fov_degrees=35,
+        size=(96, 72),
+        lens=vtray.Lens(0.6, 9),
+    )
+    given.lights = [vtray.Sky(0.5)]
+    options = {"background": "#203040", "exposure": 1, "fog": (6, 30, "white"), "seed": 2}
+    truth = vtray.render(given, samples=256, **options)
+    image = vtray.render(given, samples=8, denoise=True, **options)
+    rough = vtray.render(given, samples=8, **options)
+    assert error(1.0 * image.pixels, truth.pixels) < 0.6 * error(1.0 * rough.pixels, truth.pixels)

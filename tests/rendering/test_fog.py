@@ -146,6 +146,30 @@ def test_lamps_are_seen_through_it() -> None:
     np.testing.assert_allclose(image.linear[middle], plain.linear[middle] / 2, rtol=1e-3)
 
 
+@pytest.mark.parametrize("integrator", ["whitted", "path"])
+@pytest.mark.parametrize("samples", [1, 9])
+def test_light_over_many_surfaces_is_in_it(integrator: str, samples: int) -> None:
+    found = world()
+    found.add_sphere((-2, 1, 6), 2.0, material="mirror")
+    found.add_sphere((3, -1, 4), 1.0, color="gold", material="plastic")
+    found.add_light(vtray.SphereLight((-3, -3, 6), 0.7, radiance=2, visible=True))
+    found.add_light(vtray.Sky(0.5))
+    options = {"integrator": integrator, "samples": samples, "filter": "box", "exposure": 1}
+    plain, image = vtray.render(found, **options), vtray.render(found, fog=(11, 19), **options)
+    if samples == 1:
+        for y in range(0, SIZE[1], 2):
+            for x in range(0, SIZE[0], 2):
+                tree = vtray.trace_pixel(image, x, y)
+                assert tree.light == tuple(plain.linear[y, x])
+                seen = tree.light if tree.veil is None else tree.veil.light
+                assert seen == tuple(image.linear[y, x])
+    # What fog adds and what it takes is one share of each pixel, where all is as far away.
+    shares = 1 - np.divide(image.linear, plain.linear, where=plain.linear > 0, out=plain.linear * 0)
+    assert 0.1 < shares[plain.linear > 0].mean() < 0.9
+    parts = image.emission + image.direct + image.indirect
+    np.testing.assert_allclose(parts, image.linear, rtol=1e-12, atol=1e-12)
+
+
 def test_a_pixel_is_explained() -> None:
     found = world()
     image = vtray.render(found, fog=(5, 19, "red"))

@@ -1,6 +1,7 @@
 """Panoramas: where their rays go, and what they see, by formulas and an independent renderer."""
 
 import json
+import math
 from typing import Any
 
 import numpy as np
@@ -245,10 +246,40 @@ def test_cameras_made_of_panoramas() -> None:
             call()
 
 
+@pytest.mark.parametrize("integrator", ["direct", "path"])
+def test_rays_are_told(integrator: str) -> None:
+    given = vtray.loads(json.dumps(document()))
+    image = vtray.render(given, integrator=integrator, exposure=1)
+    height, width = image.depth.shape
+    for y in range(0, height, 3):
+        for x in range(0, width, 3):
+            tree = vtray.trace_pixel(image, x, y)
+            assert tree.light == tuple(image.linear[y, x])
+            assert tree.origin == EYE
+            assert (math.inf if tree.hit is None else tree.hit.distance) == image.depth[y, x]
+            assert tree.view.forward == tree.direction
+            assert abs(np.dot(tree.view.down, tree.direction)) < 1e-12
+
+
+@pytest.mark.parametrize("where", [(0, 0), (2, 1), (4, 3)])
+def test_rays_are_drawn(where: tuple[int, int]) -> None:
+    tree = vtray.trace_pixel(vtray.loads(json.dumps(document())), *where)
+    axes = tree.draw()
+    words = [text.get_text() for text in axes.texts]
+    assert "eye" in words
+    assert not any("image plane" in text for text in words)
+
+
+def test_rays_straight_up_and_down_are_drawn() -> None:
+    given = vtray.Scene(vtray.Camera.panorama((0, 0, 0), (0, 1, 0), up=(0, 0, 1), size=(3, 1)))
+    given.camera = given.camera.replace(normal=(0, 0, 1), up=(0, 1, 0))
+    given.add_sphere((0, 0, 5), 1)
+    assert vtray.trace_pixel(given, 1, 0).hit is not None
+    assert vtray.trace_pixel(given, 0, 0).draw().texts
+
+
 def test_what_cannot_be_had_is_refused() -> None:
     given = vtray.loads(json.dumps(document()))
-    with pytest.raises(vtray.RenderError, match="trace_pixel: the rays of a panorama are not told"):
-        vtray.trace_pixel(given, 1, 1)
     image = vtray.render(given)
     with pytest.raises(vtray.VtrayError, match="scalebar: lengths differ"):
         image.figure(scalebar="nm")

@@ -159,7 +159,8 @@ class _Drawing(Stage):
             for end in ends:
                 way = (end - self.origin) / max(float(np.hypot(*(end - self.origin))), 1e-300)
                 self.line(self.origin, self.origin + way * 2 * self.size, FAINT, lw=0.8)
-            text = f"{name}\nimage plane {self.tree.view.focus:.3g} in front"
+            focus = self.tree.view.focus
+            text = f"{name}\nimage plane {focus:.3g} in front" if focus > 0.0 else name
             self.note(text, self.origin, (-5, -9), ha="left", va="top")
         self.line(self.origin, self.end, RAY, lw=1.8, arrow=0.55)
 

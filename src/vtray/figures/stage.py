@@ -63,7 +63,7 @@ class Stage(Pen):
         if tree.hit is not None:
             return tree.hit.distance
         steep = float(np.dot(tree.direction, tree.view.forward))
-        reach = 3 * tree.view.focus
+        reach = 3 * tree.view.focus or 1.0  # a panorama has no image plane
         forward = np.array(tree.view.forward)
         for shapes, at in placed_shapes(tree.scene.objects):
             ahead = (shapes.middle - np.array(tree.origin)) @ forward

@@ -361,7 +361,7 @@ class PathRay:
 
 @dataclass(frozen=True)
 class View:
-    """The camera in world space.
+    """The camera in world space; for a panorama, one that looks along the ray that is told.
 
     Attributes
     ----------
@@ -370,7 +370,7 @@ class View:
     right, down, forward
         The unit axes x', y' and z'.
     focus
-        Distance from the eye to the image plane, in scene units.
+        Distance from the eye to the image plane, in scene units; 0 for a panorama, which has none.
     size
         Width and height of the image in pixels.
     resolution

@@ -5,7 +5,7 @@ What is found is what a loop over all shapes would find; the hierarchies only le
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.dispatch import with_any
@@ -53,6 +53,10 @@ class Hit(NamedTuple):
     primitive: int
     group: int
     slot: int
+
+
+Found = TypeVar("Found", bound=Any)
+"""A hit, or what else has a distance."""
 
 
 @device
@@ -136,16 +140,16 @@ def _nearer(shape: Shape, verbs: Verbs, number: int, arguments: tuple[Ray, Hit, 
     return hit
 
 
-def _nearest_in_tree(
+def nearest_in_tree(
     world: World,
     hierarchy: Hierarchy,
     ray: Ray,
-    hit: Hit,
+    hit: Found,
     stack: Stack,
     base: int,
-    nearest_of: Callable[[World, Any, int, int, Ray, Hit, Stack, int], Hit],
+    nearest_of: Callable[[World, Any, int, int, Ray, Found, Stack, int], Found],
     subject: Any,  # noqa: ANN401
-) -> Hit:
+) -> Found:
     """Return the nearer of a hit and those in the leaves of a hierarchy.
 
     Parameters
@@ -153,7 +157,7 @@ def _nearest_in_tree(
     world, hierarchy
         The hierarchy.
     ray, hit
-        The ray, and what it meets so far.
+        The ray, and what it meets so far, in boxes no farther away than its ``distance``.
     stack, base
         Scratch memory, and what waits there already, which stays.
     nearest_of, subject
@@ -179,7 +183,7 @@ def _nearest_in_tree(
     return hit
 
 
-_nearest_in_places, _nearest_in_shapes = device(_nearest_in_tree), device(_nearest_in_tree)
+_nearest_in_places, _nearest_in_shapes = device(nearest_in_tree), device(nearest_in_tree)
 """Two ways: one through what is placed, one through what stands at a place. They are
 two, as the compiler takes what calls itself for recursion, whatever it is given."""
 

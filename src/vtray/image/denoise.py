@@ -49,7 +49,7 @@ def denoise(light: Floats, albedo: Floats, normals: Floats | None, threads: int 
     light
         Linear light, (height, width, 3).
     albedo
-        The share of light that surfaces scatter, from 0 to 1, (height, width, 3).
+        The share of light that surfaces send on, from 0 to 1, (height, width, 3).
     normals
         Their normals, 0 where nothing is, (height, width, 3); None if light is all that is known.
     threads

@@ -54,7 +54,7 @@ class Rendered:
     look
         Gives what the middle rays meet; called once, when it is first asked for.
     albedo
-        Gives what share of light the surfaces of a scene scatter; called when it is asked for.
+        Gives what share of light the surfaces of a scene send on; called when it is asked for.
     orders
         Gives the light of a scene as it was traced by how often it was scattered; likewise.
     alpha
@@ -240,11 +240,12 @@ class Rendered:
 
     @cached_property
     def albedo(self) -> Floats:
-        """The share of light that surfaces scatter in their colours, (height, width, 3).
+        """The share of light that surfaces send on, (height, width, 3); 0 where nothing is.
 
-        That is their colour as light, 1 for white, times ``lambert``, whatever they are made of,
-        and 0 where nothing is. Of a pixel with samples it is the mean over the pixel, sharp also
-        where there is a lens.
+        Of a matt one that is its colour as light, 1 for white, times ``lambert``. With the
+        integrators whitted and path it is also what coats, mirrors and metals mirror, and what
+        glass mirrors and lets through, as it would be seen in white light from everywhere. Of a
+        pixel with samples it is the mean over the pixel, sharp also where there is a lens.
         """
         return self._albedo(self.scene)
 

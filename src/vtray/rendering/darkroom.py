@@ -36,7 +36,7 @@ class Darkroom:
     style
         How pictures are drawn, beside their light.
     look, albedo, orders
-        Give what the middle rays meet, what share of light the surfaces of a scene scatter, and how
+        Give what the middle rays meet, what share of light the surfaces of a scene send on, and how
         often they have scattered that of the picture.
     sky
         Gives the light of the skies of a scene where its pixels are not covered.

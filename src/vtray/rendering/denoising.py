@@ -50,12 +50,17 @@ class Denoising:
             albedo = albedo * parts[..., None]
         return denoise(light, albedo, guides.normals, self._threads)
 
-    def shares(self) -> Floats | None:
-        """Return how much of each pixel is covered, without the grain that a lens gives it.
+    def shares(self, shares: Floats | None) -> Floats | None:
+        """Return how much of each pixel is something, without the grain that a lens gives it.
 
-        Without a lens, only edges are partly covered, and these stay as they are.
+        Without a lens, only edges have grain, and these stay as they are.
+
+        Parameters
+        ----------
+        shares
+            How much of each is covered, or fog, (height, width); None if that is not known.
         """
-        if self._guiding is not None or self._coverage is None:
-            return self._coverage
-        grey = self._coverage[..., None].repeat(3, axis=2)
+        if self._guiding is not None or shares is None:
+            return shares
+        grey = shares[..., None].repeat(3, axis=2)
         return denoise(grey, np.ones_like(grey), None, self._threads)[..., 0].clip(0.0, 1.0)

@@ -7,7 +7,6 @@ import numpy as np
 from vtray.base.errors import RenderError
 from vtray.image.exposure import BRIGHTEST
 from vtray.rendering.acceleration import Acceleration
-from vtray.scene.camera import Camera
 from vtray.scene.copies import Copies
 from vtray.scene.materials import (
     Blend,
@@ -74,13 +73,6 @@ def followed(render: RenderSettings, settings: RenderSettings) -> RenderSettings
     """Return the settings of a scene with those of others that say how its light is followed."""
     names = ("tonemap", "integrator", "depth", "firefly")
     return render.replace(**{name: getattr(settings, name) for name in names})
-
-
-def check_image_plane(camera: Camera, caller: str) -> None:
-    """Raise RenderError if the rays of a pixel cannot be told, as there is no image plane."""
-    if camera.projection == "panorama":
-        message = f"{caller}: the rays of a panorama are not told; give another projection"
-        raise RenderError(message)
 
 
 def _kinds(objects: Sequence[Object]) -> Iterator[tuple[str, bool]]:

@@ -36,7 +36,7 @@ class Guides(NamedTuple):
     Attributes
     ----------
     albedo
-        The share of light that they scatter, (height, width, 3); 0 where nothing is.
+        The share of light that they send on, (height, width, 3); 0 where nothing is.
     normals
         Normals in world space, shorter where several are mixed, (height, width, 3).
     cover

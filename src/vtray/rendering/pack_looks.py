@@ -143,6 +143,7 @@ def pack_looks(parts: Sequence[MadeOf], rows: Rows, unit: float, scene: Scene) -
         int(scene.render.depth),
         _brightest(scene),
         _albedos(looks),
+        True if any(_absorbs(material) for material in materials_by_row(parts)) else None,
     )
 
 
@@ -169,6 +170,11 @@ def _look_of(material: Material, unit: float) -> tuple[int, list[float]]:
         return EMISSIVE, values
     plain = {Lambert: MATT, Mirror: MIRROR, Blend: BLEND}
     return plain[type(material)], values
+
+
+def _absorbs(material: Material) -> bool:
+    """Tell whether a material takes light that goes through it."""
+    return isinstance(material, Glass) and not material.thin and any(material.absorption)
 
 
 def _brightest(scene: Scene) -> float:

@@ -119,14 +119,15 @@ class _Follower:
     def _begin(self) -> PathRay:
         """Cast the ray of the camera."""
         pixel, packet = self._pixel, self._packet
-        begun = begin_path(self._arrays, self._sampling, self._place, packet, self._work)
+        given = self._arrays, self._looks, self._sampling, self._place, packet, self._work
+        begun = begin_path(*given)
         x, y, z = direction = self._vector(DIRECTION)
         start, before = in_world(pixel, self._vector(ORIGIN)), pixel.packed.before
         eye = start[0] - before * x, start[1] - before * y, start[2] - before * z
         length = float(packet[DISTANCE]) * pixel.packed.unit + before
-        lamp, met = self._lamp(begun.lamp), as_vec(begun.light)
+        lamp, met, passes = self._lamp(begun.lamp), as_vec(begun.light), as_vec(begun.passes)
         self._light = met
-        return PathRay(None, "seen", eye, direction, WHITE, WHITE, length, lamp, met, met)
+        return PathRay(None, "seen", eye, direction, WHITE, passes, length, lamp, met, met)
 
     def _go_on(self, waiting: _Waiting) -> PathRay:
         """Let a ray go on from a surface."""

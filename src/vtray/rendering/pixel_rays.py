@@ -14,7 +14,7 @@ from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, scale
 from vtray.image.white import known_white
 from vtray.rendering.fog import ball_around, fitted
-from vtray.rendering.followed import check_followed, check_image_plane, followed
+from vtray.rendering.followed import check_followed, followed
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.numbering import number_objects
 from vtray.rendering.pack import Packed, pack
@@ -24,7 +24,9 @@ from vtray.rendering.pixel_layers import look_through
 from vtray.rendering.pixel_lights import place_of_lamp
 from vtray.rendering.pixel_paths import follow_path
 from vtray.rendering.styled import styled
+from vtray.scene.camera import Camera
 from vtray.scene.default_light import lights_of, settings_of
+from vtray.scene.placing.directions import are_parallel, camera_axes, view_axes
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 from vtray.transport.fog import fog_share
@@ -94,7 +96,6 @@ def trace_rays(
     if not (0 <= column < width and 0 <= row < height):
         message = f"{caller}: expected 0,0 to {width - 1},{height - 1}, got {column},{row}"
         raise RenderError(message)
-    check_image_plane(camera, caller)
     settings = settings_of(scene) if image is None else image.settings
     style = (
         fitted(scene.style, camera, lambda: ball_around(scene)) if image is None else image.style
@@ -163,7 +164,7 @@ def _direct_tree(pixel: Pixel, exposed: Exposed | None) -> RayTree:
         behind.hit,
         behind.lights,
         light,
-        _view(scene, packed),
+        _view(scene, packed, direction),
         exposed,
         place_of_lamp(scene, packed.arrays.lights, traced.lamp),
         scene,
@@ -200,7 +201,7 @@ def _path_tree(
         first.hit,
         first.lights,
         light,
-        _view(scene, packed),
+        _view(scene, packed, first.direction),
         exposed,
         first.lamp,
         scene,
@@ -227,12 +228,27 @@ def _noise(packed: Packed, settings: RenderSettings) -> Noise | None:
     return tracer.noise(settings, known_white(settings), keep=False)
 
 
-def _view(scene: Scene, packed: Packed) -> View:
-    """Return the camera in world space."""
+def _view(scene: Scene, packed: Packed, direction: Vec) -> View:
+    """Return the camera in world space.
+
+    A panorama has no image plane; it is as one that looks in the direction of the ray.
+    """
     camera, frame = scene.camera, packed.arrays.camera
+    if frame.turn is not None:
+        return _view_along(camera, frame.down, direction)
     center = (camera.center.x, camera.center.y, camera.center.z)
     size, pixel = (frame.width, frame.height), camera.resolution
     return View(center, frame.right, frame.down, frame.forward, camera.focus, size, pixel)
+
+
+def _view_along(camera: Camera, down: Vec, direction: Vec) -> View:
+    """Return a camera that looks along a ray of a panorama, and shows nothing beside it."""
+    up = -down[0], -down[1], -down[2]
+    is_steep = are_parallel(direction, up)
+    x, y = camera_axes(direction) if is_steep else view_axes(direction, up)
+    eye = camera.center.x, camera.center.y, camera.center.z
+    size = int(camera.size[0]), int(camera.size[1])
+    return View(eye, x, y, direction, 0.0, size, (0.0, 0.0))
 
 
 def _exposed(image: "Image", column: int, row: int) -> Exposed:

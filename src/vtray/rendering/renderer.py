@@ -290,9 +290,9 @@ def render(
     )
     image = darkroom.picture(
         traced.film.linear,
-        denoising.shares() if settings.denoise else traced.film.coverage,
+        denoising.shares(traced.film.coverage) if settings.denoise else traced.film.coverage,
         traced.peak,
-        fog=traced.film.fog,
+        fog=denoising.shares(traced.film.fog) if settings.denoise else traced.film.fog,
         lines=drawing.lines(traced.film),
         shade=drawing.shade(traced.film),
         error=traced.film.error,

@@ -24,6 +24,7 @@ from vtray.geometry.packets.packet import (
     PRIMITIVE,
     SEEN,
     SOURCE,
+    TOWARDS,
     VALUE,
     WEIGHT,
     Block,
@@ -33,10 +34,14 @@ from vtray.geometry.packets.packet import (
     store,
 )
 from vtray.geometry.packets.workspace import Pixels, Sums
-from vtray.geometry.vector import Vec, add, scale
-from vtray.geometry.world import Faded
+from vtray.geometry.vector import Vec, add, dot, scale
+from vtray.geometry.world import Faded, World
 from vtray.transport.fog import FogFrame, lane_share
+from vtray.transport.interaction import comes_from_within
 from vtray.transport.light_buffer import KeptLight, keep_ray, nothing_kept
+from vtray.transport.materials.look import Looks
+from vtray.transport.materials.material import Materials, load_look
+from vtray.transport.materials.reflectance import reflectance
 
 Rows = Any
 """An array, or None for what is not wanted: as an argument of its own it is known to the compiler,
@@ -70,7 +75,7 @@ class Film(NamedTuple):
     half
         As in field ``HALF`` of a packet, 0 where nothing is hit, (height, width).
     albedo
-        The share of light that what the middle ray hits scatters, (height, width, 3).
+        The share of light that what the middle ray hits sends on, (height, width, 3).
     orders
         Linear light that surfaces scattered not at all, once, and more often: three channels for
         each, (height, width, 9).
@@ -308,7 +313,8 @@ def write_middles(
     pixels: Pixels,
     film: Film,
     fog: FogFrame | None,
-    faded: Faded | None,
+    world: World,
+    materials: Materials,
 ) -> float:
     """Write what is wanted of pixels with one ray, a lane for each; return the largest channel."""
     peak = _write_light(packet, block, begin, end, hits, pixels, film.linear)
@@ -316,9 +322,11 @@ def write_middles(
     _write_distances(packet, block, begin, end, pixels, film.distance)
     _write_primitives(packet, block, begin, end, pixels, film.primitive, film.mixed)
     _write_halves(packet, block, begin, end, pixels, film.half)
-    _write_albedos(packet, block, begin, end, hits, pixels, film.albedo)
-    _write_coverage(packet, block, begin, end, pixels, film.coverage, faded)
-    _write_fog(packet, block, begin, end, pixels, film.fog, fog, faded)
+    _write_albedos(
+        packet, block, begin, end, hits, pixels, world, materials, materials.looks, film.albedo
+    )
+    _write_coverage(packet, block, begin, end, pixels, film.coverage, world.faded)
+    _write_fog(packet, block, begin, end, pixels, film.fog, fog, world.faded)
     _write_mixed(packet, block, begin, end, pixels, film.mixed)
     _write_noise(packet, block, begin, end, hits, pixels, film.error)
     return peak
@@ -504,19 +512,38 @@ def _write_albedos(
     end: int,
     hits: int,
     pixels: Pixels,
+    world: World,
+    materials: Materials,
+    looks: Looks | None,
     albedo: Rows,
 ) -> None:
-    """Write what share of light the hits scatter, 0 for the others."""
+    """Write what share of light the hits send on, 0 for the others."""
     if albedo is None:
         return
     _clear(block, begin, end, pixels, albedo)
     numbers = integers(packet)
     for hit in range(hits):
         row, column = place_of(block, pixels[begin + numbers[SOURCE + hit]])
-        color, lambert = load(packet, COLOR, hit), packet[LAMBERT + hit]
-        for axis in range(3):
-            share = color[axis] / 255.0 * lambert
-            albedo[row, column, axis] = min(max(share, 0.0), 1.0)
+        shares = _albedo_of(packet, hit, world, materials, looks)
+        albedo[row, column, 0] = min(max(shares[0], 0.0), 1.0)
+        albedo[row, column, 1] = min(max(shares[1], 0.0), 1.0)
+        albedo[row, column, 2] = min(max(shares[2], 0.0), 1.0)
+
+
+@device
+def _albedo_of(
+    packet: Packet, hit: int, world: World, materials: Materials, looks: Looks | None
+) -> Vec:
+    """Return what share of light a hit sends on."""
+    tint, lambert = scale(1.0 / 255.0, load(packet, COLOR, hit)), packet[LAMBERT + hit]
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if looks is not None:
+        lane = int(integers(packet)[SOURCE + hit])
+        look = load_look(materials, looks, integers(packet)[PRIMITIVE + lane])
+        cosine = -dot(load(packet, TOWARDS, hit), load(packet, NORMAL, hit))
+        is_inner = comes_from_within(packet, hit, lane, world)
+        return reflectance(looks, look, tint, lambert, cosine, is_inner)
+    return scale(lambert, tint)
 
 
 @device

@@ -41,7 +41,7 @@ from vtray.geometry.ray import Footprint, Ray, has_width, ray_point
 from vtray.geometry.shapes.surface import Surface, bend_at, normal_at
 from vtray.geometry.shapes.unrolled import Unrolled, Upright
 from vtray.geometry.shapes.verbs import Shape, Verbs
-from vtray.geometry.vector import Vec, add, dot, scale
+from vtray.geometry.vector import Vec, add, dot, scale, sub
 from vtray.geometry.world import Group, World, has_trees, load_group
 from vtray.transport.materials.material import Material, Materials, load_material, pattern_of
 from vtray.transport.materials.pattern import PLAIN, Patterns, pattern_color, upright_of
@@ -95,6 +95,16 @@ def _surface(
     """Return the surface of a shape at a point."""
     point, error_scale = arguments
     return verbs.surface(shape, point, error_scale)
+
+
+@device
+def comes_from_within(packet: Packet, hit: int, lane: int, world: World) -> bool:
+    """Tell whether a ray meets a surface from within."""
+    row, slot = split_met(integers(packet)[MET + lane])
+    point, direction = load(packet, POINT, hit), load(packet, TOWARDS, hit)
+    surface = surface_at(world, load_group(world, row), slot, point, packet[ERROR_SCALE + hit])
+    outward = sub(point, surface.pole) if surface.is_round else surface.pole
+    return dot(outward, direction) > 0.0
 
 
 @device

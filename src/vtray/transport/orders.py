@@ -31,6 +31,7 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.workspace import Pixels, Sums
 from vtray.geometry.vector import Vec, add
 from vtray.transport.film import Rows, place_of
+from vtray.transport.fog import FogFrame, lane_share
 
 MOST = 2
 """Light that was scattered so often or more often has the last order."""
@@ -91,6 +92,17 @@ def limit_orders(packet: Packet, lane: int, brightest: float, peak: float, order
     if peak > brightest:
         for row in range(ROWS):
             packet[EMISSION + row * LANES + lane] *= brightest / peak
+
+
+@device
+def veil_orders(packet: Packet, lanes: int, orders: Rows, fog: FogFrame | None) -> None:
+    """Take from all orders of the light of surfaces what fog hides of it, as `fog.veil` does."""
+    if orders is not None:  # noqa: SIM102
+        if fog is not None:
+            for lane in range(lanes):
+                clear = 1.0 - lane_share(packet, lane, fog)
+                for row in range(ROWS):
+                    packet[EMISSION + row * LANES + lane] *= clear
 
 
 @device

@@ -15,6 +15,8 @@ from vtray.geometry.packets.packet import (
     DISTANCE,
     ERROR_SCALE,
     GATHERED,
+    LENGTH,
+    LIGHT,
     MET,
     MIXED,
     NO_PRIMITIVE,
@@ -25,7 +27,6 @@ from vtray.geometry.packets.packet import (
     PRIMITIVE,
     SOURCE,
     THROUGHPUT,
-    TOWARDS,
     VALUE,
     VARIANCE,
     WITHIN,
@@ -34,22 +35,23 @@ from vtray.geometry.packets.packet import (
     integers,
     join_met,
     load,
-    split_met,
+    load_ray,
     store,
     store_ray,
 )
 from vtray.geometry.packets.pending import Pending, Waiting, clear_pending, pop_ray, push_ray
+from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.queries import NOTHING, Hit, nearest_hit
 from vtray.geometry.ray import Ray
 from vtray.geometry.rounding import ROUNDING
-from vtray.geometry.vector import Vec, add, dot, scale, sub
-from vtray.geometry.world import World, load_group
+from vtray.geometry.vector import Vec, add, dot, scale
+from vtray.geometry.world import World
 from vtray.transport.far_light import far_light
 from vtray.transport.film import Rows
+from vtray.transport.glass_around import leave_glass
 from vtray.transport.integrators.glossy_light import light_met
 from vtray.transport.integrators.lamps import nearest_lamp
-from vtray.transport.interaction import surface_at
 from vtray.transport.lights.light import Lights, lamp_light
 from vtray.transport.materials.absorption import transmitted
 from vtray.transport.materials.look import (
@@ -78,13 +80,17 @@ def bounced_sheaf() -> Sheaf:
 def mix_looks(
     packet: Packet,
     lanes: int,
+    sheaf: Sheaf,
+    world: World,
     materials: Materials,
     looks: Looks | None,
     paths: Paths | None,
+    stack: Stack,
 ) -> None:
     """Set field ``MIXED`` of the lanes whose pixels get samples, as more is seen than surfaces.
 
-    That is where rays meet mirrors or glass; for paths, where they meet anything.
+    That is where rays meet mirrors or glass, or start in glass that takes light; for paths, where
+    they meet anything.
     """
     # Arguments that are None are known to the compiler, which drops what depends on them alone.
     if looks is None:
@@ -95,11 +101,39 @@ def mix_looks(
         if met > NO_PRIMITIVE:  # noqa: SIM102 - the look of nothing is not asked
             if paths is not None or load_look(materials, looks, met).kind != MATT:
                 packet[MIXED + lane] = 1.0
+        ray, distance = load_ray(packet, sheaf, lane), packet[DISTANCE + lane]
+        within, _ = leave_glass(world, materials, looks, ray, distance, stack)
+        if within != EMPTY:
+            packet[MIXED + lane] = 1.0
 
 
 @device
-def begin_bounces(packet: Packet, lanes: int, pending: Pending) -> None:
-    """Keep what the rays of the camera meet, and start with no light."""
+def begin_bounces(
+    packet: Packet,
+    lanes: int,
+    sheaf: Sheaf,
+    world: World,
+    materials: Materials,
+    looks: Looks,
+    pending: Pending,
+    stack: Stack,
+) -> None:
+    """Keep what the rays of the camera meet, and start with no light.
+
+    Parameters
+    ----------
+    packet, lanes
+        The rays of so many lanes; out: of their light, and of that of lamps that they see, is left
+        what glass around the camera leaves of it.
+    sheaf
+        What they have in common.
+    world, materials, looks
+        The scene.
+    pending
+        Out: no rays that wait.
+    stack
+        Scratch memory.
+    """
     numbers = integers(packet)
     clear_pending(pending, lanes)
     for lane in range(lanes):
@@ -107,19 +141,13 @@ def begin_bounces(packet: Packet, lanes: int, pending: Pending) -> None:
         numbers[BEHIND + lane] = numbers[PRIMITIVE + lane]
         numbers[BEHIND_MET + lane] = numbers[MET + lane]
         packet[VARIANCE + lane] = 0.0
-        numbers[BOUNCES + lane], numbers[WITHIN + lane] = 0, EMPTY
+        ray, distance = load_ray(packet, sheaf, lane), packet[DISTANCE + lane]
+        within, left = leave_glass(world, materials, looks, ray, distance, stack)
+        numbers[BOUNCES + lane], numbers[WITHIN + lane] = 0, within
         store(packet, GATHERED, lane, (0.0, 0.0, 0.0))
-        store(packet, THROUGHPUT, lane, (1.0, 1.0, 1.0))
-
-
-@device
-def comes_from_within(packet: Packet, hit: int, lane: int, world: World) -> bool:
-    """Tell whether a ray meets a surface from within."""
-    row, slot = split_met(integers(packet)[MET + lane])
-    point, direction = load(packet, POINT, hit), load(packet, TOWARDS, hit)
-    surface = surface_at(world, load_group(world, row), slot, point, packet[ERROR_SCALE + hit])
-    outward = sub(point, surface.pole) if surface.is_round else surface.pole
-    return dot(outward, direction) > 0.0
+        store(packet, THROUGHPUT, lane, left)
+        if numbers[PRIMITIVE + lane] < NO_PRIMITIVE:
+            store(packet, LIGHT, lane, times(left, load(packet, LIGHT, lane)))
 
 
 @device
@@ -298,6 +326,7 @@ def end_bounces(packet: Packet, lanes: int, brightest: float, orders: Rows) -> i
         numbers[MET + lane] = numbers[BEHIND_MET + lane]
         if numbers[BEHIND + lane] > NO_PRIMITIVE:
             numbers[SOURCE + hits] = lane
+            packet[LENGTH + hits] = packet[DISTANCE + lane]
             light = load(packet, GATHERED, lane)
             peak = max(light[0], light[1], light[2])
             store(

@@ -65,6 +65,7 @@ from vtray.transport.orders import (
     clear_sums_of_orders,
     order_hits,
     order_lamps,
+    veil_orders,
     write_orders,
     write_sums_of_orders,
 )
@@ -192,7 +193,16 @@ def _trace_pixels(
             add_orders(packet, lanes, last - first, work.sums, film.orders)
         else:
             peak = write_middles(
-                packet, block, begin, end, hits, work.pixels, film, scene.fog, scene.world.faded
+                packet,
+                block,
+                begin,
+                end,
+                hits,
+                work.pixels,
+                film,
+                scene.fog,
+                scene.world,
+                scene.materials,
             )
             write_orders(packet, block, begin, end, work.pixels, film.orders)
     if sampling.rays > 1:
@@ -255,7 +265,16 @@ def _meet(
             find_mixed(packet, lanes)
             mix_lamps(packet, lanes, sheaf, footprint, lights.visible)
             mix_faded(packet, lanes, sheaf, footprint, scene.world, faded, work)
-            mix_looks(packet, lanes, scene.materials, scene.materials.looks, sampling.paths)
+            mix_looks(
+                packet,
+                lanes,
+                sheaf,
+                scene.world,
+                scene.materials,
+                scene.materials.looks,
+                sampling.paths,
+                work.stack,
+            )
             leave_mixed(packet, lanes)
 
 
@@ -377,7 +396,9 @@ def _light_bounces(
     """Find the light of all lanes over many surfaces; the result is that of `_light_lanes`."""
     cast, steps, sheaf, pending = 0, 0, bounced_sheaf(), work.pending
     world, materials, forward = scene.world, scene.materials, scene.camera.forward
-    begin_bounces(packet, lanes, pending)
+    begin_bounces(
+        packet, lanes, sheaf_of(scene.camera), world, materials, looks, pending, work.stack
+    )
     hits = _gather(packet, lanes, scene, sampling, film.mixed, work)
     while hits > 0 and not stop[0]:
         if paths is not None:
@@ -429,7 +450,10 @@ def _light_bounces(
         )
         steps += 1
     cast_rays(packet, lanes, scene.camera)
-    return end_bounces(packet, lanes, looks.brightest, film.orders), cast
+    hits = end_bounces(packet, lanes, looks.brightest, film.orders)
+    veil(packet, lanes, hits, film.linear, film.error, scene.fog)
+    veil_orders(packet, lanes, film.orders, scene.fog)
+    return hits, cast
 
 
 @device

@@ -44,7 +44,6 @@ from vtray.geometry.vector import Vec, dot, scale
 from vtray.geometry.warps import cosine_direction
 from vtray.transport.film import Rows
 from vtray.transport.integrators.bounces import (
-    comes_from_within,
     gather_at,
     mirrored_share,
     push_from,
@@ -53,6 +52,7 @@ from vtray.transport.integrators.bounces import (
 )
 from vtray.transport.integrators.glossy_light import light_gloss
 from vtray.transport.integrators.soft import sample_of
+from vtray.transport.interaction import comes_from_within
 from vtray.transport.lights.surroundings import has_even_light
 from vtray.transport.materials.frosted import Passed, chance_of, pass_facet
 from vtray.transport.materials.gloss import Gloss, gloss_of, scatter_gloss

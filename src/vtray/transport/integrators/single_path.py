@@ -98,22 +98,30 @@ class Begun(NamedTuple):
         The row of a lamp, or ``NOTHING``.
     light
         What is seen of it.
+    passes
+        What is left of light by the glass in which the ray starts.
     """
 
     lamp: int
     light: Vec
+    passes: Vec
 
 
 @kernel
 def begin_path(
-    scene: SceneArrays, sampling: Sampling, place: Place, packet: Packet, work: Workspace
+    scene: SceneArrays,
+    looks: Looks,
+    sampling: Sampling,
+    place: Place,
+    packet: Packet,
+    work: Workspace,
 ) -> Begun:
     """Cast a ray of the camera.
 
     Parameters
     ----------
-    scene, sampling, place
-        The scene, how its rays are cast, and which ray it is.
+    scene, looks, sampling, place
+        The scene, what things are made of, how rays are cast, and which ray it is.
     packet
         Out: in the first lane the ray, and what it meets.
     work
@@ -130,11 +138,12 @@ def begin_path(
     integers(packet)[PRIMITIVE] = hit.primitive if lamp == NOTHING else NOTHING
     integers(packet)[MET] = join_met(hit.group, hit.slot)
     store_ray(packet, 0, ray)
-    begin_bounces(packet, 1, work.pending)
-    light = (0.0, 0.0, 0.0)
+    sheaf, stack = bounced_sheaf(), work.stack
+    begin_bounces(packet, 1, sheaf, scene.world, scene.materials, looks, work.pending, stack)
+    passes, light = load(packet, THROUGHPUT, 0), (0.0, 0.0, 0.0)
     if lamp != NOTHING:
-        light = lamp_light(scene.lights, lamp)
-    return Begun(lamp, light)
+        light = times(passes, lamp_light(scene.lights, lamp))
+    return Begun(lamp, light, passes)
 
 
 class Choice(NamedTuple):
@@ -175,7 +184,7 @@ def leave_hit(
     Parameters
     ----------
     scene, looks, sampling, place
-        As for `begin_path`, and what things are made of.
+        As for `begin_path`.
     packet
         Out: the hit, its colour weighed by how much is seen of it as matt.
     work

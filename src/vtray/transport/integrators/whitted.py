@@ -30,12 +30,12 @@ from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.geometry.world import World
 from vtray.transport.film import Rows
 from vtray.transport.integrators.bounces import (
-    comes_from_within,
     mirrored_share,
     push_from,
     shine,
     times,
 )
+from vtray.transport.interaction import comes_from_within
 from vtray.transport.materials.look import (
     EMISSIVE,
     EMPTY,

@@ -54,6 +54,8 @@ class Looks(NamedTuple):
     albedos
         What rough surfaces and coats mirror, as `albedo.albedo_at` reads it; None where there are
         only smooth ones, so that no code is compiled for others.
+    absorbs
+        True where any glass takes light that goes through it; None where none does, likewise.
     """
 
     row: NDArray[np.int64]
@@ -64,6 +66,7 @@ class Looks(NamedTuple):
     depth: int
     brightest: float
     albedos: Albedos | None
+    absorbs: bool | None
 
 
 class Look(NamedTuple):
