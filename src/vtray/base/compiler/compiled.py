@@ -32,6 +32,8 @@ from vtray.base.compiler.canary import (
     sing,
     warn_of_slow_starts,
 )
+from vtray.base.compiler.function_names import full_name
+from vtray.base.compiler.mode import is_for_kernels
 from vtray.base.compiler.native_call import (
     NativeCall,
     Pinned,
@@ -49,7 +51,7 @@ from vtray.base.compiler.object_code import (
     read_object_code,
     write_object_code,
 )
-from vtray.base.compiler.parts import full_name, load_parts, make_parts, new_name
+from vtray.base.compiler.parts import load_parts, make_parts, new_name
 from vtray.base.errors import RenderError
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -183,16 +185,21 @@ class Device:
         return compiled
 
     @cached_property
-    def _called(self) -> Callable[..., object]:
+    def _called(self) -> Any:  # noqa: ANN401
         """The function for compiled code alone that Numba calls."""
         return self._unwrapped()
 
     @cached_property
-    def _called_by_kernels(self) -> Callable[..., object]:
+    def _called_by_kernels(self) -> Any:  # noqa: ANN401
         """The same for machine code that is called without Numba, where parts are apart."""
-        return self._unwrapped()
+        from vtray.base.compiler.kept_functions import KeptFunctions
 
-    def _unwrapped(self) -> Callable[..., object]:
+        called = self._unwrapped()
+        is_inlined = self._options.get("forceinline", False)
+        called._cache = KeptFunctions(self._function, is_inlined)  # noqa: SLF001 - as Numba does
+        return called
+
+    def _unwrapped(self) -> Any:  # noqa: ANN401
         """Return the function as something that compiles it for compiled code.
 
         Without the wrappers through which Python would call it, kernels compile in half the time.
@@ -200,10 +207,7 @@ class Device:
         import numba
 
         options = {**self._options, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-        compiled: Callable[..., object] = numba.njit(
-            self._function, pipeline_class=self._pipeline, **options
-        )
-        return compiled
+        return numba.njit(self._function, pipeline_class=self._pipeline, **options)
 
     @property
     def _pipeline(self) -> type[Any]:
@@ -216,8 +220,6 @@ class Device:
     def _numba_type_(self) -> object:
         """What Numba asks for where compiled code calls this."""
         import numba
-
-        from vtray.base.compiler.numba_pipeline import is_for_kernels
 
         dispatcher: Any = self._called_by_kernels if is_for_kernels() else self._called
         return numba.types.Dispatcher(dispatcher)
@@ -262,8 +264,6 @@ class Part(Device):
     @property
     def _numba_type_(self) -> object:
         """What Numba asks for where compiled code calls this."""
-        from vtray.base.compiler.numba_pipeline import is_for_kernels
-
         return self._name if is_for_kernels() else super()._numba_type_
 
     @cached_property

@@ -14,7 +14,6 @@ the linker finds.
 # mypy: allow-untyped-calls
 
 import inspect
-import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -56,18 +55,6 @@ RETURNED: dict[object, Any] = {
     float: numba.types.float64,
 }
 """What parts may return, by their annotations: nobody looks into a part for that."""
-
-_mode = threading.local()
-
-
-def is_for_kernels() -> bool:
-    """Tell whether what this thread compiles now is machine code without Numba."""
-    return getattr(_mode, "is_for_kernels", False)
-
-
-def set_for_kernels(is_so: bool) -> None:
-    """Set what `is_for_kernels` returns in this thread."""
-    _mode.is_for_kernels = is_so
 
 
 class _NoEnvironments:

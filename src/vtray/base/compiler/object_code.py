@@ -20,13 +20,15 @@ from importlib.machinery import PathFinder
 from importlib.util import find_spec, module_from_spec
 from itertools import count
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import msgspec
 from blake3 import blake3
 
 from vtray.base.compiler.elf_loader import NOTHING, load
+from vtray.base.compiler.function_names import OWN
 from vtray.base.compiler.kernel_folder import SUFFIX, cache_folder, read_kept
+from vtray.base.compiler.mode import compiling
 from vtray.base.compiler.native_call import Layout, TupleLayout
 from vtray.base.compiler.processor import processor
 from vtray.base.memory import check_memory_of_compiler, check_memory_of_start
@@ -50,6 +52,8 @@ _OBJECTS_TO_COLLECT = 20_000
 
 With its usual 700, looking takes a tenth of all compiling; with these, 3 MB more are needed.
 """
+
+Struct = TypeVar("Struct", bound=msgspec.Struct)
 
 _number = count()
 
@@ -88,23 +92,33 @@ def object_file(name: str) -> Path | None:
     The name of its folder tells only whether vtray's own sources have changed, so nothing else is
     kept.
     """
-    folder = cache_folder() if name.startswith("vtray.") else None
+    folder = cache_folder() if name.startswith(OWN) else None
     return folder and folder / f"{name}{SUFFIX}"
 
 
 def read_object_code(file: Path) -> ObjectCode | None:
     """Return what a file holds, None if it is missing, damaged, or not to be trusted."""
-    content = read_kept(file) or b""
-    checksum, body = content[:_HASH_BYTES], content[_HASH_BYTES:]
-    with contextlib.suppress(msgspec.DecodeError):
-        if checksum == blake3(body).digest():
-            return msgspec.msgpack.decode(body, type=ObjectCode)
-    return None
+    return read_struct(file, ObjectCode)
 
 
 def write_object_code(file: Path, compiled: ObjectCode) -> None:
     """Write a file, whole; if that fails, the next process compiles again."""
-    body = msgspec.msgpack.encode(compiled)
+    write_struct(file, compiled)
+
+
+def read_struct(file: Path, kind: type[Struct]) -> Struct | None:
+    """Return what a file in the folder holds, None if that is missing, damaged, or not trusted."""
+    content = read_kept(file) or b""
+    checksum, body = content[:_HASH_BYTES], content[_HASH_BYTES:]
+    with contextlib.suppress(msgspec.DecodeError):
+        if checksum == blake3(body).digest():
+            return msgspec.msgpack.decode(body, type=kind)
+    return None
+
+
+def write_struct(file: Path, content: msgspec.Struct) -> None:
+    """Write a file in the folder, whole, if that can be."""
+    body = msgspec.msgpack.encode(content)
     with contextlib.suppress(OSError):
         write_own(file, blake3(body).digest() + body)
 
@@ -151,17 +165,13 @@ def _compile(
     """Return Numba's result for a function of its own in memory."""
     import numba
 
-    from vtray.base.compiler.numba_pipeline import KernelPipeline, set_for_kernels
+    from vtray.base.compiler.numba_pipeline import KernelPipeline
 
     # The wrappers through which Python would call it need Numba in memory.
     unwrapped: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     compiler: Any = numba.njit(function, pipeline_class=KernelPipeline, **options, **unwrapped)
-    set_for_kernels(True)
-    try:
-        with _fewer_collections():
-            compiler.compile(types)
-    finally:
-        set_for_kernels(False)
+    with compiling(is_kept=function.__module__.startswith(OWN)), _fewer_collections():
+        compiler.compile(types)
     return compiler.overloads[types]
 
 

@@ -10,8 +10,10 @@ compiler knows the types of their arguments.
 """
 
 from collections.abc import Callable, Mapping
+from importlib import import_module
 from typing import Any, NamedTuple
 
+from vtray.base.compiler.function_names import full_name
 from vtray.base.compiler.object_code import (
     ObjectCode,
     compile_part,
@@ -23,7 +25,7 @@ from vtray.base.compiler.object_code import (
 )
 
 
-class _Origin(NamedTuple):
+class Origin(NamedTuple):
     """What a part is compiled from."""
 
     function: Callable[..., object]
@@ -31,13 +33,8 @@ class _Origin(NamedTuple):
     types: tuple[Any, ...]
 
 
-_origins: dict[str, _Origin] = {}
+_origins: dict[str, Origin] = {}
 _addresses: dict[str, int] = {}
-
-
-def full_name(function: Callable[..., object]) -> str:
-    """Return the name of a function with that of its module."""
-    return f"{function.__module__}.{function.__qualname__}"
 
 
 def new_name(
@@ -53,8 +50,32 @@ def new_name(
         Numba's types of the arguments.
     """
     name = object_name(full_name(function), ", ".join(map(str, types)))
-    _origins[name] = _Origin(function, options, types)
+    _origins[name] = Origin(function, options, types)
     return name
+
+
+def origin_of(name: str) -> Origin:
+    """Return what a part is compiled from, given its name."""
+    return _origins[name]
+
+
+def know_part(
+    name: str, module: str, function: str, options: Mapping[str, Any], types: tuple[Any, ...]
+) -> None:
+    """Take note of a part that code calls which this process has not compiled.
+
+    Parameters
+    ----------
+    name
+        That of the part.
+    module, function, options
+        The module of the part in Python, its name there, and Numba's options.
+    types
+        Numba's types of the arguments.
+    """
+    if name not in _origins:
+        part: Any = getattr(import_module(module), function)
+        _origins[name] = Origin(part.__wrapped__, options, types)
 
 
 def load_parts(compiled: ObjectCode) -> dict[str, int] | None:

@@ -13,6 +13,7 @@ Where one of these fails in a device function, that returns 0.
 # ruff: noqa: ANN401
 # mypy: allow-untyped-calls
 
+import contextlib
 from typing import Any
 
 import numba
@@ -20,6 +21,10 @@ from llvmlite import ir
 from numba.core import cgutils
 from numba.core.callconv import RETCODE_OK, CPUCallConv, Status
 from numba.core.cpu import CPUContext
+
+from vtray.base.compiler.function_names import UnnamedError
+from vtray.base.compiler.kept_types import symbol_of
+from vtray.base.compiler.mode import is_kept
 
 types: Any = numba.types
 
@@ -136,6 +141,14 @@ class KernelContext(CPUContext):
         """How functions are called."""
         return PlainCalls(self)
 
+    def mangler(self, name: str, argtypes: Any, *, abi_tags: Any = (), uid: Any = None) -> str:
+        """Return the name of a function in machine code."""
+        if is_kept():
+            with contextlib.suppress(UnnamedError):
+                return symbol_of(name, argtypes)
+        mangled: str = super().mangler(name, argtypes, abi_tags=abi_tags, uid=uid)
+        return mangled
+
     def declare_function(self, module: ir.Module, fndesc: Any) -> ir.Function:
         """Write the declaration of a function."""
         if not fndesc.mangled_name.endswith(_MARK):
@@ -153,8 +166,7 @@ class DeviceContext(KernelContext):
 
     def mangler(self, name: str, argtypes: Any, *, abi_tags: Any = (), uid: Any = None) -> str:
         """Return the name of a function in machine code."""
-        mangled: str = super().mangler(name, argtypes, abi_tags=abi_tags, uid=uid)
-        return mangled + _MARK
+        return super().mangler(name, argtypes, abi_tags=abi_tags, uid=uid) + _MARK
 
 
 def _is_passed(kind: Any) -> bool:
