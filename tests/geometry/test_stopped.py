@@ -13,6 +13,7 @@ from conftest import JIT, compiled_only
 from vtray import Scene
 from vtray.base.compiler.compiled import device, uncompiled
 from vtray.geometry.between import is_occluded
+from vtray.geometry.bits import count_bits, lowest_bit
 from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh
 from vtray.geometry.packets.fan import (
     BLOCKED,
@@ -28,7 +29,7 @@ from vtray.geometry.packets.fan import (
     fan_segment,
     new_fan,
 )
-from vtray.geometry.packets.fan_rays import View, balls_seen, count_bits, first_bit, octet_within
+from vtray.geometry.packets.fan_rays import View, balls_seen, octet_within
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.stopped import Bundle, stop_by_all
 from vtray.geometry.vector import Vec, add, dot, magnitude, scale
@@ -141,7 +142,7 @@ def ask_octet(singles: Any, first: Any, step: Any, way: Any, least: Any) -> Any:
 
 @device
 def ask_bits(bits: Any) -> Any:
-    return count_bits(bits), first_bit(bits)
+    return count_bits(bits), lowest_bit(bits)
 
 
 def test_octets_are_asked_as_numpy_asks_them() -> None:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.bits import lowest_bit
 from vtray.geometry.bvh.boxes import fetch_node
 from vtray.geometry.bvh.tree import WIDTH
 from vtray.geometry.dispatch import with_any
@@ -219,15 +220,12 @@ def _first_in_tree(
             continue
         # In any order: the nearest first, by `push_met`, is a quarter slower in packed spheres.
         met = children_met(bvh, node, beam, near, far, stack.entered)
-        place = node * WIDTH
-        while met > 0:
-            if met & 1:
-                child = bvh.child[place]
-                fetch_node(bvh, child)
-                stack.node[waiting] = child
-                waiting += 1
-            met >>= 1
-            place += 1
+        while met != 0:
+            child = bvh.child[node * WIDTH + lowest_bit(met)]
+            met &= met - 1
+            fetch_node(bvh, child)
+            stack.node[waiting] = child
+            waiting += 1
     return first
 
 

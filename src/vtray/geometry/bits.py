@@ -1,23 +1,17 @@
-"""Sets of up to eight things as the bits of an integer."""
+"""Sets of things as the bits of an integer."""
 
-from vtray.base.compiler.compiled import device
+import numpy as np
 
-_SPREAD = 0b10111
-"""Times a power of two up to 128, the three highest of its low eight bits are like no other's."""
-
-_PLACES = sum(k << (((1 << k) * _SPREAD & 0xFF) >> 5) * 4 for k in range(8))
-"""The exponent of each power, four bits for each, in the order of those three bits."""
+from vtray.base.compiler.compiled import written_in_llvm
 
 
-@device
-def lowest_bit(bits: int) -> int:
-    """Return the place of the lowest of eight bits that is set; one must be.
+@written_in_llvm("vtray.geometry.bits_in_llvm:write_lowest_bit")
+def lowest_bit(bits: int | np.uint64) -> int:
+    """Return the place of the lowest bit that is set; one must be."""
+    return (int(bits) & -int(bits)).bit_length() - 1
 
-    Without a branch, which processors would often guess wrong.
 
-    References
-    ----------
-    Leiserson, Prokop, Randall, "Using de Bruijn Sequences to Index a 1 in a Computer Word", 1998.
-    """
-    lowest = bits & -bits
-    return _PLACES >> ((lowest * _SPREAD & 0xFF) >> 5) * 4 & 7
+@written_in_llvm("vtray.geometry.bits_in_llvm:write_count_bits")
+def count_bits(bits: int | np.uint64) -> int:
+    """Return how many bits are set."""
+    return int(bits).bit_count()

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.between import is_occluded_below, is_occluded_by_placed
-from vtray.geometry.bits import lowest_bit
+from vtray.geometry.bits import count_bits, lowest_bit
 from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh, leaf_range
 from vtray.geometry.dispatch import with_any, with_bounded
 from vtray.geometry.packets.beam import ray_beam, shape_margin
@@ -32,8 +32,6 @@ from vtray.geometry.packets.fan_rays import (
     SINGLE_HUGE,
     View,
     balls_seen,
-    count_bits,
-    first_bit,
     narrow_directions,
     open_rays,
     rays_along,
@@ -187,7 +185,7 @@ def _stop_by_tree(bundle: Bundle, world: World, group: Group, stack: Stack) -> N
             unstopped &= ~_stop_by_leaf(bundle, world, group, node, rays, stack)
         elif count_bits(rays) < few:
             while rays != NONE:
-                ray = first_bit(rays)
+                ray = lowest_bit(rays)
                 rays &= rays - ONE
                 segment = fan_segment(fan, ray, start, bundle.end_scale)
                 beam = ray_beam(apex, load_direction(fan, ray), margin)
@@ -296,7 +294,7 @@ def _hidden_rays(
     if kind not in (SPHERE, PLANE):
         rays &= rays_between(fan, bundle.rays, verbs.sides(shape, start.point, start.error_scale))
     while rays != NONE:
-        ray = first_bit(rays)
+        ray = lowest_bit(rays)
         rays &= rays - ONE
         if verbs.hides(shape, fan_segment(fan, ray, start, bundle.end_scale)):
             fan[BLOCKED + ray] = 1.0

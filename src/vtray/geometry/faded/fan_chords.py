@@ -9,6 +9,7 @@ import math
 import numpy as np
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.bits import lowest_bit
 from vtray.geometry.bvh.tree import WIDTH, leaf_range
 from vtray.geometry.dispatch import with_any, with_bounded
 from vtray.geometry.faded.chords import Key, add_chord
@@ -19,7 +20,6 @@ from vtray.geometry.packets.fan_rays import (
     NONE,
     ONE,
     SINGLE_HUGE,
-    first_bit,
     open_rays,
     rays_along,
     view_from,
@@ -128,7 +128,7 @@ def _collect_rays(
     """Collect the chords of a shape for some rays."""
     bundle, rays, met, chords = arguments
     while rays != NONE:
-        k = first_bit(rays)
+        k = lowest_bit(rays)
         rays &= rays - ONE
         ray, end = ray_along(fan_segment(bundle.fan, k, bundle.start, bundle.end_scale))
         add_chord(shape, verbs, number, ray, end, Key(-math.inf, -1), met, chords, k)

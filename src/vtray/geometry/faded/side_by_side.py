@@ -9,10 +9,11 @@ from typing import NamedTuple
 import numpy as np
 
 from vtray.base.compiler.compiled import device, part
+from vtray.geometry.bits import lowest_bit
 from vtray.geometry.dispatch import with_any, with_bounded
 from vtray.geometry.faded.chords import End, chord_of
 from vtray.geometry.faded.nearby import Tube, touches_ball
-from vtray.geometry.packets.fan_rays import NONE, ONE, first_bit
+from vtray.geometry.packets.fan_rays import NONE, ONE
 from vtray.geometry.packets.from_light import FOR_EVER, Box, search_from_light
 from vtray.geometry.packets.layer_notes import ROOM, SIDE_BY_SIDE, SideBySide
 from vtray.geometry.packets.occlusion import Target
@@ -201,7 +202,7 @@ def _collect(shape: Shape, verbs: Verbs, number: int, arguments: tuple[Band, int
     beside, chords = band.beside, band.beside.chords
     near = _rays_near(shape, verbs, band.end, beside)
     while near != NONE:
-        k = first_bit(near)
+        k = lowest_bit(near)
         near &= near - ONE
         end = End(beside.rays[LENGTH + k], -1, band.target.error_scale)
         stay = chord_of(shape, verbs, number, _load_ray(beside, k), end)

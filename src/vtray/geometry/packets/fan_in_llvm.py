@@ -1,4 +1,4 @@
-"""In LLVM's language: eight rays of a fan in one register, and counts of bits.
+"""In LLVM's language: eight rays of a fan in one register.
 
 References
 ----------
@@ -112,21 +112,3 @@ def write_balls_seen(_: object, bvh: Any, first: Any, view: Any, balls: Any) -> 
         return builder.zext(builder.bitcast(seen, ir.IntType(WIDTH)), ir.IntType(64))
 
     return types.int64(bvh, first, view, balls), write
-
-
-def write_count_bits(_: object, bits: Any) -> Code:
-    """Return the code of `count_bits`."""
-
-    def write(_: Any, builder: Any, __: Any, values: Any) -> Any:
-        return builder.ctpop(values[0])
-
-    return types.int64(bits), write
-
-
-def write_first_bit(_: object, bits: Any) -> Code:
-    """Return the code of `first_bit`."""
-
-    def write(_: Any, builder: Any, __: Any, values: Any) -> Any:
-        return builder.cttz(values[0], ir.Constant(ir.IntType(1), 1))
-
-    return types.int64(bits), write

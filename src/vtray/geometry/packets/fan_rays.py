@@ -226,15 +226,3 @@ def octet_within(
     """
     x, y, z = (singles[first + k * step :][:OCTET] * way[k] for k in range(3))
     return np.uint64(np.packbits(x + y + z >= least, bitorder="little")[0])
-
-
-@written_in_llvm("vtray.geometry.packets.fan_in_llvm:write_count_bits")
-def count_bits(rays: np.uint64) -> int:
-    """Return how many rays are in a set."""
-    return int(rays).bit_count()
-
-
-@written_in_llvm("vtray.geometry.packets.fan_in_llvm:write_first_bit")
-def first_bit(rays: np.uint64) -> int:
-    """Return the first ray of a set that has one."""
-    return (int(rays) & -int(rays)).bit_length() - 1
