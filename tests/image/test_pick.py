@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import vtray
+from conftest import once
 from vtray.base.errors import RenderError
 from vtray.scene.particles import drawing
 from vtray.scene.particles.particles import Particles
@@ -76,6 +77,7 @@ def test_picked_particles_on_far_faces(written_out: int, monkeypatch: pytest.Mon
     assert at(-0.4, 6) is None
 
 
+@once
 @pytest.mark.parametrize("written_out", [0, 100])
 @pytest.mark.parametrize("faded", [{"opacity": 0.6}, {"opacity": 0.5, "highlight": "index == 0"}])
 def test_picked_particles_that_are_faded(

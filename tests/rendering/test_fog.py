@@ -9,7 +9,7 @@ import pytest
 from examples import light, plane, scene, sphere
 
 import vtray
-from conftest import compiled_only
+from conftest import compiled_only, once
 from vtray.rendering.fog import ball_around, fitted
 from vtray.scene.style import Style
 
@@ -147,7 +147,7 @@ def test_lamps_are_seen_through_it() -> None:
 
 
 @pytest.mark.parametrize("integrator", ["whitted", "path"])
-@pytest.mark.parametrize("samples", [1, 9])
+@pytest.mark.parametrize("samples", [1, pytest.param(9, marks=once)])
 def test_light_over_many_surfaces_is_in_it(integrator: str, samples: int) -> None:
     found = world()
     found.add_sphere((-2, 1, 6), 2.0, material="mirror")

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import vtray
+from conftest import once
 
 TAKES = (0.5, 0.1, 0.0)
 GLASS = vtray.Glass(1.0, absorption=TAKES)
@@ -49,7 +50,7 @@ def left(length: float, error: float = 1e-5) -> Any:
 
 
 @pytest.mark.parametrize("integrator", ["whitted", "path"])
-@pytest.mark.parametrize("samples", [1, 4])
+@pytest.mark.parametrize("samples", [1, pytest.param(4, marks=once)])
 def test_glass_around_the_camera_takes_light(integrator: str, samples: int) -> None:
     scene = bodies()
     for name, place in PLACES.items():
@@ -79,6 +80,7 @@ def test_glass_counts_from_the_image_plane_on() -> None:
     assert (image.linear[Y, X - 2] == 255).all()
 
 
+@once
 def test_panorama_in_glass() -> None:
     scene = bodies()
     scene.camera = vtray.Camera.panorama((0, 0, 0), target=(0, 1, 0), up=(0, 0, 1), size=(64, 32))

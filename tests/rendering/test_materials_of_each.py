@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import vtray
-from conftest import JIT
+from conftest import JIT, once
 from vtray.scene.fingerprint import scene_hash
 
 PLACES = np.array([(-1.5, 0, 0), (0, 0, 0), (1.5, 0, 0), (0, 1.1, 0.5), (-0.8, -1, 0)], float)
@@ -94,6 +94,7 @@ PLAIN = (
 )
 
 
+@once
 def test_each_may_be_rough_and_metal_in_its_own_way() -> None:
     item = vtray.Spheres(
         PLACES, 0.6, material=vtray.Plastic(1.7), roughness=ROUGH, metalness=np.array(METAL)
@@ -109,6 +110,7 @@ def test_each_may_be_rough_and_metal_in_its_own_way() -> None:
     assert together == apart
 
 
+@once
 @pytest.mark.parametrize("kind", [vtray.Cylinders, vtray.Cones])
 def test_roughness_is_that_of_the_materials_that_have_one(kind: Any) -> None:
     ends = PLACES, np.add(PLACES, (0.2, 0.7, 0.1)), 0.4

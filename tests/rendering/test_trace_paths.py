@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import vtray
-from conftest import JIT
+from conftest import JIT, once
 from vtray.commands import cli
 from vtray.commands.explain import explain_pixel
 from vtray.figures.ray_tree import PathRay, RayTree
@@ -70,7 +70,9 @@ def parts_of(ray: PathRay) -> Any:
 
 
 @pytest.mark.parametrize("integrator", ["whitted", "path"])
-@pytest.mark.parametrize("lights", [len(LIGHTS), 20, 140])
+@pytest.mark.parametrize(
+    "lights", [len(LIGHTS), pytest.param(20, marks=once), pytest.param(140, marks=once)]
+)
 def test_what_is_told_is_what_the_picture_shows(integrator: str, lights: int) -> None:
     """To the last bit; and the parts of it are all of it."""
     scene = all_materials()
@@ -90,6 +92,7 @@ def test_what_is_told_is_what_the_picture_shows(integrator: str, lights: int) ->
     assert surfaces > 1.3 * len(some_pixels(3 if JIT else 2))
 
 
+@once
 @pytest.mark.parametrize("integrator", ["whitted", "path"])
 def test_a_pixel_is_the_mean_of_its_samples(integrator: str) -> None:
     scene = all_materials()
@@ -268,7 +271,7 @@ def words_in(tree: RayTree) -> list[str]:
     return [text.get_text() for text in ax.texts]
 
 
-@pytest.mark.parametrize("integrator", ["whitted", "path"])
+@pytest.mark.parametrize("integrator", [pytest.param("whitted", marks=once), "path"])
 def test_drawings_show_the_rays_that_go_on(integrator: str) -> None:
     pytest.importorskip("matplotlib")
     image = rendered(all_materials(), integrator)

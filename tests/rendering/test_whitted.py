@@ -7,7 +7,7 @@ import pytest
 from oracle_whitted import Ball, Floor, View, seen
 
 import vtray
-from conftest import JIT
+from conftest import JIT, once
 from vtray.scene.materials import AnyMaterial, Blend, Emissive, Glass, Metal, Plastic
 
 A = np.array
@@ -113,6 +113,7 @@ def test_direct_says_what_it_does_not_show() -> None:
     assert matt.linear.tobytes() == plain.linear.tobytes()
 
 
+@once
 def test_rough_surfaces_are_shown_as_smooth_and_said_to_be() -> None:
     kinds = (Metal(roughness=0.5), Plastic(roughness=0.3), Glass(roughness=0.1), "lambert")
     words = "material: metal and plastic and glass are shown as smooth by the integrator whitted; "
