@@ -46,6 +46,7 @@ from vtray.rendering.starlight import Starlight, check_stars, has_stars
 from vtray.rendering.styled import styled
 from vtray.rendering.surfaces import Look
 from vtray.scene.checks.unknown_names import explain_unknown
+from vtray.scene.default_camera import with_camera
 from vtray.scene.default_light import lights_of, lit_objects, settings_of
 from vtray.scene.files.scene_file import Warn
 from vtray.scene.light_types import AnyLight, strength_of
@@ -110,7 +111,8 @@ def render(
     Parameters
     ----------
     scene
-        The scene.
+        The scene. Where its camera was never set, all is seen that has an end, as
+        ``vtray.Camera.fit(scene, view="auto")`` shows it, or above the first plane if there is one.
     threads
         How many threads to use, at least 1; None for all cores. No more are used than there is
         work for.
@@ -227,7 +229,7 @@ def render(
     _check_seconds(update_seconds)
     if lock is not None:
         locked_white(lock, exposure, stops)
-    scene.check()
+    given, scene = scene, with_camera(scene, size)
     lights = lights_of(scene)
     settings, style = overridden(settings_of(scene), locals()), overridden(scene.style, locals())
     shown = _shown(scene, lights, settings)
@@ -237,7 +239,7 @@ def render(
     _tell(warn, *_problems(shown, settings, keep_lights=keep_lights))
     _check(shown, settings, is_shown=on_update is not None)
     clock, loaded = Stopwatch(), loading_seconds()
-    kept = accelerate(scene, threads, _step_of(progress, "build"), style)
+    kept = accelerate(given, threads, _step_of(progress, "build"), style)
     loading = loading_seconds() - loaded
     check_followed(kept, settings, keep_lights=keep_lights)
     _tell(warn, NOTHING_LEFT if is_nothing_left(kept) else "")
