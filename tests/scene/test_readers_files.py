@@ -385,6 +385,24 @@ def test_csv(tmp_path: Path) -> None:
     assert swapped.positions.tolist() == [[2, 1, 3], [5, 4, 6]]
 
 
+@pytest.mark.parametrize("name", ["cell", "box", "Lattice"])
+@pytest.mark.parametrize("cell", [[4.0, 5.0, 6.0], [[4, 0, 0], [1, 5, 0], [0, 0, 6.0]]])
+def test_npz_with_a_cell_and_a_time(name: str, cell: list[object], tmp_path: Path) -> None:
+    path = tmp_path / "a.npz"
+    np.savez(path, positions=np.ones((2, 3)), **{name: cell}, time=2.5, mass=[1, 2])
+    found = vtray.read(path)
+    assert found.cell is not None
+    assert np.array_equal(found.cell, np.diag(cell) if np.ndim(cell) == 1 else cell)
+    assert found.time == 2.5
+    assert sorted(found.columns) == ["mass"]
+
+
+def test_npz_with_other_arrays_says_which(tmp_path: Path) -> None:
+    np.savez(tmp_path / "a.npz", positions=np.ones((2, 3)), box=np.ones((4, 4)))
+    with pytest.raises(SceneError, match=r"a\.npz: .*'box'.*one row for each of 2"):
+        vtray.read(tmp_path / "a.npz")
+
+
 def test_npz_and_parquet(tmp_path: Path) -> None:
     x, y, z = np.arange(6.0).reshape(3, 2)
     table = {"x": x, "y": y, "z": z, "radii": np.array([1, 2]), "kind": np.array(["a", "b"])}

@@ -2,6 +2,7 @@
 
 import csv
 import io
+from dataclasses import replace
 from functools import partial
 from itertools import islice
 from pathlib import Path
@@ -25,6 +26,9 @@ if TYPE_CHECKING:
 
 _SEPARATORS = ",;\t"
 
+CELLS = {"cell", "box", "lattice"}
+"""What the three vectors of a cell, or its three lengths, are called in .npz files."""
+
 _BYTES = 160
 """Of memory for an entry of a .csv file while it is read."""
 
@@ -44,7 +48,8 @@ def read(given: Given) -> Particles:
         text = _read_text(given)
         return from_columns(_csv_columns(text), given.columns, partial(_in_line, text))
     columns = {"npz": _read_npz, "parquet": _read_parquet}[given.format](given)
-    return from_columns(columns, given.columns)
+    of_frame = _taken_out(columns) if given.format == "npz" else {}
+    return replace(from_columns(columns, given.columns), **of_frame)
 
 
 def _read_text(given: Given) -> str:
@@ -137,6 +142,20 @@ def _read_npz(given: Given) -> "dict[str, Array]":
     names = ["position"] if given.path.lower().endswith(".npy") else _names_of(given)
     arrays, _ = read_arrays(Path(given.path), names, alone="position", check=check)
     return arrays
+
+
+def _taken_out(arrays: "dict[str, Array]") -> dict[str, Any]:
+    """Take out of arrays what is known of the whole frame: its cell and its time."""
+    import numpy as np
+
+    found: dict[str, Any] = {}
+    for name, array in [*arrays.items()]:
+        if name.lower() in CELLS and array.shape in {(3,), (3, 3)}:
+            found["cell"] = np.diag(array) if array.ndim == 1 else array
+            del arrays[name]
+        elif name.lower() == "time" and array.shape == ():
+            found["time"] = float(arrays.pop(name))
+    return found
 
 
 def _names_of(given: Given) -> list[str]:
