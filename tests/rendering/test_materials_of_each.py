@@ -94,7 +94,6 @@ PLAIN = (
 )
 
 
-@once
 def test_each_may_be_rough_and_metal_in_its_own_way() -> None:
     item = vtray.Spheres(
         PLACES, 0.6, material=vtray.Plastic(1.7), roughness=ROUGH, metalness=np.array(METAL)
