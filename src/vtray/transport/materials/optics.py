@@ -94,7 +94,16 @@ def _share(cosine: float, other: float, ratio: float) -> float:
 def through_both(split: Split, direction: Vec) -> Split:
     """Return how light divides at a thin sheet, given how it does at the first of its two sides.
 
-    Of what is mirrored to and fro within, all comes out on either side: 2 R / (1 + R) is mirrored
-    in the end where a side mirrors R, and the rest goes straight on.
+    What is not mirrored goes straight on.
     """
-    return Split(2.0 * split.reflected / (1.0 + split.reflected), direction)
+    return Split(mirrored_by_both(split.reflected), direction)
+
+
+@device
+def mirrored_by_both(share: float) -> float:
+    """Return the share that a thin sheet mirrors, given that of one of its sides.
+
+    Of what is mirrored to and fro within, all comes out on either side: 2 R / (1 + R) is mirrored
+    in the end where a side mirrors R.
+    """
+    return 2.0 * share / (1.0 + share)

@@ -26,7 +26,7 @@ from vtray.transport.materials.look import (
     parts_of,
 )
 from vtray.transport.materials.metal import metal_base
-from vtray.transport.materials.optics import mirrored_part
+from vtray.transport.materials.optics import mirrored_by_both, mirrored_part
 
 
 @device
@@ -71,7 +71,7 @@ def _of_one(
 def _mirrored_by_glass(looks: Looks, look: Look, cosine: float, is_inner: bool) -> float:
     """Return the share of light that smooth glass mirrors, and rough glass about so much."""
     share = mirrored_part(cosine, index_ratio(looks, look, is_inner))
-    return 2.0 * share / (1.0 + share) if is_thin(looks, look) else share
+    return mirrored_by_both(share) if is_thin(looks, look) else share
 
 
 @device
