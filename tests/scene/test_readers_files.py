@@ -2,6 +2,7 @@
 
 import warnings
 from pathlib import Path
+from typing import Any
 
 import ase.io
 import laspy
@@ -397,9 +398,19 @@ def test_npz_with_a_cell_and_a_time(name: str, cell: list[object], tmp_path: Pat
     assert sorted(found.columns) == ["mass"]
 
 
-def test_npz_with_other_arrays_says_which(tmp_path: Path) -> None:
-    np.savez(tmp_path / "a.npz", positions=np.ones((2, 3)), box=np.ones((4, 4)))
-    with pytest.raises(SceneError, match=r"a\.npz: .*'box'.*one row for each of 2"):
+@pytest.mark.parametrize(
+    ("name", "arrays"),
+    [
+        ("box", {"box": np.ones((4, 4))}),
+        ("box", {"cell": np.eye(3), "box": 2 * np.eye(3)}),
+        ("time", {"time": np.array("noon")}),
+    ],
+)
+def test_npz_with_other_arrays_says_which(
+    name: str, arrays: dict[str, Any], tmp_path: Path
+) -> None:
+    np.savez(tmp_path / "a.npz", positions=np.ones((2, 3)), **arrays)
+    with pytest.raises(SceneError, match=rf"a\.npz: .*'{name}'.*one row for each of 2"):
         vtray.read(tmp_path / "a.npz")
 
 

@@ -145,15 +145,19 @@ def _read_npz(given: Given) -> "dict[str, Array]":
 
 
 def _taken_out(arrays: "dict[str, Array]") -> dict[str, Any]:
-    """Take out of arrays what is known of the whole frame: its cell and its time."""
+    """Take out of arrays what is known of the whole frame: its cell and its time.
+
+    What else has such a name, as a second cell, stays, and is taken for a column.
+    """
     import numpy as np
 
     found: dict[str, Any] = {}
     for name, array in [*arrays.items()]:
-        if name.lower() in CELLS and array.shape in {(3,), (3, 3)}:
+        is_cell = name.lower() in CELLS and array.shape in {(3,), (3, 3)}
+        if is_cell and "cell" not in found:
             found["cell"] = np.diag(array) if array.ndim == 1 else array
             del arrays[name]
-        elif name.lower() == "time" and array.shape == ():
+        elif name.lower() == "time" and array.shape == () and array.dtype.kind in "biuf":
             found["time"] = float(arrays.pop(name))
     return found
 
