@@ -7,6 +7,7 @@ import numba
 import numpy as np
 import pytest
 
+from conftest import once
 from vtray.base.compiler.compiled import Device, Kernel, pinned
 from vtray.base.compiler.native_call import UnsupportedError, unpack
 
@@ -170,6 +171,7 @@ def test_other_values_are_left_to_numba(value: object) -> None:
         unpack([value])
 
 
+@once
 def test_more_words_than_ctypes_allows() -> None:
     def last(numbers: Any, weights: Any) -> Any:
         return numbers[-1], weights[-1], numbers[0] + weights[0]

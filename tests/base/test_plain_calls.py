@@ -9,6 +9,7 @@ import pytest
 from llvmlite import ir
 from numba.core.codegen import JITCodeLibrary
 
+from conftest import once
 from vtray.base.compiler import compiled
 from vtray.base.compiler.compiled import Device, Kernel, Seldom
 from vtray.base.compiler.numba_pipeline import DeviceLibrary
@@ -104,6 +105,7 @@ def test_python_calls_them_too() -> None:
         third_(1.0, 2)
 
 
+@once
 def test_numbas_own_functions_are_not_changed() -> None:
     """What it compiles for itself, once for all who call it, is called in its own way."""
 

@@ -7,6 +7,7 @@ import pytest
 from clouds import cloud
 
 import vtray
+from conftest import once
 from vtray import SceneError
 from vtray.rendering import hierarchy
 
@@ -21,6 +22,7 @@ def flat() -> vtray.Scene:
     return scene
 
 
+@once
 @pytest.mark.parametrize("size", [None, (60, 20), (20, 60)])
 def test_the_shape_is_shown(size: Any) -> None:
     scene = flat()
@@ -36,9 +38,9 @@ def test_the_shape_is_shown(size: Any) -> None:
 def test_a_floor_is_below(center: Any, normal: Any) -> None:
     scene = flat()
     scene.add_plane(center, normal, lambert=0.8)
-    camera = vtray.render(scene, size=(64, 48)).scene.camera
+    camera = vtray.render(scene, size=(16, 12)).scene.camera
     places = camera.project(scene.objects[0].center)
-    assert ((places[:, :2] > 0) & (places[:, :2] < (64, 48))).all()
+    assert ((places[:, :2] > 0) & (places[:, :2] < (16, 12))).all()
     up = np.negative(normal) if np.dot(center, normal) > 0 else np.array(normal)
     up = up / np.linalg.norm(up)
     x, y, _ = (camera.project([up * 0.1]) - camera.project([(0, 0, 0)]))[0]
@@ -48,6 +50,7 @@ def test_a_floor_is_below(center: Any, normal: Any) -> None:
     assert np.dot(way, up) < 0  # the floor is seen from above
 
 
+@once
 def test_hierarchies_stay_with_the_scene(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = vtray.Scene()
     scene.objects = [cloud("uniform", 500, 1)]

@@ -67,6 +67,7 @@ def test_glass_around_the_camera_takes_light(integrator: str, samples: int) -> N
         assert ("glass      leaves" in text) == (name != "nowhere")
 
 
+@once
 def test_glass_counts_from_the_image_plane_on() -> None:
     scene = bodies()
     scene.camera = looking((0, 0, 0)).replace(center=(0, 1, 0), focus=2, resolution=(0.1, 0.1))

@@ -127,6 +127,7 @@ def test_roughness_is_that_of_the_materials_that_have_one(kind: Any) -> None:
     assert any(problem.startswith(words) for problem in problems)
 
 
+@once
 def test_thin_glass_stays_smooth() -> None:
     thin, kinds = vtray.Glass(thin=True), (0, 1, 0, 1, 0)
     item = spheres(material=(thin, "mirror"), material_index=kinds)

@@ -290,6 +290,7 @@ def test_parts_of_pictures_do_not_know_them(tmp_path: Path) -> None:
     parts[0].save(tmp_path / "a.npz", aov=NAMES)
 
 
+@once
 @pytest.mark.parametrize("is_asked_before", [False, True])
 def test_pickled_pictures_know_them(is_asked_before: bool) -> None:
     image = rendered(all_kinds())

@@ -29,6 +29,7 @@ def light_of(scene: vtray.Scene, **settings: Any) -> Any:
     return vtray.render(scene, **settings).linear / 255
 
 
+@once
 @pytest.mark.parametrize("sky", [vtray.Sky(1), vtray.Ambient(1)])
 @pytest.mark.parametrize(
     "material", ["lambert", "mirror", "glass", Glass(0.7), Glass(1.0), Glass(2.4), "metal"]
@@ -83,6 +84,7 @@ def test_what_shines_is_seen_as_bright_as_it_is() -> None:
         assert light == pytest.approx(np.broadcast_to([2.5, 0.5, 0], light.shape))
 
 
+@once
 @pytest.mark.parametrize("integrator", ["whitted", "path"])
 def test_glass_absorbs_by_its_thickness(integrator: str) -> None:
     """Through the middle of a ball without refraction goes exp(-absorption * diameter)."""

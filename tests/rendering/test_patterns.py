@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vtray
-from conftest import JIT
+from conftest import JIT, once
 from vtray.scene.fingerprint import scene_hash
 
 SIZE = (48, 40) if JIT else (16, 12)
@@ -264,6 +264,7 @@ def test_a_pattern_of_own_colors_changes_nothing(integrator: str) -> None:
     assert (other.linear != plain.linear).any()
 
 
+@once
 @pytest.mark.parametrize("integrator", ["direct", "whitted", "path"])
 def test_pixels_are_told_as_they_are(integrator: str) -> None:
     scene = scene_of(all_shapes(vtray.Stripes(size=0.2), roughness=0.3), vtray.Sky(0.3))

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from strategies import colors, may_be_dark, scenes
 
 import vtray
-from conftest import JIT
+from conftest import JIT, once
 from vtray.scene.settings import FILTERS
 
 SETTINGS = st.fixed_dictionaries(
@@ -49,11 +49,12 @@ def assert_same(image: vtray.Image, expected: vtray.Image) -> None:
     assert image.locked == expected.locked
 
 
+@once
 @may_be_dark
-@settings(max_examples=80 if JIT else 20)
+@settings(max_examples=80)
 @given(scenes(), SETTINGS, st.data())
 def test_equals_a_new_render(document: dict, how: dict, data: st.DataObject) -> None:
-    if how["samples"] > 2 or not JIT:
+    if how["samples"] > 2:
         document["camera"]["size"] = [min(9, n) for n in document["camera"]["size"]]
     world = load(document)
     # Not an argument, which excludes a lock.

@@ -131,6 +131,7 @@ ROUGH = [
 SIMPLE = [Metal(roughness=0.5), Glass(thin=True), Blend("lambert", "mirror")]
 
 
+@once
 @pytest.mark.parametrize("material", [*(pytest.param(one, marks=once) for one in ROUGH), *SIMPLE])
 def test_white_furnaces_are_white(material: Material) -> None:
     """Where everything is white and the light the same from everywhere, nothing is seen."""

@@ -61,10 +61,9 @@ def scene_of(kind: str) -> vtray.Scene:
     return scene
 
 
+@once
 @pytest.mark.parametrize("kind", ["few", "many", "bonds", "copies"])
 def test_bundles_tell_what_each_ray_alone_would(kind: str) -> None:
-    if kind != "few" and not JIT:
-        pytest.skip("takes minutes without the compiler")
     scene = scene_of(kind)
     image = render(scene, seed=5, tolerance=TOLERANCE)
     arrays = pack(scene, accelerate(scene)).arrays

@@ -71,6 +71,7 @@ def expected(scene: vtray.Scene, depth: int) -> Any:
     return light
 
 
+@once
 @pytest.mark.parametrize("depth", [0, 1, 2, 6])
 @pytest.mark.parametrize(
     "kinds",

@@ -14,7 +14,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import vtray
-from conftest import compiled_only
+from conftest import compiled_only, once
 from vtray import Camera, Scene, SceneError, Spheres
 from vtray.scene.placing import camera_fit, pieces, seen
 from vtray.scene.placing.bounding_sphere import bounding_sphere
@@ -237,6 +237,7 @@ def clouds() -> dict[str, Any]:
     }
 
 
+@once
 @pytest.mark.parametrize("name", clouds())
 @pytest.mark.parametrize("direction", [(0, 0, -1), (1, 2, -1), (1, 0, 0)])
 def test_fit_of_many_spheres(name: str, direction: Any, monkeypatch: Any) -> None:

@@ -11,6 +11,7 @@ from test_camera_fit import directions
 from written_out import written_out
 
 import vtray
+from conftest import once
 from vtray import Camera, Copies, Cylinder, Cylinders, Plane, Scene, SceneError, Sphere, Spheres
 from vtray.scene.placing import bounding_sphere as around
 from vtray.scene.placing import seen
@@ -48,6 +49,7 @@ def numbers(camera: Camera) -> np.ndarray:
     return np.array([center.x, center.y, center.z, camera.focus, *camera.resolution])
 
 
+@once
 @settings(max_examples=60)
 @given(
     seed=st.integers(0, 10**6),

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from test_camera_fit import directions, project
 
 import vtray
+from conftest import once
 from vtray import Camera, Cylinders, Scene, Spheres
 from vtray.scene.placing import pieces, seen
 from vtray.scene.placing.bounding_sphere import bounding_sphere
@@ -58,6 +59,7 @@ def seen_range(camera: Camera, cylinders: Cylinders) -> tuple[Any, Any]:
     return points.min(axis=0), points.max(axis=0)
 
 
+@once
 @settings(max_examples=100)
 @given(
     seed=st.integers(0, 10**6),

@@ -67,7 +67,7 @@ def assert_sampled(
 
 @once
 @may_be_dark
-@settings(max_examples=60 if JIT else 15)
+@settings(max_examples=60)
 @given(
     scenes(),
     st.sampled_from(COUNTS),
@@ -77,7 +77,7 @@ def assert_sampled(
 def test_each_pixel_is_the_mean_of_its_samples(
     document: dict, samples: int, filter_name: str, seed: int
 ) -> None:
-    if samples > 17 or not JIT:
+    if samples > 17:
         document["camera"]["size"] = [min(5, n) for n in document["camera"]["size"]]
     assert_sampled(document, samples, filter_name, seed)
     with_hierarchy = assert_sampled(document, samples, filter_name, seed, few=ALWAYS)
@@ -239,12 +239,11 @@ def test_is_the_same_for_any_threads_and_tiles(
     assert image.stats["rays"] == expected.stats["rays"]
 
 
-@pytest.mark.parametrize("samples", [2, 3, 5, 7, 33] if JIT else [3])
+@once
+@pytest.mark.parametrize("samples", [2, 3, 5, 7, 33])
 @pytest.mark.parametrize("filter_name", FILTERS)
 def test_few_samples_of_each_filter(scattered: dict, filter_name: str, samples: int) -> None:
     camera = {"size": [24, 18], "resolution": [0.2, 0.2]}
-    if not JIT:
-        camera = {"size": [7, 6], "resolution": [0.2, 0.2]}
     document = scattered | {"camera": scattered["camera"] | camera}
     for seed in (1, 2, 3):
         assert_sampled(document, samples, filter_name, seed)

@@ -58,6 +58,7 @@ MATERIALS = [
 ]
 
 
+@once
 @pytest.mark.parametrize("material", MATERIALS)
 @given(st.floats(0.02, 1), st.floats(0.02, 1), st.floats(0, 7))
 def test_light_goes_both_ways_alike(

@@ -9,10 +9,10 @@ from soft_pictures import Compared, compare_fans
 from soft_scenes import KINDS, soft_scene
 
 import vtray
-from conftest import JIT
+from conftest import once
 
-PIXELS = 3 if JIT else 1
-SEEDS = range(2 if JIT else 1)
+PIXELS = 3
+SEEDS = range(2)
 
 VIEWS = [
     pytest.param({}, id="at the origin"),
@@ -31,13 +31,10 @@ def compare(document: dict[str, Any], seed: int) -> Compared:
     return compare_fans(document, pixels, seed, image)
 
 
+@once
 @pytest.mark.parametrize("view", VIEWS)
 @pytest.mark.parametrize("kind", KINDS)
 def test_rays_are_those_of_the_oracle(kind: str, view: dict[str, Any]) -> None:
-    if kind != "few" and not JIT:
-        pytest.skip("takes minutes without the compiler")
-    if not JIT:
-        view = {**view, "size": [6, 5], "resolution": [0.6, 0.6]}
     found = [compare(soft_scene(seed, kind, **view), seed) for seed in SEEDS]
     rays, arrive, doubtful = map(sum, zip(*found, strict=True))
     assert 0 < arrive < rays
