@@ -46,6 +46,11 @@ def test_picked_particles(written_out: int, monkeypatch: pytest.MonkeyPatch) -> 
     assert at(1, 4) is None
     with pytest.raises(RenderError, match="pick: there is no pixel 80, 0 in a picture of 80 x 80"):
         image.pick(80, 0)
+    words = r"pick: a pixel has a whole column and row, got 1\.5; round it, as by int\(\)"
+    with pytest.raises(RenderError, match=words):
+        image.pick(1.5, 0)
+    with pytest.raises(RenderError, match="got None"):
+        image.pick(0, None)
 
 
 @pytest.mark.parametrize("written_out", [0, 100])

@@ -171,6 +171,22 @@ def test_categories_in_their_order() -> None:
     assert drawn(kinds, color="number", categories=[7], cmap="viridis").color_scale.high == 70
 
 
+def test_each_of_many_categories_has_a_color_of_its_own() -> None:
+    names = [f"residue {k:02}" for k in range(25)]
+    many = Particles(np.zeros((25, 3)), {"kind": names})
+    for count in (8, 9, 24):
+        some = many.select(range(count))
+        colors = drawn(some, color="kind").spheres.color
+        assert len(np.unique(colors, axis=0)) == count
+        assert colors[:8].tolist() == [list(vtray.colors.to_rgb(color)) for color in PALETTE]
+        found = drawn(many, color="kind", categories=names[:count])
+        assert found.spheres.color[:count].tolist() == colors.tolist()
+        assert [color for _, color in found.legend[:count]] == list(map(tuple, colors.tolist()))
+        # One that is not known has none of theirs, while there are others.
+        assert (tuple(found.spheres.color[24]) in map(tuple, colors)) == (count == 24)
+    assert len(np.unique(drawn(many, color="kind").spheres.color, axis=0)) == 24
+
+
 def test_objects_remember_particles_until_they_are_saved() -> None:
     scene = vtray.Scene()
     found = scene.add_particles(WATER, bonds=True, select="x >= 0")

@@ -196,7 +196,7 @@ class Image(Rendered):
         Raises
         ------
         RenderError
-            The picture has no such pixel.
+            The picture has no such pixel, or what is given are no integers.
         """
         from vtray.image.picking import pick
 

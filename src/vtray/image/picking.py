@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import RenderError
+from vtray.scene.checks.scene_words import show
 from vtray.scene.copies import Copies
 from vtray.scene.particles.made_of import copy_of, made_of
 
@@ -49,9 +50,18 @@ class Pick:
     values: Mapping[str, Any]
 
 
+def _whole(place: object) -> int:
+    """Return the column or row of a pixel, which has to be an integer."""
+    try:
+        return operator.index(place)  # type: ignore[arg-type]
+    except TypeError:
+        words = f"a pixel has a whole column and row, got {show(place)}; round it, as by int()"
+        raise RenderError(f"pick: {words}") from None
+
+
 def pick(image: "Rendered", x: int, y: int) -> Pick | None:
     """Return what `Image.pick` does."""
-    column, row = operator.index(x), operator.index(y)
+    column, row = _whole(x), _whole(y)
     height, width = image.linear.shape[:2]
     if not (-width <= column < width and -height <= row < height):
         size = f"{width} x {height}"

@@ -37,6 +37,10 @@ M. Okabe and K. Ito, "Color Universal Design", 2008; black, which shows no shape
 grey is added.
 """
 
+SHADE, TINT = 0.55, 0.5
+"""How much of the palette's colours there is where it comes a second time, darker, and a third
+time, lighter; the rest is black, or white."""
+
 PLAIN = "#7aa6c2"
 """The colour of particles of which nothing is known."""
 
@@ -164,13 +168,13 @@ def _of_column(
 
 
 def _of_categories(values: NDArray[Any], rows: Integers, known: Sequence[Any] | None) -> Coloring:
-    """Return colours of which each stands for one value; with many values, they come again."""
+    """Return colours of which each stands for one value; of more than 24, some come again."""
     found, which = np.unique(
         values.astype(str) if values.dtype.kind == "O" else values, return_inverse=True
     )
     kinds = found.tolist()
-    palette = [to_rgb(color, "") for color in PALETTE]
-    places = _places(kinds, kinds if known is None else known)
+    palette = _palette()
+    places = _places(kinds, kinds if known is None else known, len(palette))
     table = np.array([palette[place] for place in places], np.uint8).reshape(-1, 3)
     drawn = which[rows]
     named = dict(zip(kinds, (_rgb(row) for row in table), strict=True))
@@ -182,13 +186,21 @@ def _of_categories(values: NDArray[Any], rows: Integers, known: Sequence[Any] | 
     return Coloring(table[drawn], None, legend, kinds if known is None else known)
 
 
-def _places(kinds: Sequence[Any], known: Sequence[Any]) -> list[int]:
-    """Return the places of categories in the palette.
+def _palette() -> list[Rgb]:
+    """Return the colours of categories: those of the palette, then darker and lighter ones."""
+    colors = np.array([to_rgb(color, "") for color in PALETTE], float)
+    darker, lighter = SHADE * colors, TINT * colors + (1.0 - TINT) * 255.0
+    all_of_them = np.concatenate([colors, darker, lighter])
+    return [_rgb(row) for row in np.rint(all_of_them).astype(np.uint8)]
+
+
+def _places(kinds: Sequence[Any], known: Sequence[Any], most: int) -> list[int]:
+    """Return the places of categories in a palette of so many colours.
 
     One that is not known has a place by its name alone, among those that are free, if some are: so
     it has the same colour wherever it is met.
     """
-    size = len(PALETTE)
+    size = len(PALETTE) if len(known) < len(PALETTE) else most
     first = len(known) if len(known) < size else 0
     place_of = {str(kind): k % size for k, kind in enumerate(known)}
     return [
