@@ -122,6 +122,23 @@ def test_views(water: Path) -> None:
     assert scene_of(water, "--orthographic").camera.projection == "orthographic"
 
 
+def test_particles_that_are_lost_in_their_cell(tmp_path: Path) -> None:
+    def shown(edge: float, *options: str) -> Scene:
+        path = tmp_path / "lost.xyz"
+        lattice = f"{edge} 0 0 0 {edge} 0 0 0 {edge}"
+        path.write_text(f'2\nLattice="{lattice}"\nO 1 1 1\nO 1 2.2 1\n')
+        return scene_of(path, *options)
+
+    words = r"lost\.xyz: the particles are 0\.07\d* times as wide as their cell; --no-cell shows"
+    with pytest.warns(UserWarning, match=words):
+        assert len(shown(60).objects) == 3
+    # What is asked for, or large enough, needs no words.
+    shown(60, "--cell")
+    shown(60, "--no-cell")
+    shown(20)
+    shown(60, "--replicate", "20,1,1")
+
+
 def test_nothing_but_a_cell(water: Path) -> None:
     none = ["--select", "charge > 9", "--legend", "--boundary", "--bonds"]
     scene = scene_of(water, *none)

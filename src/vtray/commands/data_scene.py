@@ -1,6 +1,7 @@
 """A file of data as a scene: what the options of data say."""
 
 import argparse
+import warnings
 from functools import partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
 
 MOST_LABELS = 2000
 """How many particles may have a label: more can neither be read nor placed in time."""
+
+LOST = 0.1
+"""Particles that are narrower beside their cell are hardly seen."""
 
 UNDRAWN = ("frame", "columns", "legend")
 """Options that `add_particles` need not know."""
@@ -50,6 +54,7 @@ def shown_data(
     """
     scene, drawn, marks = draw_data(options, particles)
     if not _is_empty(drawn):
+        _warn_if_lost(options, drawn)
         return scene, marks
     if len(particles):
         words = f"--select: expected some of the {len(particles)} particles, got none"
@@ -111,6 +116,23 @@ def draw_data(
     except SceneError as error:
         raise SceneError(f"{options.scene}: {error}") from None
     return scene, drawn, marks
+
+
+def _warn_if_lost(options: argparse.Namespace, drawn: "Drawn") -> None:
+    """Warn of particles that are hardly seen in a cell that was not asked for."""
+    import numpy as np
+
+    is_asked_for = data_options.given(options).get("cell") is not None
+    if is_asked_for or drawn.cell is None or drawn.copies is not None or drawn.stars is not None:
+        return
+    corners, balls = drawn.cell[1].center, drawn.spheres
+    if len(balls):
+        low, high = (balls.center.T - balls.radius).T, (balls.center.T + balls.radius).T
+        share = float((high.max(axis=0) - low.min(axis=0)).max() / np.ptp(corners, axis=0).max())
+        if share < LOST:
+            words = f"the particles are {share:.2g} times as wide as their cell"
+            message = f"{options.scene}: {words}; --no-cell shows them larger"
+            warnings.warn(message, stacklevel=2)
 
 
 def _is_empty(drawn: "Drawn") -> bool:
