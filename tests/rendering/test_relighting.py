@@ -19,7 +19,7 @@ from conftest import JIT, once
 from vtray.scene.settings import FILTERS
 
 SETTINGS = st.fixed_dictionaries(
-    {"samples": st.sampled_from([1, 1, 2, 5, 16] if JIT else [1, 1, 2])},
+    {"samples": st.sampled_from([1, 1, 2, 5, 16])},
     optional={
         "filter": st.sampled_from(FILTERS),
         "seed": st.integers(0, 2**32 - 1),

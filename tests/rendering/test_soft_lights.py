@@ -17,9 +17,9 @@ from vtray.rendering.pack import pack
 from vtray.transport.sampling.fans import fans_of_middles
 
 SIZE = (28, 21) if JIT else (8, 6)
-STEP = 4 if JIT else 2
+STEP = 4
 SMALL = (16, 16) if JIT else (4, 4)
-TOLERANCE = 0.008 if JIT else 0.05  # a few fans from each point, not all
+TOLERANCE = 0.008  # a few fans from each point, not all
 
 
 def spotted() -> np.ndarray:

@@ -71,9 +71,7 @@ def parts_of(ray: PathRay) -> Any:
 
 @once
 @pytest.mark.parametrize("integrator", ["whitted", "path"])
-@pytest.mark.parametrize(
-    "lights", [len(LIGHTS), pytest.param(20, marks=once), pytest.param(140, marks=once)]
-)
+@pytest.mark.parametrize("lights", [len(LIGHTS), 20, 140])
 def test_what_is_told_is_what_the_picture_shows(integrator: str, lights: int) -> None:
     """To the last bit; and the parts of it are all of it."""
     scene = all_materials()

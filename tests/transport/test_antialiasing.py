@@ -20,7 +20,7 @@ from vtray.rendering import hierarchy as acceleration
 from vtray.scene.settings import FILTERS
 from vtray.transport.sampling.filters import FILTERS as FILTERS_BY_NAME
 
-COUNTS = [2, 3, 4, 5, 7, 16, 17, 100, 256] if JIT else [2, 3, 17]
+COUNTS = [2, 3, 4, 5, 7, 16, 17, 100, 256]
 
 
 def load(document: dict) -> vtray.Scene:
