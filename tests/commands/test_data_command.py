@@ -137,6 +137,7 @@ def test_particles_that_are_lost_in_their_cell(tmp_path: Path) -> None:
     shown(60, "--no-cell")
     shown(20)
     shown(60, "--replicate", "20,1,1")
+    shown(0)
 
 
 def test_nothing_but_a_cell(water: Path) -> None:
