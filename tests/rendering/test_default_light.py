@@ -52,7 +52,7 @@ def test_what_is_asked_for_is_done() -> None:
     image = render(scene, exposure="max", background="black")
     assert image.pixels.max() == 255
     assert not image.pixels[0, 0].any()
-    scene.render = vtray.RenderSettings(exposure=0.5, background="transparent")
+    scene.render = vtray.RenderSettings(2, exposure=0.5, background="transparent", tolerance=0.5)
     assert render(scene).settings == scene.render
     locked = render(scene, lock=image)
     assert locked.white == image.white
@@ -86,7 +86,8 @@ def test_files_keep_the_light_that_was_seen(tmp_path: Path) -> None:
     loaded = vtray.load(tmp_path / "scene.json")
     assert loaded.lights == vtray.lights.studio(scene)
     assert vtray.load_dict(scene.to_dict()).lights == loaded.lights
-    again = render(loaded, exposure=1.0, background="white")
+    assert loaded.render == image.settings
+    again = render(loaded)
     np.testing.assert_array_equal(again.pixels, image.pixels)
     assert again.scene_hash == image.scene_hash
     assert not scene.lights

@@ -15,6 +15,7 @@ from vtray.base.compiler.compiled import Kernel, kernel, uncompiled
 from vtray.base.compiler.object_code import compile_object
 from vtray.transport.sampling.fans import (
     COARSE,
+    COARSER,
     NO_OFFSET,
     RUN,
     Noise,
@@ -24,7 +25,7 @@ from vtray.transport.sampling.fans import (
     fan_points,
     fans_of_middles,
     fans_of_samples,
-    is_coarse,
+    halvings_for,
     offset_of,
     place_of,
     shared_keys,
@@ -169,10 +170,14 @@ def test_fans_of_samples_are_nets_together_and_each(samples: int) -> None:
     assert max(numbers) < fans.offsets.shape[1]
 
 
-@pytest.mark.parametrize("tolerance", [0.001, COARSE / 1.01, COARSE, 1.0])
-def test_fans_of_samples_have_fewer_rays_where_much_noise_may_be(tolerance: float) -> None:
-    noise = Noise(tolerance, by_light=True, is_coarse=is_coarse(tolerance))
-    parts = 1 if tolerance < COARSE else 2
+@pytest.mark.parametrize(
+    ("tolerance", "parts"),
+    [(0.001, 1), (COARSE / 1.01, 1), (COARSE, 2), (COARSER / 1.01, 2), (COARSER, 4), (1.0, 4)],
+)
+def test_fans_of_samples_have_fewer_rays_where_much_noise_may_be(
+    tolerance: float, parts: int
+) -> None:
+    noise = Noise(tolerance, by_light=True, halvings=halvings_for(tolerance))
     assert fans_of_middles(noise).rays == 64
     assert fans_of_samples(16, noise).rays == 16 // parts
     assert fans_of_samples(2, noise).rays == 32 // parts

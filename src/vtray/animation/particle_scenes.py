@@ -21,7 +21,7 @@ from vtray.scene.objects import Object
 from vtray.scene.particles.drawing import Drawn
 from vtray.scene.particles.from_objects import as_particles
 from vtray.scene.particles.particles import Particles
-from vtray.scene.particles.view import MOVING, SAMPLES, SIZE, VIEW, camera_of, places_of
+from vtray.scene.particles.view import MOVING, SIZE, VIEW, camera_of, places_of
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 
@@ -154,7 +154,7 @@ class Drawing:
         self, particles: Particles, camera: Camera | None, fixed: Fixed
     ) -> tuple[Scene, Drawn, Mapping[str, Any]]:
         """Make a scene; see `Draw`."""
-        scene = Scene(render=RenderSettings(samples=SAMPLES, tolerance=MOVING))
+        scene = Scene(render=RenderSettings(tolerance=MOVING))
         if camera is not None:
             scene.camera = camera
         elif self._drawn.get("style") == "points":

@@ -83,7 +83,7 @@ def draw_data(
         What else `Scene.add_particles` is given, where the options do not say it.
     """
     from vtray.rendering.beside import MARGIN, fit_beside
-    from vtray.scene.particles.view import SIZE, VIEW, camera_of, places_of, taken
+    from vtray.scene.particles.view import MOVING, SIZE, VIEW, camera_of, places_of
     from vtray.scene.scene import Scene
 
     given = data_options.given(options)
@@ -110,9 +110,8 @@ def draw_data(
                 # They are as large as its pixels, not as those of the camera before it.
                 scene.objects.clear()
                 drawn = scene.add_particles(particles, **drawing)
-        if not _is_empty(drawn):
-            settings = taken(scene.camera, drawn.spheres, is_alone=camera is None)
-            scene.render = scene.render.replace(**settings)
+        if camera is not None:
+            scene.render = scene.render.replace(tolerance=MOVING)
     except SceneError as error:
         raise SceneError(f"{options.scene}: {error}") from None
     return scene, drawn, marks

@@ -27,7 +27,7 @@ from vtray.transport.sampling.fans import (
     fans_of_middles,
     fans_of_paths,
     fans_of_samples,
-    is_coarse,
+    halvings_for,
 )
 from vtray.transport.sampling.paths import Paths, paths_of
 from vtray.transport.sampling.pixel_samples import (
@@ -194,8 +194,8 @@ class Tracer:
         if settings.integrator == "path":  # what the samples of a pixel differ by says how noisy
             return self._noise_of_light(math.inf, settings)
         if keep:
-            error, coarse = settings.tolerance * len(soft.kind), is_coarse(settings.tolerance)
-            return Noise(error, by_light=False, is_coarse=coarse)
+            error, halvings = settings.tolerance * len(soft.kind), halvings_for(settings.tolerance)
+            return Noise(error, by_light=False, halvings=halvings)
         if white is None:
             white = self._about_white(settings)
         return self._noise_of_light(settings.tolerance * white or math.inf, settings)
@@ -203,7 +203,7 @@ class Tracer:
     def _noise_of_light(self, error: float, settings: RenderSettings) -> Noise:
         """Return how noisy light may be that is not kept to be changed."""
         are_shared = self._scene.lights.crowd is not None
-        return Noise(error, True, are_shared, is_coarse(settings.tolerance))
+        return Noise(error, True, are_shared, halvings_for(settings.tolerance))
 
     def _about_white(self, settings: RenderSettings) -> float:
         """Return the light that becomes white in some pixels, with as few rays as there can be."""

@@ -4,16 +4,21 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from vtray.scene.arrays import Arrays
 from vtray.scene.copies import Copies
+from vtray.scene.grain import tolerance_of
 from vtray.scene.light_presets import studio
 from vtray.scene.light_types import Ambient, AnyLight, NeverSet
 from vtray.scene.objects import Plane
-from vtray.scene.settings import RenderSettings
+from vtray.scene.settings import TOLERANCE, RenderSettings
 from vtray.scene.stars import Stars
 from vtray.scene.studio import HasCamera
 from vtray.scene.vectors import Color
 
 if TYPE_CHECKING:
     from vtray.scene.objects import Object
+
+
+SAMPLES = 4
+"""Rays for each pixel that needs them, in default light."""
 
 
 class HasLights(HasCamera, Protocol):
@@ -60,16 +65,33 @@ def _is_empty(item: object) -> bool:
     return isinstance(item, Arrays) and len(item) == 0
 
 
-def settings_of(scene: HasSettings) -> RenderSettings:
+def settings_of(scene: HasSettings, size: tuple[int, int] | None = None) -> RenderSettings:
     """Return the settings of a scene; in default light with others for those that were not set.
 
     Its light is made for an exposure of 1, with which colours are what they were given as, and its
-    rims for a bright background. Behind points that shine, the background is black.
+    rims for a bright background. Behind points that shine, the background is black. Edges are
+    smooth, and soft light has as much grain as is not seen.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    size
+        Width and height of the picture, if they are not those of the camera.
     """
+    settings = scene.render
+    if not has_default_light(scene):
+        return settings
     look: dict[str, Any] = {}
-    if has_default_light(scene) and scene.render.exposure == "max":
+    if settings.exposure == "max":
         look["exposure"] = 1.0
     shines = any(isinstance(item, Stars) for item in scene.objects)
-    if has_default_light(scene) and scene.render.background == "black" and not shines:
+    if settings.background == "black" and not shines:
         look["background"] = Color(255, 255, 255)
-    return scene.render.replace(**look)
+    if settings.samples == 1:
+        look["samples"] = SAMPLES
+    if settings.tolerance == TOLERANCE and scene.camera is not None:
+        width, height = size or settings.size or scene.camera.size
+        camera = scene.camera.resized((int(width), int(height)))
+        look["tolerance"] = tolerance_of(scene, camera)
+    return settings.replace(**look)

@@ -17,9 +17,6 @@ from vtray.geometry.bvh.primitives import Boxes
 from vtray.geometry.bvh.tree import EMPTY, LEAF, MAX_TREE_DEPTH, STACK, WIDTH, Bvh, Frame, leaf_code
 from vtray.geometry.vector import Vec, lower, scale, sub, upper
 
-FULL_ENOUGH = 3
-"""The children of a node are split further until none has more primitives, or the node is full."""
-
 
 class Order(NamedTuple):
     """The order of the primitives.
@@ -158,7 +155,7 @@ def _split_node(
             if ends[k] - starts[k] > ends[largest] - starts[largest]:
                 largest = k
         low, high = starts[largest], ends[largest]
-        if high - low <= FULL_ENOUGH or _is_left(order, low, high, grain):
+        if high - low == 1 or _is_left(order, low, high, grain):
             break
         middle = _split_in_two(boxes, frame, order, low, high, tree_depth)
         for k in range(ranges, largest + 1, -1):

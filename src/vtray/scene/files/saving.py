@@ -14,7 +14,7 @@ from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import Arrays
 from vtray.scene.checks.limits import Byte
 from vtray.scene.copies import Copies
-from vtray.scene.default_light import lights_of
+from vtray.scene.default_light import lights_of, settings_of
 from vtray.scene.files.in_file import (
     HOLDERS_IN_FILE,
     HolderInFile,
@@ -64,7 +64,7 @@ def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
     objects = [in_file(item) for item in scene.objects]
     lights: list[Any] = [as_written(light, write_image) for light in lights_of(scene)]
     found = SceneInFile(scene.camera, lights, objects)
-    render, found.integrator = without_integrator(scene.render)
+    render, found.integrator = without_integrator(settings_of(scene))
     if render != RenderSettings():
         found.render = render
     if scene.style != Style():

@@ -14,7 +14,7 @@ from vtray.scene.checks.columns import array_words
 from vtray.scene.checks.limits import Byte
 from vtray.scene.checks.scene_words import Unknown, join, nearest, show
 from vtray.scene.copies import Copies
-from vtray.scene.default_light import lights_of
+from vtray.scene.default_light import lights_of, settings_of
 from vtray.scene.files.in_file import without_integrator
 from vtray.scene.files.named_materials import with_named
 from vtray.scene.files.pattern_images import PatternImages, without_image
@@ -134,7 +134,7 @@ def to_dict(scene: Scene) -> dict[str, Any]:
         "lights": [_light_to_dict(light) for light in lights_of(scene)],
         "objects": [_object_to_dict(item) for item in scene.objects],
     }
-    render, integrator = without_integrator(scene.render)
+    render, integrator = without_integrator(settings_of(scene))
     more = {"render": render, "style": scene.style, "integrator": integrator}
     told = {key: msgspec.to_builtins(value) for key, value in more.items() if value is not UNSET}
     return {**data, **{key: value for key, value in told.items() if value}}

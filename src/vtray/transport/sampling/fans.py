@@ -51,10 +51,10 @@ LEAST_FAN = 16
 FEWEST = 8
 """Rays of each fan of a layer of which little is seen, at the least."""
 
-COARSE = 0.016
-"""From this tolerance on, the fans of samples have half as many rays. How much the samples of a
-pixel differ says what that does; where there is but one, thin bars would make errors larger than
-they are estimated to be.
+COARSE, COARSER = 0.016, 0.032
+"""From these tolerances on, the fans of samples have half and a quarter as many rays. How much the
+samples of a pixel differ says what that does; where there is but one, thin bars would make errors
+larger than they are estimated to be.
 """
 
 MOST_FANS = 64
@@ -119,23 +119,23 @@ class Noise(NamedTuple):
         Whether it is one of light; see `Fans`.
     are_shared
         Whether all lights share their fans.
-    is_coarse
-        Whether fans of samples have half as many rays; see `is_coarse`.
+    halvings
+        How often the rays of the fans of samples are halved; see `halvings_for`.
     """
 
     error: float
     by_light: bool
     are_shared: bool = False
-    is_coarse: bool = False
+    halvings: int = 0
 
     def of_one(self, samples: int) -> float:
         """Return the standard error that the light at one of the samples of a pixel may have."""
         return self.error * math.sqrt(samples)
 
 
-def is_coarse(tolerance: float) -> bool:
-    """Tell whether fans of samples have half as many rays for a tolerance, 1 for white."""
-    return tolerance >= COARSE
+def halvings_for(tolerance: float) -> int:
+    """Return how often the rays of the fans of samples are halved for a tolerance, 1 for white."""
+    return (tolerance >= COARSE) + (tolerance >= COARSER)
 
 
 def fans_of_middles(noise: Noise) -> Fans:
@@ -148,8 +148,7 @@ def fans_of_samples(samples: int, noise: Noise) -> Fans:
     rays = LEAST_FAN
     while 2 * rays * samples <= WHOLE_FAN:
         rays *= 2
-    rays = rays // 2 if noise.is_coarse else rays
-    return _fans(rays, max(MOST_FANS_OF_SAMPLES // samples, 1), samples, noise)
+    return _fans(rays >> noise.halvings, max(MOST_FANS_OF_SAMPLES // samples, 1), samples, noise)
 
 
 def fans_of_paths(samples: int, noise: Noise) -> Fans:
