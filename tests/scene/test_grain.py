@@ -8,6 +8,7 @@ import pytest
 import vtray as vt
 from vtray.scene.default_light import SAMPLES, settings_of
 from vtray.scene.grain import COARSEST, FINEST, LOOKED_AT, NO_GRAIN, tolerance_of
+from vtray.scene.settings import TOLERANCE
 
 PIXEL = 0.25
 
@@ -34,11 +35,13 @@ def test_grain_has_bounds(pixels: float, tolerance: float) -> None:
     assert tolerance_of(scene, scene.camera) == tolerance
 
 
-def test_size_counts_of_that_of_which_there_is_most() -> None:
+def test_size_counts_of_what_has_most_area() -> None:
     scene = vt.Scene(camera_at())
-    scene.add_sphere((0, 0, 0), 10, color="white")
     scene.add_cylinders(np.zeros((9, 3)), np.ones((9, 3)), 4 * PIXEL, color="white")
+    scene.add_sphere((0, 0, 0), 12 * PIXEL, color="white")
     assert tolerance_of(scene, scene.camera) == pytest.approx(NO_GRAIN / 4, abs=0.0006)
+    scene.objects[-1] = vt.Sphere((0, 0, 0), 30 * PIXEL, (9, 9, 9), 1)
+    assert tolerance_of(scene, scene.camera) == FINEST
     parts = [vt.Spheres(np.zeros((50, 3)), 5 * PIXEL, (255, 255, 255), 1)]
     scene.add_copies(parts, at=[(0, 0, 1), (0, 1, 0)])
     assert tolerance_of(scene, scene.camera) == pytest.approx(NO_GRAIN / 5, abs=0.0006)
@@ -48,14 +51,24 @@ def test_of_many_some_are_looked_at() -> None:
     scene = vt.Scene(camera_at())
     radii = np.linspace(2, 6, 3 * LOOKED_AT + 1) * PIXEL
     scene.add_spheres(np.zeros((len(radii), 3)), radii, color="white")
-    assert tolerance_of(scene, scene.camera) == pytest.approx(NO_GRAIN / 4, abs=0.0006)
+    usual = ((2**3 + 6**3) / 2) ** (1 / 3)
+    assert tolerance_of(scene, scene.camera) == pytest.approx(NO_GRAIN / usual, abs=0.0006)
+    scene.add_sphere((0, 0, 0), 30 * PIXEL, color="white")
+    assert tolerance_of(scene, scene.camera) == pytest.approx(NO_GRAIN / usual, abs=0.0006)
 
 
-def test_nothing_to_be_seen_has_the_finest() -> None:
-    scene = vt.Scene(camera_at(z=50.0))
+def test_planes_have_the_least_grain() -> None:
+    scene = vt.Scene(camera_at())
+    assert tolerance_of(scene, scene.camera) == TOLERANCE
+    scene.add_sphere((0, 0, 0), 0.1, color="white")
+    assert tolerance_of(scene, scene.camera) == COARSEST
     scene.add_plane((0, 0, 90), (0, 0, -1), color="white")
-    assert tolerance_of(scene, scene.camera) == FINEST
-    scene.add_sphere((0, 0, 0), 0.1, color="white")  # behind the camera
+    assert tolerance_of(scene, scene.camera) == TOLERANCE
+
+
+def test_what_is_not_in_sight_does_not_count() -> None:
+    scene = vt.Scene(camera_at(z=50.0))
+    scene.add_sphere((0, 0, 0), 0.1, color="white")
     assert tolerance_of(scene, scene.camera) == FINEST
 
 
@@ -64,7 +77,7 @@ def test_settings_in_default_light_are_those_that_were_set_and_else_smooth() -> 
     scene.add_sphere((0, 0, 0), 5 * PIXEL, color="white")
     found = settings_of(scene)
     assert (found.samples, found.tolerance) == (SAMPLES, 0.03)
-    assert settings_of(scene, (128, 96)).tolerance == 0.015
+    assert settings_of(scene, {"size": (128, 96)}).tolerance == 0.015
     scene.render = vt.RenderSettings(samples=9, tolerance=0.5, size=(128, 96))
     assert (settings_of(scene).samples, settings_of(scene).tolerance) == (9, 0.5)
     scene.lights = []
@@ -87,3 +100,18 @@ def test_saved_files_show_the_same(tmp_path: Path) -> None:
     again = vt.load(f"{tmp_path}/scene.json")
     assert (vt.render(again).pixels == vt.render(scene).pixels).all()
     assert (vt.render(vt.load_dict(scene.to_dict())).pixels == vt.render(scene).pixels).all()
+
+
+@pytest.mark.parametrize(
+    ("size", "words"),
+    [
+        ("800x600", "RenderSettings.size: expected an array of two integers > 0, got '800x600'"),
+        ((3, 0.5), r"RenderSettings.size\[1\]: expected an integer from 1"),
+        (5, "RenderSettings.size: expected an array"),
+    ],
+)
+def test_bad_sizes_are_told_in_default_light_as_ever(size: object, words: str) -> None:
+    scene = vt.Scene(camera_at())
+    scene.add_sphere((0, 0, 0), 1, color="white")
+    with pytest.raises(vt.SceneError, match=words):
+        vt.render(scene, size=size)  # type: ignore[arg-type]

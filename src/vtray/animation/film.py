@@ -10,7 +10,6 @@ from vtray.animation.output import Output
 from vtray.animation.stage import Look, Shot, Stage, Warn
 from vtray.base.errors import OutputError
 from vtray.scene.default_light import settings_of
-from vtray.scene.settings import overridden
 
 Progress = Callable[[str, int, int], None]
 
@@ -85,7 +84,7 @@ class Film:
             raise OutputError(f"{self.output.path}: more pictures are done than there are")
         assert self.done is not None  # noqa: S101 - made before any picture
         scene = stage.set(shot)
-        settings = overridden(settings_of(scene), self.look.settings)
+        settings = settings_of(scene, self.look.settings)
         self.done.check_last(scene, settings, stage.style(scene), holds=self.look.holds(scene))
 
     def check_size(self, shape: tuple[int, ...]) -> None:

@@ -14,7 +14,6 @@ from vtray.animation.script import Script
 from vtray.animation.stage import Shot, Stage, common_of
 from vtray.image.image import Image
 from vtray.scene.default_light import settings_of
-from vtray.scene.settings import overridden
 
 
 def shoot(film: Film, script: Script) -> None:
@@ -35,7 +34,7 @@ def shoot(film: Film, script: Script) -> None:
     """
     first = script.first_shot()
     stage = Stage(film.look, common_of(first, film.look.settings))
-    background = overridden(settings_of(stage.set(first)), film.look.settings).background
+    background = settings_of(stage.set(first), film.look.settings).background
     film.output.check_background(background)
     done = film.begin()
     try:

@@ -140,11 +140,11 @@ def render(
         the skies among the lights, or a colour in any of the ways of `vtray.colors.to_rgb`.
     tolerance
         How noisy soft light may be: the standard error of a pixel, 1 for white; 0.008 by default,
-        two steps of 255. For scenes whose lights were never set it is 0.012 to 0.06: more for small
-        things, among which grain is not seen. From each point that is seen, rays are cast to each
-        lamp with a size until what they tell is estimated to be as exact as that. With
-        `keep_lights`, that does not look at light: each of n soft lights counts as if it gave one
-        n-th of white.
+        two steps of 255. For scenes whose lights were never set, and without planes, it is 0.012 to
+        0.06: more for small things, among which grain is not seen. From each point that is seen,
+        rays are cast to each lamp with a size until what they tell is estimated to be as exact as
+        that. With `keep_lights`, that does not look at light: each of n soft lights counts as if it
+        gave one n-th of white.
     denoise
         Whether the grain of soft light is taken out by Open Image Denoise, once all is traced. The
         picture is then no longer the same on every machine; `Image.raw` is.
@@ -234,10 +234,7 @@ def render(
         locked_white(lock, exposure, stops)
     given, scene = scene, with_camera(scene, size)
     lights = lights_of(scene)
-    settings, style = (
-        overridden(settings_of(scene, size), locals()),
-        overridden(scene.style, locals()),
-    )
+    settings, style = settings_of(scene, locals()), overridden(scene.style, locals())
     shown = _shown(scene, lights, settings)
     style = fitted(style, shown.camera, lambda: ball_around(shown))
     if settings.denoise:

@@ -1,5 +1,7 @@
 """How scenes look whose lights were never set: as in a studio, with a white wall behind."""
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Protocol
 
 from vtray.scene.arrays import Arrays
@@ -8,7 +10,7 @@ from vtray.scene.grain import tolerance_of
 from vtray.scene.light_presets import studio
 from vtray.scene.light_types import Ambient, AnyLight, NeverSet
 from vtray.scene.objects import Plane
-from vtray.scene.settings import TOLERANCE, RenderSettings
+from vtray.scene.settings import TOLERANCE, RenderSettings, overridden
 from vtray.scene.stars import Stars
 from vtray.scene.studio import HasCamera
 from vtray.scene.vectors import Color
@@ -65,33 +67,40 @@ def _is_empty(item: object) -> bool:
     return isinstance(item, Arrays) and len(item) == 0
 
 
-def settings_of(scene: HasSettings, size: tuple[int, int] | None = None) -> RenderSettings:
-    """Return the settings of a scene; in default light with others for those that were not set.
+def settings_of(
+    scene: HasSettings, given: Mapping[str, Any] = MappingProxyType({})
+) -> RenderSettings:
+    """Return the settings of a scene, with those that are given in place of some.
 
-    Its light is made for an exposure of 1, with which colours are what they were given as, and its
-    rims for a bright background. Behind points that shine, the background is black. Edges are
-    smooth, and soft light has as much grain as is not seen.
+    In default light, those that were neither set nor given are others. Its light is made for an
+    exposure of 1, with which colours are what they were given as, and its rims for a bright
+    background. Behind points that shine, the background is black. Edges are smooth, and soft light
+    has as much grain as is not seen.
 
     Parameters
     ----------
     scene
         The scene.
-    size
-        Width and height of the picture, if they are not those of the camera.
+    given
+        As for `overridden`.
+
+    Raises
+    ------
+    SceneError
+        If a value that is given is not right.
     """
-    settings = scene.render
+    set_, asked = scene.render, overridden(scene.render, given)
     if not has_default_light(scene):
-        return settings
+        return asked
     look: dict[str, Any] = {}
-    if settings.exposure == "max":
+    if set_.exposure == "max":
         look["exposure"] = 1.0
     shines = any(isinstance(item, Stars) for item in scene.objects)
-    if settings.background == "black" and not shines:
+    if set_.background == "black" and not shines:
         look["background"] = Color(255, 255, 255)
-    if settings.samples == 1:
+    if set_.samples == 1:
         look["samples"] = SAMPLES
-    if settings.tolerance == TOLERANCE and scene.camera is not None:
-        width, height = size or settings.size or scene.camera.size
-        camera = scene.camera.resized((int(width), int(height)))
-        look["tolerance"] = tolerance_of(scene, camera)
-    return settings.replace(**look)
+    if set_.tolerance == TOLERANCE and given.get("tolerance") is None and scene.camera is not None:
+        width, height = asked.size or scene.camera.size
+        look["tolerance"] = tolerance_of(scene, scene.camera.resized((int(width), int(height))))
+    return overridden(set_.replace(**look), given)

@@ -1,9 +1,17 @@
 """How noisy soft light may be where nobody says it: grain is lost among small things."""
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from vtray.base.errors import SceneError
 from vtray.scene.camera import Camera
+from vtray.scene.objects import Plane
+from vtray.scene.settings import TOLERANCE
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from vtray.scene.placing.bounds import Balls, HasObjects
 
 FINEST, COARSEST = 0.012, 0.06
 """The tolerance for large things, on which grain is seen, and for the smallest."""
@@ -15,16 +23,21 @@ DIGITS = 4
 """To so many the tolerance is rounded, so that it is the same on all machines."""
 
 LOOKED_AT = 4096
-"""Things whose size in the picture is looked at, about, at the most."""
+"""Things of one kind whose size in the picture is looked at, about, at the most."""
+
+_Sizes = tuple["NDArray[np.float64]", "NDArray[np.float64]"]
 
 
-def tolerance_of(subject: Any, camera: Camera) -> float:  # noqa: ANN401
+def tolerance_of(scene: "HasObjects", camera: Camera) -> float:
     """Return how noisy soft light may be on things of the usual size in a picture.
+
+    Half of the area of all things, apart from what they hide, is that of things of this size or
+    larger ones. On planes, grain is seen best of all.
 
     Parameters
     ----------
-    subject
-        A scene, or arrays of objects: of that of which there is most, the size counts.
+    scene
+        What is seen.
     camera
         What takes the picture.
     """
@@ -32,23 +45,37 @@ def tolerance_of(subject: Any, camera: Camera) -> float:  # noqa: ANN401
 
     from vtray.scene.placing.bounds import balls_of
 
+    if not scene.objects or any(isinstance(item, Plane) for item in scene.objects):
+        return TOLERANCE
     try:
-        balls = max(balls_of(subject, "tolerance"), key=lambda balls: len(balls.center))
-    except SceneError:  # nothing but planes
+        found = [_sizes_of(balls, camera) for balls in balls_of(scene, "tolerance")]
+    except SceneError:  # nothing but stars
+        return TOLERANCE
+    pixels, count = (np.concatenate(part) for part in zip(*found, strict=True))
+    order = pixels.argsort(kind="stable")
+    area = (count * pixels * pixels)[order].cumsum()
+    if not len(area):
         return FINEST
+    usual = float(pixels[order[area.searchsorted(0.5 * area[-1])]])
+    largest = NO_GRAIN / usual if usual > 0 else COARSEST
+    return round(min(max(largest, FINEST), COARSEST), DIGITS)
+
+
+def _sizes_of(balls: "Balls", camera: Camera) -> _Sizes:
+    """Return radii of some balls in pixels, and of how many each says; of those in sight."""
+    import numpy as np
+
     step = -(-len(balls.center) // LOOKED_AT)
     center = np.asarray(balls.center[::step], np.float64)
     radius = np.broadcast_to(balls.radius, len(balls.center))[::step]
+    many = step
     if balls.at is not None:
         center = center + np.mean(balls.at, axis=0)
+        many *= len(balls.at)
     with np.errstate(all="ignore"):
         ends = center[:, None] + radius[:, None, None] * np.eye(3)
         steps = (camera.project(ends) - camera.project(center)[:, None])[..., :2]
         # Three steps at right angles are together seen as long as two that are not foreshortened.
-        sizes = np.sqrt((steps * steps).sum(axis=(1, 2)) / 2)
-    seen = np.sort(sizes[np.isfinite(sizes)])
-    if not len(seen):
-        return FINEST
-    pixels = float(seen[len(seen) // 2])
-    largest = NO_GRAIN / pixels if pixels > 0 else COARSEST
-    return round(min(max(largest, FINEST), COARSEST), DIGITS)
+        pixels = np.sqrt((steps * steps).sum(axis=(1, 2)) / 2)
+    seen = pixels[np.isfinite(pixels)]
+    return seen, np.full(len(seen), float(many))
