@@ -51,8 +51,6 @@ def make_scene(kind: str, count: int, side: int = SIDE) -> vtray.Scene:
     scene = vtray.Scene()
     scene.add_spheres(*CLOUDS[kind](count), color="#3a6ea5")
     scene.camera = vtray.Camera.fit(scene, size=(side, side))
-    scene.lights = vtray.lights.studio(scene)
-    scene.render = vtray.RenderSettings(exposure=1.0, background="white")
     return scene
 
 

@@ -1,5 +1,6 @@
 """Cells: particles brought into them, molecules made whole, edges and copies."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -83,6 +84,15 @@ def test_molecules_are_found() -> None:
     pairs = np.array([(5, 4), (4, 3), (3, 1), (0, 7)])
     bonds = Bonds(pairs, np.zeros((4, 3), np.int64))
     assert molecules(bonds, 8).tolist() == [0, 1, 2, 1, 1, 1, 6, 0]
+
+
+def test_a_cell_without_any_edge_is_none(tmp_path: Path) -> None:
+    nothing = Particles([(0, 0, 0)], cell=np.zeros((3, 3)), periodic=(True, True, True))
+    assert nothing.cell is None
+    assert nothing.periodic == (False, False, False)
+    path = tmp_path / "atom.xyz"
+    path.write_text('1\nLattice="0 0 0 0 0 0 0 0 0" pbc="T T T"\nO 0 0 0\n')
+    assert vtray.read(path).cell is None
 
 
 def test_edges_of_a_cell_and_of_a_block() -> None:

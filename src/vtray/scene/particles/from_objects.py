@@ -78,14 +78,12 @@ def from_ase(atoms: Any) -> Particles:  # noqa: ANN401
     for name, values in others.items():
         if name not in ("numbers", "positions", "momenta"):
             columns[name] = np.asarray(values).reshape(count, -1) if values.ndim > 2 else values
-    cell = np.array(atoms.cell)
-    has_cell = bool(cell.any())
     return Particles(
         np.array(atoms.positions, np.float64),
         name_columns(columns),
-        cell=cell if has_cell else None,
+        cell=np.array(atoms.cell),
         origin=np.array(atoms.get_celldisp(), np.float64).reshape(3),
-        periodic=tuple(map(bool, atoms.pbc)) if has_cell else None,  # type: ignore[arg-type]
+        periodic=tuple(map(bool, atoms.pbc)),  # type: ignore[arg-type]
         time=_time(atoms.info.get("time", atoms.info.get("Time"))),
     )
 

@@ -43,7 +43,8 @@ class Particles:
     bonds : array (m, 2) or None
         Which particles are bound, as indices; None where that is not known.
     cell : array (3, 3) or None
-        The cell's three edges from `origin`, in rows; None if there is no cell.
+        The cell's three edges from `origin`, in rows; None if there is no cell, as where none of
+        these has a length.
     origin : array (3,)
         The cell's corner; 0 by default.
     periodic : tuple of bool
@@ -102,6 +103,7 @@ class Particles:
         repeats = _three_of_bool(given)
         if cell is not None:
             repeats &= cell.any(axis=1)
+            cell = cell if cell.any() else None
         found: dict[str, object] = {
             "positions": positions,
             "columns": MappingProxyType(columns),
