@@ -25,8 +25,9 @@ process, when all is compiled."""
 
 STUDIO_NOTE = """\
 Spheres like the atoms of molecules at 1024 x 1024, with vtray on two threads, as scenes look whose
-lights were never set: in the light of four suns of 10 to 40 degrees, and ambient light. The error
-is the mean of the estimated standard errors of the pixels that show something, in steps of 255."""
+lights were never set: in the light of four suns of 10 to 40 degrees, and ambient light, with 4
+samples, and a tolerance by the size of balls. The error is the mean of the estimated standard
+errors of the pixels that show something, edges too, in steps of 255."""
 
 
 def soft_light_parts(found: SoftLight) -> list[str]:
