@@ -17,6 +17,7 @@ from PIL import Image
 
 import vtray
 from conftest import compiled_only, once
+from vtray.scene.default_light import lights_of
 
 BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
 FEW, SMALL = 60, 64
@@ -741,7 +742,7 @@ def test_clouds_are_what_they_are_said_to_be() -> None:
         (one, radius), (two, _) = (clouds.CLOUDS[kind](1000) for _ in range(2))
         np.testing.assert_array_equal(one, two)
         assert (one.shape, radius.shape) == ((1000, 3), (1000,))
-        assert len(clouds.make_scene(kind, 20, SMALL).lights) == 5
+        assert len(lights_of(clouds.make_scene(kind, 20, SMALL))) == 5
 
 
 @compiled_only
@@ -761,7 +762,7 @@ def test_soft_light_is_measured_without_mitsuba(
     assert all(0 < row.tracing[n].median < 60 for row in ours for n in (1, 2))
     assert all(np.isnan(row.error) and not row.tracing for row in rows if row not in ours)
     for row in found.studio.values():
-        assert 0 < row.error < 2
+        assert 0 < row.error < 12  # of edges, too, of which small pictures are full
         assert row.rays > SMALL**2
 
 

@@ -70,12 +70,13 @@ def _sizes_of(balls: "Balls", camera: Camera) -> _Sizes:
     radius = np.broadcast_to(balls.radius, len(balls.center))[::step]
     many = step
     if balls.at is not None:
-        center = center + np.mean(balls.at, axis=0)
+        center = center + balls.at[len(balls.at) // 2]
         many *= len(balls.at)
     with np.errstate(all="ignore"):
         ends = center[:, None] + radius[:, None, None] * np.eye(3)
         steps = (camera.project(ends) - camera.project(center)[:, None])[..., :2]
         # Three steps at right angles are together seen as long as two that are not foreshortened.
-        pixels = np.sqrt((steps * steps).sum(axis=(1, 2)) / 2)
+        squares = (steps * steps).reshape(-1, 6).T
+        pixels = np.sqrt(sum(squares) / 2)
     seen = pixels[np.isfinite(pixels)]
     return seen, np.full(len(seen), float(many))
