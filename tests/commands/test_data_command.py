@@ -107,6 +107,7 @@ def test_large_balls_have_less_grain(water: Path) -> None:
     middle = [tolerance("--size", f"{4 * k}x{3 * k}") for k in (3, 4, 5)]
     assert middle == pytest.approx([middle[0], middle[0] * 3 / 4, middle[0] * 3 / 5], rel=0.05)
     assert 0.012 < middle[2] < middle[0] < 0.06
+    assert tolerance("--emission", "z") == 0.06
 
 
 def test_views(water: Path) -> None:

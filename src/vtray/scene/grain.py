@@ -49,7 +49,7 @@ def tolerance_of(scene: "HasObjects", camera: Camera) -> float:
         return TOLERANCE
     try:
         found = [_sizes_of(balls, camera) for balls in balls_of(scene, "tolerance")]
-    except SceneError:  # nothing but stars
+    except SceneError:  # only arrays of none
         return TOLERANCE
     pixels, count = (np.concatenate(part) for part in zip(*found, strict=True))
     order = pixels.argsort(kind="stable")
