@@ -9,14 +9,24 @@ import vtray
 from conftest import JIT
 from vtray import Scene
 from vtray.geometry.between import is_occluded
-from vtray.geometry.packets.cone import CLOSED, MANY, Cone, find_touching, new_touching
-from vtray.geometry.packets.fan import Start
-from vtray.geometry.packets.stack import new_stack
+from vtray.geometry.packets.cone import (
+    CLOSED,
+    MANY,
+    Cone,
+    find_among,
+    find_touching,
+    new_touching,
+)
+from vtray.geometry.packets.fan import Spot, Start
+from vtray.geometry.packets.stack import Stack, new_stack
 from vtray.geometry.ray import Segment
 from vtray.geometry.vector import add, dot, scale
 from vtray.geometry.warps import cone_direction
+from vtray.geometry.world import World
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
+from vtray.transport.lights.soft_light import Aim, aim_at, cone_from, cone_of
+from vtray.transport.sampling.light_rays import length_to
 
 CONES = 400 if JIT else 60
 RAYS = 64 if JIT else 16
@@ -53,7 +63,7 @@ def test_a_cone_tells_what_all_its_rays_would(kind: str) -> None:
         spread = 10 ** random.uniform(-6, -1)
         length = random.choice([1.0, 1e4]) * unit
         sine = math.sqrt(spread * (2 - spread))
-        cone = Cone(start, axis, 1 - spread, sine, length, length, forward)
+        cone = Cone(start, 0.0, axis, 1 - spread, sine, length, length, forward)
         count = find_touching(cone, world, touching, stack)
         blocked = 0
         for u, v in random.random((RAYS, 2)):
@@ -71,6 +81,62 @@ def test_a_cone_tells_what_all_its_rays_would(kind: str) -> None:
     assert answers["open"] >= least
     assert answers["closed"] >= (3 if kind in ("few", "many") and JIT else 0)
     assert answers["some"] > 0
+
+
+def _is_blocked(cone: Cone, aim: Aim, u: float, v: float, world: World, stack: Stack) -> bool:
+    """Tell whether a ray of a cone to a light is stopped."""
+    start = cone.start
+    direction = cone_direction(u, v, cone.axis, 1 - cone.cosine)
+    way = scale(length_to(aim, start.point, direction), direction)
+    end_depth = start.plane_depth + dot(way, cone.forward)
+    end = add(start.point, way)
+    segment = Segment(start.point, end, start.plane_depth, end_depth, start.error_scale, 0.0)
+    return is_occluded(world, segment, stack)
+
+
+@pytest.mark.parametrize("kind", ["few", "many", "bonds", "copies"])
+def test_what_a_cone_from_a_spot_finds_is_all_that_those_from_its_points_touch(kind: str) -> None:
+    scene, random = scene_of(kind), np.random.default_rng(6)
+    scene.lights = [
+        vtray.Sun((0.3, 0.5, -1), angle=8),
+        vtray.SphereLight((1, -3, 2), 0.4),
+        vtray.SphereLight((0.2, 0.3, 0.4), 0.1),
+    ]
+    arrays = pack(scene, accelerate(scene)).arrays
+    world, forward, unit = arrays.world, arrays.camera.forward, arrays.world.scale
+    soft, normal = arrays.lights.soft, (0.0, 0.0, 1.0)
+    stack, touching = new_stack(), new_touching()
+    answers = {"open": 0, "closed": 0, "some": 0, "unknown": 0}
+
+    def start_at(place: np.ndarray) -> Start:
+        point = tuple(float(x) for x in place * unit - np.array(world.origin))
+        return Start(point, dot(point, forward), sum(map(abs, point)))
+
+    for k in range(CONES):
+        middle, extent = random.uniform(-1.2, 1.2, 3), 10 ** random.uniform(-4, -0.5)
+        spot = Spot(start_at(middle), extent * unit, normal, 2.0, extent * unit)
+        around = cone_from(aim_at(soft, k % 3, spot.start, normal), spot, forward)
+        count = find_touching(around, world, touching, stack) if around.cosine > 0 else MANY
+        if count < 0:
+            answers["unknown"] += 1
+            continue
+        for _ in range(4):
+            way = random.normal(size=3)
+            way *= random.choice([0.99, 0.5]) * extent / math.sqrt(way @ way)
+            start = start_at(middle + way)
+            aim = aim_at(soft, k % 3, start, normal)
+            cone = cone_of(aim, start, forward)
+            found = find_among(cone, world, touching, count)
+            answers[{0: "open", CLOSED: "closed"}.get(found, "some")] += 1
+            ways = random.random((RAYS // 4, 2))
+            blocked = sum(_is_blocked(cone, aim, u, v, world, stack) for u, v in ways)
+            if found == 0:
+                assert blocked == 0
+            elif found == CLOSED:
+                assert blocked == len(ways)
+    assert min(answers["open"], answers["some"]) > 10
+    assert answers["closed"] > (3 if kind in ("few", "many") and JIT else -1)
+    assert answers["unknown"] > (3 if kind in ("many", "bonds") and JIT else -1)
 
 
 @pytest.mark.parametrize(("count", "expected"), [(30, 0), (9999, MANY)])
@@ -95,5 +161,5 @@ def test_what_lies_beside_a_cone_is_not_all_looked_at(count: int, expected: int)
     start = Start(point, dot(point, arrays.camera.forward), sum(map(abs, point)))
     sine = math.sqrt(1 - cosine * cosine)
     way = tuple(axis.tolist())
-    cone = Cone(start, way, cosine, sine, 20 * unit, 20 * unit, arrays.camera.forward)
+    cone = Cone(start, 0.0, way, cosine, sine, 20 * unit, 20 * unit, arrays.camera.forward)
     assert find_touching(cone, arrays.world, new_touching(), new_stack()) == expected

@@ -15,23 +15,33 @@ from vtray.base.compiler.compiled import device, uncompiled
 from vtray.geometry.between import is_occluded
 from vtray.geometry.bits import count_bits, lowest_bit
 from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh
+from vtray.geometry.packets.batch import new_batch, spot_of
 from vtray.geometry.packets.fan import (
     BLOCKED,
     DIRECTION,
     END,
     END_PLANE_DEPTH,
-    END_SCALE,
     FAN,
     LENGTH,
     SINGLES,
+    START,
     Fan,
     Start,
-    fan_segment,
     new_fan,
+    set_start,
+    spot_at,
 )
 from vtray.geometry.packets.fan_rays import View, balls_seen, octet_within
+from vtray.geometry.packets.packet import (
+    ERROR_SCALE,
+    NORMAL,
+    PLANE_DEPTH,
+    POINT,
+    new_packet,
+    store,
+)
 from vtray.geometry.packets.stack import new_stack
-from vtray.geometry.stopped import Bundle, stop_by_all
+from vtray.geometry.stopped import Bundle, stop_by_all, way_of
 from vtray.geometry.vector import Vec, add, dot, magnitude, scale
 from vtray.geometry.warps import cosine_direction
 from vtray.rendering import hierarchy
@@ -68,9 +78,18 @@ def spot_on_bond(bonds: Any, random: np.random.Generator) -> tuple[Any, Any]:
     return bonds.start[which] + random.random() * axis + bonds.radius * normal, normal
 
 
-def set_fan(fan: Fan, start: Start, normal: Vec, length: float, forward: Vec, seed: int) -> None:
+def set_fan(
+    fan: Fan,
+    start: Start,
+    normal: Vec,
+    length: float,
+    forward: Vec,
+    seed: int,
+    first: int = 0,
+    rays: int = RAYS,
+) -> None:
     """Set rays above a surface, the last of which nothing needs to ask any more."""
-    for ray, (u, v) in enumerate(np.random.default_rng(seed).random((RAYS, 2))):
+    for ray, (u, v) in enumerate(np.random.default_rng(seed).random((rays, 2)), first):
         direction = uncompiled(cosine_direction)(u, v, normal)
         end = add(start.point, scale(length, direction))
         for axis in range(3):
@@ -79,7 +98,7 @@ def set_fan(fan: Fan, start: Start, normal: Vec, length: float, forward: Vec, se
         fan[LENGTH + ray] = length
         fan[END_PLANE_DEPTH + ray] = dot(end, forward)
         fan[BLOCKED + ray] = 0.0
-    fan[BLOCKED + RAYS - 1] = 1.0
+    fan[BLOCKED + first + rays - 1] = 1.0
 
 
 @pytest.mark.parametrize(
@@ -124,14 +143,80 @@ def test_what_stops_a_fan_stops_each_of_its_rays(
         above = float(normal[0]), float(normal[1]), float(normal[2])
         length = float(random.choice([0.1, 2.0, 1e4])) * size * unit
         set_fan(fan, start, above, length, forward, k)
-        bundle = Bundle(fan, RAYS, start, above, start.error_scale, length)
+        set_start(fan, 0, start, start.error_scale)
+        bundle = Bundle(fan, RAYS, RAYS.bit_length() - 1, spot_at(start, above), length)
         stop_by_all(bundle, world, stack)
         for ray in range(RAYS - 1):
-            segment = fan_segment(fan, ray, start, start.error_scale)
-            hidden = is_occluded(world, segment, stack)
+            hidden = is_occluded(world, way_of(bundle, ray), stack)
             assert fan[BLOCKED + ray] == (1.0 if hidden else 0.0)
             found.append(hidden)
         assert fan[BLOCKED + RAYS - 1] == 1.0
+    assert (not JIT) or 0.03 < np.mean(found) < 0.97
+
+
+@pytest.mark.parametrize(
+    ("kind", "size", "place"),
+    [
+        ("loose", 1, 0),
+        ("packed", 1, 0),
+        ("bonds", 1, 0),
+        ("copies", 1, 0),
+        ("packed", 1, 1e6),
+        ("packed", 1e-100, 0),
+        ("loose", 1e100, 0),
+    ],
+)
+def test_fans_that_start_apart_are_stopped_as_each_alone(
+    kind: str, size: float, place: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """From spots of all sizes up to that of the shapes, on surfaces that bend, and on others."""
+    monkeypatch.setattr(hierarchy, "FEW", 4)
+    scene, random = scene_of(kind, size, place), np.random.default_rng(6)
+    scene.add_plane((place, place, place - 1.1 * size), normal=(0, 0, 1))
+    eye = place, place - 2.5 * size, place
+    scene.camera = vtray.Camera(eye, (0, 1, 0), 2.0 * size, (8, 8), (size, size))
+    arrays = pack(scene, accelerate(scene)).arrays
+    world, forward, unit = arrays.world, arrays.camera.forward, arrays.world.scale
+    stack, fan, packet, batch = new_stack(), new_fan(), new_packet(), new_batch()
+    spheres = next(item for item in scene.objects if isinstance(item, vtray.Spheres))
+    found = []
+    for k in range(FANS):
+        shift = int(random.integers(1, RAYS.bit_length() - 1))
+        count, together = RAYS >> shift, 1 << shift
+        normal = random.normal(size=3)
+        middle = random.uniform(-1.2, 1.2, 3) * size + place
+        which, apart = random.integers(len(spheres.center)), 10 ** random.uniform(-3, 0)
+        length = float(random.choice([0.1, 2.0, 1e4])) * size * unit
+        is_before = True
+        for member in range(count):
+            above = normal + apart * random.normal(size=3)
+            above /= math.sqrt(above @ above)
+            # On a sphere, on the floor, and where nothing is.
+            spot = spheres.center[which] + above * np.asarray(spheres.radius)[which]
+            if k % 4 == 0:
+                spot, above = middle + apart * random.normal(size=3) * size, np.array([0, 0, 1.0])
+                spot[2] = place - 1.1 * size if k % 8 else spot[2]
+            point = tuple(float(x) for x in spot * unit - np.array(world.origin))
+            start = Start(point, dot(point, forward), magnitude(point))
+            is_before &= start.plane_depth > 0
+            up = tuple(float(x) for x in above)
+            set_fan(fan, start, up, length, forward, RAYS * k + member, member * together, together)
+            set_start(fan, member, start, start.error_scale)
+            store(packet, POINT, member, point)
+            store(packet, NORMAL, member, up)
+            packet[PLANE_DEPTH + member] = start.plane_depth
+            packet[ERROR_SCALE + member] = start.error_scale
+            batch.hit[member] = batch.active[member] = member
+        if not is_before:
+            continue
+        bundle = Bundle(fan, RAYS, shift, spot_of(packet, batch, count), length)
+        is_open = [fan[BLOCKED + ray] == 0.0 for ray in range(RAYS)]
+        stop_by_all(bundle, world, stack)
+        for ray in range(RAYS):
+            if is_open[ray]:
+                hidden = is_occluded(world, way_of(bundle, ray), stack)
+                assert fan[BLOCKED + ray] == (1.0 if hidden else 0.0)
+                found.append(hidden)
     assert (not JIT) or 0.03 < np.mean(found) < 0.97
 
 
@@ -148,7 +233,7 @@ def ask_bits(bits: Any) -> Any:
 def test_octets_are_asked_as_numpy_asks_them() -> None:
     random = np.random.default_rng(2)
     singles = new_fan().view(np.float32)
-    singles[2 * SINGLES : 2 * END_SCALE] = random.normal(size=4 * FAN)
+    singles[2 * SINGLES : 2 * START] = random.normal(size=4 * FAN)
     singles[2 * SINGLES : 2 * SINGLES + FAN] = np.round(singles[2 * SINGLES : 2 * SINGLES + FAN])
     for _ in range(100):
         way = tuple(np.float32(x) for x in np.round(random.normal(size=3)))
@@ -166,12 +251,12 @@ def ask_balls(bvh: Any, view: Any, balls: Any) -> Any:
 @compiled_only
 @given(
     st.lists(st.floats(-4, 4, width=32), min_size=SIDES, max_size=SIDES),
-    st.lists(st.floats(-1e3, 1e3, width=32), min_size=8, max_size=8),
+    st.lists(st.floats(-1e3, 1e3, width=32), min_size=11, max_size=11),
 )
 def test_balls_are_seen_as_numpy_has_them(sides: list[float], numbers: list[float]) -> None:
     bvh = Bvh(np.float32([0.0] * SIDES + sides), np.zeros(2 * WIDTH, np.int32))
     values = tuple(map(np.float32, numbers))
-    view = View(values[:3], values[3:6], abs(values[6]), abs(values[7]))
+    view = View(values[:3], values[3:6], *map(abs, values[6:]))
     balls, expected = np.zeros((2, 4 * WIDTH), np.float32)
     assert ask_balls(bvh, view, balls) == uncompiled(balls_seen)(bvh, SIDES, view, expected)
     assert balls.tobytes() == expected.tobytes()

@@ -79,6 +79,24 @@ def test_bundles_tell_what_each_ray_alone_would(kind: str) -> None:
     assert most > 2
 
 
+@once
+@pytest.mark.parametrize("kind", ["few", "many", "bonds", "copies"])
+def test_samples_near_each_other_tell_what_each_alone_would(kind: str) -> None:
+    scene = scene_of(kind)
+    # A mirror, so that each sample can be traced by itself.
+    scene.add_sphere((1.5, -1.5, 0.5), 0.5, material="mirror")
+    samples = 16 if JIT else 3
+    image = render(scene, integrator="whitted", samples=samples, filter="box", tolerance=TOLERANCE)
+    hits = 0
+    for y in range(1, SIZE[1], 2 * STEP):
+        for x in range(1, SIZE[0], STEP):
+            told = [vtray.trace_pixel(image, x, y, k) for k in range(samples)]
+            mean = np.mean([tree.light for tree in told], axis=0)
+            assert mean == pytest.approx(image.linear[y, x], rel=1e-12, abs=1e-12)
+            hits += told[0].hit is not None
+    assert hits > (10 if JIT else 1)
+
+
 @compiled_only
 @pytest.mark.parametrize("samples", [1, 9])
 def test_threads_and_tiles_change_nothing(samples: int) -> None:

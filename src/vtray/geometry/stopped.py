@@ -5,6 +5,7 @@ meet it. Where these are few, each goes on alone. Shapes that have no hierarchy 
 rays. What is found is what a loop over all rays and all shapes would find.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -19,12 +20,17 @@ from vtray.geometry.packets.beam import ray_beam, shape_margin
 from vtray.geometry.packets.cone import Touching
 from vtray.geometry.packets.fan import (
     BLOCKED,
+    END_SCALE,
     FAN,
     LENGTH,
+    START_SCALE,
     Fan,
-    Start,
+    Spot,
     fan_segment,
     load_direction,
+    load_origin,
+    load_start,
+    segment_from,
 )
 from vtray.geometry.packets.fan_rays import (
     NONE,
@@ -40,6 +46,7 @@ from vtray.geometry.packets.fan_rays import (
     view_from,
 )
 from vtray.geometry.packets.stack import Stack
+from vtray.geometry.ray import Segment
 from vtray.geometry.rounding import MARGIN, ROUNDING
 from vtray.geometry.shapes.axis_line import ON_SIDE
 from vtray.geometry.shapes.plane import plane_side
@@ -54,6 +61,7 @@ from vtray.geometry.world import (
     Clip,
     Group,
     Places,
+    ToBoxes,
     World,
     group_count,
     load_group,
@@ -66,6 +74,15 @@ FEW = 8
 FEW_IN_LEAF = 2
 """Up to so many rays are asked about all shapes of a leaf, and not about their balls first."""
 
+SMALL = 4.0
+"""From a box on that is smaller than so many times what they start apart, rays go on alone. They
+would all have to look at whatever is near any of them: 15 times as long, in a lattice of spheres
+that are smaller than a pixel.
+"""
+
+ALL_SLACK = 1.0
+"""By so much, for each unit of length, any ray may lead out of a half-space."""
+
 
 class Bundle(NamedTuple):
     """The rays of a fan.
@@ -74,19 +91,18 @@ class Bundle(NamedTuple):
     ----------
     fan, rays
         The fan, and how many there are.
-    start, normal
-        Where they start, and the unit normal of the surface there, above which they all are.
-    end_scale
-        What the rounding errors of their ends are relative to; None if field ``END_SCALE`` says it.
+    shift
+        Each ``2**shift`` of them are a group, which starts together.
+    spot
+        Where they start.
     longest
         No ray is longer.
     """
 
     fan: Fan
     rays: int
-    start: Start
-    normal: Vec
-    end_scale: float | None
+    shift: int
+    spot: Spot
     longest: float
 
 
@@ -139,11 +155,12 @@ def _leads_out(world: World, clip: Clip | None, group: Group, bundle: Bundle) ->
     # An argument that is None is known to the compiler, which drops what depends on that alone.
     if clip is not None:  # noqa: SIM102
         if clip.is_capped:
-            start, room = bundle.start, room_of(world, clip, group)
+            start, room = bundle.spot.start, room_of(world, clip, group)
             wall = room_wall(room, start.point)
             bound = ROUNDING * (wall.error_scale + start.error_scale)
             is_on = plane_side(wall, start.point) >= -ON_SIDE * bound
-            normal, out = bundle.normal, wall.normal
+            normal, out = bundle.spot.normal, wall.normal
+            is_on = is_on & (bundle.spot.extent == 0.0)
             return is_on & (normal[0] == out[0]) & (normal[1] == out[1]) & (normal[2] == out[2])
     return False
 
@@ -152,28 +169,33 @@ def _leads_out(world: World, clip: Clip | None, group: Group, bundle: Bundle) ->
 def _stop_by_shape(shape: Shape, verbs: Verbs, number: int, arguments: tuple[Bundle, int]) -> int:
     """Mark the rays that a shape stops."""
     bundle, kind = arguments
-    fan, rays, start, _, end_scale, _ = bundle
+    fan, rays = bundle.fan, bundle.rays
     if kind not in (SPHERE, PLANE):
-        _hidden_rays(shape, verbs, number, (bundle, kind, open_rays(fan, rays)))
+        slack = 0.0 if bundle.spot.extent == 0.0 else ALL_SLACK
+        _hidden_rays(shape, verbs, number, (bundle, kind, open_rays(fan, rays), slack))
         return number
-    for ray in range(rays):
-        segment = fan_segment(fan, ray, start, end_scale)
-        fan[BLOCKED + ray] = 1.0 if verbs.hides(shape, segment) else fan[BLOCKED + ray]
+    # Loops over rays that start together are vectorised.
+    together = 1 << bundle.shift
+    for k in range(rays >> bundle.shift):
+        start, end_scale, group = load_origin(fan, k), fan[END_SCALE + k], fan[k * together :]
+        for ray in range(together):
+            segment = segment_from(group, ray, start, end_scale)
+            group[BLOCKED + ray] = 1.0 if verbs.hides(shape, segment) else group[BLOCKED + ray]
     return number
 
 
 @device
 def _stop_by_tree(bundle: Bundle, world: World, group: Group, stack: Stack) -> None:
     """Mark the rays that shapes of a group with a hierarchy stop."""
-    fan, start = bundle.fan, bundle.start
-    ratio, offset = group.to_boxes.ratio, group.to_boxes.offset
-    apex = add(scale(ratio, start.point), offset)
+    fan, start, ratio = bundle.fan, bundle.spot.start, group.to_boxes.ratio
+    apex = to_box_space(group.to_boxes, start.point)
     margin = shape_margin(group.to_boxes, apex, start.error_scale)
-    view = view_from(apex, bundle.normal, margin, ratio * bundle.longest)
+    # Where they start apart, they may be farther away.
+    margin += 4.0 * MARGIN * ratio * bundle.spot.extent
+    view = view_from(apex, bundle.spot, ratio, margin, bundle.longest)
     few = FEW if magnitude(apex) < SINGLE_HUGE else FAN + 1
     unstopped = open_rays(fan, bundle.rays)
-    stack.node[0] = group.root
-    stack.rays[0] = unstopped
+    stack.node[0], stack.rays[0], stack.enter[0] = group.root, unstopped, np.inf
     waiting = 1
     while waiting > 0:
         waiting -= 1
@@ -181,20 +203,34 @@ def _stop_by_tree(bundle: Bundle, world: World, group: Group, stack: Stack) -> N
         rays = stack.rays[waiting] & unstopped
         if rays == NONE:
             continue
-        if node < 0:
+        is_small = stack.enter[waiting] < np.float32(SMALL) * view.extent
+        if node < 0 and not is_small:
             unstopped &= ~_stop_by_leaf(bundle, world, group, node, rays, stack)
-        elif count_bits(rays) < few:
+        elif count_bits(rays) < few or is_small:
             while rays != NONE:
                 ray = lowest_bit(rays)
                 rays &= rays - ONE
-                segment = fan_segment(fan, ray, start, bundle.end_scale)
-                beam = ray_beam(apex, load_direction(fan, ray), margin)
+                segment = way_of(bundle, ray)
+                own = to_box_space(group.to_boxes, load_start(fan, ray >> bundle.shift))
+                beam = ray_beam(own, load_direction(fan, ray), margin)
                 length = fan[LENGTH + ray] * ratio
                 if is_occluded_below(world, group, node, segment, beam, length, stack, waiting):
                     fan[BLOCKED + ray] = 1.0
                     unstopped &= ~(ONE << np.uint64(ray))
         else:
             waiting = push_near(bundle, world.bvh, node, view, rays, stack, waiting)
+
+
+@device
+def way_of(bundle: Bundle, ray: int) -> Segment:
+    """Return the way of a ray."""
+    return fan_segment(bundle.fan, ray, ray >> bundle.shift)
+
+
+@device
+def to_box_space(to_boxes: ToBoxes, point: Vec) -> Vec:
+    """Return a point in the space of boxes."""
+    return add(scale(to_boxes.ratio, point), to_boxes.offset)
 
 
 @device
@@ -208,7 +244,7 @@ def push_near(
     base: int,
 ) -> int:
     """Push the children of a node that some of its rays may meet; return the stack's new height."""
-    top, balls = base, stack.balls
+    top, balls, nodes, sizes, near_rays = base, stack.balls, stack.node, stack.enter, stack.rays
     nearest = np.float32(np.inf)
     seen = balls_seen(bvh, node * SIDES, view, balls)
     while seen != 0:
@@ -217,17 +253,30 @@ def push_near(
         way = balls[k], balls[WIDTH + k], balls[2 * WIDTH + k]
         near = rays & rays_along(bundle.fan, bundle.rays, way, balls[3 * WIDTH + k])
         if near != NONE:
-            child = bvh.child[node * WIDTH + k]
+            child, size = bvh.child[node * WIDTH + k], _size_of(bvh, node, k, view)
             away = way[0] * way[0] + way[1] * way[1] + way[2] * way[2]
             # The nearest is visited first: what it stops need not look at the others.
             if away < nearest or top == base:
-                stack.node[top], stack.rays[top] = child, near
+                nodes[top], near_rays[top], sizes[top] = child, near, size
                 nearest = away
             else:
-                stack.node[top], stack.rays[top] = stack.node[top - 1], stack.rays[top - 1]
-                stack.node[top - 1], stack.rays[top - 1] = child, near
+                last = top - 1
+                nodes[top], near_rays[top], sizes[top] = nodes[last], near_rays[last], sizes[last]
+                nodes[last], near_rays[last], sizes[last] = child, near, size
             top += 1
     return top
+
+
+@device
+def _size_of(bvh: Bvh, node: int, k: int, view: View) -> np.float32:
+    """Return the longest side of the box of a child, infinite where that is not asked."""
+    size = np.float32(np.inf)
+    if view.extent > 0.0:
+        first, high = node * SIDES + k, 3 * WIDTH
+        size = np.float32(0.0)
+        for side in range(first, first + high, WIDTH):
+            size = max(size, bvh.sides[side + high] - bvh.sides[side])
+    return size
 
 
 @device
@@ -245,17 +294,19 @@ def _stop_by_leaf(
     is_worth_it = count_bits(rays) > FEW_IN_LEAF
     for slot in range(begin, end):
         stack.slot[count] = slot
-        arguments = bundle, group.kind, group.to_boxes.ratio, balls, count
-        count += with_bounded(world, group, slot, see_ball, arguments) if is_worth_it else 1
+        of_ball = bundle, group.kind, group.to_boxes.ratio, balls, count
+        count += with_bounded(world, group, slot, see_ball, of_ball) if is_worth_it else 1
     for k in range(count):
         near = rays & ~stopped
         if is_worth_it:
             way = balls[k], balls[WIDTH + k], balls[2 * WIDTH + k]
             near &= rays_along(bundle.fan, bundle.rays, way, balls[3 * WIDTH + k])
         if near != NONE:
-            stopped |= with_bounded(
-                world, group, stack.slot[k], _hidden_rays, (bundle, group.kind, near)
-            )
+            slot, slack = stack.slot[k], 0.0
+            if group.kind != SPHERE and bundle.spot.extent > 0.0:
+                slack = with_bounded(world, group, slot, _slack_towards, bundle.spot)
+            arguments = bundle, group.kind, near, slack
+            stopped |= with_bounded(world, group, slot, _hidden_rays, arguments)
     return stopped
 
 
@@ -268,16 +319,36 @@ def see_ball(
 ) -> int:
     """Set the ball around a shape; return 1 if any of it is above the horizon, else 0."""
     bundle, kind, ratio, balls, k = arguments
-    start = bundle.start
-    way = scale(ratio, sub(shape.center, start.point))
-    radius, error_scale = ratio * shape.radius, ratio * (shape.error_scale + start.error_scale)
-    margin, bound = MARGIN * error_scale, ROUNDING * error_scale
-    distance2, wide = dot(way, way), radius + margin
+    spot = bundle.spot
+    way = scale(ratio, sub(shape.center, spot.start.point))
+    radius, error_scale = ratio * shape.radius, ratio * (shape.error_scale + spot.start.error_scale)
+    margin = MARGIN * error_scale
+    apart = margin + ratio * spot.extent
+    distance2, wide = dot(way, way), radius + apart
+    tangent2 = distance2 - wide * wide
     # A ball around another shape says nothing of where rays start.
-    starts_on = distance2 - radius * radius >= -bound * (2.0 * radius + bound)
-    starts_inside = (kind != SPHERE) | (not starts_on)
-    set_ball(balls, k, way, distance2 - wide * wide, margin, starts_inside)
-    return 1 if dot(way, bundle.normal) + radius >= -margin else 0
+    starts_inside = tangent2 <= 0.0 and (kind != SPHERE or _may_start_inside(bundle, shape))
+    set_ball(balls, k, way, tangent2, apart, starts_inside)
+    lowest = margin + ratio * spot.sunk + spot.tilt * (magnitude(way) + radius)
+    return 1 if dot(way, spot.normal) + radius >= -lowest else 0
+
+
+@device
+def _may_start_inside(bundle: Bundle, sphere: Shape) -> bool:
+    """Tell whether any ray starts inside a sphere, and not only on it."""
+    fan, inside = bundle.fan, False
+    for k in range(bundle.rays >> bundle.shift):
+        inside |= _is_inside(sphere, load_start(fan, k), fan[START_SCALE + k])
+    return inside
+
+
+@device
+def _is_inside(sphere: Shape, point: Vec, error_scale: float) -> bool:
+    """Tell whether a point is inside a sphere, clear of rounding."""
+    way, bound = sub(sphere.center, point), ROUNDING * (sphere.error_scale + error_scale)
+    radius = sphere.radius
+    is_inside: bool = dot(way, way) - radius * radius < -bound * (2.0 * radius + bound)
+    return is_inside
 
 
 @device
@@ -285,21 +356,38 @@ def _hidden_rays(
     shape: Shape,
     verbs: Verbs,
     number: int,  # noqa: ARG001
-    arguments: tuple[Bundle, int, np.uint64],
+    arguments: tuple[Bundle, int, np.uint64, float],
 ) -> np.uint64:
     """Mark those of some rays that a shape stops, and return them."""
-    bundle, kind, rays = arguments
-    fan, start, hidden = bundle.fan, bundle.start, NONE
+    bundle, kind, rays, slack = arguments
+    fan, start, hidden = bundle.fan, bundle.spot.start, NONE
     # Spheres are asked by their balls; for others, asking takes as long as four of the rays.
-    if kind not in (SPHERE, PLANE):
-        rays &= rays_between(fan, bundle.rays, verbs.sides(shape, start.point, start.error_scale))
+    if kind not in (SPHERE, PLANE) and slack < ALL_SLACK:
+        sides = verbs.sides(shape, start.point, start.error_scale)
+        rays &= rays_between(fan, bundle.rays, sides, slack)
     while rays != NONE:
         ray = lowest_bit(rays)
         rays &= rays - ONE
-        if verbs.hides(shape, fan_segment(fan, ray, start, bundle.end_scale)):
+        if verbs.hides(shape, way_of(bundle, ray)):
             fan[BLOCKED + ray] = 1.0
             hidden |= ONE << np.uint64(ray)
     return hidden
+
+
+@device
+def _slack_towards(
+    shape: Shape,
+    verbs: Verbs,  # noqa: ARG001
+    number: int,  # noqa: ARG001
+    spot: Spot,
+) -> float:
+    """Return how far a ray from a spot to a shape may lead out of its `Sides` from the middle.
+
+    That is for each unit of length; ``ALL_SLACK`` if the spot is in the ball around the shape.
+    """
+    way = sub(shape.center, spot.start.point)
+    gap = math.sqrt(dot(way, way)) - shape.radius - 2.0 * spot.extent
+    return spot.extent / gap if gap > spot.extent else ALL_SLACK
 
 
 @device
@@ -309,6 +397,6 @@ def _stop_by_placed(bundle: Bundle, world: World, places: Places | None, stack: 
     if places is not None:
         for ray in range(bundle.rays):
             if bundle.fan[BLOCKED + ray] == 0.0:
-                segment = fan_segment(bundle.fan, ray, bundle.start, bundle.end_scale)
+                segment = way_of(bundle, ray)
                 hidden = is_occluded_by_placed(world, places, segment, stack)
                 bundle.fan[BLOCKED + ray] = 1.0 if hidden else 0.0

@@ -7,7 +7,7 @@ from vtray.geometry.faded.nearby import Tube, touches_faded
 from vtray.geometry.faded.shadow_rays import dim_some, list_open
 from vtray.geometry.packets.cone import Cone
 from vtray.geometry.packets.fan import BLOCKED as RAY_BLOCKED
-from vtray.geometry.packets.fan import Start, fan_segment
+from vtray.geometry.packets.fan import Start
 from vtray.geometry.packets.layer_notes import MOST, SIDE_BY_SIDE, Walk
 from vtray.geometry.packets.occlusion import Target
 from vtray.geometry.packets.packet import (
@@ -23,7 +23,7 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Segment
-from vtray.geometry.stopped import Bundle
+from vtray.geometry.stopped import Bundle, way_of
 from vtray.geometry.vector import Vec
 from vtray.geometry.world import Faded, World
 
@@ -170,6 +170,6 @@ def _dim_fan(bundle: Bundle, world: World, faded: Faded | None, walk: Walk, stac
                 if together and chords.found[ray] < MOST:
                     passed = share_of_list(faded.bodies, ray, walk)
                 else:
-                    segment = fan_segment(fan, ray, bundle.start, bundle.end_scale)
+                    segment = way_of(bundle, ray)
                     passed = passed_share(world, faded, segment, walk, stack)
                 fan[RAY_BLOCKED + ray] = 1.0 - passed

@@ -15,7 +15,6 @@ from vtray.geometry.dispatch import with_any, with_bounded
 from vtray.geometry.faded.chords import Key, add_chord
 from vtray.geometry.faded.layers import ray_along
 from vtray.geometry.packets.beam import shape_margin
-from vtray.geometry.packets.fan import fan_segment
 from vtray.geometry.packets.fan_rays import (
     NONE,
     ONE,
@@ -28,8 +27,8 @@ from vtray.geometry.packets.layer_notes import Chords
 from vtray.geometry.packets.packet import join_met
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.shapes.verbs import Shape, Verbs
-from vtray.geometry.stopped import Bundle, push_near, see_ball
-from vtray.geometry.vector import add, magnitude, scale
+from vtray.geometry.stopped import Bundle, push_near, see_ball, to_box_space, way_of
+from vtray.geometry.vector import magnitude
 from vtray.geometry.world import NO_TREE, Faded, Group, World, load_group
 
 
@@ -37,8 +36,7 @@ from vtray.geometry.world import NO_TREE, Faded, Group, World, load_group
 def can_go_together(bundle: Bundle, world: World, faded: Faded) -> bool:
     """Tell whether the rays of a fan can be asked at once: not about what is placed, or huge."""
     for row in range(faded.begin, faded.end):
-        to_boxes = load_group(world, row).to_boxes
-        apex = add(scale(to_boxes.ratio, bundle.start.point), to_boxes.offset)
+        apex = to_box_space(load_group(world, row).to_boxes, bundle.spot.start.point)
         if not magnitude(apex) < SINGLE_HUGE:
             return False
     return faded.places.begin == faded.places.end
@@ -79,10 +77,10 @@ def _collect_in_group(
     bundle: Bundle, world: World, group: Group, rays: np.uint64, chords: Chords, stack: Stack
 ) -> None:
     """Collect those of a group with a hierarchy."""
-    start = bundle.start
-    apex = add(scale(group.to_boxes.ratio, start.point), group.to_boxes.offset)
+    start, ratio = bundle.spot.start, group.to_boxes.ratio
+    apex = to_box_space(group.to_boxes, start.point)
     margin = shape_margin(group.to_boxes, apex, start.error_scale)
-    view = view_from(apex, bundle.normal, margin, group.to_boxes.ratio * bundle.longest)
+    view = view_from(apex, bundle.spot, ratio, margin, bundle.longest)
     stack.node[0] = group.root
     stack.rays[0] = rays
     waiting = 1
@@ -130,6 +128,6 @@ def _collect_rays(
     while rays != NONE:
         k = lowest_bit(rays)
         rays &= rays - ONE
-        ray, end = ray_along(fan_segment(bundle.fan, k, bundle.start, bundle.end_scale))
+        ray, end = ray_along(way_of(bundle, k))
         add_chord(shape, verbs, number, ray, end, Key(-math.inf, -1), met, chords, k)
     return number

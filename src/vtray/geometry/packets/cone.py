@@ -2,6 +2,7 @@
 
 Before any ray is cast to a lamp, its cone as a whole tells whether all rays arrive, or none, or
 which few shapes can stop some of them. Whatever rounding could decide, some of them may be stopped.
+A cone around the rays from several points tells which shapes touch any of their cones, at least.
 """
 
 import math
@@ -79,8 +80,8 @@ class Cone(NamedTuple):
 
     Attributes
     ----------
-    start
-        Where they start.
+    start, extent
+        Where they start, and how far from there at the most, if they do not all start there.
     axis
         The unit vector in its middle.
     cosine, sine
@@ -92,6 +93,7 @@ class Cone(NamedTuple):
     """
 
     start: Start
+    extent: float
     axis: Vec
     cosine: float
     sine: float
@@ -124,6 +126,18 @@ def find_touching(cone: Cone, world: World, touching: Touching, stack: Stack) ->
         if count < 0:
             return count
     return _find_placed(cone, world, world.places, touching, count, stack)
+
+
+@device
+def find_among(cone: Cone, world: World, touching: Touching, count: int) -> int:
+    """Tell how many of so many shapes touch a cone, or that one stops all rays, with ``CLOSED``."""
+    found = 0
+    for k in range(count):
+        relation = _relation_to(cone, world, load_group(world, touching.row[k]), touching.slot[k])
+        if relation == _COVERS:
+            return CLOSED
+        found += 1 if relation == _TOUCHES else 0
+    return found
 
 
 @device
@@ -232,7 +246,10 @@ def _relation_to_plane(cone: Cone, side: float, rise: float, error_scale: float)
     away = rise if side > 0.0 else -rise
     across = math.sqrt(max(1.0 - away * away, 0.0)) + SLIGHT
     least = away * cone.cosine - across * cone.sine - SLIGHT
-    reaches = least * cone.longest + abs(side) <= MARGIN * error_scale
+    reaches = least * cone.longest + abs(side) <= MARGIN * error_scale + cone.extent
+    if cone.extent > 0.0:
+        # Of rays that start on both sides, some may go either way.
+        return _TOUCHES if reaches or abs(side) <= MARGIN * error_scale + cone.extent else _ASIDE
     starts_on = abs(side) <= ROUNDING * error_scale
     return _TOUCHES if reaches and not starts_on else _ASIDE
 
@@ -248,7 +265,7 @@ def _relation_to_shape(
     cone, kind = arguments
     start, axis = cone.start, cone.axis
     way = sub(shape.center, start.point)
-    margin = MARGIN * (shape.error_scale + start.error_scale)
+    margin = MARGIN * (shape.error_scale + start.error_scale) + cone.extent
     ahead, distance2 = dot(way, axis), dot(way, way)
     approach = sub(way, scale(ahead, axis))
     aside = math.sqrt(dot(approach, approach))
@@ -256,6 +273,8 @@ def _relation_to_shape(
     near, far = aside * cone.cosine - ahead * cone.sine, aside * cone.cosine + ahead * cone.sine
     if near > shape.radius + margin or ahead > cone.longest + shape.radius + margin:
         return _ASIDE
+    if cone.extent > 0.0:
+        return _TOUCHES
     if kind >= CUT:
         sides = verbs.sides(shape, start.point, start.error_scale)
         return _ASIDE if _is_beyond(cone, sides.end) else _TOUCHES
@@ -345,7 +364,7 @@ def _cone_beam(cone: Cone, to_boxes: ToBoxes) -> Beam:
     x, y, z = cone.axis
     low = _least(x, cone), _least(y, cone), _least(z, cone)
     high = -_least(-x, cone), -_least(-y, cone), -_least(-z, cone)
-    margin = shape_margin(to_boxes, apex, cone.start.error_scale)
+    margin = shape_margin(to_boxes, apex, cone.start.error_scale) + to_boxes.ratio * cone.extent
     return make_beam(apex, apex, low, high, margin)
 
 

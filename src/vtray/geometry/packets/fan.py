@@ -1,4 +1,4 @@
-"""A fan: shadow rays that spread from one point, side by side in one scratch array."""
+"""A fan: shadow rays that spread from one point or from a few, side by side in a scratch array."""
 
 from typing import NamedTuple
 
@@ -29,16 +29,20 @@ WEIGHT = 9 * FAN
 """What the ray counts, if nothing stops it: one number, or three for red, green and blue."""
 SINGLES = 12 * FAN
 """Its direction in single precision, two in the place of one number."""
-END_SCALE = 14 * FAN
-"""What the rounding error of its end is relative to, where rays go to several lights."""
-SIZE = 15 * FAN
+START = 14 * FAN
+START_PLANE_DEPTH = 17 * FAN
+START_SCALE = 18 * FAN
+"""Where the rays of a group start, as in `Start`; see `Bundle`."""
+END_SCALE = 19 * FAN
+"""What the rounding errors of their ends are relative to."""
+SIZE = 20 * FAN
 
 Fan = NDArray[np.float64]
 """The fields of all rays, one after the other, as those of a packet."""
 
 
 class Start(NamedTuple):
-    """Where the rays of a fan start.
+    """Where rays start.
 
     Attributes
     ----------
@@ -55,9 +59,40 @@ class Start(NamedTuple):
     error_scale: float
 
 
+class Spot(NamedTuple):
+    """The part of a surface from which the rays of a fan start.
+
+    Attributes
+    ----------
+    start
+        Where they start; if they start apart, a point between, and the largest of their scales.
+    extent
+        How far from there they start at the most.
+    normal
+        The unit normal of the surface there, above which they all are.
+    tilt
+        How far the normals where they start are from that at the most, as vectors.
+    sunk
+        How far below the plane through the middle, in the direction of their normals, they start at
+        the most.
+    """
+
+    start: Start
+    extent: float
+    normal: Vec
+    tilt: float
+    sunk: float
+
+
 def new_fan() -> Fan:
     """Return the fan of one thread."""
     return np.zeros(SIZE)
+
+
+@device
+def spot_at(start: Start, normal: Vec) -> Spot:
+    """Return the spot of rays that start together."""
+    return Spot(start, 0.0, normal, 0.0, 0.0)
 
 
 @device
@@ -81,17 +116,38 @@ def load_end(fan: Fan, ray: int) -> Vec:
 
 
 @device
-def fan_segment(fan: Fan, ray: int, start: Start, end_scale: float | None) -> Segment:
-    """Return the way of a ray; `end_scale` is that of all ends, or None if each has its own."""
-    # An argument that is None is known to the compiler, which drops what depends on that alone.
-    if end_scale is None:
-        return _segment(fan, ray, start, fan[END_SCALE + ray])
-    return _segment(fan, ray, start, end_scale)
+def set_start(fan: Fan, k: int, start: Start, end_scale: float) -> None:
+    """Set where the rays of a group start, and the scale of the rounding errors of their ends."""
+    x, y, z = start.point
+    fan[START + k] = x
+    fan[START + FAN + k] = y
+    fan[START + 2 * FAN + k] = z
+    fan[START_PLANE_DEPTH + k] = start.plane_depth
+    fan[START_SCALE + k] = start.error_scale
+    fan[END_SCALE + k] = end_scale
 
 
 @device
-def _segment(fan: Fan, ray: int, start: Start, end_scale: float) -> Segment:
-    """Return the way of a ray whose end has this scale of rounding errors."""
+def load_start(fan: Fan, k: int) -> Vec:
+    """Return the point where the rays of a group start."""
+    return fan[START + k], fan[START + FAN + k], fan[START + 2 * FAN + k]
+
+
+@device
+def load_origin(fan: Fan, k: int) -> Start:
+    """Return where the rays of a group start."""
+    return Start(load_start(fan, k), fan[START_PLANE_DEPTH + k], fan[START_SCALE + k])
+
+
+@device
+def fan_segment(fan: Fan, ray: int, k: int) -> Segment:
+    """Return the way of a ray, which is one of group `k`."""
+    return segment_from(fan, ray, load_origin(fan, k), fan[END_SCALE + k])
+
+
+@device
+def segment_from(fan: Fan, ray: int, start: Start, end_scale: float) -> Segment:
+    """Return the way of a ray, given where it starts, and the scale of its end's errors."""
     return Segment(
         start.point,
         load_end(fan, ray),

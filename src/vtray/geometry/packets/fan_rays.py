@@ -14,7 +14,7 @@ from vtray.base.compiler.compiled import device, written_in_llvm
 from vtray.geometry.bvh.boxes import Singles
 from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh
 from vtray.geometry.packets.beam import NEVER
-from vtray.geometry.packets.fan import BLOCKED, DIRECTION, FAN, SINGLES, Fan
+from vtray.geometry.packets.fan import BLOCKED, DIRECTION, FAN, SINGLES, Fan, Spot
 from vtray.geometry.shapes.sides import Sides
 from vtray.geometry.vector import Vec, magnitude
 
@@ -51,34 +51,49 @@ class View(NamedTuple):
     apex, normal
         The point, and the unit normal above which all rays are.
     margin
-        How far rounding may have moved the boxes against the rays.
+        How far rounding, and that they start apart, may have moved the boxes against the rays.
     limit2
-        ``FAR_SHARE`` times the square of how long the rays are.
+        ``FAR_SHARE`` times the square of how far from there they end.
+    extent
+        How far from there they start at the most.
+    below, tilt
+        How far below the plane through the point what they meet may be, and by how much more for
+        each unit of distance.
     """
 
     apex: Singles
     normal: Singles
     margin: np.float32
     limit2: np.float32
+    extent: np.float32
+    below: np.float32
+    tilt: np.float32
 
 
 @device
-def view_from(apex: Vec, normal: Vec, margin: float, longest: float) -> View:
-    """Return how boxes are seen from a point, which is no farther away than ``SINGLE_HUGE``.
+def view_from(apex: Vec, spot: Spot, ratio: float, margin: float, longest: float) -> View:
+    """Return how boxes are seen from a spot, which is no farther away than ``SINGLE_HUGE``.
 
     Parameters
     ----------
-    apex, normal, longest
-        The point, the normal there, and how long rays are at the most.
+    apex, ratio
+        The middle of the spot in the space of the boxes, and how large a unit is there.
+    spot, longest
+        The spot, and how long rays are at the most.
     margin
-        How far rounding may have moved what the rays are tested for, in doubles.
+        How far rounding may have moved what the rays are tested for in that space, in doubles.
     """
-    length = min(longest, SINGLE_HUGE)
+    extent = ratio * spot.extent
+    length = min(ratio * longest + extent, SINGLE_HUGE)
+    error = margin + 2.0 * SINGLE_ERROR * (magnitude(apex) + REACH)
     return View(
         narrow(apex),
-        narrow(normal),
-        np.float32(margin + 2.0 * SINGLE_ERROR * (magnitude(apex) + REACH)),
+        narrow(spot.normal),
+        np.float32(error + extent),
         np.float32(FAR_SHARE * length * length),
+        np.float32(extent),
+        np.float32(4.0 * error + ratio * spot.sunk),
+        np.float32((1.0 + SINGLE_ERROR) * spot.tilt),
     )
 
 
@@ -117,7 +132,8 @@ def balls_seen(bvh: Bvh, first: int, view: View, balls: NDArray[np.float32]) -> 
     error = single(SINGLE_ERROR) * _sum(abs(way)) + margin
     balls[: 3 * WIDTH] = way.reshape(-1)
     balls[3 * WIDTH :] = np.where(tangent2 > 0.0, tangent - error, single(-NEVER))
-    rises = rise + tall >= -(single(4.0) * margin)
+    lowest = view.below + view.tilt * (_sum(abs(way)) + _sum(half))
+    rises = rise + tall >= -lowest
     is_near = distance2 <= view.limit2 + single(FAR_SHARE) * radius2
     seen = (low[0] <= high[0]) & rises & is_near
     return int(np.packbits(seen, bitorder="little")[0])
@@ -199,9 +215,12 @@ def rays_along(fan: Fan, rays: int, way: Singles, least: np.float32) -> np.uint6
 
 
 @device
-def rays_between(fan: Fan, rays: int, sides: Sides) -> np.uint64:
-    """Return the rays that are in all of some half-spaces, as far as single precision can tell."""
-    least = np.float32(-SINGLE_ERROR)
+def rays_between(fan: Fan, rays: int, sides: Sides, slack: float) -> np.uint64:
+    """Return the rays that are in all of some half-spaces, as far as single precision can tell.
+
+    A ray may lead out of one by so much for each unit of length.
+    """
+    least = np.float32(-SINGLE_ERROR - slack)
     found = rays_along(fan, rays, narrow(sides.one), least)
     found &= rays_along(fan, rays, narrow(sides.other), least)
     return found & rays_along(fan, rays, narrow(sides.end), least)

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.geometry.packets.batch import Batch, new_batch
 from vtray.geometry.packets.cone import Touching, new_touching
 from vtray.geometry.packets.fan import FAN, MOST_RAYS, Fan, new_fan
 from vtray.geometry.packets.layer_notes import Layers, Walk, new_layers, new_walk
@@ -103,8 +104,10 @@ class Workspace(NamedTuple):
         Those that are traced.
     sums
         The sums of the samples of the pixels of a packet.
+    batch
+        Hits that are near each other.
     fan, touching
-        The shadow rays of one hit to one light, and the shapes that touch their cone.
+        The shadow rays of a batch to one light, and the shapes that touch their cone.
     shared
         Notes on rays that many lights share.
     walk, layers
@@ -126,6 +129,7 @@ class Workspace(NamedTuple):
     curve: Pixels
     pixels: Pixels
     sums: Sums
+    batch: Batch
     fan: Fan
     touching: Touching
     shared: Shared
@@ -174,6 +178,7 @@ def new_workspace(world: World, sharing: int = 0, bounces: int = -1) -> Workspac
         curve=curve_of_block(),
         pixels=integers(LANES),
         sums=Sums(*(np.zeros(size * LANES) for size in (3, 1, 1, 1, 3, 3, 9))),
+        batch=new_batch(),
         fan=new_fan(),
         touching=new_touching(),
         shared=new_shared(sharing),

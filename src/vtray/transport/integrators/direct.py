@@ -516,6 +516,7 @@ def _light_hits(
         scene.lights.soft,
         scene.lights.crowd,
         seed_of_step(sampling.seed, step),
+        step == 0,
         sampling.fans,
         block,
         begin,
@@ -560,6 +561,7 @@ def _add_soft_lights(
     soft: SoftLights | None,
     crowd: Crowd | None,
     seed: int,
+    is_near: bool,
     fans: Fans | None,
     block: Block,
     begin: int,
@@ -608,6 +610,7 @@ def _add_soft_lights(
                 fans,
                 seed,
                 is_wide,
+                is_near,
                 kept.cosines,
                 work,
             )

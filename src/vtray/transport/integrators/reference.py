@@ -12,7 +12,7 @@ from vtray.base.compiler.compiled import device, kernel
 from vtray.geometry.between import first_between
 from vtray.geometry.faded.dimming import blocked_share
 from vtray.geometry.packets.cone import Touching
-from vtray.geometry.packets.fan import BLOCKED, Fan, Start, fan_segment
+from vtray.geometry.packets.fan import BLOCKED, Fan, Start, fan_segment, set_start
 from vtray.geometry.packets.layer_notes import Walk
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import Shared
@@ -275,11 +275,11 @@ def _trace_fan(
     place = place_of(fans.levels, traced.sample, column, row, light, seed)
     offset = offset_of(fans.offsets, place, number)
     spread_fan(fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, offset, keys)
-    end_scale = soft.error_scale[light] + error_scale
+    set_start(fan, 0, start, aim.error_scale + error_scale)
     for ray in range(fans.rays):
         blockers[ray] = NOTHING
         if fan[BLOCKED + ray] == 0.0:
-            segment = fan_segment(fan, ray, start, end_scale)
+            segment = fan_segment(fan, ray, 0)
             blockers[ray] = first_between(scene.world, segment, stack)
             is_free = blockers[ray] == NOTHING
             fan[BLOCKED + ray] = (
@@ -405,7 +405,7 @@ def _trace_shared_fan(
     for ray in range(fans.rays):
         blockers[ray] = NOTHING
         if fan[BLOCKED + ray] == 0.0:
-            segment = fan_segment(fan, ray, start, None)
+            segment = fan_segment(fan, ray, ray)
             blockers[ray] = first_between(scene.world, segment, stack)
             is_free = blockers[ray] == NOTHING
             fan[BLOCKED + ray] = (

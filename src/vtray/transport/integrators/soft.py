@@ -6,19 +6,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, part
+from vtray.geometry.bits import count_bits
 from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
-from vtray.geometry.packets.cone import CLOSED, MANY, find_touching
-from vtray.geometry.packets.fan import Start, count_open
+from vtray.geometry.packets.batch import spot_of, start_of, take_near
+from vtray.geometry.packets.cone import CLOSED, MANY, find_among, find_touching
+from vtray.geometry.packets.fan import FAN, set_start
 from vtray.geometry.packets.packet import (
     BLOCK,
     COLOR,
-    ERROR_SCALE,
     KEPT,
     LAMBERT,
     NOISE,
     NORMAL,
-    PLANE_DEPTH,
-    POINT,
     SHARE,
     SOURCE,
     UNEVEN,
@@ -36,9 +35,11 @@ from vtray.geometry.world import Faded
 from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
 from vtray.transport.lights.light import Powers, load_power, soft_worth
 from vtray.transport.lights.soft_light import (
+    Aim,
     SoftLights,
     aim_at,
     component_count,
+    cone_from,
     cone_of,
     is_above,
     is_below,
@@ -50,9 +51,11 @@ from vtray.transport.lights.soft_light import (
 from vtray.transport.materials.material import Material, scattered
 from vtray.transport.sampling.estimate import (
     counted_variance,
+    load_estimate,
     needs_more,
     no_estimate,
     shares_of,
+    store_estimate,
     with_fan,
     with_unseen,
 )
@@ -60,28 +63,41 @@ from vtray.transport.sampling.fans import Fans, fan_keys, fans_of_share, offset_
 from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
 from vtray.transport.scene_arrays import LitWorld
 
-NO_SHARES = (0.0, 0.0, 0.0)
-"""Those of a light of which nothing arrives."""
+DARK = (0.0, 0.0, 0.0)
+"""The shares of a light of which nothing arrives."""
 
 
-class Arriving(NamedTuple):
-    """What arrives of a light at a hit.
+class Casting(NamedTuple):
+    """What the fans of all hits of a packet are cast by.
 
     Attributes
     ----------
-    shares
-        The mean weights of all rays, one for each component of the light.
-    variance, counted
-        That of the shares, as it is estimated, and as a part of what all lights may have.
-    cast, arrived
-        How many rays were cast, and how many arrive.
+    lit, soft
+        The scene, and its soft lights.
+    fans, seed
+        Which rays are cast.
+    samples, first, block, begin
+        As in `add_soft_lights`.
+    cosines
+        Where what each light adds is kept.
     """
 
-    shares: Vec
-    variance: float
-    counted: float
-    cast: int
-    arrived: int
+    lit: LitWorld
+    soft: SoftLights
+    fans: Fans
+    seed: int
+    samples: int
+    first: int
+    block: Block
+    begin: int
+    cosines: NDArray[np.float64]
+
+
+class Seen(NamedTuple):
+    """A light as it is seen from the first hit of a batch, and whether that is alone."""
+
+    aim: Aim
+    is_alone: bool
 
 
 @device
@@ -117,6 +133,7 @@ def add_soft_lights(
     fans: Fans,
     seed: int,
     is_wide: bool | None,
+    is_near: bool,
     cosines: NDArray[np.float64],
     work: Workspace,
 ) -> int:
@@ -136,35 +153,46 @@ def add_soft_lights(
         Which rays are cast.
     is_wide
         Whether it is asked if pixels look the same everywhere; None where it never is.
+    is_near
+        Whether hits of lanes near each other may be near each other.
     cosines
         Out: what each light adds, if that is kept, (components, places), else (0, 0).
     work
         Scratch memory.
     """
-    cast = 0
+    casting = Casting(lit, soft, fans, seed, samples, first, block, begin, cosines)
+    cast, batch = 0, work.batch
     clear_noise(packet, hits)
     for hit in range(hits):
-        lane = integers(packet)[SOURCE + hit]
-        column, row, sample = sample_of(lane, samples, first, block, begin, work.pixels)
-        material, spent = Material(load(packet, COLOR, hit), packet[LAMBERT + hit]), 0.0
-        own = fans_of_share(fans, _seen_share(packet, lane, lit.world.faded))
+        batch.is_taken[hit] = False
+    for hit in range(hits):
+        if batch.is_taken[hit]:
+            continue
+        own = fans_of_hit(packet, hit, casting)
+        count = take_near(packet, hits, hit, most_of(lit.world.faded, own, samples, is_near), batch)
+        for member in range(count):
+            batch.spent[member] = 0.0
         for light in range(soft_count(soft)):
             if _is_uneven(packet, hit, lit, soft, light, is_wide, work):
                 break
-            keys = fan_keys(column, row, light, seed)
-            place = place_of(fans.levels, sample, column, row, light, seed)
-            worth = soft_worth(lit.powers, soft, light, material)
-            arriving = _arriving(
-                packet, hit, lit, soft, light, worth, spent, own, place, keys, work
-            )
-            spent += arriving.counted
-            for component in range(component_count(soft, light)):
-                power, share = soft.row[light] + component, arriving.shares[component]
-                _add_share(packet, hit, lit.powers, power, share)
-                _keep_share(packet, lane, power, share, cosines)
-            packet[NOISE + hit] += worth * worth * arriving.variance
-            cast += arriving.cast
+            cast += _light_batch(packet, count, casting, own, light, work)
     return cast
+
+
+@device
+def most_of(faded: Faded | None, fans: Fans, samples: int, is_near: bool) -> int:
+    """Return how many hits of a packet may be in a batch."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if faded is not None:
+        return 1
+    return FAN // fans.rays if is_near and samples > 1 else 1
+
+
+@device
+def fans_of_hit(packet: Packet, hit: int, casting: Casting) -> Fans:
+    """Return which rays are cast from a hit."""
+    lane = integers(packet)[SOURCE + hit]
+    return fans_of_share(casting.fans, _seen_share(packet, lane, casting.lit.world.faded))
 
 
 @device
@@ -178,61 +206,207 @@ def _seen_share(packet: Packet, lane: int, faded: Faded | None) -> float:
 
 
 @device
-def _arriving(
-    packet: Packet,
-    hit: int,
-    lit: LitWorld,
-    soft: SoftLights,
-    light: int,
-    worth: float,
-    spent: float,
-    fans: Fans,
-    place: int,
-    keys: tuple[int, int],
-    work: Workspace,
-) -> Arriving:
-    """Return what arrives of a light at a hit, by as many fans as its variance asks for.
+def _light_batch(
+    packet: Packet, count: int, casting: Casting, fans: Fans, light: int, work: Workspace
+) -> int:
+    """Add a light to the hits of a batch, so many; return how many shadow rays were cast.
 
-    What the lights before it left of the variance that all may have is shared with those after it.
+    Each has as many fans as its variance asks for. What the lights before it left of the variance
+    that all may have is shared with those after it.
     """
-    point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
-    start = Start(point, packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
-    aim = aim_at(soft, light, start, normal)
-    is_narrow, is_dimmed, forward = aim.spread < NARROW, True, lit.forward
-    touching, count = work.touching, MANY
-    if is_below(aim, normal):
-        return Arriving(NO_SHARES, 0.0, 0.0, 0, 0)
-    if is_narrow and is_cone(aim):
-        cone = cone_of(aim, start, forward)
-        count = find_touching(cone, lit.world, touching, work.stack)
-        is_dimmed = count != CLOSED and may_be_dimmed(cone, lit.world, work.stack)
-        # What a cone as a whole tells is what all its rays would.
-        if count == 0 and is_above(aim, normal) and not is_dimmed:
-            shares = middle_share(aim, normal), 0.0, 0.0
-            return Arriving(shares, 0.0, 0.0, fans.rays, fans.rays)
-        if count == CLOSED and is_above(aim, normal):
-            return Arriving(NO_SHARES, 0.0, 0.0, fans.rays, 0)
-    fan, components = work.fan, component_count(soft, light)
-    end_scale = soft.error_scale[light] + start.error_scale
-    bundle = Bundle(fan, fans.rays, start, normal, end_scale, longest_ray(aim, start))
-    estimate, cast, arrived, lights = no_estimate(), 0, 0, soft_count(soft)
-    while needs_more(estimate, fans, worth, spent, light, lights):
-        offset = offset_of(fans.offsets, place, estimate.fans)
-        cast += spread_fan(
-            fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, offset, keys
-        )
-        if count >= 0:
-            stop_by_touching(bundle, lit.world, touching, count)
+    batch, soft, fan, world = work.batch, casting.soft, work.fan, casting.lit.world
+    first = aim_from(packet, batch.hit[0], soft, light)
+    seen, shift = Seen(first, count == 1), count_bits(np.uint64(fans.rays - 1))
+    active = _leave_above(packet, count, casting, seen, light, work)
+    if active == 0:
+        return 0
+    active, touching, is_dimmed, cast = _ask_cones(packet, active, casting, fans, seen, light, work)
+    while active > 0:
+        longest = 0.0
+        for k in range(active):
+            length, rays = _spread_from(packet, k, casting, fans, seen, light, work)
+            longest = max(longest, length)
+            cast += rays
+        spot = spot_of(packet, batch, active)
+        bundle = Bundle(fan, active * fans.rays, shift, spot, longest)
+        if touching >= 0:
+            stop_by_touching(bundle, world, work.touching, touching)
         else:
-            stop_by_all(bundle, lit.world, work.stack)
+            stop_by_all(bundle, world, work.stack)
         if is_dimmed:
-            dim_fan(bundle, lit.world, work.walk, work.stack)
-        shares, spread = arriving_shares(fan, fans.rays, components, aim, normal)
-        estimate = with_fan(estimate, shares, spread)
-        arrived += count_open(fan, fans.rays)
+            dim_fan(bundle, world, work.walk, work.stack)
+        going_on = 0
+        for k in range(active):
+            if _goes_on(packet, k, casting, fans, seen, light, work):
+                batch.active[going_on] = batch.active[k]
+                going_on += 1
+        active = going_on
+    return cast
+
+
+@device
+def _leave_above(
+    packet: Packet, count: int, casting: Casting, seen: Seen, light: int, work: Workspace
+) -> int:
+    """Make those hits active that a light is not below; return how many these are."""
+    batch, active = work.batch, 0
+    for member in range(count):
+        hit = batch.hit[member]
+        aim = aim_of(packet, hit, casting.soft, light, seen)
+        if is_below(aim, load(packet, NORMAL, hit)):
+            _add_shares(packet, hit, casting, light, DARK)
+        else:
+            store_estimate(batch, member, no_estimate())
+            batch.active[active] = member
+            active += 1
+    return active
+
+
+@device
+def _ask_cones(
+    packet: Packet,
+    count: int,
+    casting: Casting,
+    fans: Fans,
+    seen: Seen,
+    light: int,
+    work: Workspace,
+) -> tuple[int, int, bool, int]:
+    """Add a light to those active hits, so many, where all of it arrives, or nothing.
+
+    Returns
+    -------
+    active, touching, is_dimmed, cast
+        How many hits are left, which are the active ones then; how many shapes can stop their rays,
+        as `find_touching` tells it; whether faded bodies may dim any; and how many rays need not be
+        cast.
+    """
+    batch, soft, world, forward = work.batch, casting.soft, casting.lit.world, casting.lit.forward
+    touching, spot = MANY, spot_of(packet, batch, count)
+    aim = seen.aim if seen.is_alone else aim_at(soft, light, spot.start, spot.normal)
+    if not (is_cone(aim) and aim.spread < NARROW):
+        return count, touching, True, 0
+    around = cone_from(aim, spot, forward)
+    if around.cosine > 0.0:
+        touching = find_touching(around, world, work.touching, work.stack)
+    active, cast, is_dimmed = 0, 0, False
+    for k in range(count):
+        member = batch.active[k]
+        hit = batch.hit[member]
+        aim, normal = aim_of(packet, hit, soft, light, seen), load(packet, NORMAL, hit)
+        may_be_dim = True
+        if is_cone(aim):
+            cone, found = cone_of(aim, start_of(packet, hit), forward), touching
+            if count > 1 and touching >= 0:
+                found = find_among(cone, world, work.touching, touching)
+            may_be_dim = found != CLOSED and may_be_dimmed(cone, world, work.stack)
+            # What a cone as a whole tells is what all its rays would.
+            is_open = found == 0 and not may_be_dim
+            if (is_open or found == CLOSED) and is_above(aim, normal):
+                share = middle_share(aim, normal) if is_open else 0.0
+                _add_shares(packet, hit, casting, light, (share, 0.0, 0.0))
+                cast += fans.rays
+                continue
+        is_dimmed |= may_be_dim
+        batch.active[active] = member
+        active += 1
+    return active, touching, is_dimmed, cast
+
+
+@device
+def _spread_from(
+    packet: Packet,
+    k: int,
+    casting: Casting,
+    fans: Fans,
+    seen: Seen,
+    light: int,
+    work: Workspace,
+) -> tuple[float, int]:
+    """Set the next fan of an active hit, given by its number among them.
+
+    Return how long its rays are at the most, and how many count.
+    """
+    batch, seed = work.batch, casting.seed
+    member = batch.active[k]
+    hit = batch.hit[member]
+    start, aim = start_of(packet, hit), aim_of(packet, hit, casting.soft, light, seen)
+    lane = integers(packet)[SOURCE + hit]
+    column, row, sample = sample_of(
+        lane, casting.samples, casting.first, casting.block, casting.begin, work.pixels
+    )
+    place = place_of(fans.levels, sample, column, row, light, seed)
+    set_start(work.fan, k, start, aim.error_scale + start.error_scale)
+    rays = spread_fan(
+        work.fan[k * fans.rays :],
+        fans.rays,
+        aim,
+        start,
+        load(packet, NORMAL, hit),
+        casting.lit.forward,
+        casting.soft.skies,
+        fans.points,
+        offset_of(fans.offsets, place, load_estimate(batch, member).fans),
+        fan_keys(column, row, light, seed),
+    )
+    return longest_ray(aim, start), rays
+
+
+@device
+def _goes_on(
+    packet: Packet,
+    k: int,
+    casting: Casting,
+    fans: Fans,
+    seen: Seen,
+    light: int,
+    work: Workspace,
+) -> bool:
+    """Tell whether an active hit needs another fan; add the light to it if not."""
+    batch, soft = work.batch, casting.soft
+    member = batch.active[k]
+    hit, fan = batch.hit[member], work.fan[k * fans.rays :]
+    aim, normal = aim_of(packet, hit, soft, light, seen), load(packet, NORMAL, hit)
+    shares, spread = arriving_shares(fan, fans.rays, component_count(soft, light), aim, normal)
+    estimate = with_fan(load_estimate(batch, member), shares, spread)
+    worth, spent = _worth_at(packet, hit, casting, light), batch.spent[member]
+    if needs_more(estimate, fans, worth, spent, light, soft_count(soft)):
+        store_estimate(batch, member, estimate)
+        return True
     variance = with_unseen(estimate, fans.rays, aim.share)
-    counted = counted_variance(estimate, fans, worth)
-    return Arriving(shares_of(estimate), variance, counted, cast, arrived)
+    batch.spent[member] = spent + counted_variance(estimate, fans, worth)
+    packet[NOISE + hit] += worth * worth * variance
+    _add_shares(packet, hit, casting, light, shares_of(estimate))
+    return False
+
+
+@device
+def aim_from(packet: Packet, hit: int, soft: SoftLights, light: int) -> Aim:
+    """Return a light as it is seen from a hit."""
+    return aim_at(soft, light, start_of(packet, hit), load(packet, NORMAL, hit))
+
+
+@device
+def aim_of(packet: Packet, hit: int, soft: SoftLights, light: int, seen: Seen) -> Aim:
+    """Return a light as it is seen from a hit of a batch, which is known if it is alone."""
+    return seen.aim if seen.is_alone else aim_from(packet, hit, soft, light)
+
+
+@device
+def _worth_at(packet: Packet, hit: int, casting: Casting, light: int) -> float:
+    """Return the largest channel of what all of a light adds at a hit, shining squarely."""
+    material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
+    return soft_worth(casting.lit.powers, casting.soft, light, material)
+
+
+@device
+def _add_shares(packet: Packet, hit: int, casting: Casting, light: int, shares: Vec) -> None:
+    """Add what arrives of a light to a hit, given the shares of its components."""
+    lane, soft = integers(packet)[SOURCE + hit], casting.soft
+    for component in range(component_count(soft, light)):
+        power, share = soft.row[light] + component, shares[component]
+        _add_share(packet, hit, casting.lit.powers, power, share)
+        _keep_share(packet, lane, power, share, casting.cosines)
 
 
 @device

@@ -3,7 +3,7 @@
 from vtray.base.compiler.compiled import device, part
 from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
 from vtray.geometry.packets.cone import CLOSED, Touching, find_touching
-from vtray.geometry.packets.fan import Start
+from vtray.geometry.packets.fan import Start, spot_at
 from vtray.geometry.packets.packet import (
     COLOR,
     ERROR_SCALE,
@@ -151,7 +151,7 @@ def _light_hit(
             shared,
         )
         longest = longest_of(fan, fans.rays)
-        bundle = Bundle(fan, fans.rays, start, normal, None, longest)
+        bundle = Bundle(fan, fans.rays, 0, spot_at(start, normal), longest)
         stop_by_all(bundle, lit.world, work.stack)
         dim_fan(bundle, lit.world, work.walk, work.stack)
         estimate = with_shared_fan(estimate, pool, fan, fans, shared.brought)

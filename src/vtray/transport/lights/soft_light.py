@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.cone import Cone
-from vtray.geometry.packets.fan import Start
+from vtray.geometry.packets.fan import Spot, Start
 from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, dot, scale, sub
 from vtray.transport.lights.rectangle import (
@@ -84,7 +84,7 @@ class Aim(NamedTuple):
 
     Attributes
     ----------
-    kind, place, size
+    kind, place, size, error_scale
         As in `SoftLights`.
     axis
         The unit direction to its middle, or the normal of the surface for a rectangle and for light
@@ -104,6 +104,7 @@ class Aim(NamedTuple):
     kind: int
     place: Vec
     size: float
+    error_scale: float
     axis: Vec
     spread: float
     share: float
@@ -142,7 +143,8 @@ def aim_at(soft: SoftLights, light: int, start: Start, normal: Vec) -> Aim:
     if kind == SUN:
         # The mean of the cosine over a cone around the normal is 1 - spread / 2.
         share = 1.0 / (1.0 - 0.5 * size)
-        return Aim(SUN, scale(soft.far, place), soft.far, place, size, share, 1.0, seen, NO_SKY)
+        far = scale(soft.far, place)
+        return Aim(SUN, far, soft.far, error_scale, place, size, share, 1.0, seen, NO_SKY)
     if kind == SPHERE:
         way = sub(place, start.point)
         distance2 = dot(way, way)
@@ -154,13 +156,14 @@ def aim_at(soft: SoftLights, light: int, start: Start, normal: Vec) -> Aim:
             # The solid angle of the cone is 2 pi spread.
             share = 2.0 * spread if falls_off else 1.0 / (1.0 - 0.5 * spread)
             whole = share * (1.0 - 0.5 * spread) if falls_off else 1.0
-            return Aim(SPHERE, place, size, axis, spread, share, whole, seen, NO_SKY)
+            return Aim(SPHERE, place, size, error_scale, axis, spread, share, whole, seen, NO_SKY)
         # Inside, its light comes from all sides.
-        return Aim(SPHERE, place, size, normal, ALL_AROUND, 1.0, 1.0, seen, NO_SKY)
+        return Aim(SPHERE, place, size, error_scale, normal, ALL_AROUND, 1.0, 1.0, seen, NO_SKY)
     if kind == RECTANGLE:
         spread, share = spread_and_share(seen)
-        return Aim(RECTANGLE, place, size, normal, spread, share, 0.0, seen, NO_SKY)
-    return Aim(AROUND, place, size, normal, ALL_AROUND, 1.0, 1.0, seen, soft.sky[light])
+        return Aim(RECTANGLE, place, size, error_scale, normal, spread, share, 0.0, seen, NO_SKY)
+    sky = soft.sky[light]
+    return Aim(AROUND, place, size, error_scale, normal, ALL_AROUND, 1.0, 1.0, seen, sky)
 
 
 @device
@@ -216,8 +219,32 @@ def _sine(aim: Aim) -> float:
 
 
 @device
+def cone_from(aim: Aim, spot: Spot, forward: Vec) -> Cone:
+    """Return a cone around the rays from a spot to a light that is seen as a cone.
+
+    Where there is none, as the spot reaches into the light, its cosine is 0.
+
+    Parameters
+    ----------
+    aim, spot
+        The light as it is seen from the middle of the spot, and the spot.
+    forward
+        The unit direction in which the camera looks.
+    """
+    cone, extent = cone_of(aim, spot.start, forward), spot.extent
+    if extent == 0.0:
+        return cone
+    longest, cosine, sine = cone.longest + extent, cone.cosine, cone.sine
+    if aim.kind == SPHERE:
+        # Moved to start in the middle, the rays end in a larger ball.
+        sine = (aim.size + extent) / cone.longest * (1.0 + CLEARLY)
+        cosine = math.sqrt(max(1.0 - sine * sine, 0.0))
+    return Cone(spot.start, extent, aim.axis, cosine, sine, 0.0, longest, forward)
+
+
+@device
 def cone_of(aim: Aim, start: Start, forward: Vec) -> Cone:
-    """Return the cone of the rays to a light that is not all around.
+    """Return the cone of the rays to a light that is seen as one.
 
     Parameters
     ----------
@@ -231,7 +258,7 @@ def cone_of(aim: Aim, start: Start, forward: Vec) -> Cone:
         way = sub(aim.place, start.point)
         longest = math.sqrt(dot(way, way))
         shortest = longest - aim.size
-    return Cone(start, aim.axis, 1.0 - aim.spread, _sine(aim), shortest, longest, forward)
+    return Cone(start, 0.0, aim.axis, 1.0 - aim.spread, _sine(aim), shortest, longest, forward)
 
 
 @device

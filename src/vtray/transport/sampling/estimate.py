@@ -20,6 +20,7 @@ Cochran, "Sampling Techniques", 3rd edition, 1977, section 5A.12 (collapsed stra
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.batch import ESTIMATE, Batch
 from vtray.geometry.vector import Vec, add
 from vtray.transport.sampling.fans import Fans
 
@@ -66,6 +67,27 @@ def with_fan(estimate: Estimate, shares: Vec, spread: float) -> Estimate:
         add(estimate.squares, (red * red, green * green, blue * blue)),
         estimate.spread if estimate.fans > 0 else spread,
     )
+
+
+@device
+def load_estimate(batch: Batch, member: int) -> Estimate:
+    """Return the estimate at a hit of a batch."""
+    kept, k = batch.estimate, ESTIMATE * member
+    total, squares = (
+        (kept[k + 1], kept[k + 2], kept[k + 3]),
+        (kept[k + 4], kept[k + 5], kept[k + 6]),
+    )
+    return Estimate(int(kept[k]), total, squares, kept[k + 7])
+
+
+@device
+def store_estimate(batch: Batch, member: int, estimate: Estimate) -> None:
+    """Set the estimate at a hit of a batch."""
+    kept, k = batch.estimate, ESTIMATE * member
+    kept[k] = estimate.fans
+    kept[k + 1], kept[k + 2], kept[k + 3] = estimate.total
+    kept[k + 4], kept[k + 5], kept[k + 6] = estimate.squares
+    kept[k + 7] = estimate.spread
 
 
 @device

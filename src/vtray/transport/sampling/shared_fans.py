@@ -19,7 +19,6 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.fan import (
     BLOCKED,
     DIRECTION,
-    END_SCALE,
     FAN,
     LENGTH,
     WEIGHT,
@@ -28,6 +27,7 @@ from vtray.geometry.packets.fan import (
     count_open,
     load_direction,
     set_direction,
+    set_start,
 )
 from vtray.geometry.packets.workspace import Shared
 from vtray.geometry.vector import Vec, add, dot
@@ -150,7 +150,7 @@ def spread_among(
                 fan, ray, aim, normal, u, v, powers, row, material, factor, soft.skies
             )
             set_end(fan, ray, aim, start, forward)
-            fan[END_SCALE + ray] = soft.error_scale[light] + start.error_scale
+            set_start(fan, ray, start, aim.error_scale + start.error_scale)
             fan[WEIGHT + ray] = brought[0]
             fan[WEIGHT + FAN + ray] = brought[1]
             fan[WEIGHT + 2 * FAN + ray] = brought[2]
