@@ -34,8 +34,8 @@ APART = 1.6
 STEEP = 4.0
 """So many times as far as they are beside each other, one may be behind the other."""
 
-AKIN = 0.8
-"""The least cosine between their normals."""
+AKIN = 0.95
+"""The least cosine between their normals. On smaller balls rays are sooner done alone."""
 
 SLACK = 1.0 + 2.0**-40
 """More than what lengths lose by rounding."""
