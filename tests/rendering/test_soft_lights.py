@@ -80,7 +80,7 @@ def test_bundles_tell_what_each_ray_alone_would(kind: str) -> None:
 
 
 @once
-@pytest.mark.parametrize("kind", ["few", "many", "bonds", "copies"])
+@pytest.mark.parametrize("kind", ["many", "copies"])
 def test_samples_near_each_other_tell_what_each_alone_would(kind: str) -> None:
     scene = scene_of(kind)
     # A mirror, so that each sample can be traced by itself.
