@@ -47,6 +47,7 @@ from vtray.geometry.warps import cosine_direction
 from vtray.rendering import hierarchy
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
+from vtray.transport.scene_arrays import SceneArrays
 
 FANS = 150 if JIT else 6
 RAYS = 64 if JIT else 16
@@ -67,6 +68,19 @@ def scene_of(kind: str, size: float, place: float) -> Scene:
     if kind == "copies":
         scene.add_copies(vtray.Sphere((0, 0, 0), 0.1), random.uniform(-1, 1, (20, 3)))
     return scene
+
+
+def arrays_of(scene: Scene, size: float, place: float) -> SceneArrays:
+    """Return a scene of `scene_of` for kernels; the image plane cuts it."""
+    eye = place, place - 2.5 * size, place
+    scene.camera = vtray.Camera(eye, (0, 1, 0), 2.0 * size, (8, 8), (size, size))
+    return pack(scene, accelerate(scene)).arrays
+
+
+def start_at(spot: np.ndarray, arrays: SceneArrays) -> Start:
+    """Return where rays start that do so at a point of the scene."""
+    point = tuple(float(x) for x in spot * arrays.world.scale - np.array(arrays.world.origin))
+    return Start(point, dot(point, arrays.camera.forward), magnitude(point))
 
 
 def spot_on_bond(bonds: Any, random: np.random.Generator) -> tuple[Any, Any]:
@@ -119,10 +133,7 @@ def test_what_stops_a_fan_stops_each_of_its_rays(
 ) -> None:
     monkeypatch.setattr(hierarchy, "FEW", 4)
     scene, random = scene_of(kind, size, place), np.random.default_rng(5)
-    # The image plane cuts the scene.
-    eye = place, place - 2.5 * size, place
-    scene.camera = vtray.Camera(eye, (0, 1, 0), 2.0 * size, (8, 8), (size, size))
-    arrays = pack(scene, accelerate(scene)).arrays
+    arrays = arrays_of(scene, size, place)
     world, forward, unit = arrays.world, arrays.camera.forward, arrays.world.scale
     stack, fan, found = new_stack(), new_fan(), []
     spheres = next(item for item in scene.objects if isinstance(item, vtray.Spheres))
@@ -136,8 +147,7 @@ def test_what_stops_a_fan_stops_each_of_its_rays(
             spot = spheres.center[which] + normal * np.asarray(spheres.radius)[which]
         if kind == "bonds" and k % 3 == 0:
             spot, normal = spot_on_bond(scene.objects[1], random)
-        point = tuple(float(x) for x in spot * unit - np.array(world.origin))
-        start = Start(point, dot(point, forward), magnitude(point))
+        start = start_at(spot, arrays)
         if start.plane_depth <= 0:
             continue
         above = float(normal[0]), float(normal[1]), float(normal[2])
@@ -173,9 +183,7 @@ def test_fans_that_start_apart_are_stopped_as_each_alone(
     monkeypatch.setattr(hierarchy, "FEW", 4)
     scene, random = scene_of(kind, size, place), np.random.default_rng(6)
     scene.add_plane((place, place, place - 1.1 * size), normal=(0, 0, 1))
-    eye = place, place - 2.5 * size, place
-    scene.camera = vtray.Camera(eye, (0, 1, 0), 2.0 * size, (8, 8), (size, size))
-    arrays = pack(scene, accelerate(scene)).arrays
+    arrays = arrays_of(scene, size, place)
     world, forward, unit = arrays.world, arrays.camera.forward, arrays.world.scale
     stack, fan, packet, batch = new_stack(), new_fan(), new_packet(), new_batch()
     spheres = next(item for item in scene.objects if isinstance(item, vtray.Spheres))
@@ -196,13 +204,12 @@ def test_fans_that_start_apart_are_stopped_as_each_alone(
             if k % 4 == 0:
                 spot, above = middle + apart * random.normal(size=3) * size, np.array([0, 0, 1.0])
                 spot[2] = place - 1.1 * size if k % 8 else spot[2]
-            point = tuple(float(x) for x in spot * unit - np.array(world.origin))
-            start = Start(point, dot(point, forward), magnitude(point))
+            start = start_at(spot, arrays)
             is_before &= start.plane_depth > 0
             up = tuple(float(x) for x in above)
             set_fan(fan, start, up, length, forward, RAYS * k + member, member * together, together)
             set_start(fan, member, start, start.error_scale)
-            store(packet, POINT, member, point)
+            store(packet, POINT, member, start.point)
             store(packet, NORMAL, member, up)
             packet[PLANE_DEPTH + member] = start.plane_depth
             packet[ERROR_SCALE + member] = start.error_scale

@@ -24,7 +24,7 @@ from vtray.geometry.queries import NOTHING
 from vtray.geometry.ray import Segment
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.verbs import Shape, Verbs
-from vtray.geometry.vector import add, scale, sub
+from vtray.geometry.vector import scale, sub
 from vtray.geometry.world import (
     Group,
     Hierarchy,
@@ -37,6 +37,7 @@ from vtray.geometry.world import (
     load_group,
     placed_row,
     range_of,
+    to_box_space,
 )
 
 
@@ -237,8 +238,7 @@ two, as the compiler takes what calls itself for recursion, whatever it is given
 @device
 def _segment_beam(segment: Segment, to_boxes: ToBoxes) -> Beam:
     """Return the way between two points as a beam in the boxes' space, from its end."""
-    ratio, offset = to_boxes.ratio, to_boxes.offset
     # From the light: its place is the more exact of the two.
-    end = add(scale(ratio, segment.end), offset)
-    way = scale(ratio, sub(segment.start, segment.end))
+    end = to_box_space(to_boxes, segment.end)
+    way = scale(to_boxes.ratio, sub(segment.start, segment.end))
     return ray_beam(end, way, shape_margin(to_boxes, end, segment.start_scale))

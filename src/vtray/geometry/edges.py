@@ -15,7 +15,7 @@ from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_marg
 from vtray.geometry.packets.stack import Stack, push_met
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.verbs import Shape, Verbs
-from vtray.geometry.vector import Vec, add, scale, sub
+from vtray.geometry.vector import Vec, add, sub
 from vtray.geometry.world import (
     Group,
     Hierarchy,
@@ -28,6 +28,7 @@ from vtray.geometry.world import (
     load_group,
     placed_row,
     range_of,
+    to_box_space,
 )
 
 NOTHING, EDGE, ALL = 0, 1, 2
@@ -221,9 +222,8 @@ two, as the compiler takes what calls itself for recursion, whatever it is given
 @device
 def _view_beam(view: LampView, to_boxes: ToBoxes) -> Beam:
     """Return a beam that holds the rays, in the boxes' space; its directions have length 1."""
-    ratio, offset = to_boxes.ratio, to_boxes.offset
-    start = add(scale(ratio, view.bundle.origin), offset)
-    reach = view.reach * ratio + shape_margin(to_boxes, start, view.error_scale)
+    start = to_box_space(to_boxes, view.bundle.origin)
+    reach = view.reach * to_boxes.ratio + shape_margin(to_boxes, start, view.error_scale)
     growth = view.radius / view.length
     wider, direction = (growth, growth, growth), view.bundle.direction
     return make_beam(start, start, sub(direction, wider), add(direction, wider), reach)

@@ -14,7 +14,6 @@ from vtray.geometry.packets.stack import Stack, push_met
 from vtray.geometry.ray import Ray, ray_point
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.verbs import Shape, Verbs
-from vtray.geometry.vector import add, scale
 from vtray.geometry.world import (
     Group,
     Hierarchy,
@@ -27,6 +26,7 @@ from vtray.geometry.world import (
     load_group,
     placed_row,
     range_of,
+    to_box_space,
 )
 
 NOTHING = -1
@@ -191,7 +191,6 @@ two, as the compiler takes what calls itself for recursion, whatever it is given
 @device
 def beam_of_ray(to_boxes: ToBoxes, ray: Ray) -> Beam:
     """Return a ray as a beam in the boxes' space."""
-    ratio, offset = to_boxes.ratio, to_boxes.offset
-    start = add(scale(ratio, ray.origin), offset)
+    start = to_box_space(to_boxes, ray.origin)
     margin = shape_margin(to_boxes, start, ray.error_scale)
     return ray_beam(start, ray.direction, margin)

@@ -52,7 +52,7 @@ from vtray.geometry.shapes.axis_line import ON_SIDE
 from vtray.geometry.shapes.plane import plane_side
 from vtray.geometry.shapes.room import room_wall
 from vtray.geometry.shapes.verbs import Shape, Verbs
-from vtray.geometry.vector import Vec, add, dot, magnitude, scale, sub
+from vtray.geometry.vector import Vec, dot, magnitude, scale, sub
 from vtray.geometry.world import (
     CUT,
     NO_TREE,
@@ -61,11 +61,11 @@ from vtray.geometry.world import (
     Clip,
     Group,
     Places,
-    ToBoxes,
     World,
     group_count,
     load_group,
     room_of,
+    to_box_space,
 )
 
 FEW = 8
@@ -228,12 +228,6 @@ def way_of(bundle: Bundle, ray: int) -> Segment:
 
 
 @device
-def to_box_space(to_boxes: ToBoxes, point: Vec) -> Vec:
-    """Return a point in the space of boxes."""
-    return add(scale(to_boxes.ratio, point), to_boxes.offset)
-
-
-@device
 def push_near(
     bundle: Bundle,
     bvh: Bvh,
@@ -336,7 +330,9 @@ def see_ball(
 @device
 def _may_start_inside(bundle: Bundle, sphere: Shape) -> bool:
     """Tell whether any ray starts inside a sphere, and not only on it."""
-    fan, inside = bundle.fan, False
+    fan, spot, inside = bundle.fan, bundle.spot, False
+    if spot.extent == 0.0:
+        return _is_inside(sphere, spot.start.point, spot.start.error_scale)
     for k in range(bundle.rays >> bundle.shift):
         inside |= _is_inside(sphere, load_start(fan, k), fan[START_SCALE + k])
     return inside

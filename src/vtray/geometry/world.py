@@ -16,7 +16,7 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.tree import EMPTY, Bvh, leaf_range
 from vtray.geometry.shapes.columns import Columns, Place
 from vtray.geometry.shapes.room import Room, load_room
-from vtray.geometry.vector import Vec, magnitude, scale, sub
+from vtray.geometry.vector import Vec, add, magnitude, scale, sub
 
 PLANE, SPHERE, CYLINDER, CONE = 0, 1, 2, 3
 """The kinds of shape."""
@@ -75,6 +75,12 @@ class ToBoxes(NamedTuple):
     ratio: float
     offset: Vec
     moved: float
+
+
+@device
+def to_box_space(to_boxes: ToBoxes, point: Vec) -> Vec:
+    """Return a point in the space of boxes."""
+    return add(scale(to_boxes.ratio, point), to_boxes.offset)
 
 
 class Places(NamedTuple):

@@ -27,9 +27,9 @@ from vtray.geometry.packets.layer_notes import Chords
 from vtray.geometry.packets.packet import join_met
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.shapes.verbs import Shape, Verbs
-from vtray.geometry.stopped import Bundle, push_near, see_ball, to_box_space, way_of
+from vtray.geometry.stopped import Bundle, push_near, see_ball, way_of
 from vtray.geometry.vector import magnitude
-from vtray.geometry.world import NO_TREE, Faded, Group, World, load_group
+from vtray.geometry.world import NO_TREE, Faded, Group, World, load_group, to_box_space
 
 
 @device

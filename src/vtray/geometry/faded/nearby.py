@@ -24,6 +24,7 @@ from vtray.geometry.world import (
     load_group,
     placed_row,
     range_of,
+    to_box_space,
 )
 
 
@@ -160,7 +161,7 @@ two, as the compiler takes what calls itself for recursion, whatever it is given
 def _tube_beam(tube: Tube, to_boxes: ToBoxes) -> Beam:
     """Return a beam that holds a tube, in the boxes' space; its directions have length 1."""
     ratio, growth, direction = to_boxes.ratio, CORNER * tube.growth, tube.direction
-    start = add(scale(ratio, tube.origin), to_boxes.offset)
+    start = to_box_space(to_boxes, tube.origin)
     margin = shape_margin(to_boxes, start, tube.error_scale) + CORNER * tube.width * ratio
     wider = growth, growth, growth
     return make_beam(start, start, sub(direction, wider), add(direction, wider), margin)

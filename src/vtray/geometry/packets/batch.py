@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.fan import FAN, Spot, Start
+from vtray.geometry.packets.fan import FAN, Spot, Start, spot_at
 from vtray.geometry.packets.packet import (
     COLUMN,
     ERROR_SCALE,
@@ -133,7 +133,7 @@ def spot_of(packet: Packet, batch: Batch, count: int) -> Spot:
     first = batch.hit[batch.active[0]]
     start, normal = start_of(packet, first), load(packet, NORMAL, first)
     if count == 1:
-        return Spot(start, 0.0, normal, 0.0, 0.0)
+        return spot_at(start, normal)
     middle, error_scale = start.point, start.error_scale
     for k in range(1, count):
         point = load(packet, POINT, batch.hit[batch.active[k]])

@@ -20,7 +20,7 @@ from vtray.geometry.packets.stack import Stack, push_met
 from vtray.geometry.rounding import MARGIN, ROUNDING
 from vtray.geometry.shapes.plane import load_plane, plane_side
 from vtray.geometry.shapes.verbs import Shape, Verbs
-from vtray.geometry.vector import Vec, add, dot, scale, sub
+from vtray.geometry.vector import Vec, dot, scale, sub
 from vtray.geometry.world import (
     CUT,
     PLANE,
@@ -36,6 +36,7 @@ from vtray.geometry.world import (
     load_group,
     placed_row,
     range_of,
+    to_box_space,
 )
 
 MOST = 8
@@ -360,7 +361,7 @@ two, as the compiler takes what calls itself for recursion, whatever it is given
 @device
 def _cone_beam(cone: Cone, to_boxes: ToBoxes) -> Beam:
     """Return the beam around a cone, in the boxes' space."""
-    apex = add(scale(to_boxes.ratio, cone.start.point), to_boxes.offset)
+    apex = to_box_space(to_boxes, cone.start.point)
     x, y, z = cone.axis
     low = _least(x, cone), _least(y, cone), _least(z, cone)
     high = -_least(-x, cone), -_least(-y, cone), -_least(-z, cone)

@@ -17,8 +17,8 @@ from vtray.geometry.packets.beam import (
 from vtray.geometry.packets.occlusion import Target
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.rounding import MARGIN
-from vtray.geometry.vector import Vec, add, scale
-from vtray.geometry.world import NO_TREE, Hierarchy, ToBoxes, World
+from vtray.geometry.vector import Vec, scale
+from vtray.geometry.world import NO_TREE, Hierarchy, ToBoxes, World, to_box_space
 
 FOR_EVER = 2**62
 """The patience of a search that is never given up."""
@@ -120,7 +120,6 @@ def search_from_light(
 @device
 def _box_beam(box: Box, to_boxes: ToBoxes, target: Target) -> Beam:
     """Return the beam from a light to a box of points."""
-    ratio, offset = to_boxes.ratio, to_boxes.offset
-    apex = add(scale(ratio, target.place), offset)
+    ratio, apex = to_boxes.ratio, to_box_space(to_boxes, target.place)
     margin = shape_margin(to_boxes, apex, box.error_scale)
     return make_beam(apex, apex, scale(ratio, box.low), scale(ratio, box.high), margin)

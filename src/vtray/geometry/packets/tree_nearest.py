@@ -12,7 +12,7 @@ from vtray.geometry.packets.stack import push_met
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import CORNER, Footprint, growth_of, width_at
 from vtray.geometry.rounding import MARGIN
-from vtray.geometry.vector import add, scale, sub
+from vtray.geometry.vector import add, sub
 from vtray.geometry.world import (
     Group,
     Hierarchy,
@@ -24,6 +24,7 @@ from vtray.geometry.world import (
     load_group,
     placed_row,
     range_of,
+    to_box_space,
 )
 
 Rays = tuple[Packet, int, int, Sheaf, Footprint | None]
@@ -167,11 +168,10 @@ def _part_beam(
     """Return the beam of a part's rays and their footprints."""
     low, high = part_directions(work.cones, first, count)
     near, far = part_starts(work.cones, first, count, sheaf)
-    ratio, offset = to_boxes.ratio, to_boxes.offset
-    apex = add(scale(ratio, sheaf.origin), offset)
+    apex = to_box_space(to_boxes, sheaf.origin)
     margin = shape_margin(to_boxes, apex, sheaf.error_scale)
-    margin += CORNER * width_at(footprint, 0.0) * ratio
+    margin += CORNER * width_at(footprint, 0.0) * to_boxes.ratio
     growth = CORNER * growth_of(footprint)
     wider = growth, growth, growth
-    start, end = add(scale(ratio, near), offset), add(scale(ratio, far), offset)
+    start, end = to_box_space(to_boxes, near), to_box_space(to_boxes, far)
     return make_beam(start, end, sub(low, wider), add(high, wider), margin)

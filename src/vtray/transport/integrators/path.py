@@ -17,16 +17,13 @@ Synthesis", SIGGRAPH 1990 (Russian roulette).
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.packets.fan import Start
+from vtray.geometry.packets.batch import start_of
 from vtray.geometry.packets.packet import (
     BOUNCES,
     COLOR,
-    ERROR_SCALE,
     LAMBERT,
     NOISE,
     NORMAL,
-    PLANE_DEPTH,
-    POINT,
     PRIMITIVE,
     SOURCE,
     THROUGHPUT,
@@ -281,12 +278,6 @@ def gloss_at(
     """Return a glossy surface as the ray of a hit sees it; `tint` is its colour, 1 for white."""
     direction, normal = load(packet, TOWARDS, hit), load(packet, NORMAL, hit)
     return gloss_of(looks, albedos, look, tint, packet[LAMBERT + hit], direction, normal)
-
-
-@device
-def start_of(packet: Packet, hit: int) -> Start:
-    """Return where rays from a hit start."""
-    return Start(load(packet, POINT, hit), packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
 
 
 @device

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
 from vtray.geometry.between import first_between
+from vtray.geometry.packets.batch import start_of
 from vtray.geometry.packets.layer_notes import Walk
 from vtray.geometry.packets.packet import (
     BOUNCES,
@@ -57,7 +58,6 @@ from vtray.transport.integrators.path import (
     look_at,
     onward_from,
     scatter_hits,
-    start_of,
 )
 from vtray.transport.integrators.reference import TracedPixel, light_of_points
 from vtray.transport.integrators.whitted import split_hits

@@ -6,7 +6,7 @@ from vtray.base.compiler.compiled import device
 from vtray.geometry.bundle import Bundle
 from vtray.geometry.edges import LampView, has_edge
 from vtray.geometry.faded.dimming import is_tube_dimmed
-from vtray.geometry.packets.fan import Start
+from vtray.geometry.packets.batch import start_of
 from vtray.geometry.packets.packet import (
     BEND,
     ERROR_SCALE,
@@ -40,7 +40,7 @@ def is_lit_unevenly(
     That of wide ones changes slowly.
     """
     point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
-    start = Start(point, packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
+    start = start_of(packet, hit)
     aim = aim_at(soft, light, start, normal)
     if not aim.spread < NARROW:
         return False

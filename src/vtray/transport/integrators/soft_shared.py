@@ -2,16 +2,14 @@
 
 from vtray.base.compiler.compiled import device, part
 from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
+from vtray.geometry.packets.batch import start_of
 from vtray.geometry.packets.cone import CLOSED, Touching, find_touching
 from vtray.geometry.packets.fan import Start, spot_at
 from vtray.geometry.packets.packet import (
     COLOR,
-    ERROR_SCALE,
     LAMBERT,
     NOISE,
     NORMAL,
-    PLANE_DEPTH,
-    POINT,
     SOURCE,
     UNEVEN,
     VALUE,
@@ -117,8 +115,7 @@ def _light_hit(
     work: Workspace,
 ) -> int:
     """Add what all soft lights bring to a hit; return how many shadow rays were cast."""
-    point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
-    start = Start(point, packet[PLANE_DEPTH + hit], packet[ERROR_SCALE + hit])
+    start, normal = start_of(packet, hit), load(packet, NORMAL, hit)
     material = Material(load(packet, COLOR, hit), packet[LAMBERT + hit])
     powers, fan, shared = lit.powers, work.fan, work.shared
     most = weigh_lights(powers, soft, crowd, start, normal, material, shared.sums)
