@@ -11,8 +11,13 @@ import numba
 import pytest
 from hypothesis import HealthCheck, settings
 
+from vtray.base.compiler import helpers
+
 JIT = not numba.config.DISABLE_JIT
 CONFORMANCE = Path(__file__).parents[2] / "shared" / "conformance"
+
+# The workers that run the tests keep all cores busy.
+helpers.MOST = 0
 
 # The same examples on every run, so that a failure is one that the change caused. Without the
 # compiler everything is a hundred times slower: fewer examples then.

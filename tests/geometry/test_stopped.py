@@ -16,6 +16,7 @@ from vtray.geometry.between import is_occluded
 from vtray.geometry.bits import count_bits, lowest_bit
 from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh
 from vtray.geometry.packets.batch import new_batch, spot_of
+from vtray.geometry.packets.cone import MANY, new_touching
 from vtray.geometry.packets.fan import (
     BLOCKED,
     DIRECTION,
@@ -41,7 +42,7 @@ from vtray.geometry.packets.packet import (
     store,
 )
 from vtray.geometry.packets.stack import new_stack
-from vtray.geometry.stopped import Bundle, stop_by_all, way_of
+from vtray.geometry.stopped import Bundle, stop_rays, way_of
 from vtray.geometry.vector import Vec, add, dot, magnitude, scale
 from vtray.geometry.warps import cosine_direction
 from vtray.rendering import hierarchy
@@ -135,7 +136,7 @@ def test_what_stops_a_fan_stops_each_of_its_rays(
     scene, random = scene_of(kind, size, place), np.random.default_rng(5)
     arrays = arrays_of(scene, size, place)
     world, forward, unit = arrays.world, arrays.camera.forward, arrays.world.scale
-    stack, fan, found = new_stack(), new_fan(), []
+    stack, touching, fan, found = new_stack(), new_touching(), new_fan(), []
     spheres = next(item for item in scene.objects if isinstance(item, vtray.Spheres))
     for k in range(FANS):
         normal = random.normal(size=3)
@@ -155,7 +156,7 @@ def test_what_stops_a_fan_stops_each_of_its_rays(
         set_fan(fan, start, above, length, forward, k)
         set_start(fan, 0, start, start.error_scale)
         bundle = Bundle(fan, RAYS, RAYS.bit_length() - 1, spot_at(start, above), length)
-        stop_by_all(bundle, world, stack)
+        stop_rays(bundle, world, touching, MANY, stack)
         for ray in range(RAYS - 1):
             hidden = is_occluded(world, way_of(bundle, ray), stack)
             assert fan[BLOCKED + ray] == (1.0 if hidden else 0.0)
@@ -185,7 +186,8 @@ def test_fans_that_start_apart_are_stopped_as_each_alone(
     scene.add_plane((place, place, place - 1.1 * size), normal=(0, 0, 1))
     arrays = arrays_of(scene, size, place)
     world, forward, unit = arrays.world, arrays.camera.forward, arrays.world.scale
-    stack, fan, packet, batch = new_stack(), new_fan(), new_packet(), new_batch()
+    stack, touching, fan = new_stack(), new_touching(), new_fan()
+    packet, batch = new_packet(), new_batch()
     spheres = next(item for item in scene.objects if isinstance(item, vtray.Spheres))
     found = []
     for k in range(FANS):
@@ -218,7 +220,7 @@ def test_fans_that_start_apart_are_stopped_as_each_alone(
             continue
         bundle = Bundle(fan, RAYS, shift, spot_of(packet, batch, count), length)
         is_open = [fan[BLOCKED + ray] == 0.0 for ray in range(RAYS)]
-        stop_by_all(bundle, world, stack)
+        stop_rays(bundle, world, touching, MANY, stack)
         for ray in range(RAYS):
             if is_open[ray]:
                 hidden = is_occluded(world, way_of(bundle, ray), stack)

@@ -68,6 +68,11 @@ def instructions_in(code: bytes) -> set[str]:
     return found
 
 
+def code_in(code: bytes) -> bytes:
+    """Return the bytes of all instructions of an object file."""
+    return b"".join(section.data for section in _sections(code) if section.is_code)
+
+
 def _machine_of(code: bytes) -> int:
     """Return the number of the processor that an object file is for."""
     machine: int = struct.unpack_from("<H", code, 18)[0]

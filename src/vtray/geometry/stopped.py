@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.between import is_occluded_below, is_occluded_by_placed
 from vtray.geometry.bits import count_bits, lowest_bit
 from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh, leaf_range
@@ -106,37 +106,32 @@ class Bundle(NamedTuple):
     longest: float
 
 
-@device
-def stop_by_touching(bundle: Bundle, world: World, touching: Touching, count: int) -> None:
-    """Mark in field ``BLOCKED`` the rays that some shapes stop.
+@part
+def stop_rays(bundle: Bundle, world: World, touching: Touching, count: int, stack: Stack) -> None:
+    """Mark in field ``BLOCKED`` the rays that something stops.
 
     Parameters
     ----------
     bundle
         The rays. Those marked already stay so.
-    world, touching, count
-        The shapes, so many.
+    world
+        What they can meet.
+    touching, count
+        The only shapes that can stop any, so many; all may, where that is below 0.
+    stack
+        Scratch memory.
     """
     narrow_directions(bundle.fan, bundle.rays)
+    if count < 0:
+        _stop_by_all(bundle, world, stack)
     for k in range(count):
         group = load_group(world, touching.row[k])
         with_any(world, group, touching.slot[k], _stop_by_shape, (bundle, group.kind))
 
 
 @device
-def stop_by_all(bundle: Bundle, world: World, stack: Stack) -> None:
-    """Mark in field ``BLOCKED`` the rays that anything stops.
-
-    Parameters
-    ----------
-    bundle
-        The rays. Those marked already are passed over.
-    world
-        What they can meet.
-    stack
-        Scratch memory.
-    """
-    narrow_directions(bundle.fan, bundle.rays)
+def _stop_by_all(bundle: Bundle, world: World, stack: Stack) -> None:
+    """Mark the rays that anything stops, but for those that are marked already."""
     for row in range(group_count(world)):
         group = load_group(world, row)
         if group.kind >= CUT and _leads_out(world, world.clip, group, bundle):

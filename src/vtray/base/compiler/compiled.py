@@ -26,6 +26,7 @@ from typing import Any, ClassVar, TypeVar, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vtray.base.compiler import helpers
 from vtray.base.compiler.canary import (
     compare_with_python,
     new_arguments,
@@ -329,6 +330,8 @@ class Kernel(Device):
         if compiled is None or parts is None:
             if _waiting:
                 _waiting.pop()(file is not None)
+            if file:
+                helpers.get_ready()
             compiled = _in_thread(compile_object, self._function, arguments, _OPTIONS)
             parts = _in_thread(make_parts, compiled)
             if file:

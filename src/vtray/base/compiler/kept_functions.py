@@ -42,19 +42,9 @@ from vtray.base.compiler.object_code import (
     read_struct,
     write_struct,
 )
-from vtray.base.compiler.parts import Origin, know_part, origin_of
+from vtray.base.compiler.parts import KeptPart, kept_part, know_part
 
 _DIGEST_BYTES = 12
-
-
-class KeptPart(msgspec.Struct, frozen=True):
-    """A part that a function calls; its types are pickled."""
-
-    name: str
-    module: str
-    function: str
-    options: dict[str, Any]
-    types: bytes
 
 
 class KeptFunction(msgspec.Struct, frozen=True):
@@ -179,7 +169,7 @@ def _kept_of(result: Any) -> KeptFunction:
         else:
             added.append(_renamed(JITCodeLibrary._get_module_for_linking(each), module))
     parts = tuple(
-        _kept_part(each.name, origin_of(each.name))
+        kept_part(each.name)
         for each in module.functions
         if each.is_declaration and PART_MARK in each.name
     )
@@ -210,13 +200,6 @@ def _renamed(added: Any, module: Any) -> bytes:
     return code
 
 
-def _kept_part(name: str, origin: Origin) -> KeptPart:
-    """Return what is kept of a part."""
-    function = origin.function
-    options, kinds = dict(origin.options), pickled(origin.types)
-    return KeptPart(name, function.__module__, function.__qualname__, options, kinds)
-
-
 def _library_of(name: str, kept: KeptFunction, context: Any) -> DeviceLibrary | None:
     """Return a function as Numba's library, None if something that it calls is not kept."""
     if name in _libraries:
@@ -234,7 +217,7 @@ def _library_of(name: str, kept: KeptFunction, context: Any) -> DeviceLibrary | 
             _added[digest] = _library(code, [], context)
         called.append(_added[digest])
     for part in kept.parts:
-        know_part(part.name, part.module, part.function, part.options, unpickled(part.types))
+        know_part(part)
     _libraries[name] = _library(kept.code, called, context)
     _names[_libraries[name]] = name
     return _libraries[name]

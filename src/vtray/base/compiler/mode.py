@@ -10,11 +10,12 @@ _mode = threading.local()
 @contextlib.contextmanager
 def compiling(is_kept: bool) -> Iterator[None]:
     """Compile machine code without Numba; tell whether it is kept on disk."""
+    before = is_for_kernels(), getattr(_mode, "is_kept", False)
     _mode.is_for_kernels, _mode.is_kept = True, is_kept
     try:
         yield
     finally:
-        _mode.is_for_kernels = _mode.is_kept = False
+        _mode.is_for_kernels, _mode.is_kept = before
 
 
 def is_for_kernels() -> bool:

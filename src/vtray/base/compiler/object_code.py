@@ -170,7 +170,8 @@ def _compile(
     # The wrappers through which Python would call it need Numba in memory.
     unwrapped: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     compiler: Any = numba.njit(function, pipeline_class=KernelPipeline, **options, **unwrapped)
-    with compiling(is_kept=function.__module__.startswith(OWN)), _fewer_collections():
+    is_own = function.__module__.startswith(OWN)
+    with compiling(is_kept=is_own), _fewer_collections(), _unwatched():
         compiler.compile(types)
     return compiler.overloads[types]
 
@@ -189,6 +190,25 @@ def _fewer_collections() -> Iterator[None]:
         yield
     finally:
         gc.set_threshold(*usual)
+
+
+@contextlib.contextmanager
+def _unwatched() -> Iterator[None]:
+    """Let nobody be told of each call of LLVM.
+
+    Numba takes its time, once more for each function that has led to the one that it compiles,
+    which is a tenth of all compiling.
+    """
+    from llvmlite.binding import ffi
+    from numba.core.registry import cpu_target
+
+    _ = cpu_target.target_context  # whoever is told has asked for it by now
+    lock: Any = ffi.lib._lock  # noqa: SLF001 - llvmlite lets only who has asked take that back
+    told, lock._cblist = lock._cblist, []  # noqa: SLF001
+    try:
+        yield
+    finally:
+        lock._cblist += told  # noqa: SLF001
 
 
 def link(compiled: ObjectCode, parts: Mapping[str, int] = NOTHING) -> int:

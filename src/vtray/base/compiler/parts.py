@@ -9,11 +9,16 @@ where the part is in memory. Without all its parts, code is not used, and compil
 compiler knows the types of their arguments.
 """
 
+import contextlib
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any, NamedTuple
 
-from vtray.base.compiler.function_names import full_name
+import msgspec
+
+from vtray.base.compiler import helpers
+from vtray.base.compiler.function_names import UnnamedError, full_name
+from vtray.base.compiler.mode import compiling, is_kept
 from vtray.base.compiler.object_code import (
     ObjectCode,
     compile_part,
@@ -33,8 +38,30 @@ class Origin(NamedTuple):
     types: tuple[Any, ...]
 
 
+class KeptPart(msgspec.Struct, frozen=True):
+    """The same for other processes.
+
+    Attributes
+    ----------
+    name
+        That of the part.
+    module, function, options
+        The module of the part in Python, its name there, and Numba's options.
+    types
+        Numba's types of the arguments, pickled.
+    """
+
+    name: str
+    module: str
+    function: str
+    options: dict[str, Any]
+    types: bytes
+
+
 _origins: dict[str, Origin] = {}
+_kept: dict[str, KeptPart] = {}
 _addresses: dict[str, int] = {}
+_told: list[Callable[[bytes], object]] = []
 
 
 def new_name(
@@ -50,49 +77,91 @@ def new_name(
         Numba's types of the arguments.
     """
     name = object_name(full_name(function), ", ".join(map(str, types)))
-    _origins[name] = Origin(function, options, types)
+    if name not in _origins:
+        _origins[name] = Origin(function, options, types)
+        if is_kept():
+            with contextlib.suppress(UnnamedError):
+                _call_for(kept_part(name))
     return name
 
 
-def origin_of(name: str) -> Origin:
-    """Return what a part is compiled from, given its name."""
-    return _origins[name]
+def kept_part(name: str) -> KeptPart:
+    """Return a part for other processes.
 
-
-def know_part(
-    name: str, module: str, function: str, options: Mapping[str, Any], types: tuple[Any, ...]
-) -> None:
-    """Take note of a part that code calls which this process has not compiled.
-
-    Parameters
-    ----------
-    name
-        That of the part.
-    module, function, options
-        The module of the part in Python, its name there, and Numba's options.
-    types
-        Numba's types of the arguments.
+    Raises
+    ------
+    UnnamedError
+        They would not find what it is made of.
     """
+    from vtray.base.compiler.kept_types import pickled
+
+    if name not in _kept:
+        function, options, types = _origins[name]
+        module, called = function.__module__, function.__qualname__
+        _kept[name] = KeptPart(name, module, called, dict(options), pickled(types))
+    return _kept[name]
+
+
+def know_part(part: KeptPart) -> None:
+    """Take note of a part that code calls which this process has not compiled."""
+    if part.name not in _kept:
+        _kept[part.name] = part
+        _call_for(part)
+
+
+def compile_kept(order: bytes) -> None:
+    """Compile a part, as another process has told of it, and keep it on disk."""
+    part = msgspec.json.decode(order, type=KeptPart)
+    _kept[part.name] = part
+    _compile(part.name)
+
+
+def tell_instead(tell: Callable[[bytes], object]) -> None:
+    """Tell of parts that this process meets, in place of having them compiled by another."""
+    _told.append(tell)
+
+
+def _call_for(part: KeptPart) -> None:
+    """Let another process compile a part that is not on disk."""
+    file = object_file(part.name)
+    if file and not file.exists():
+        order = msgspec.json.encode(part) + b"\n"
+        if _told:
+            _told[0](order)
+        else:
+            helpers.ask(part.name, order, _know_order)
+
+
+def _know_order(order: bytes) -> None:
+    know_part(msgspec.json.decode(order, type=KeptPart))
+
+
+def _origin_of(name: str) -> Origin:
+    """Return what a part is compiled from."""
+    from vtray.base.compiler.kept_types import unpickled
+
     if name not in _origins:
-        part: Any = getattr(import_module(module), function)
-        _origins[name] = Origin(part.__wrapped__, options, types)
-
-
-def load_parts(compiled: ObjectCode) -> dict[str, int] | None:
-    """Return the addresses of the parts that code calls, None if one of them is not on disk."""
-    return _addresses_of(compiled, _load)
+        kept = _kept[name]
+        part: Any = getattr(import_module(kept.module), kept.function)
+        with compiling(is_kept=True):
+            _origins[name] = Origin(part.__wrapped__, kept.options, unpickled(kept.types))
+    return _origins[name]
 
 
 def make_parts(compiled: ObjectCode) -> dict[str, int]:
     """Return the addresses of the parts that code calls; what is not on disk is compiled."""
-    return _addresses_of(compiled, lambda name: _load(name) or _make(name)) or {}
+    # Meanwhile, what others are at comes to an end.
+    for name in sorted(compiled.parts, key=helpers.is_at_work_on):
+        if name not in _addresses:
+            _addresses[name] = _load(name) or _make(name)
+    return {name: _addresses[name] for name in compiled.parts}
 
 
-def _addresses_of(compiled: ObjectCode, find: Callable[[str], int | None]) -> dict[str, int] | None:
-    """Return the addresses of the parts that code calls, None if one of them is not found."""
+def load_parts(compiled: ObjectCode) -> dict[str, int] | None:
+    """Return the addresses of the parts that code calls, None if one of them is not on disk."""
     for name in compiled.parts:
         if name not in _addresses:
-            address = find(name)
+            address = _load(name)
             if address is None:
                 return None
             _addresses[name] = address
@@ -108,11 +177,21 @@ def _load(name: str) -> int | None:
 
 
 def _make(name: str) -> int:
-    """Compile a part, and keep it on disk; return its address."""
-    function, options, types = _origins[name]
+    """Compile a part, if no other process has; return its address."""
+    helpers.leave_to_caller(name)
+    file = object_file(name)
+    made = read_object_code(file) if file else None
+    # The compiler alone knows the types of parts that are lost.
+    if made is None or not all(part in _kept or part in _origins for part in made.parts):
+        made = _compile(name)
+    return link(made, make_parts(made))
+
+
+def _compile(name: str) -> ObjectCode:
+    """Compile a part, and keep it on disk."""
+    function, options, types = _origin_of(name)
     made = compile_part(function, types, options, name)
-    parts = make_parts(made)
     file = object_file(name)
     if file:
         write_object_code(file, made)
-    return link(made, parts)
+    return made

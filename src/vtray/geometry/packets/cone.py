@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.dispatch import with_bounded
 from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_margin, upper_limit
 from vtray.geometry.packets.fan import Start
@@ -103,7 +103,7 @@ class Cone(NamedTuple):
     forward: Vec
 
 
-@device
+@part
 def find_touching(cone: Cone, world: World, touching: Touching, stack: Stack) -> int:
     """Find the shapes that touch a cone.
 
@@ -129,7 +129,7 @@ def find_touching(cone: Cone, world: World, touching: Touching, stack: Stack) ->
     return _find_placed(cone, world, world.places, touching, count, stack)
 
 
-@device
+@part
 def find_among(cone: Cone, world: World, touching: Touching, count: int) -> int:
     """Tell how many of so many shapes touch a cone, or that one stops all rays, with ``CLOSED``."""
     found = 0

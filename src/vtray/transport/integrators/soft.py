@@ -29,7 +29,7 @@ from vtray.geometry.packets.packet import (
     store,
 )
 from vtray.geometry.packets.workspace import Pixels, Workspace
-from vtray.geometry.stopped import Bundle, stop_by_all, stop_by_touching
+from vtray.geometry.stopped import Bundle, stop_rays
 from vtray.geometry.vector import Vec, add
 from vtray.geometry.world import Faded
 from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
@@ -229,10 +229,7 @@ def _light_batch(
             cast += rays
         spot = spot_of(packet, batch, active)
         bundle = Bundle(fan, active * fans.rays, shift, spot, longest)
-        if touching >= 0:
-            stop_by_touching(bundle, world, work.touching, touching)
-        else:
-            stop_by_all(bundle, world, work.stack)
+        stop_rays(bundle, world, work.touching, touching, work.stack)
         if is_dimmed:
             dim_fan(bundle, world, work.walk, work.stack)
         going_on = 0

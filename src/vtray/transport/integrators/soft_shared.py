@@ -3,7 +3,7 @@
 from vtray.base.compiler.compiled import device, part
 from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
 from vtray.geometry.packets.batch import start_of
-from vtray.geometry.packets.cone import CLOSED, Touching, find_touching
+from vtray.geometry.packets.cone import CLOSED, MANY, Touching, find_touching
 from vtray.geometry.packets.fan import Start, spot_at
 from vtray.geometry.packets.packet import (
     COLOR,
@@ -21,7 +21,7 @@ from vtray.geometry.packets.packet import (
 )
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import UNKNOWN, Shared, Workspace
-from vtray.geometry.stopped import Bundle, stop_by_all
+from vtray.geometry.stopped import Bundle, stop_rays
 from vtray.geometry.vector import Vec, add
 from vtray.transport.integrators.soft import clear_noise, sample_of
 from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
@@ -149,7 +149,7 @@ def _light_hit(
         )
         longest = longest_of(fan, fans.rays)
         bundle = Bundle(fan, fans.rays, 0, spot_at(start, normal), longest)
-        stop_by_all(bundle, lit.world, work.stack)
+        stop_rays(bundle, lit.world, work.touching, MANY, work.stack)
         dim_fan(bundle, lit.world, work.walk, work.stack)
         estimate = with_shared_fan(estimate, pool, fan, fans, shared.brought)
     store(packet, VALUE, hit, add(load(packet, VALUE, hit), light_of(estimate, fans)))
