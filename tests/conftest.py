@@ -1,5 +1,6 @@
 """What all tests share."""
 
+import gc
 import os
 import platform
 import subprocess
@@ -18,6 +19,9 @@ CONFORMANCE = Path(__file__).parents[2] / "shared" / "conformance"
 
 # The workers that run the tests keep all cores busy.
 helpers.MOST = 0
+
+# What pytest and Numba keep is much, and never dead: looking through it often takes a tenth of all.
+gc.set_threshold(50_000, 20, 100)
 
 # The same examples on every run, so that a failure is one that the change caused. Without the
 # compiler everything is a hundred times slower: fewer examples then.

@@ -49,7 +49,7 @@ def left(length: float, error: float = 1e-5) -> Any:
     return pytest.approx(255 * np.exp(-length * np.array(TAKES)), rel=error)
 
 
-@pytest.mark.parametrize("integrator", ["whitted", "path"])
+@pytest.mark.parametrize("integrator", [pytest.param("whitted", marks=once), "path"])
 @pytest.mark.parametrize("samples", [1, pytest.param(4, marks=once)])
 def test_glass_around_the_camera_takes_light(integrator: str, samples: int) -> None:
     scene = bodies()

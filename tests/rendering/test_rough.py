@@ -151,6 +151,7 @@ def test_white_furnaces_are_white(material: Material) -> None:
     assert light.mean() == pytest.approx(1, abs=0.01)
 
 
+@once
 def test_threads_change_nothing_with_all_kinds_of_lights() -> None:
     scene = vtray.Scene()
     scene.objects = [
