@@ -256,6 +256,8 @@ def test_which_samples_there_are(tmp_path: Path, capfd: pytest.CaptureFixture[st
         words = f"trace_pixel: expected a sample from 0 to 3, got {sample}"
         with pytest.raises(vtray.RenderError, match=words):
             vtray.trace_pixel(image, 0, 0, sample)
+    with pytest.raises(vtray.RenderError, match="samples have whole numbers, got 0.5; round it"):
+        vtray.trace_pixel(image, 0, 0, 0.5)
     with pytest.raises(vtray.RenderError, match="samples are told where rays go on from surfaces"):
         vtray.trace_pixel(scene, 0, 0, 0)
     one = vtray.render(scene, integrator="path")

@@ -148,7 +148,8 @@ def test_text_is_that_of_the_command(block: tuple[str, str]) -> None:
 def test_pixels_that_do_not_exist(place: tuple[int, int]) -> None:
     with pytest.raises(vtray.RenderError, match=r"trace_pixel: expected 0,0 to 63,47, got "):
         vtray.trace_pixel(load(one_sphere()), *place)
-    with pytest.raises(TypeError):
+    words = r"trace_pixel: a pixel has a whole column and row, got 1\.5; round it, as by int\(\)"
+    with pytest.raises(vtray.RenderError, match=words):
         vtray.trace_pixel(load(one_sphere()), 1.5, 0)
 
 

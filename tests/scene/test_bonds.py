@@ -126,6 +126,13 @@ def test_wrong_arguments(options: dict[str, Any], message: str) -> None:
         find_bonds(particles, **options)
 
 
+@pytest.mark.parametrize("length", [1e-101, 1e101])
+def test_edges_too_long_or_short(length: float) -> None:
+    words = "Particles.cell: its edges must be from 1e-100 to 1e\\+100 long, got "
+    with pytest.raises(SceneError, match=words):
+        find_bonds(Particles([(0, 0, 0)], cell=np.eye(3) * length), cutoff=1)
+
+
 def test_edges_in_one_plane() -> None:
     with pytest.raises(SceneError, match="its edges must not lie in one plane"):
         find_bonds(Particles([(0, 0, 0)], cell=[[1, 0, 0], [1, 1, 0], [2, 1, 0]]), cutoff=1)

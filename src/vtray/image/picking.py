@@ -50,18 +50,18 @@ class Pick:
     values: Mapping[str, Any]
 
 
-def _whole(place: object) -> int:
-    """Return the column or row of a pixel, which has to be an integer."""
+def whole(number: object, call: str, what: str = "a pixel has a whole column and row") -> int:
+    """Return a number as an integer, or raise RenderError that says for which call and why."""
     try:
-        return operator.index(place)  # type: ignore[arg-type]
+        return operator.index(number)  # type: ignore[arg-type]
     except TypeError:
-        words = f"a pixel has a whole column and row, got {show(place)}; round it, as by int()"
-        raise RenderError(f"pick: {words}") from None
+        words = f"{what}, got {show(number)}; round it, as by int()"
+        raise RenderError(f"{call}: {words}") from None
 
 
 def pick(image: "Rendered", x: int, y: int) -> Pick | None:
     """Return what `Image.pick` does."""
-    column, row = _whole(x), _whole(y)
+    column, row = whole(x, "pick"), whole(y, "pick")
     height, width = image.linear.shape[:2]
     if not (-width <= column < width and -height <= row < height):
         size = f"{width} x {height}"

@@ -1,7 +1,6 @@
 """Tracing the rays of one pixel, to be looked at."""
 
 import math
-import operator
 from typing import TYPE_CHECKING, SupportsIndex
 
 import numpy as np
@@ -12,6 +11,7 @@ from vtray.base.pool import available_cores
 from vtray.figures.ray_tree import Exposed, RayTree, Veil, View
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, scale
+from vtray.image.picking import whole
 from vtray.image.white import known_white
 from vtray.rendering.fog import ball_around, fitted
 from vtray.rendering.followed import check_followed, followed
@@ -92,7 +92,7 @@ def trace_rays(
     """Trace the rays of one pixel of a checked scene; see `trace_pixel`."""
     camera = scene.camera if image is None else image.scene.camera
     width, height = (int(pixels) for pixels in camera.size)
-    column, row = operator.index(x), operator.index(y)
+    column, row = whole(x, caller), whole(y, caller)
     if not (0 <= column < width and 0 <= row < height):
         message = f"{caller}: expected 0,0 to {width - 1},{height - 1}, got {column},{row}"
         raise RenderError(message)
@@ -137,7 +137,8 @@ def _check_sample(
     """
     if sample is None:
         return None
-    number, samples = operator.index(sample), int(settings.samples)
+    number = whole(sample, caller, "samples have whole numbers")
+    samples = int(settings.samples)
     if arrays.materials.looks is None:
         message = (
             f"{caller}: samples are told where rays go on from surfaces, as with "

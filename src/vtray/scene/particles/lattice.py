@@ -1,5 +1,6 @@
 """The cell of periodic particles as a lattice: fractions of its edges, images, heights."""
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -21,6 +22,10 @@ else:
 
 FLAT = 1e-9
 """Volume of a cell below which its edges count as lying in one plane, in parts of their product."""
+
+
+LONGEST = 1e100
+"""No edge is longer, and none shorter than its inverse: their product is the volume."""
 
 
 class Lattice(NamedTuple):
@@ -106,14 +111,17 @@ def lattice_from(particles: "Particles") -> Lattice:
     Raises
     ------
     SceneError
-        The edges lie in one plane.
+        The edges lie in one plane, or are too long or too short.
     """
     periodic = particles.periodic or (False, False, False)
     given = [_triple(row) for row in particles.cell]  # type: ignore[union-attr]
     a, b, c = edges = _completed(given)
-    volume = dot(a, cross(b, c))
-    if not abs(volume) > FLAT * hypotenuse(*a) * hypotenuse(*b) * hypotenuse(*c):
-        shown = [list(edge) for edge in given]
+    volume, lengths = dot(a, cross(b, c)), [hypotenuse(*edge) for edge in edges]
+    shown = [list(edge) for edge in given]
+    if not (min(lengths) >= 1 / LONGEST and max(lengths) <= LONGEST):
+        words = f"its edges must be from {1 / LONGEST:g} to {LONGEST:g} long"
+        raise SceneError(f"Particles.cell: {words}, got {shown}")
+    if not abs(volume) > FLAT * math.prod(lengths):
         raise SceneError(f"Particles.cell: its edges must not lie in one plane, got {shown}")
     one, two, three = (_divided(row, volume) for row in (cross(b, c), cross(c, a), cross(a, b)))
     return Lattice(edges, (one, two, three), _triple(particles.origin), periodic)
