@@ -206,8 +206,19 @@ def spied(context: Callable[[], Any], during: list[tuple[int, int, int]]) -> Cal
     return noting
 
 
-def test_python_collects_as_before_after_compiling(monkeypatch: pytest.MonkeyPatch) -> None:
-    usual = gc.get_threshold()
+@pytest.fixture
+def usual_collections() -> Iterator[tuple[int, int, int]]:
+    """Let Python look for dead objects as often as it does by itself; tell how often that is."""
+    of_tests, usual = gc.get_threshold(), (700, 10, 10)
+    gc.set_threshold(*usual)
+    yield usual
+    gc.set_threshold(*of_tests)
+
+
+def test_python_collects_as_before_after_compiling(
+    monkeypatch: pytest.MonkeyPatch, usual_collections: tuple[int, int, int]
+) -> None:
+    usual = usual_collections
     during: list[tuple[int, int, int]] = []
     monkeypatch.setattr(
         object_code, "_fewer_collections", spied(object_code._fewer_collections, during)

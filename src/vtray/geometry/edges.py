@@ -8,7 +8,7 @@ that is an edge where the patch is wide beside it.
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.bundle import Bundle
 from vtray.geometry.dispatch import with_any
 from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_margin, upper_limit
@@ -81,7 +81,7 @@ class LampView(NamedTuple):
     error_scale: float
 
 
-@device
+@part
 def has_edge(world: World, view: LampView, stack: Stack) -> bool:
     """Tell whether something throws an edge, and nothing keeps all light away."""
     found = NOTHING

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.circle import cosine_sine_of_turn
 from vtray.geometry.packets.packet import (
     COLUMN,
@@ -250,7 +250,7 @@ def _enlarged(way: Vec) -> Vec:
     return scale(2.0**900 if largest < 2.0**-400 else 1.0, way)
 
 
-@device
+@part
 def cast_rays(packet: Packet, lanes: int, camera: CameraFrame) -> None:
     """Set each lane's ray."""
     _cast_rays(packet, lanes, camera, camera.turn)

@@ -1,6 +1,6 @@
 """How much of the light of lamps the faded bodies on its way take."""
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.faded.fan_chords import can_go_together, collect_fan
 from vtray.geometry.faded.layers import passed_share, share_of_list
 from vtray.geometry.faded.nearby import Tube, touches_faded
@@ -161,15 +161,21 @@ def dim_fan(bundle: Bundle, world: World, walk: Walk, stack: Stack) -> None:
 @device
 def _dim_fan(bundle: Bundle, world: World, faded: Faded | None, walk: Walk, stack: Stack) -> None:
     if faded is not None:
-        fan, chords = bundle.fan, walk.chords
-        together = can_go_together(bundle, world, faded)
-        if together:
-            collect_fan(bundle, world, faded, chords, stack)
-        for ray in range(bundle.rays):
-            if fan[RAY_BLOCKED + ray] == 0.0:
-                if together and chords.found[ray] < MOST:
-                    passed = share_of_list(faded.bodies, ray, walk)
-                else:
-                    segment = way_of(bundle, ray)
-                    passed = passed_share(world, faded, segment, walk, stack)
-                fan[RAY_BLOCKED + ray] = 1.0 - passed
+        dim_fan_by(bundle, world, faded, walk, stack)
+
+
+@part
+def dim_fan_by(bundle: Bundle, world: World, faded: Faded, walk: Walk, stack: Stack) -> None:
+    """Let some faded bodies take their share of the rays of a fan."""
+    fan, chords = bundle.fan, walk.chords
+    together = can_go_together(bundle, world, faded)
+    if together:
+        collect_fan(bundle, world, faded, chords, stack)
+    for ray in range(bundle.rays):
+        if fan[RAY_BLOCKED + ray] == 0.0:
+            if together and chords.found[ray] < MOST:
+                passed = share_of_list(faded.bodies, ray, walk)
+            else:
+                segment = way_of(bundle, ray)
+                passed = passed_share(world, faded, segment, walk, stack)
+            fan[RAY_BLOCKED + ray] = 1.0 - passed

@@ -8,7 +8,7 @@ seen where it begins, or where it ends if the ray starts inside.
 import math
 from typing import NamedTuple
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.faded.chords import End, Key, collect_chords
 from vtray.geometry.packets.layer_notes import ALONE, AT_ONCE, MOST, Chords, Layers, Walk
 from vtray.geometry.packets.stack import Stack
@@ -79,7 +79,7 @@ def list_layers(
     return found
 
 
-@device
+@part
 def passed_share(world: World, faded: Faded, segment: Segment, walk: Walk, stack: Stack) -> float:
     """Return which share of light passes the faded bodies between two points.
 

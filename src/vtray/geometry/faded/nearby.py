@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.dispatch import with_bounded
 from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_margin, upper_limit
 from vtray.geometry.packets.stack import Stack, push_met
@@ -51,7 +51,7 @@ class Tube(NamedTuple):
     error_scale: float
 
 
-@device
+@part
 def touches_faded(world: World, faded: Faded, tube: Tube, stack: Stack) -> bool:
     """Tell whether a faded shape may reach into a tube; a faded plane always may."""
     for row in range(faded.begin, faded.end):

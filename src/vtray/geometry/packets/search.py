@@ -85,7 +85,7 @@ def _find_nearest_placed(
             nearest_placed(packet, octet, count, sheaf, footprint, world, places, work)
 
 
-@device
+@part
 def find_blocked(
     packet: Packet,
     hits: int,

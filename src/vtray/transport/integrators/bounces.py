@@ -6,7 +6,7 @@ all hits are lit alike, by the same parts as the first ones. Which rays go on is
 integrators are about.
 """
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.packets.packet import (
     BEHIND,
     BEHIND_DISTANCE,
@@ -225,7 +225,7 @@ def push_from(
     push_ray(pending, lane, Waiting(ray, seen, bounces, sees_lights, within, density, normal))
 
 
-@device
+@part
 def follow_rays(
     packet: Packet,
     lanes: int,

@@ -16,7 +16,7 @@ Synthesis", SIGGRAPH 1990 (Russian roulette).
 
 from typing import NamedTuple
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.packets.batch import start_of
 from vtray.geometry.packets.packet import (
     BOUNCES,
@@ -110,7 +110,7 @@ class Onward(NamedTuple):
     cast: int
 
 
-@device
+@part
 def scatter_hits(
     packet: Packet,
     hits: int,

@@ -9,7 +9,7 @@ References
 Whitted, "An Improved Illumination Model for Shaded Display", Communications of the ACM 23, 1980.
 """
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.packets.packet import (
     BOUNCES,
     COLOR,
@@ -64,7 +64,7 @@ LEAST = 2.0**-10
 a step of 255, for light that is white."""
 
 
-@device
+@part
 def split_hits(
     packet: Packet,
     hits: int,
@@ -100,8 +100,8 @@ def split_hits(
         seen, color = load(packet, THROUGHPUT, lane), load(packet, COLOR, hit)
         packet[NOISE + hit] = 0.0
         matt = (0.0, 0.0, 0.0)
-        for part in range(parts_of(look)):
-            one, share = nth_of_blend(looks, look, part)
+        for number in range(parts_of(look)):
+            one, share = nth_of_blend(looks, look, number)
             scattered = _split_part(
                 packet,
                 hit,

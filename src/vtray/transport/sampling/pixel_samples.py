@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.base.exact_math import tangent
 from vtray.geometry.packets.packet import BLOCK, COLUMN, LANES, ROW, WEIGHT, Block, Packet
 from vtray.geometry.packets.workspace import Pixels
@@ -154,7 +154,7 @@ def list_pixels(block: Block, marks: NDArray[np.bool_], curve: Pixels, pixels: P
     return count
 
 
-@device
+@part
 def place_samples(
     packet: Packet,
     block: Block,
