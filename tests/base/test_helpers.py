@@ -19,9 +19,12 @@ ECHO = "import sys\nfor line in sys.stdin.buffer: print('met', line, '\\ndone', 
 SLEEP = "import time; time.sleep(60)"
 
 PARTS = {
+    "vtray.geometry.packets.search.find_blocked",
     "vtray.geometry.packets.search.find_nearest",
+    "vtray.transport.camera_rays.cast_rays",
     "vtray.transport.integrators.points.add_points",
     "vtray.transport.interaction.gather_interactions",
+    "vtray.transport.sampling.pixel_samples.place_samples",
 }
 
 FIRST_PICTURE = """
