@@ -26,7 +26,6 @@ from typing import Any, ClassVar, TypeVar, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vtray.base.compiler import helpers
 from vtray.base.compiler.canary import (
     compare_with_python,
     new_arguments,
@@ -52,7 +51,7 @@ from vtray.base.compiler.object_code import (
     read_object_code,
     write_object_code,
 )
-from vtray.base.compiler.parts import load_parts, make_parts, new_name
+from vtray.base.compiler.parts import get_help, load_parts, make_parts, new_name
 from vtray.base.errors import RenderError
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -331,7 +330,7 @@ class Kernel(Device):
             if _waiting:
                 _waiting.pop()(file is not None)
             if file:
-                helpers.get_ready()
+                get_help()
             compiled = _in_thread(compile_object, self._function, arguments, _OPTIONS)
             parts = _in_thread(make_parts, compiled)
             if file:

@@ -16,7 +16,6 @@ from typing import Any, NamedTuple
 
 import msgspec
 
-from vtray.base.compiler import helpers
 from vtray.base.compiler.function_names import UnnamedError, full_name
 from vtray.base.compiler.mode import compiling, is_kept
 from vtray.base.compiler.object_code import (
@@ -102,6 +101,13 @@ def kept_part(name: str) -> KeptPart:
     return _kept[name]
 
 
+def get_help() -> None:
+    """Let other processes get ready to compile parts."""
+    from vtray.base.compiler import helpers
+
+    helpers.get_ready()
+
+
 def know_part(part: KeptPart) -> None:
     """Take note of a part that code calls which this process has not compiled."""
     if part.name not in _kept:
@@ -123,6 +129,8 @@ def tell_instead(tell: Callable[[bytes], object]) -> None:
 
 def _call_for(part: KeptPart) -> None:
     """Let another process compile a part that is not on disk."""
+    from vtray.base.compiler import helpers
+
     file = object_file(part.name)
     if file and not file.exists():
         order = msgspec.json.encode(part) + b"\n"
@@ -150,6 +158,8 @@ def _origin_of(name: str) -> Origin:
 
 def make_parts(compiled: ObjectCode) -> dict[str, int]:
     """Return the addresses of the parts that code calls; what is not on disk is compiled."""
+    from vtray.base.compiler import helpers
+
     # Meanwhile, what others are at comes to an end.
     for name in sorted(compiled.parts, key=helpers.is_at_work_on):
         if name not in _addresses:
@@ -178,6 +188,8 @@ def _load(name: str) -> int | None:
 
 def _make(name: str) -> int:
     """Compile a part, if no other process has; return its address."""
+    from vtray.base.compiler import helpers
+
     helpers.leave_to_caller(name)
     file = object_file(name)
     made = read_object_code(file) if file else None
