@@ -9,6 +9,7 @@ import pytest
 from PIL import Image
 
 import vtray
+from conftest import once
 from vtray.animation.between_planes import between_clips, between_slices
 from vtray.animation.fading import between_opacities, faded
 from vtray.animation.moving import way_of_opacity, way_of_part
@@ -112,6 +113,7 @@ def test_what_fades_and_what_does_not() -> None:
     assert scene.objects[0].opacity is None
 
 
+@once
 def test_particles_fade_around_those_that_stand_out(tmp_path: Path) -> None:
     particles = vtray.Particles([(0, 0, 0), (0, 0, 3)], columns={"charge": [1.0, -1.0]})
     given: dict[str, Any] = {"highlight": "charge > 0", "size": SIZE}

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import vtray
+from conftest import once
 from vtray.figures.annotations import Annotations, find_marks
 from vtray.figures.bar_marks import marks_of, share_of
 from vtray.figures.brightness_scale import BrightnessScale
@@ -131,6 +132,7 @@ def test_points_alike_share_a_bar() -> None:
     assert [scale.high for scale, _ in bars(vtray.render(scene))] == [2, 3]
 
 
+@once
 def test_on_the_picture_and_in_figures() -> None:
     image = picture(size=(400, 300), color="orange")
     pixels = image.annotated(colorbar="mass").pixels

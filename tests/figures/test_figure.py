@@ -280,6 +280,7 @@ def test_scale_bar_without_a_point_is_for_the_median_of_the_spheres(image: vtray
     assert scale_text(image.figure()) == f"{ABOUT}2"
 
 
+@once
 @pytest.mark.parametrize("width", [30, 310])
 def test_text_of_the_scale_bar_fits(width: int) -> None:
     figure = vtray.render(helix(size=(width, 9))).figure(scalebar="micrometres", colorbar=False)

@@ -10,6 +10,7 @@ from PIL import Image as PillowImage
 from test_figure import SIZE, area, assert_legible, canvas, helix, scale_ends, shown_texts
 
 import vtray
+from conftest import once
 
 matplotlib = pytest.importorskip("matplotlib", reason="needs the extra vtray[figure]")
 from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
@@ -96,6 +97,7 @@ def test_pixels_are_mixed_where_they_do_not_agree(image: vtray.Image) -> None:
     assert re.search(rb"/Width %d\b" % SIZE[0], saved(figure, "pdf"))
 
 
+@once
 @pytest.mark.parametrize("title", TITLES.values(), ids=TITLES)
 def test_all_text_fits(image: vtray.Image, title: str) -> None:
     figures = [

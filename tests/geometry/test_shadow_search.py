@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import vtray
+from conftest import once
 from vtray.geometry.packets.occlusion import Target
 from vtray.geometry.packets.packet import (
     BLOCKED,
@@ -37,6 +38,7 @@ def cloud(random: np.random.Generator, count: int, radius: float) -> tuple[World
     return world, next(g for g in (load_group(world, row) for row in rows) if g.kind == SPHERE)
 
 
+@once
 @pytest.mark.parametrize(("spread", "radius"), [(1e-3, 0.03), (1.5, 0.03), (1.5, 0.01)])
 def test_points_far_apart_are_hidden_by_what_stands_between(spread: float, radius: float) -> None:
     random = np.random.default_rng(5)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import vtray
+from conftest import once
 
 SIZE = 24
 
@@ -61,6 +62,7 @@ def test_albedo_counts_what_is_mirrored_and_let_through(integrator: str, name: s
         assert image.albedo[0, 0, 1] > image.albedo[4, 4, 1]
 
 
+@once
 def test_albedo_of_rough_metal_has_the_light_of_many_facets() -> None:
     scene = two_balls()
     scene.objects = [vtray.Plane((0, 0, 0), (0, 0, 1), material=vtray.Metal(roughness=1))]

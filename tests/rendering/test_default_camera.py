@@ -34,6 +34,7 @@ def test_the_shape_is_shown(size: Any) -> None:
     assert vtray.render(scene).pixels.tobytes() == image.pixels.tobytes()
 
 
+@once
 @pytest.mark.parametrize(("center", "normal"), FLOORS)
 def test_a_floor_is_below(center: Any, normal: Any) -> None:
     scene = flat()

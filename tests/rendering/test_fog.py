@@ -146,6 +146,7 @@ def test_lamps_are_seen_through_it() -> None:
     np.testing.assert_allclose(image.linear[middle], plain.linear[middle] / 2, rtol=1e-3)
 
 
+@once
 @pytest.mark.parametrize("integrator", ["whitted", "path"])
 @pytest.mark.parametrize("samples", [1, pytest.param(9, marks=once)])
 def test_light_over_many_surfaces_is_in_it(integrator: str, samples: int) -> None:

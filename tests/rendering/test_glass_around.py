@@ -49,6 +49,7 @@ def left(length: float, error: float = 1e-5) -> Any:
     return pytest.approx(255 * np.exp(-length * np.array(TAKES)), rel=error)
 
 
+@once
 @pytest.mark.parametrize("integrator", [pytest.param("whitted", marks=once), "path"])
 @pytest.mark.parametrize("samples", [1, pytest.param(4, marks=once)])
 def test_glass_around_the_camera_takes_light(integrator: str, samples: int) -> None:
@@ -90,6 +91,7 @@ def test_panorama_in_glass() -> None:
     assert seen == left(image.depth.min())
 
 
+@once
 def test_innermost_glass_counts() -> None:
     scene = bodies()
     scene.objects.insert(0, vtray.Sphere((0, 0, 0), 3, material=vtray.Glass(1.0)))
@@ -109,6 +111,7 @@ def test_lamps_are_seen_through_glass() -> None:
     assert (image.emission == image.linear).all()
 
 
+@once
 def test_under_water() -> None:
     scene = vtray.Scene()
     scene.add_plane((0, 0, 0), normal=(0, 0, 1), material=GLASS)

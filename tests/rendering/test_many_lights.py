@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray import render
 from vtray.geometry.packets.cone import new_touching
 from vtray.geometry.packets.fan import new_fan
@@ -84,6 +84,7 @@ def scene_of(lights: list[Any]) -> vtray.Scene:
 LIGHTS = {"equal": lamps_around, "mixed": mixed_lamps}
 
 
+@once
 @pytest.mark.parametrize("lights", LIGHTS.values(), ids=LIGHTS)
 def test_shared_fans_tell_what_each_ray_alone_would(lights: Any) -> None:
     scene = scene_of(lights(MANY))
@@ -229,6 +230,7 @@ def test_edges_of_shadows_of_many_lamps_get_samples(spread: float) -> None:
     assert np.abs(image - fine)[1:, 1:].max() < 8
 
 
+@once
 def test_rays_of_a_pixel_tell_where_they_go() -> None:
     scene = scene_of(mixed_lamps(MANY))
     image = render(scene)

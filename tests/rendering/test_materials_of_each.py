@@ -66,6 +66,7 @@ MANY = [
 ]
 
 
+@once
 @pytest.mark.parametrize("item", MANY)
 def test_are_as_single_objects(item: Any) -> None:
     mirror = vtray.Sphere((0, -1.6, 1), 0.7, material="mirror")
@@ -94,6 +95,7 @@ PLAIN = (
 )
 
 
+@once
 def test_each_may_be_rough_and_metal_in_its_own_way() -> None:
     item = vtray.Spheres(
         PLACES, 0.6, material=vtray.Plastic(1.7), roughness=ROUGH, metalness=np.array(METAL)
@@ -155,6 +157,7 @@ def test_roughness_is_said_in_files(tmp_path: Path) -> None:
     assert scene_hash(lit(item.replace(metalness=None))) != scene_hash(scene)
 
 
+@once
 def test_files_and_copies_keep_them(tmp_path: Path) -> None:
     scene = lit(spheres(), MANY[2])
     scene.save(tmp_path / "scene.json")

@@ -63,6 +63,7 @@ def assert_add_up(image: vtray.Image) -> None:
     assert all(array.shape == image.raw.shape for array in found)
 
 
+@once
 @pytest.mark.parametrize("samples", [1, pytest.param(4, marks=once)])
 @pytest.mark.parametrize("integrator", ["direct", "whitted", "path"])
 def test_orders_add_up_to_the_picture(integrator: str, samples: int) -> None:
@@ -133,6 +134,7 @@ def test_orders_of_other_pictures_add_up(
     assert image.direct.any()
 
 
+@once
 def test_lamps_behind_layers_are_dimmed_by_them() -> None:
     image = rendered(with_fading_balls(), "direct")
     lit = image.emission[..., 0][image.emission[..., 0] > 0]
@@ -219,6 +221,7 @@ def test_what_mirrors_show_of_lit_surfaces_is_indirect(integrator: str) -> None:
     np.testing.assert_array_equal(image.indirect[~is_ball], image.linear[~is_ball])
 
 
+@once
 @pytest.mark.parametrize("integrator", ["whitted", "path"])
 def test_each_side_of_glass_scatters_once(integrator: str) -> None:
     """The sky through a ball is indirect light, and through a sheet it is direct."""
@@ -231,6 +234,7 @@ def test_each_side_of_glass_scatters_once(integrator: str) -> None:
             assert getattr(image, name) == pytest.approx(expected), name
 
 
+@once
 def test_fireflies_are_cut_in_all_orders_alike() -> None:
     bright, cut = (rendered(all_kinds(), firefly=firefly) for firefly in ("off", 0.4))
     assert_add_up(cut)
@@ -254,6 +258,7 @@ def test_threads_and_tiles_change_nothing(integrator: str, samples: int) -> None
         assert getattr(one, name).tobytes() == getattr(other, name).tobytes()
 
 
+@once
 def test_exposures_share_the_light() -> None:
     image = rendered(all_kinds(), exposure="auto")
     other = image.expose(2.0, stops=1)
@@ -283,6 +288,7 @@ def test_other_lights_and_colors_have_their_own(make: Callable[[], vtray.Scene])
     assert image.direct.tobytes() != relit.direct.tobytes()
 
 
+@once
 def test_parts_of_pictures_do_not_know_them(tmp_path: Path) -> None:
     parts: list[vtray.Image] = []
     rendered(all_kinds(), on_update=parts.append, update_seconds=0.0, tile=SIZE // 2)

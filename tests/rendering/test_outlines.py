@@ -9,7 +9,7 @@ import pytest
 from examples import cylinder, light, plane, scene, sphere
 
 import vtray
-from conftest import JIT
+from conftest import JIT, once
 from vtray.scene.style import Outline, Style
 
 SIZE = 40 if JIT else 30
@@ -53,6 +53,7 @@ def test_samples_do_not_change_lines() -> None:
     np.testing.assert_array_equal(lines_of(found), lines_of(found, samples=4))
 
 
+@once
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 def test_all_threads_and_tiles_draw_the_same(projection: str) -> None:
     found = world(
@@ -117,6 +118,7 @@ def test_fog_hides_lines_too() -> None:
     assert not lines_of(found, fog=(1, 2)).any()
 
 
+@once
 @pytest.mark.parametrize("background", ["black", "#204060", "transparent", "sky"])
 def test_lines_are_laid_over_the_picture(background: str) -> None:
     found = world(sphere((0, 0, 5), 0.8))

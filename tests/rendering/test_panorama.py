@@ -134,6 +134,7 @@ def test_mirrors_show_what_is_behind_the_camera() -> None:
     np.testing.assert_allclose(image.linear, expected, atol=1e-7)
 
 
+@once
 def test_same_bytes_on_any_threads_and_tiles_and_with_any_hierarchy() -> None:
     one = render(document(), samples=5, threads=1)
     for few in (ALWAYS, NEVER):

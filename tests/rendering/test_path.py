@@ -44,6 +44,7 @@ def test_white_furnaces_are_white(material: Material | str, sky: Any) -> None:
     assert light_of(looking_down(balls, [sky])) == pytest.approx(1, abs=1e-9)
 
 
+@once
 @pytest.mark.parametrize("share", [0.25, 0.75])
 @pytest.mark.parametrize("depth", [0, 1, 3, 7, 40] if JIT else [0, 3])
 def test_a_hollow_ball_is_lit_by_itself(share: float, depth: int) -> None:
@@ -128,6 +129,7 @@ def test_metal_mirrors_what_its_measured_indices_say() -> None:
         assert light_of(scene, integrator="whitted")[0, 0] == pytest.approx(squarely, rel=1e-3)
 
 
+@once
 @pytest.mark.parametrize("integrator", ["whitted", "path"])
 def test_mirrors_show_what_is_before_them(integrator: str) -> None:
     """Not what lies on the way back of a ray: a lamp behind a mirror is not seen in it."""

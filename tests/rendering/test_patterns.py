@@ -250,6 +250,7 @@ def scene_of(objects: list[Any], *lights: Any) -> vtray.Scene:
     return scene
 
 
+@once
 @pytest.mark.parametrize("integrator", ["direct", "whitted", "path"])
 def test_a_pattern_of_own_colors_changes_nothing(integrator: str) -> None:
     """Not a bit, where all pixels have as many samples."""
@@ -285,6 +286,7 @@ def test_any_threads_tell_the_same() -> None:
     assert (one.linear == two.linear).all()
 
 
+@once
 def test_pictures_can_be_relit_and_recolored() -> None:
     scene = scene_of(all_shapes(vtray.Checker(size=0.3)))
     image = vtray.render(scene, samples=2, keep_lights=True, warn=[].append)

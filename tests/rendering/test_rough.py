@@ -39,6 +39,7 @@ SURFACES = [
 ]
 
 
+@once
 @pytest.mark.parametrize(("material", "surface"), SURFACES)
 def test_points_and_suns_show_what_the_formula_says(material: Material, surface: Surface) -> None:
     way = np.array([0.1, 0.55, 0.8])

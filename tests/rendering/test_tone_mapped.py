@@ -9,7 +9,7 @@ from pictures import read_exr
 from PIL import Image as PillowImage
 
 import vtray
-from conftest import JIT
+from conftest import JIT, once
 from vtray.image.tone_maps.table import TONE_MAPS
 from vtray.scene.colors.color_light import light_of_numbers
 from vtray.scene.colors.srgb import decode_srgb, encode_srgb
@@ -278,6 +278,7 @@ def test_extremes() -> None:
     assert not found.pixels.any()
 
 
+@once
 def test_flat_pictures_and_figures() -> None:
     pytest.importorskip("matplotlib")
     scene = wall("orange")

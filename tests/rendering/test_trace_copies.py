@@ -10,7 +10,7 @@ from test_trace_pixel import floor_pixel, lit_floor, marks, texts
 from written_out import Origin, write_out
 
 import vtray
-from conftest import JIT
+from conftest import JIT, once
 from vtray.figures.ray_tree import RayTree, Surface
 
 pytest.importorskip("matplotlib", reason="needs the extra vtray[figure]")
@@ -34,6 +34,7 @@ def as_copied(tree: RayTree, origins: list[Origin]) -> RayTree:
     return dataclasses.replace(tree, hit=hit, lights=tuple(lights))
 
 
+@once
 def test_rays_are_those_of_copies_written_out() -> None:
     scene = molecules(size=(36, 27) if JIT else (12, 9))
     written, origins = write_out(scene)

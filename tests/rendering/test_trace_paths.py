@@ -191,6 +191,7 @@ value        (141, 70, 35)"""
     assert explain_pixel(scene, image, 1, 1) == f"{text}\n"
 
 
+@once
 @pytest.mark.parametrize(
     ("depth", "words"),
     [
@@ -239,6 +240,7 @@ def test_words_of_blended_and_thin_materials() -> None:
     assert any("glass, ior 1.5, thin" in text for text in texts)
 
 
+@once
 def test_fireflies_are_told_as_they_are_limited() -> None:
     scene = all_materials()
     image = vtray.render(scene, integrator="path", firefly=0.25)

@@ -138,6 +138,7 @@ def test_they_cover_a_transparent_background() -> None:
     assert ((image.alpha > 0) & (image.alpha < 1)).any()
 
 
+@once
 @pytest.mark.parametrize("samples", [1, 4])
 def test_relit_lamps_are_seen_as_they_shine(samples: int) -> None:
     if samples > 1 and not JIT:
@@ -152,6 +153,7 @@ def test_relit_lamps_are_seen_as_they_shine(samples: int) -> None:
     np.testing.assert_array_equal(colored.linear, render(colored.scene, **options).linear)
 
 
+@once
 def test_rays_of_a_pixel_name_the_lamp() -> None:
     scene = looking_down(PANEL, vtray.Light((0, 0, 9), 0.1), BALL)
     image = render(scene, exposure=1.0)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import vtray as vt
+from conftest import once
 from vtray.scene.default_light import SAMPLES, settings_of
 from vtray.scene.grain import COARSEST, FINEST, LOOKED_AT, NO_GRAIN, tolerance_of
 from vtray.scene.settings import TOLERANCE
@@ -93,6 +94,7 @@ def test_a_picture_in_default_light_has_smooth_edges_unless_it_is_said_otherwise
     assert set(rough.pixels.ravel().tolist()) == {0, 255}
 
 
+@once
 def test_saved_files_show_the_same(tmp_path: Path) -> None:
     scene = vt.Scene(camera_at())
     scene.add_sphere((0, 0, 0), 5 * PIXEL, color="orange")

@@ -142,6 +142,7 @@ def test_rough_glass_loses_nothing(glass: Glass, is_inner: bool, cosine: float) 
     assert np.mean(total) == pytest.approx(1, abs=0.02)
 
 
+@once
 @given(st.floats(0.001, 0.02))
 def test_glass_that_is_hardly_rough_goes_where_smooth_glass_does(roughness: float) -> None:
     looks = looks_of(Glass(1.5, roughness=0.02))
@@ -153,6 +154,7 @@ def test_glass_that_is_hardly_rough_goes_where_smooth_glass_does(roughness: floa
     assert went.way == pytest.approx((sine, 0, -math.sqrt(1 - sine * sine)), abs=0.02)
 
 
+@once
 def test_roughness_below_a_hundredth_is_smooth() -> None:
     assert looks_of(Metal(roughness=0.009)).albedos is None
     assert looks_of(Metal(roughness=0.011)).albedos is not None
