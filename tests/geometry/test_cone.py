@@ -105,7 +105,7 @@ def test_what_a_cone_from_a_spot_finds_is_all_that_those_from_its_points_touch(k
     arrays = pack(scene, accelerate(scene)).arrays
     world, forward, unit = arrays.world, arrays.camera.forward, arrays.world.scale
     soft, normal = arrays.lights.soft, (0.0, 0.0, 1.0)
-    stack, touching = new_stack(), new_touching()
+    stack, touching, own = new_stack(), new_touching(), new_touching()
     answers = {"open": 0, "closed": 0, "some": 0, "unknown": 0}
 
     def start_at(place: np.ndarray) -> Start:
@@ -126,7 +126,7 @@ def test_what_a_cone_from_a_spot_finds_is_all_that_those_from_its_points_touch(k
             start = start_at(middle + way)
             aim = aim_at(soft, k % 3, start, normal)
             cone = cone_of(aim, start, forward)
-            found = find_among(cone, world, touching, count)
+            found = find_among(cone, world, touching, count, own)
             answers[{0: "open", CLOSED: "closed"}.get(found, "some")] += 1
             ways = random.random((RAYS // 4, 2))
             blocked = sum(_is_blocked(cone, aim, u, v, world, stack) for u, v in ways)

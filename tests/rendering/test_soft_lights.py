@@ -108,6 +108,18 @@ def test_threads_and_tiles_change_nothing(samples: int) -> None:
 
 
 @compiled_only
+@pytest.mark.parametrize("kind", ["few", "many", "bonds", "copies"])
+def test_pixels_asked_together_tell_what_each_alone_would(kind: str) -> None:
+    scene = scene_of(kind)
+    scene.lights = vtray.lights.studio(scene)
+    images = [vtray.render(scene, size=(150, 110), samples=4, tile=tile) for tile in (64, 7, 1)]
+    assert 0.1 < np.mean(images[0]._sampled) < 0.9
+    for image in images[1:]:
+        np.testing.assert_array_equal(image._sampled, images[0]._sampled)
+        np.testing.assert_array_equal(image.linear, images[0].linear)
+
+
+@compiled_only
 @pytest.mark.parametrize("samples", [1, 4])
 def test_relit_and_recolored_pictures_are_those_rendered_anew(samples: int) -> None:
     options: dict[str, Any] = {"samples": samples, "keep_lights": True}

@@ -11,16 +11,16 @@ from typing import Any, NamedTuple
 from vtray.base.compiler.compiled import device, part
 from vtray.geometry.bundle import Bundle
 from vtray.geometry.dispatch import with_any
-from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_margin, upper_limit
+from vtray.geometry.packets.beam import lower_limit, upper_limit
+from vtray.geometry.packets.cone import ASIDE, Cone, Touching, cone_beam, relation_to
 from vtray.geometry.packets.stack import Stack, push_met
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.verbs import Shape, Verbs
-from vtray.geometry.vector import Vec, add, sub
+from vtray.geometry.vector import Vec
 from vtray.geometry.world import (
     Group,
     Hierarchy,
     Places,
-    ToBoxes,
     World,
     group_count,
     hierarchy_of,
@@ -28,7 +28,6 @@ from vtray.geometry.world import (
     load_group,
     placed_row,
     range_of,
-    to_box_space,
 )
 
 NOTHING, EDGE, ALL = 0, 1, 2
@@ -64,8 +63,8 @@ class LampView(NamedTuple):
     thickest
         The radius of the thickest solid, 0 if none is wide enough to hide the lamp from all of the
         patch.
-    error_scale
-        What the rounding error of the start is relative to.
+    cone
+        What holds them: what does not touch it does nothing.
     """
 
     bundle: Bundle
@@ -78,7 +77,7 @@ class LampView(NamedTuple):
     all_in_front: float
     in_front: float
     thickest: float
-    error_scale: float
+    cone: Cone
 
 
 @part
@@ -88,6 +87,16 @@ def has_edge(world: World, view: LampView, stack: Stack) -> bool:
     for row in range(group_count(world)):
         found = _find_in_group(world, load_group(world, row), view, found, stack, 0)
     return _find_in_placed(world, world.places, view, found, stack) == EDGE
+
+
+@part
+def has_edge_among(world: World, view: LampView, touching: Touching, count: int) -> bool:
+    """Tell the same where nothing but so many shapes can touch the rays."""
+    found = NOTHING
+    for k in range(count):
+        group = load_group(world, touching.row[k])
+        found = max(found, _found_at(world, group, touching.slot[k], view))
+    return found == EDGE
 
 
 @device
@@ -146,7 +155,16 @@ def _find_in_slots(
     base: int,  # noqa: ARG001
 ) -> int:
     for slot in range(begin, end):
-        found = max(found, with_any(world, group, slot, _found_of, view))
+        found = max(found, _found_at(world, group, slot, view))
+    return found
+
+
+@device
+def _found_at(world: World, group: Group, slot: int, view: LampView) -> int:
+    """Return what the shape of a slot does to the light of the lamp."""
+    if relation_to(view.cone, world, group, slot) == ASIDE:
+        return NOTHING
+    found: int = with_any(world, group, slot, _found_of, view)
     return found
 
 
@@ -174,7 +192,9 @@ def _find_in_tree(
     subject: Any,  # noqa: ANN401
 ) -> int:
     """Return the most of what is found in the leaves of a hierarchy that the rays may meet."""
-    beam, ratio = _view_beam(view, hierarchy.to_boxes), hierarchy.to_boxes.ratio
+    beam = cone_beam(view.cone, hierarchy.to_boxes)
+    # Ways beside the axis are longer.
+    ratio = hierarchy.to_boxes.ratio / view.cone.cosine
     near = lower_limit(beam, 0.0)
     hides = upper_limit(beam, _end_of_hiding(view) * ratio * (1.0 + MARGIN))
     counts = max(hides, upper_limit(beam, _end_of_edges(view) * ratio * (1.0 + MARGIN)))
@@ -217,13 +237,3 @@ def _end_of_hiding(view: LampView) -> float:
 _find_in_places, _find_in_shapes = device(_find_in_tree), device(_find_in_tree)
 """Two ways: one through what is placed, one through what stands at a place. They are
 two, as the compiler takes what calls itself for recursion, whatever it is given."""
-
-
-@device
-def _view_beam(view: LampView, to_boxes: ToBoxes) -> Beam:
-    """Return a beam that holds the rays, in the boxes' space; its directions have length 1."""
-    start = to_box_space(to_boxes, view.bundle.origin)
-    reach = view.reach * to_boxes.ratio + shape_margin(to_boxes, start, view.error_scale)
-    growth = view.radius / view.length
-    wider, direction = (growth, growth, growth), view.bundle.direction
-    return make_beam(start, start, sub(direction, wider), add(direction, wider), reach)

@@ -52,6 +52,8 @@ class Batch(NamedTuple):
         The hits, at most ``FAN``.
     active
         The numbers of those in the batch that cast a fan at a time.
+    waiting
+        Those of others that do so later.
     spent
         What the lights so far have of the variance that all may have.
     estimate
@@ -61,6 +63,7 @@ class Batch(NamedTuple):
     is_taken: NDArray[np.bool_]
     hit: NDArray[np.int64]
     active: NDArray[np.int64]
+    waiting: NDArray[np.int64]
     spent: NDArray[np.float64]
     estimate: NDArray[np.float64]
 
@@ -75,21 +78,22 @@ def new_batch() -> Batch:
         np.zeros(LANES, np.bool_),
         np.zeros(FAN, np.int64),
         np.zeros(FAN, np.int64),
+        np.zeros(FAN, np.int64),
         np.zeros(FAN),
         np.zeros(ESTIMATE * FAN),
     )
 
 
 @device
-def take_near(packet: Packet, hits: int, first: int, most: int, batch: Batch) -> int:
+def take_near(packet: Packet, hits: int, first: int, most: int, apart: float, batch: Batch) -> int:
     """Take a hit, and those after it that are near it, into a batch; return how many they are.
 
     Parameters
     ----------
     packet, hits, first
         The hits, and the number of the first.
-    most
-        How many a batch has at the most.
+    most, apart
+        How many a batch has at the most, and how many pixels are between them and the first one.
     batch
         Out: the batch. What is taken already stays out of it.
     """
@@ -97,7 +101,7 @@ def take_near(packet: Packet, hits: int, first: int, most: int, batch: Batch) ->
     for hit in range(first + 1, hits):
         if count == most:
             break
-        if not batch.is_taken[hit] and _are_near(packet, first, hit):
+        if not batch.is_taken[hit] and _are_near(packet, first, hit, apart):
             batch.is_taken[hit] = True
             batch.hit[count] = hit
             count += 1
@@ -105,7 +109,7 @@ def take_near(packet: Packet, hits: int, first: int, most: int, batch: Batch) ->
 
 
 @device
-def _are_near(packet: Packet, one: int, other: int) -> bool:
+def _are_near(packet: Packet, one: int, other: int, apart: float) -> bool:
     """Tell whether two hits are near each other, on one surface."""
     numbers = integers(packet)
     lane, beside = numbers[SOURCE + one], numbers[SOURCE + other]
@@ -117,7 +121,7 @@ def _are_near(packet: Packet, one: int, other: int) -> bool:
     along = dot(way, load(packet, TOWARDS, one))
     is_flat = (1.0 + STEEP * STEEP) * along * along <= STEEP * STEEP * dot(way, way)
     cosine = dot(load(packet, NORMAL, one), load(packet, NORMAL, other))
-    are_near: bool = (max(across, down) <= APART) & is_flat & (cosine >= AKIN)
+    are_near: bool = (max(across, down) <= apart) & is_flat & (cosine >= AKIN)
     return are_near
 
 

@@ -55,7 +55,8 @@ PATIENCE = 32
 """After so many leaves of a hierarchy, it counts as `MANY`: what boxes of directions hold beside a
 wide cone may be most of a scene."""
 
-_ASIDE, _TOUCHES, _COVERS = 0, 1, 2
+ASIDE, _TOUCHES, _COVERS = 0, 1, 2
+"""How a shape lies to a cone."""
 
 
 class Touching(NamedTuple):
@@ -130,15 +131,33 @@ def find_touching(cone: Cone, world: World, touching: Touching, stack: Stack) ->
 
 
 @part
-def find_among(cone: Cone, world: World, touching: Touching, count: int) -> int:
-    """Tell how many of so many shapes touch a cone, or that one stops all rays, with ``CLOSED``."""
+def find_among(cone: Cone, world: World, touching: Touching, count: int, own: Touching) -> int:
+    """Find those of so many shapes that touch a cone.
+
+    Return how many there are, or that one stops all rays, with ``CLOSED``; `own` has them then.
+    """
     found = 0
     for k in range(count):
-        relation = _relation_to(cone, world, load_group(world, touching.row[k]), touching.slot[k])
+        relation = relation_to(cone, world, load_group(world, touching.row[k]), touching.slot[k])
         if relation == _COVERS:
             return CLOSED
-        found += 1 if relation == _TOUCHES else 0
+        if relation == _TOUCHES:
+            own.row[found], own.slot[found] = touching.row[k], touching.slot[k]
+            found += 1
     return found
+
+
+@device
+def are_balls(world: World, touching: Touching, count: int) -> bool:
+    """Tell whether so many shapes, if that is known, are spheres and planes alone.
+
+    The ball around another shape tells less of what touches a cone than boxes around it do.
+    """
+    for k in range(count):
+        kind = load_group(world, touching.row[k]).kind
+        if kind not in (SPHERE, PLANE):
+            return False
+    return count >= 0
 
 
 @device
@@ -207,7 +226,7 @@ def _find_slots(
 ) -> int:
     """Find those of a range of slots; return how many there are then."""
     for slot in range(begin, end):
-        relation = _relation_to(cone, world, group, slot)
+        relation = relation_to(cone, world, group, slot)
         if relation == _COVERS:
             return CLOSED
         if relation == _TOUCHES:
@@ -220,7 +239,7 @@ def _find_slots(
 
 
 @device
-def _relation_to(cone: Cone, world: World, group: Group, slot: int) -> int:
+def relation_to(cone: Cone, world: World, group: Group, slot: int) -> int:
     """Tell how a cone and a shape lie to each other."""
     if group.kind == PLANE:
         plane = load_plane(world.planes, slot, group.place)
@@ -250,9 +269,9 @@ def _relation_to_plane(cone: Cone, side: float, rise: float, error_scale: float)
     reaches = least * cone.longest + abs(side) <= MARGIN * error_scale + cone.extent
     if cone.extent > 0.0:
         # Of rays that start on both sides, some may go either way.
-        return _TOUCHES if reaches or abs(side) <= MARGIN * error_scale + cone.extent else _ASIDE
+        return _TOUCHES if reaches or abs(side) <= MARGIN * error_scale + cone.extent else ASIDE
     starts_on = abs(side) <= ROUNDING * error_scale
-    return _TOUCHES if reaches and not starts_on else _ASIDE
+    return _TOUCHES if reaches and not starts_on else ASIDE
 
 
 @device
@@ -273,12 +292,12 @@ def _relation_to_shape(
     # How far the centre is from the nearest and from the farthest side of the cone.
     near, far = aside * cone.cosine - ahead * cone.sine, aside * cone.cosine + ahead * cone.sine
     if near > shape.radius + margin or ahead > cone.longest + shape.radius + margin:
-        return _ASIDE
+        return ASIDE
     if cone.extent > 0.0:
         return _TOUCHES
     if kind >= CUT:
         sides = verbs.sides(shape, start.point, start.error_scale)
-        return _ASIDE if _is_beyond(cone, sides.end) else _TOUCHES
+        return ASIDE if _is_beyond(cone, sides.end) else _TOUCHES
     if kind != SPHERE:
         return _TOUCHES
     outside = distance2 - shape.radius * shape.radius
@@ -286,7 +305,7 @@ def _relation_to_shape(
     # Rays that start outside, or on it, and lead away from its centre do not meet a sphere.
     nearest = ahead * cone.cosine + aside * cone.sine
     if outside >= -bound * (2.0 * shape.radius + bound) and nearest < -margin:
-        return _ASIDE
+        return ASIDE
     reach = math.sqrt(distance2) + shape.radius + margin
     is_before = start.plane_depth + dot(way, cone.forward) > shape.radius + margin
     is_between = outside > 4.0 * margin * (shape.radius + margin) and reach < cone.shortest
@@ -332,7 +351,7 @@ def _search(
     int
         As of `find_touching`.
     """
-    beam = _cone_beam(cone, hierarchy.to_boxes)
+    beam = cone_beam(cone, hierarchy.to_boxes)
     end = cone.longest * hierarchy.to_boxes.ratio * (1.0 + MARGIN)
     near, far = lower_limit(beam, 0.0), upper_limit(beam, end)
     stack.node[base] = hierarchy.root
@@ -359,7 +378,7 @@ two, as the compiler takes what calls itself for recursion, whatever it is given
 
 
 @device
-def _cone_beam(cone: Cone, to_boxes: ToBoxes) -> Beam:
+def cone_beam(cone: Cone, to_boxes: ToBoxes) -> Beam:
     """Return the beam around a cone, in the boxes' space."""
     apex = to_box_space(to_boxes, cone.start.point)
     x, y, z = cone.axis

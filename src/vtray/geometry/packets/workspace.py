@@ -106,8 +106,9 @@ class Workspace(NamedTuple):
         The sums of the samples of the pixels of a packet.
     batch
         Hits that are near each other.
-    fan, touching
-        The shadow rays of a batch to one light, and the shapes that touch their cone.
+    fan, touching, own
+        The shadow rays of a batch to one light, the shapes that touch their cone, and those of them
+        that touch the one from a hit.
     shared
         Notes on rays that many lights share.
     walk, layers
@@ -132,6 +133,7 @@ class Workspace(NamedTuple):
     batch: Batch
     fan: Fan
     touching: Touching
+    own: Touching
     shared: Shared
     walk: Walk
     layers: Layers
@@ -181,6 +183,7 @@ def new_workspace(world: World, sharing: int = 0, bounces: int = -1) -> Workspac
         batch=new_batch(),
         fan=new_fan(),
         touching=new_touching(),
+        own=new_touching(),
         shared=new_shared(sharing),
         walk=new_walk(body_count(world)),
         layers=new_layers(body_count(world)),

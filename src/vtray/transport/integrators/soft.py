@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import device, part
 from vtray.geometry.bits import count_bits
 from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
-from vtray.geometry.packets.batch import spot_of, start_of, take_near
-from vtray.geometry.packets.cone import CLOSED, MANY, find_among, find_touching
-from vtray.geometry.packets.fan import FAN, set_start
+from vtray.geometry.packets.batch import APART, spot_of, start_of, take_near
+from vtray.geometry.packets.cone import CLOSED, MANY, are_balls, find_among, find_touching
+from vtray.geometry.packets.fan import FAN, Spot, set_start
 from vtray.geometry.packets.packet import (
     BLOCK,
     COLOR,
@@ -18,6 +18,7 @@ from vtray.geometry.packets.packet import (
     LAMBERT,
     NOISE,
     NORMAL,
+    REACH,
     SHARE,
     SOURCE,
     UNEVEN,
@@ -35,6 +36,7 @@ from vtray.geometry.world import Faded
 from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
 from vtray.transport.lights.light import Powers, load_power, soft_worth
 from vtray.transport.lights.soft_light import (
+    SUN,
     Aim,
     SoftLights,
     aim_at,
@@ -91,6 +93,14 @@ class Casting(NamedTuple):
     block: Block
     begin: int
     cosines: NDArray[np.float64]
+
+
+ASKED, FAR_APART = 16, 4.0
+"""Where each pixel has one ray, so many hits of a batch, which cast their fans one after the other,
+are asked together what is around them, and so many pixels are between them and the first."""
+
+WIDER = 1.0 + 2.0**-20
+"""More than rounding makes of the cone around the rays from a pixel."""
 
 
 class Seen(NamedTuple):
@@ -169,23 +179,24 @@ def add_soft_lights(
         if batch.is_taken[hit]:
             continue
         own = fans_of_hit(packet, hit, casting)
-        count = take_near(packet, hits, hit, most_of(lit.world.faded, own, samples, is_near), batch)
+        most, apart = most_of(lit.world.faded, own, samples, is_near)
+        count = take_near(packet, hits, hit, most, apart, batch)
         for member in range(count):
             batch.spent[member] = 0.0
         for light in range(soft_count(soft)):
-            if _is_uneven(packet, hit, lit, soft, light, is_wide, work):
-                break
-            cast += _light_batch(packet, count, casting, own, light, work)
+            cast += _light_batch(packet, count, casting, own, light, is_wide, work)
     return cast
 
 
 @device
-def most_of(faded: Faded | None, fans: Fans, samples: int, is_near: bool) -> int:
-    """Return how many hits of a packet may be in a batch."""
+def most_of(faded: Faded | None, fans: Fans, samples: int, is_near: bool) -> tuple[int, float]:
+    """Return how many hits of a packet may be in a batch, and how many pixels from its first."""
     # An argument that is None is known to the compiler, which drops what depends on that alone.
     if faded is not None:
-        return 1
-    return FAN // fans.rays if is_near and samples > 1 else 1
+        return 1, APART
+    if not is_near:
+        return 1, APART
+    return (FAN // fans.rays, APART) if samples > 1 else (ASKED, FAR_APART)
 
 
 @device
@@ -207,20 +218,127 @@ def _seen_share(packet: Packet, lane: int, faded: Faded | None) -> float:
 
 @device
 def _light_batch(
-    packet: Packet, count: int, casting: Casting, fans: Fans, light: int, work: Workspace
+    packet: Packet,
+    count: int,
+    casting: Casting,
+    fans: Fans,
+    light: int,
+    is_wide: bool | None,
+    work: Workspace,
 ) -> int:
     """Add a light to the hits of a batch, so many; return how many shadow rays were cast.
 
     Each has as many fans as its variance asks for. What the lights before it left of the variance
     that all may have is shared with those after it.
     """
-    batch, soft, fan, world = work.batch, casting.soft, work.fan, casting.lit.world
-    first = aim_from(packet, batch.hit[0], soft, light)
-    seen, shift = Seen(first, count == 1), count_bits(np.uint64(fans.rays - 1))
-    active = _leave_above(packet, count, casting, seen, light, work)
-    if active == 0:
+    batch, soft = work.batch, casting.soft
+    first = Seen(aim_from(packet, batch.hit[0], soft, light), count == 1)
+    active = _leave_above(packet, count, casting, first, light, is_wide, work)
+    touching = _find_around(packet, active, casting, first, light, is_wide, work)
+    active = _leave_even(packet, active, casting, first, light, is_wide, touching, work)
+    if count <= FAN // fans.rays:
+        return _cast_together(packet, active, casting, fans, first, light, touching, work)
+    for k in range(active):
+        batch.waiting[k] = batch.active[k]
+    cast = 0
+    for k in range(active):
+        batch.active[0] = batch.waiting[k]
+        alone = Seen(aim_from(packet, batch.hit[batch.waiting[k]], soft, light), True)
+        cast += _cast_together(packet, 1, casting, fans, alone, light, touching, work)
+    return cast
+
+
+@device
+def _find_around(
+    packet: Packet,
+    count: int,
+    casting: Casting,
+    first: Seen,
+    light: int,
+    is_wide: bool | None,
+    work: Workspace,
+) -> int:
+    """Find the shapes that can stop the rays of the active hits of a batch, so many.
+
+    Return how many there are, or ``MANY`` if that is not known. Where it is asked if pixels look
+    the same everywhere, those count that can stop rays from any place in them.
+    """
+    if count == 0 or not (is_cone(first.aim) and first.aim.spread < NARROW):
+        return MANY
+    spot, extent = spot_of(packet, work.batch, count), _widest_reach(packet, count, is_wide, work)
+    if count == 1 and extent == 0.0:
+        return MANY
+    around = Spot(spot.start, spot.extent + extent, spot.normal, spot.tilt, spot.sunk)
+    aim = aim_at(casting.soft, light, spot.start, spot.normal)
+    cone = cone_from(aim, around, casting.lit.forward)
+    if not cone.cosine > 0.0:
+        return MANY
+    return find_touching(cone, casting.lit.world, work.touching, work.stack)
+
+
+@device
+def _widest_reach(packet: Packet, count: int, is_wide: bool | None, work: Workspace) -> float:
+    """Return how far the pixels of active hits reach at the most, 0 where that is not asked."""
+    widest = 0.0
+    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_wide:
+            for k in range(count):
+                widest = max(widest, packet[REACH + work.batch.hit[work.batch.active[k]]])
+    return widest * WIDER
+
+
+@device
+def _leave_even(
+    packet: Packet,
+    count: int,
+    casting: Casting,
+    first: Seen,
+    light: int,
+    is_wide: bool | None,
+    touching: int,
+    work: Workspace,
+) -> int:
+    """Leave those of so many hits active whose pixels look the same everywhere, if that is asked.
+
+    Return how many these are.
+    """
+    active, batch = count, work.batch
+    is_known = first.aim.kind == SUN and are_balls(casting.lit.world, work.touching, touching)
+    known = touching if is_known else MANY
+    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_wide:
+            active = 0
+            for k in range(count):
+                member = batch.active[k]
+                if not _is_uneven(packet, batch.hit[member], casting, light, known, work):
+                    batch.active[active] = member
+                    active += 1
+    return active
+
+
+@device
+def _cast_together(
+    packet: Packet,
+    count: int,
+    casting: Casting,
+    fans: Fans,
+    seen: Seen,
+    light: int,
+    touching: int,
+    work: Workspace,
+) -> int:
+    """Add a light to active hits, so many, whose fans are cast at a time.
+
+    Return how many rays were cast. Only so many shapes can stop any, or ``MANY``.
+    """
+    batch, fan, world = work.batch, work.fan, casting.lit.world
+    if count == 0:
         return 0
-    active, touching, is_dimmed, cast = _ask_cones(packet, active, casting, fans, seen, light, work)
+    shift = count_bits(np.uint64(fans.rays - 1))
+    active, touching, is_dimmed, cast = _ask_cones(
+        packet, count, casting, fans, seen, light, touching, work
+    )
+    shapes = work.own if seen.is_alone else work.touching
     while active > 0:
         longest = 0.0
         for k in range(active):
@@ -229,7 +347,7 @@ def _light_batch(
             cast += rays
         spot = spot_of(packet, batch, active)
         bundle = Bundle(fan, active * fans.rays, shift, spot, longest)
-        stop_rays(bundle, world, work.touching, touching, work.stack)
+        stop_rays(bundle, world, shapes, touching, work.stack)
         if is_dimmed:
             dim_fan(bundle, world, work.walk, work.stack)
         going_on = 0
@@ -243,14 +361,30 @@ def _light_batch(
 
 @device
 def _leave_above(
-    packet: Packet, count: int, casting: Casting, seen: Seen, light: int, work: Workspace
+    packet: Packet,
+    count: int,
+    casting: Casting,
+    first: Seen,
+    light: int,
+    is_wide: bool | None,
+    work: Workspace,
 ) -> int:
-    """Make those hits active that a light is not below; return how many these are."""
+    """Make those hits active that a light is not below; return how many these are.
+
+    Those are left out whose pixels are known to look different elsewhere.
+    """
     batch, active = work.batch, 0
     for member in range(count):
         hit = batch.hit[member]
-        aim = aim_of(packet, hit, casting.soft, light, seen)
+        if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+            if is_wide:  # noqa: SIM102
+                if packet[UNEVEN + hit] != 0.0:
+                    continue
+        aim = aim_of(packet, hit, casting.soft, light, first)
         if is_below(aim, load(packet, NORMAL, hit)):
+            if is_wide is not None:  # noqa: SIM102
+                if is_wide:
+                    _is_uneven(packet, hit, casting, light, MANY, work)
             _add_shares(packet, hit, casting, light, DARK)
         else:
             store_estimate(batch, member, no_estimate())
@@ -267,9 +401,13 @@ def _ask_cones(
     fans: Fans,
     seen: Seen,
     light: int,
+    around: int,
     work: Workspace,
 ) -> tuple[int, int, bool, int]:
     """Add a light to those active hits, so many, where all of it arrives, or nothing.
+
+    Of the shapes that `_find_around` has found, so many, all others can touch no ray; all may,
+    where that is ``MANY``.
 
     Returns
     -------
@@ -279,13 +417,9 @@ def _ask_cones(
         cast.
     """
     batch, soft, world, forward = work.batch, casting.soft, casting.lit.world, casting.lit.forward
-    touching, spot = MANY, spot_of(packet, batch, count)
-    aim = seen.aim if seen.is_alone else aim_at(soft, light, spot.start, spot.normal)
-    if not (is_cone(aim) and aim.spread < NARROW):
-        return count, touching, True, 0
-    around = cone_from(aim, spot, forward)
-    if around.cosine > 0.0:
-        touching = find_touching(around, world, work.touching, work.stack)
+    touching = around
+    if not (is_cone(seen.aim) and seen.aim.spread < NARROW):
+        return count, MANY, True, 0
     active, cast, is_dimmed = 0, 0, False
     for k in range(count):
         member = batch.active[k]
@@ -293,9 +427,13 @@ def _ask_cones(
         aim, normal = aim_of(packet, hit, soft, light, seen), load(packet, NORMAL, hit)
         may_be_dim = True
         if is_cone(aim):
-            cone, found = cone_of(aim, start_of(packet, hit), forward), touching
-            if count > 1 and touching >= 0:
-                found = find_among(cone, world, work.touching, touching)
+            cone, found = cone_of(aim, start_of(packet, hit), forward), around
+            if around >= 0:
+                found = find_among(cone, world, work.touching, around, work.own)
+            elif seen.is_alone:
+                found = find_touching(cone, world, work.own, work.stack)
+            if seen.is_alone:
+                touching = found
             may_be_dim = found != CLOSED and may_be_dimmed(cone, world, work.stack)
             # What a cone as a whole tells is what all its rays would.
             is_open = found == 0 and not may_be_dim
@@ -427,19 +565,9 @@ def _keep_share(
 
 @device
 def _is_uneven(
-    packet: Packet,
-    hit: int,
-    lit: LitWorld,
-    soft: SoftLights,
-    light: int,
-    is_wide: bool | None,
-    work: Workspace,
+    packet: Packet, hit: int, casting: Casting, light: int, touching: int, work: Workspace
 ) -> bool:
-    """Tell whether the pixel of a hit gets samples, for one of the lights so far or this one."""
-    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
-        if is_wide:
-            uneven: bool = packet[UNEVEN + hit] != 0.0
-            uneven = uneven or is_lit_unevenly(packet, hit, lit, soft, light, work)
-            packet[UNEVEN + hit] = 1.0 if uneven else 0.0
-            return uneven
-    return False
+    """Tell whether the pixel of a hit gets samples for a light, and note it."""
+    uneven = is_lit_unevenly(packet, hit, casting.lit, casting.soft, light, work, touching)
+    packet[UNEVEN + hit] = 1.0 if uneven else packet[UNEVEN + hit]
+    return uneven

@@ -4,12 +4,13 @@ import math
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bundle import Bundle
-from vtray.geometry.edges import LampView, has_edge
+from vtray.geometry.edges import LampView, has_edge, has_edge_among
 from vtray.geometry.faded.dimming import is_tube_dimmed
 from vtray.geometry.packets.batch import start_of
+from vtray.geometry.packets.cone import Cone
+from vtray.geometry.packets.fan import Start
 from vtray.geometry.packets.packet import (
     BEND,
-    ERROR_SCALE,
     NORMAL,
     OWNER,
     PLANE_DEPTH,
@@ -23,7 +24,7 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.patch import NEAR_END, crossed_share
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.vector import Vec, dot, scale, sub
-from vtray.transport.lights.soft_light import RECTANGLE, SUN, SoftLights, aim_at
+from vtray.transport.lights.soft_light import RECTANGLE, SUN, SoftLights, aim_at, is_below
 from vtray.transport.sampling.adaptive import LIMIT_OF_SWAY, NEARNESS
 from vtray.transport.scene_arrays import LitWorld
 
@@ -33,11 +34,18 @@ NARROW = 0.1
 
 @device
 def is_lit_unevenly(
-    packet: Packet, hit: int, lit: LitWorld, soft: SoftLights, light: int, work: Workspace
+    packet: Packet,
+    hit: int,
+    lit: LitWorld,
+    soft: SoftLights,
+    light: int,
+    work: Workspace,
+    touching: int,
 ) -> bool:
     """Tell whether a soft light may do something else around a hit than there.
 
-    That of wide ones changes slowly.
+    That of wide ones changes slowly. Only the first ones of `work.touching`, so many, can be in its
+    way; all shapes, where that is below 0.
     """
     point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
     start = start_of(packet, hit)
@@ -57,22 +65,33 @@ def is_lit_unevenly(
         return True
     if abs(height) < sway and sway > max(LIMIT_OF_SWAY, tangent):
         return True
-    if height < -tangent:
+    if height < -tangent or is_below(aim, normal):
         return False
     if is_tube_dimmed(lit.world, start, axis, reach, tangent, length, work.stack):
         return True
-    return has_edge(lit.world, _view(packet, hit, lit.forward, axis, length, tangent), work.stack)
+    view = _view(packet, hit, start, lit.forward, axis, length, tangent)
+    if touching >= 0:
+        return has_edge_among(lit.world, view, work.touching, touching)
+    return has_edge(lit.world, view, work.stack)
 
 
 @device
 def _view(
-    packet: Packet, hit: int, forward: Vec, axis: Vec, length: float, tangent: float
+    packet: Packet,
+    hit: int,
+    start: Start,
+    forward: Vec,
+    axis: Vec,
+    length: float,
+    tangent: float,
 ) -> LampView:
     """Return the rays between a patch and a lamp."""
     reach, radius, depth = packet[REACH + hit], tangent * length, packet[PLANE_DEPTH + hit]
     end = depth + length * dot(axis, forward)
     least, most = crossed_share(depth, reach, end)
-    growth, point = (radius - reach) / length, load(packet, POINT, hit)
+    growth, point = (radius - reach) / length, start.point
+    cosine = 1.0 / math.sqrt(1.0 + tangent * tangent)
+    cone = Cone(start, reach, axis, cosine, tangent * cosine, 0.0, length, forward)
     return LampView(
         _bundle(point, axis, reach, growth, 0.0),
         _bundle(point, axis, reach, growth, 4.0 * reach),
@@ -84,7 +103,7 @@ def _view(
         NEAR_END * least * length,
         NEAR_END * most * length,
         packet[THICKEST + hit],
-        packet[ERROR_SCALE + hit],
+        cone,
     )
 
 

@@ -75,8 +75,12 @@ def spread_fan(
         fan[DIRECTION + ray], fan[DIRECTION + FAN + ray] = fan_point(points, ray, offset, keys)
     if not spread_to_sky(fan, rays, skies, aim.sky, normal):
         _spread_evenly(fan, rays, aim, normal)
-    for ray in range(rays):
-        set_end(fan, ray, aim, start, forward)
+    if aim.kind in (SPHERE, RECTANGLE):
+        for ray in range(rays):
+            set_end(fan, ray, aim, start, forward)
+    else:
+        for ray in range(rays):
+            _set_end_at(fan, ray, aim.size, start, forward)
     return count_open(fan, rays)
 
 
@@ -142,9 +146,14 @@ def weight_of(aim: Aim, cosine: float) -> float:
 @device
 def set_end(fan: Fan, ray: int, aim: Aim, start: Start, forward: Vec) -> None:
     """Set where a ray ends."""
-    direction = load_direction(fan, ray)
-    length = length_to(aim, start.point, direction)
-    way = scale(length, direction)
+    length = length_to(aim, start.point, load_direction(fan, ray))
+    _set_end_at(fan, ray, length, start, forward)
+
+
+@device
+def _set_end_at(fan: Fan, ray: int, length: float, start: Start, forward: Vec) -> None:
+    """Set where a ray ends, given its length."""
+    way = scale(length, load_direction(fan, ray))
     x, y, z = add(start.point, way)
     fan[END + ray] = x
     fan[END + FAN + ray] = y
