@@ -74,6 +74,20 @@ def test_threads_and_tiles_change_nothing() -> None:
 
 
 @compiled_only
+@pytest.mark.parametrize("opacity", [0.1, 0.4])
+def test_error_is_what_other_rays_show(opacity: float) -> None:
+    scene = vtray.Scene(camera(), [vtray.Ambient(1.0)], [])
+    scene.add_spheres(np.random.default_rng(3).normal(size=(40, 3)) * 1.5, 0.6, opacity=opacity)
+    images = [vtray.render(scene, seed=seed, exposure=1.0, tolerance=0.1) for seed in range(12)]
+    spread = np.std([image.linear for image in images], axis=0, ddof=1).max(axis=-1)
+    seen = images[0].error > 0.0
+    assert np.count_nonzero(seen) > 100
+    # The estimate is rather too much than too little.
+    found, told = (np.sqrt(np.mean(x[seen] ** 2)) for x in (spread, images[0].error))
+    assert 0.1 * told < found < told
+
+
+@compiled_only
 def test_rays_of_a_pixel_tell_its_light() -> None:
     image = vtray.render(soft_scene())
     layers = 0

@@ -108,7 +108,7 @@ def test_threads_and_tiles_change_nothing(samples: int) -> None:
 
 
 @compiled_only
-@pytest.mark.parametrize("kind", ["few", "many", "bonds", "copies"])
+@pytest.mark.parametrize("kind", ["many", "copies"])
 def test_pixels_asked_together_tell_what_each_alone_would(kind: str) -> None:
     scene = scene_of(kind)
     scene.lights = vtray.lights.studio(scene)

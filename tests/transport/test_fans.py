@@ -25,6 +25,7 @@ from vtray.transport.sampling.fans import (
     fan_points,
     fans_of_middles,
     fans_of_samples,
+    fans_of_share,
     halvings_for,
     offset_of,
     place_of,
@@ -150,6 +151,22 @@ def test_each_fan_and_all_together_are_nets(fan: int, keys: tuple[int, int]) -> 
     assert_net(found)
 
 
+@pytest.mark.parametrize(("share", "rays"), [(0.5, 32), (0.3, 32), (0.2, 16), (0.01, 8)])
+def test_fans_of_fewer_rays_are_nets_too(share: float, rays: int) -> None:
+    fans = fans_of_share(fans_of_middles(Noise(0.01, by_light=True)), share)
+    assert fans.rays == rays
+    keys = fan_keys(7, 2, 3, 5)
+
+    def fan(number: int) -> np.ndarray:
+        offset = offset_of(fans, 0, number)
+        points = range(fans.first, fans.first + rays)
+        return np.array([fan_point(fans.points, k, offset, keys) for k in points])
+
+    for number in range(4):
+        assert_net(fan(number))
+    assert_net(np.concatenate([fan(number) for number in range(4)]))
+
+
 @pytest.mark.parametrize("samples", [4, 16, 64])
 def test_fans_of_samples_are_nets_together_and_each(samples: int) -> None:
     fans = fans_of_samples(samples, Noise(0.01, by_light=True))
@@ -157,7 +174,7 @@ def test_fans_of_samples_are_nets_together_and_each(samples: int) -> None:
 
     def fan(sample: int, number: int) -> np.ndarray:
         place = place_of(fans.levels, sample, 7, 2, 3, 5)
-        offset = offset_of(fans.offsets, place, number)
+        offset = offset_of(fans, place, number)
         return np.array([fan_point(fans.points, k, offset, keys) for k in range(fans.rays)])
 
     # The first fans of 2, 4 ... samples that follow each other, and the first fans of each.

@@ -273,8 +273,20 @@ def _trace_fan(
     aim = aim_at(soft, light, start, normal)
     keys, forward = fan_keys(column, row, light, seed), scene.camera.forward
     place = place_of(fans.levels, traced.sample, column, row, light, seed)
-    offset = offset_of(fans.offsets, place, number)
-    spread_fan(fan, fans.rays, aim, start, normal, forward, soft.skies, fans.points, offset, keys)
+    offset = offset_of(fans, place, number)
+    spread_fan(
+        fan,
+        fans.rays,
+        aim,
+        start,
+        normal,
+        forward,
+        soft.skies,
+        fans.points,
+        fans.first,
+        offset,
+        keys,
+    )
     set_start(fan, 0, start, aim.error_scale + error_scale)
     for ray in range(fans.rays):
         blockers[ray] = NOTHING

@@ -481,7 +481,8 @@ def _spread_from(
         casting.lit.forward,
         casting.soft.skies,
         fans.points,
-        offset_of(fans.offsets, place, load_estimate(batch, member).fans),
+        fans.first,
+        offset_of(fans, place, load_estimate(batch, member).fans),
         fan_keys(column, row, light, seed),
     )
     return longest_ray(aim, start), rays

@@ -76,9 +76,14 @@ class Fans(NamedTuple):
     levels
         There are ``2**levels`` places for the samples of a pixel.
     points
-        What `fan_points` returns; for lights that share their fans, `shared_points`.
+        What `fan_points` returns, for so many rays, and then for half, a quarter ... of them; for
+        lights that share their fans, `shared_points`.
     offsets
-        What `block_offsets` returns.
+        What `block_offsets` returns, likewise.
+    first, first_block
+        Where those for so many rays begin in `points` and in `offsets`.
+    blocks
+        How many blocks there are of each.
     error
         The standard error that the light at a hit may have.
     by_light
@@ -91,6 +96,9 @@ class Fans(NamedTuple):
     levels: int
     points: Integers
     offsets: Integers
+    first: int
+    first_block: int
+    blocks: int
     error: float
     by_light: bool
 
@@ -99,13 +107,26 @@ class Fans(NamedTuple):
 def fans_of_share(fans: Fans, share: float) -> Fans:
     """Return which rays are cast from a hit of whose light only a share is seen.
 
-    So much less its error counts, and so many fewer rays do: the first ones of each fan.
+    So much less its error counts, and so many fewer rays its fans have.
     """
-    rays = fans.rays
+    rays, first, first_block = fans.rays, fans.first, fans.first_block
     while share <= 0.5 and rays > FEWEST:
+        first += rays
+        first_block += fans.blocks
         rays //= 2
         share *= 2.0
-    return Fans(rays, fans.fans, fans.levels, fans.points, fans.offsets, fans.error, fans.by_light)
+    return Fans(
+        rays,
+        fans.fans,
+        fans.levels,
+        fans.points,
+        fans.offsets,
+        first,
+        first_block,
+        fans.blocks,
+        fans.error,
+        fans.by_light,
+    )
 
 
 class Noise(NamedTuple):
@@ -164,11 +185,14 @@ def _fans(rays: int, fans: int, samples: int, noise: Noise) -> Fans:
     levels, error = (samples - 1).bit_length(), noise.of_one(samples)
     if noise.are_shared:
         fans = 1 << fans.bit_length() - 1
-        points, offsets = shared_points(rays, fans), block_offsets(rays, 1)
+        blocks = 1
+        points, offsets = shared_points(rays, fans), block_offsets(rays, blocks)
     else:
         blocks = max(1 << levels, 1 << (fans - 1).bit_length())
-        points, offsets = fan_points(rays), block_offsets(rays, blocks)
-    return Fans(rays, fans, levels, points, offsets, error, noise.by_light)
+        sizes = [rays >> k for k in range(rays.bit_length()) if k == 0 or rays >> k >= FEWEST]
+        points = np.concatenate([fan_points(size) for size in sizes], axis=1)
+        offsets = np.concatenate([block_offsets(size, blocks) for size in sizes], axis=1)
+    return Fans(rays, fans, levels, points, offsets, 0, 0, blocks, error, noise.by_light)
 
 
 def fan_points(fan: int) -> Integers:
@@ -252,10 +276,10 @@ def place_of(levels: int, sample: int, column: int, row: int, light: int, seed: 
 
 
 @device
-def offset_of(offsets: Integers, place: int, number: int) -> tuple[int, int]:
+def offset_of(fans: Fans, place: int, number: int) -> tuple[int, int]:
     """Return the offset of a fan, given by its number, of the sample at a place."""
-    block = place ^ number
-    return offsets[0, block], offsets[1, block]
+    block = fans.first_block + (place ^ number)
+    return fans.offsets[0, block], fans.offsets[1, block]
 
 
 @device

@@ -52,6 +52,7 @@ def spread_fan(
     forward: Vec,
     skies: Skies | None,
     points: NDArray[np.int64],
+    first: int,
     offset: tuple[int, int],
     keys: tuple[int, int],
 ) -> int:
@@ -67,12 +68,14 @@ def spread_fan(
         The unit direction in which the camera looks.
     skies
         The skies whose colour changes with the direction.
-    points, offset, keys
-        The points that choose the rays, as `fans.fan_point` takes them.
+    points, first, offset, keys
+        The points that choose the rays, from the first on, as `fans.fan_point` takes them.
     """
     # A loop for each step: only so are they vectorised.
     for ray in range(rays):
-        fan[DIRECTION + ray], fan[DIRECTION + FAN + ray] = fan_point(points, ray, offset, keys)
+        fan[DIRECTION + ray], fan[DIRECTION + FAN + ray] = fan_point(
+            points, first + ray, offset, keys
+        )
     if not spread_to_sky(fan, rays, skies, aim.sky, normal):
         _spread_evenly(fan, rays, aim, normal)
     if aim.kind in (SPHERE, RECTANGLE):
