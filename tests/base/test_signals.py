@@ -45,6 +45,39 @@ os.replace = replace
 write_own(Path(sys.argv[1]), b"code")
 """
 
+NEW = """
+import os, signal, sys, threading, time
+from pathlib import Path
+from vtray.base.{module} import {write}
+from vtray.base.signals import leave_on_signals
+
+leave_on_signals()
+made, usual, waiting = threading.Event(), os.open, threading.Event()
+
+def tell():
+    made.wait()
+    signal.raise_signal(signal.SIGTERM)  # this thread gets it, to whom it is not blocked
+    waiting.set()
+
+def opened(path, flags, *rest, **named):
+    found = usual(path, flags, *rest, **named)
+    if flags & os.O_CREAT:
+        if {is_elsewhere}:
+            made.set()
+            waiting.wait()
+        else:
+            os.kill(os.getpid(), signal.SIGTERM)
+        for _ in range(1000):
+            pass
+    return found
+
+if {is_elsewhere}:
+    threading.Thread(target=tell, daemon=True).start()
+import fcntl, tempfile
+os.open = opened
+{write}(Path(sys.argv[1]), {content})
+"""
+
 AT_AN_IMPORT = """
 import builtins, os, signal, sys
 
@@ -100,6 +133,20 @@ def test_nothing_is_left_of_a_file_half_written(name: str, status: int, tmp_path
     assert (done.returncode, done.stdout, done.stderr) == (status, b"", b"")
     assert [item.name for item in tmp_path.iterdir()] == ["a.png"]
     assert path.read_bytes() == b"precious"
+
+
+@pytest.mark.parametrize("is_elsewhere", [False, True])
+@pytest.mark.parametrize(
+    ("module", "write", "content"),
+    [("atomic_file", "write_whole", "time.sleep"), ("own_files", "write_own", "b'code'")],
+)
+def test_nothing_is_left_of_a_file_just_made(
+    module: str, write: str, content: str, is_elsewhere: bool, tmp_path: Path
+) -> None:
+    code = NEW.format(module=module, write=write, content=content, is_elsewhere=is_elsewhere)
+    done = run(code, tmp_path / "a")
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGTERM, b"", b"")
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_nothing_is_left_of_a_kernel_half_written(tmp_path: Path) -> None:

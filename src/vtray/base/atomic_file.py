@@ -165,7 +165,8 @@ def _check_target(path: Path) -> os.stat_result | None:
 @contextlib.contextmanager
 def _temporary(target: Path) -> Iterator[tuple[BinaryIO, str]]:
     """Give an empty file beside another, open and by its name; in the end it is gone."""
-    handle, name, lock = _open_temporary(target)
+    lock: int | None = None
+    handle, name = -1, ""
 
     def remove() -> None:
         # Where it has taken the name of the target, the old name may be that of another process.
@@ -173,7 +174,10 @@ def _temporary(target: Path) -> Iterator[tuple[BinaryIO, str]]:
             if lock is None or os.path.samestat(os.fstat(lock), os.lstat(name)):
                 os.unlink(name)
 
-    with LastStep(remove):
+    with contextlib.ExitStack() as steps:
+        with blocked():  # once there is a file, it is known how to remove it
+            handle, name, lock = _open_temporary(target)
+            steps.enter_context(LastStep(remove))
         try:
             with os.fdopen(handle, "wb") as file:
                 yield file, name

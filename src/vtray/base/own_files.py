@@ -14,7 +14,7 @@ from functools import reduce
 from operator import or_
 from pathlib import Path
 
-from vtray.base.signals import LastStep
+from vtray.base.signals import LastStep, blocked
 
 HAS_OWNERS = hasattr(os, "geteuid")
 
@@ -66,14 +66,17 @@ def write_own(file: Path, content: bytes) -> None:
     """
     import tempfile
 
-    # A file made so can be read and written by its owner alone.
-    opened, name = tempfile.mkstemp(prefix=f"{file.name}.", dir=file.parent)
+    opened, name = -1, ""
 
     def remove() -> None:
         with contextlib.suppress(OSError):
             os.unlink(name)
 
-    with LastStep(remove):
+    with contextlib.ExitStack() as steps:
+        with blocked():  # once there is a file, it is known how to remove it
+            # A file made so can be read and written by its owner alone.
+            opened, name = tempfile.mkstemp(prefix=f"{file.name}.", dir=file.parent)
+            steps.enter_context(LastStep(remove))
         try:
             with os.fdopen(opened, "wb") as stream:
                 stream.write(content)

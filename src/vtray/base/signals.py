@@ -22,6 +22,7 @@ INTERRUPTED = 130
 
 _last_steps: "list[Callable[[], object]]" = []
 _postponed: "list[Postponed]" = []
+_blocked: "list[blocked]" = []
 
 
 def leave_on_signals() -> None:
@@ -34,16 +35,26 @@ def leave_on_signals() -> None:
 
 
 class blocked:  # noqa: N801 - used like a function
-    """A context in which a signal has to wait, where half of the work would be worse than none."""
+    """A context in which a signal has to wait, where half of the work would be worse than none.
+
+    Signals are kept from the thread, so that no call ends early; one that another thread gets is
+    noted, and sent again.
+    """
+
+    number = 0
 
     def __enter__(self) -> None:
         numbers = [getattr(signal, name) for name in SIGNALS if hasattr(signal, name)]
+        _blocked.append(self)
         if hasattr(signal, "pthread_sigmask"):  # not in Windows
             self._before = signal.pthread_sigmask(signal.SIG_BLOCK, numbers)
 
     def __exit__(self, *_: object) -> None:
+        _blocked.remove(self)
         if hasattr(signal, "pthread_sigmask"):
             signal.pthread_sigmask(signal.SIG_SETMASK, self._before)
+        if self.number:
+            signal.raise_signal(self.number)
 
 
 class LastStep:
@@ -105,7 +116,10 @@ def end_by(number: int) -> None:
 
 
 def _leave(number: int, _frame: "FrameType | None") -> None:
-    """End the process, unless that is postponed."""
+    """End the process, unless that has to wait, or is postponed."""
+    if _blocked:
+        _blocked[-1].number = number
+        return
     if _postponed and not _postponed[-1].number:
         _postponed[-1].number = number
         return
