@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from written_out import write_out
 
 import vtray
-from conftest import JIT, once
+from conftest import once
 from vtray.figures.flat import CONTRAST, DARKEST, lightness_range, lit_colors
 from vtray.figures.oklab import oklab_to_linear, oklab_to_srgb, srgb_to_oklab
 
@@ -139,7 +139,7 @@ def test_halves_of_cylinders_have_their_colors(one_for_all: bool) -> None:
 
 @once
 def test_copies_have_the_colors_of_what_is_copied() -> None:
-    scene = molecules(size=(48, 36) if JIT else (24, 18))
+    scene = molecules(size=(48, 36))
     image, written = vtray.render(scene), vtray.render(write_out(scene)[0])
     assert {1, 3} <= set(np.unique(image.ids[..., 0]))
     assert image.halves[image.copies >= 0].any()

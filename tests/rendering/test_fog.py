@@ -148,7 +148,7 @@ def test_lamps_are_seen_through_it() -> None:
 
 @once
 @pytest.mark.parametrize("integrator", ["whitted", "path"])
-@pytest.mark.parametrize("samples", [1, pytest.param(9, marks=once)])
+@pytest.mark.parametrize("samples", [1, 9])
 def test_light_over_many_surfaces_is_in_it(integrator: str, samples: int) -> None:
     found = world()
     found.add_sphere((-2, 1, 6), 2.0, material="mirror")

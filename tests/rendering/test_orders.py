@@ -64,7 +64,7 @@ def assert_add_up(image: vtray.Image) -> None:
 
 
 @once
-@pytest.mark.parametrize("samples", [1, pytest.param(4, marks=once)])
+@pytest.mark.parametrize("samples", [1, 4])
 @pytest.mark.parametrize("integrator", ["direct", "whitted", "path"])
 def test_orders_add_up_to_the_picture(integrator: str, samples: int) -> None:
     image = rendered(all_kinds(), integrator, samples=samples, tolerance=0.1)

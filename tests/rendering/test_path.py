@@ -46,7 +46,7 @@ def test_white_furnaces_are_white(material: Material | str, sky: Any) -> None:
 
 @once
 @pytest.mark.parametrize("share", [0.25, 0.75])
-@pytest.mark.parametrize("depth", [0, 1, 3, 7, 40] if JIT else [0, 3])
+@pytest.mark.parametrize("depth", [0, 1, 3, 7, 40])
 def test_a_hollow_ball_is_lit_by_itself(share: float, depth: int) -> None:
     """A light in the middle lights all of it alike, and each bounce a share of that again.
 

@@ -85,7 +85,7 @@ def test_samples_near_each_other_tell_what_each_alone_would(kind: str) -> None:
     scene = scene_of(kind)
     # A mirror, so that each sample can be traced by itself.
     scene.add_sphere((1.5, -1.5, 0.5), 0.5, material="mirror")
-    samples = 16 if JIT else 3
+    samples = 16
     image = render(scene, integrator="whitted", samples=samples, filter="box", tolerance=TOLERANCE)
     hits = 0
     for y in range(1, SIZE[1], 2 * STEP):
@@ -94,7 +94,7 @@ def test_samples_near_each_other_tell_what_each_alone_would(kind: str) -> None:
             mean = np.mean([tree.light for tree in told], axis=0)
             assert mean == pytest.approx(image.linear[y, x], rel=1e-12, abs=1e-12)
             hits += told[0].hit is not None
-    assert hits > (10 if JIT else 1)
+    assert hits > 10
 
 
 @compiled_only

@@ -10,7 +10,7 @@ from test_trace_pixel import floor_pixel, lit_floor, marks, texts
 from written_out import Origin, write_out
 
 import vtray
-from conftest import JIT, once
+from conftest import once
 from vtray.figures.ray_tree import RayTree, Surface
 
 pytest.importorskip("matplotlib", reason="needs the extra vtray[figure]")
@@ -36,13 +36,11 @@ def as_copied(tree: RayTree, origins: list[Origin]) -> RayTree:
 
 @once
 def test_rays_are_those_of_copies_written_out() -> None:
-    scene = molecules(size=(36, 27) if JIT else (12, 9))
+    scene = molecules(size=(36, 27))
     written, origins = write_out(scene)
     image, other = vtray.render(scene), vtray.render(written)
     seen = other.ids[..., 0]
-    pixels = [
-        pixel for k in np.unique(seen) for pixel in np.argwhere(seen == k)[:: 4 if JIT else 9]
-    ]
+    pixels = [pixel for k in np.unique(seen) for pixel in np.argwhere(seen == k)[::4]]
     hits, blockers = set(), set()
     for row, column in pixels:
         tree = vtray.trace_pixel(image, column, row)
@@ -50,9 +48,8 @@ def test_rays_are_those_of_copies_written_out() -> None:
         if tree.hit is not None:
             hits.add((tree.hit.surface.object, tree.hit.surface.part))
         blockers |= {(ray.blocker.object, ray.blocker.part) for ray in tree.lights if ray.blocker}
-    if JIT:
-        assert hits == {(0, None), *((1, k) for k in range(4)), (2, None), (3, 1), (5, None)}
-        assert blockers >= {(1, 0), (1, 1), (1, 3), (2, None), (3, 1)}
+    assert hits == {(0, None), *((1, k) for k in range(4)), (2, None), (3, 1), (5, None)}
+    assert blockers >= {(1, 0), (1, 1), (1, 3), (2, None), (3, 1)}
 
 
 def in_lines(name: str) -> str:

@@ -174,10 +174,9 @@ def _temporary(target: Path) -> Iterator[tuple[BinaryIO, str]]:
             if lock is None or os.path.samestat(os.fstat(lock), os.lstat(name)):
                 os.unlink(name)
 
-    with contextlib.ExitStack() as steps:
-        with blocked():  # once there is a file, it is known how to remove it
+    with LastStep(remove):
+        with blocked():  # where there is a file, its name is known
             handle, name, lock = _open_temporary(target)
-            steps.enter_context(LastStep(remove))
         try:
             with os.fdopen(handle, "wb") as file:
                 yield file, name

@@ -72,11 +72,10 @@ def write_own(file: Path, content: bytes) -> None:
         with contextlib.suppress(OSError):
             os.unlink(name)
 
-    with contextlib.ExitStack() as steps:
-        with blocked():  # once there is a file, it is known how to remove it
+    with LastStep(remove):
+        with blocked():  # where there is a file, its name is known
             # A file made so can be read and written by its owner alone.
             opened, name = tempfile.mkstemp(prefix=f"{file.name}.", dir=file.parent)
-            steps.enter_context(LastStep(remove))
         try:
             with os.fdopen(opened, "wb") as stream:
                 stream.write(content)

@@ -52,8 +52,6 @@ class Batch(NamedTuple):
         The hits, at most ``FAN``.
     active
         The numbers of those in the batch that cast a fan at a time.
-    waiting
-        Those of others that do so later.
     spent
         What the lights so far have of the variance that all may have.
     estimate
@@ -63,7 +61,6 @@ class Batch(NamedTuple):
     is_taken: NDArray[np.bool_]
     hit: NDArray[np.int64]
     active: NDArray[np.int64]
-    waiting: NDArray[np.int64]
     spent: NDArray[np.float64]
     estimate: NDArray[np.float64]
 
@@ -76,7 +73,6 @@ def new_batch() -> Batch:
     """Return the batch of one thread."""
     return Batch(
         np.zeros(LANES, np.bool_),
-        np.zeros(FAN, np.int64),
         np.zeros(FAN, np.int64),
         np.zeros(FAN, np.int64),
         np.zeros(FAN),

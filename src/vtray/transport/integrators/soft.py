@@ -192,9 +192,7 @@ def add_soft_lights(
 def most_of(faded: Faded | None, fans: Fans, samples: int, is_near: bool) -> tuple[int, float]:
     """Return how many hits of a packet may be in a batch, and how many pixels from its first."""
     # An argument that is None is known to the compiler, which drops what depends on that alone.
-    if faded is not None:
-        return 1, APART
-    if not is_near:
+    if faded is not None or not is_near:
         return 1, APART
     return (FAN // fans.rays, APART) if samples > 1 else (ASKED, FAR_APART)
 
@@ -238,12 +236,11 @@ def _light_batch(
     active = _leave_even(packet, active, casting, first, light, is_wide, touching, work)
     if count <= FAN // fans.rays:
         return _cast_together(packet, active, casting, fans, first, light, touching, work)
-    for k in range(active):
-        batch.waiting[k] = batch.active[k]
     cast = 0
     for k in range(active):
-        batch.active[0] = batch.waiting[k]
-        alone = Seen(aim_from(packet, batch.hit[batch.waiting[k]], soft, light), True)
+        # Those after the first stay where they are.
+        batch.active[0] = batch.active[k]
+        alone = Seen(aim_from(packet, batch.hit[batch.active[0]], soft, light), True)
         cast += _cast_together(packet, 1, casting, fans, alone, light, touching, work)
     return cast
 
@@ -279,11 +276,10 @@ def _find_around(
 @device
 def _widest_reach(packet: Packet, count: int, is_wide: bool | None, work: Workspace) -> float:
     """Return how far the pixels of active hits reach at the most, 0 where that is not asked."""
-    widest = 0.0
-    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
-        if is_wide:
-            for k in range(count):
-                widest = max(widest, packet[REACH + work.batch.hit[work.batch.active[k]]])
+    widest, batch = 0.0, work.batch
+    if _is_asked(is_wide):
+        for k in range(count):
+            widest = max(widest, packet[REACH + batch.hit[batch.active[k]]])
     return widest * WIDER
 
 
@@ -302,17 +298,16 @@ def _leave_even(
 
     Return how many these are.
     """
-    active, batch = count, work.batch
+    if not _is_asked(is_wide):
+        return count
+    active, batch = 0, work.batch
     is_known = first.aim.kind == SUN and are_balls(casting.lit.world, work.touching, touching)
     known = touching if is_known else MANY
-    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
-        if is_wide:
-            active = 0
-            for k in range(count):
-                member = batch.active[k]
-                if not _is_uneven(packet, batch.hit[member], casting, light, known, work):
-                    batch.active[active] = member
-                    active += 1
+    for k in range(count):
+        member = batch.active[k]
+        if not _is_uneven(packet, batch.hit[member], casting, light, is_wide, known, work):
+            batch.active[active] = member
+            active += 1
     return active
 
 
@@ -376,15 +371,11 @@ def _leave_above(
     batch, active = work.batch, 0
     for member in range(count):
         hit = batch.hit[member]
-        if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
-            if is_wide:  # noqa: SIM102
-                if packet[UNEVEN + hit] != 0.0:
-                    continue
+        if _is_asked(is_wide) and packet[UNEVEN + hit] != 0.0:
+            continue
         aim = aim_of(packet, hit, casting.soft, light, first)
         if is_below(aim, load(packet, NORMAL, hit)):
-            if is_wide is not None:  # noqa: SIM102
-                if is_wide:
-                    _is_uneven(packet, hit, casting, light, MANY, work)
+            _is_uneven(packet, hit, casting, light, is_wide, MANY, work)
             _add_shares(packet, hit, casting, light, DARK)
         else:
             store_estimate(batch, member, no_estimate())
@@ -565,10 +556,26 @@ def _keep_share(
 
 
 @device
+def _is_asked(is_wide: bool | None) -> bool:
+    """Tell whether it is asked if pixels look the same everywhere."""
+    return False if is_wide is None else is_wide
+
+
+@device
 def _is_uneven(
-    packet: Packet, hit: int, casting: Casting, light: int, touching: int, work: Workspace
+    packet: Packet,
+    hit: int,
+    casting: Casting,
+    light: int,
+    is_wide: bool | None,
+    touching: int,
+    work: Workspace,
 ) -> bool:
-    """Tell whether the pixel of a hit gets samples for a light, and note it."""
-    uneven = is_lit_unevenly(packet, hit, casting.lit, casting.soft, light, work, touching)
-    packet[UNEVEN + hit] = 1.0 if uneven else packet[UNEVEN + hit]
-    return uneven
+    """Tell whether the pixel of a hit gets samples for a light, if that is asked, and note it."""
+    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
+        if is_wide:
+            lit, soft = casting.lit, casting.soft
+            uneven = is_lit_unevenly(packet, hit, lit, soft, light, work, touching)
+            packet[UNEVEN + hit] = 1.0 if uneven else packet[UNEVEN + hit]
+            return uneven
+    return False
