@@ -2,7 +2,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help run test coverage memtest arm lint format schema scenes gallery docs peers bench check clean fuzz
+.PHONY: help run test coverage memtest arm lint format schema scenes gallery docs peers cycles bench check clean fuzz
 
 help: ## list what can be made
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -62,6 +62,13 @@ benchmarks/.venv/ready: benchmarks/peers/requirements.txt
 	benchmarks/.venv/bin/pip install --quiet -r benchmarks/peers/requirements.txt
 	touch $@
 
+cycles: benchmarks/.venv-cycles/ready ## install Cycles for the benchmarks, 400 MB; for Python 3.11
+
+benchmarks/.venv-cycles/ready:
+	$(PYTHON) -m venv benchmarks/.venv-cycles
+	benchmarks/.venv-cycles/bin/pip install --quiet bpy
+	touch $@
+
 bench: .venv/ready ## measure, and write the tables of docs/benchmarks.md and README.md
 	$(BIN)/pip install --quiet --editable '.[bench]'
 	$(BIN)/python benchmarks/run.py
@@ -69,4 +76,4 @@ bench: .venv/ready ## measure, and write the tables of docs/benchmarks.md and RE
 check: lint test coverage ## all that must pass before a change lands
 
 clean: ## remove what was made
-	rm -rf .venv benchmarks/.venv build dist .coverage .hypothesis .pytest_cache .mypy_cache .ruff_cache
+	rm -rf .venv benchmarks/.venv benchmarks/.venv-cycles build dist .coverage .hypothesis .pytest_cache .mypy_cache .ruff_cache

@@ -22,6 +22,7 @@ from measures.copies import time_copies
 from measures.from_arrays import time_arrays
 from measures.machine import cores, machine
 from measures.movies import time_movies
+from measures.paths import time_paths
 from measures.rendering import THREADS, time_cube, time_scene, time_threads
 from measures.soft_light import FULL, QUICK, measure_soft_light
 from measures.whitted import measure_whitted
@@ -41,7 +42,7 @@ WRITTEN = {ROOT / "docs" / "benchmarks.md": full_report, ROOT / "README.md": rea
 """The pages with tables, and what writes them."""
 PARTS = (
     *("startup", *SCENES, "threads", "cube", "samples"),
-    *("soft-light", "whitted", "bonds", "copies", "movies", "arrays", "scaling"),
+    *("soft-light", "whitted", "paths", "bonds", "copies", "movies", "arrays", "scaling"),
 )
 REPEATS, QUICK_REPEATS = 5, 2
 QUICK_SIDE = 256
@@ -50,6 +51,8 @@ ATOMS, QUICK_ATOMS = 100_000, 1_000
 COPIED, QUICK_COPIED = 100_000, 1_000
 MOVING, QUICK_MOVING = 100_000, 1_000
 FRAMES, QUICK_FRAMES = 200, 8
+PATHS, QUICK_PATHS = (100_000, 1_000_000), (1_000,)
+PATHS_SIDE, QUICK_PATHS_SIDE = 512, 64
 COUNTS, QUICK_COUNTS = (10_000, 100_000, 1_000_000, 10_000_000), (1_000, 10_000)
 SCALING_REPEATS = SOFT_REPEATS = 3
 
@@ -131,7 +134,7 @@ def measure(folder: Path, parts: list[str], *, quick: bool) -> Results:
 
 
 def _measure_light(results: Results, folder: Path, parts: list[str], *, quick: bool) -> None:
-    """Measure soft light, mirrors and glass, if they are among the parts."""
+    """Measure soft light, mirrors and glass, and paths, if they are among the parts."""
     if "soft-light" in parts:
         _say("soft light")
         times = min(results.repeats, SOFT_REPEATS)
@@ -141,6 +144,13 @@ def _measure_light(results: Results, folder: Path, parts: list[str], *, quick: b
         _say("mirrors and glass")
         side = QUICK_SIDE if quick else SIDE
         results.whitted = measure_whitted(side, THREADS, folder, results.repeats)
+    if "paths" in parts:
+        side = QUICK_PATHS_SIDE if quick else PATHS_SIDE
+        times = min(results.repeats, SOFT_REPEATS)
+        for count in QUICK_PATHS if quick else PATHS:
+            title = f"{count:,} spheres, {side} x {side}"
+            _say(f"paths: {title}")
+            results.paths[title] = time_paths(count, side, THREADS, folder, times)
 
 
 def _measure_own_scenes(results: Results, folder: Path, parts: list[str], *, quick: bool) -> None:

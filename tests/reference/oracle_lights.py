@@ -6,7 +6,6 @@ is in doubt: objects that are a little larger or smaller would stop it or not, o
 askew.
 """
 
-from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,7 +19,8 @@ Array = np.ndarray
 Scene = dict[str, Any]
 Long = np.longdouble
 
-FANS = 2**16
+FIRST_FANS, ORDER = 2**28, 2**29
+ORDER_DIGITS = 20
 FAR = Long(2) ** 2000
 """How long rays are that end nowhere."""
 
@@ -154,7 +154,7 @@ class SoftOracle:
         return Hit(item, met.points[0], met.normals[0], float(met.errors[0]))
 
     def fan(self, hit: Hit, light: int, column: int, row: int, seed: int, rays: int) -> Fan:
-        """Return the rays from a hit to one of the soft lights.
+        """Return the rays from a hit to one of the soft lights: the first fan of a pixel's middle.
 
         Parameters
         ----------
@@ -167,8 +167,11 @@ class SoftOracle:
         rays
             How many.
         """
-        keys = sample_places.pixel_keys(column, row, FANS + light, seed)
-        numbers = sobol(rays)
+        square = [pixel >> ORDER_DIGITS // 2 for pixel in (column, row)]
+        order, _ = sample_places.pixel_keys(*square, ORDER + light, seed)
+        place = sample_places.place_in_order(column, row, ORDER_DIGITS, order)
+        keys = sample_places.pixel_keys(*square, FIRST_FANS + light, seed)
+        numbers = np.array(sample_places.sobol(rays, place * rays), np.uint64)
         points = np.stack(
             [sample_places.owen(numbers[k], np.uint64(keys[k])) for k in range(2)], axis=-1
         )
@@ -361,12 +364,6 @@ class SoftOracle:
         forward = self.exact.forward
         depth = dot(rays.start, forward) + at * (dot(rays.ways, forward) + rays.askew * rays.turn)
         return apart & (depth > reach * (1 + rays.more / 4))
-
-
-@cache
-def sobol(count: int) -> Array:
-    """Return the first points of Sobol's sequence, (2, count) of 32 bits each."""
-    return np.array(sample_places.sobol(count), np.uint64)
 
 
 def unit(vector: Array) -> Array:

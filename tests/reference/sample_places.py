@@ -95,18 +95,24 @@ def mean(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
     return light / total[..., None]
 
 
-def sobol(count: int) -> list[list[int]]:
+def sobol(count: int, begin: int = 0) -> list[list[int]]:
     """Return two coordinates of Sobol's points, from Pascal's triangle, as 32 binary digits each.
 
-    The first digit after the point is the highest.
+    The first digit after the point is the highest. So many points follow that of number `begin`.
     """
-    first, second = [], []
-    for n in range(count):
-        digits = [n >> i & 1 for i in range(32)]
-        first.append(from_digits(digits))
-        pascal = [sum(math.comb(i, j) * digits[i] for i in range(j, 20)) % 2 for j in range(32)]
-        second.append(from_digits(pascal))
-    return [first, second]
+    digits = np.arange(begin, begin + count)[:, None] >> np.arange(32) & 1
+    pascal = np.array([[math.comb(i, j) % 2 for j in range(32)] for i in range(32)])
+    return [
+        [from_digits(point) for point in axis.tolist()] for axis in (digits, digits @ pascal % 2)
+    ]
+
+
+def place_in_order(column: int, row: int, digits: int, key: int) -> int:
+    """Return the place of a pixel among ``2**digits`` that form a square, neighbours together."""
+    interleaved = 0
+    for k in range(digits // 2):
+        interleaved += (column >> k & 1) << 2 * k | (row >> k & 1) << 2 * k + 1
+    return int(owen(interleaved << 32 - digits, key) * 2**digits)
 
 
 def from_digits(digits: list[int]) -> int:

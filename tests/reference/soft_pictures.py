@@ -26,7 +26,7 @@ from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
 from vtray.rendering.pack_lights import FAR
 from vtray.transport.integrators import reference
-from vtray.transport.sampling.fans import NO_OFFSET, Noise, fan_keys, fan_point, fans_of_middles
+from vtray.transport.sampling.fans import Noise, fan_of, fan_point, fans_of_middles
 
 Scene = dict[str, Any]
 
@@ -97,8 +97,8 @@ def compare_fans(
             share = np.array(found[: expected.weights.shape[1]])
             shares.append(share)
             sky = by_rules.skies.get(light)
-            keys = fan_keys(column, row, light, seed)
-            order = _order(fans.points, keys, expected.points)
+            own = fan_of(fans, 0, 0, column, row, light, seed)
+            order = _order(fans.points, own, expected.points)
             is_lamp = by_rules.lights[light]["type"] in ("sphere", "rectangle")
             longest = np.inf if is_lamp else FAR * unit
             _compare(fan, order, hit, expected, unit, longest, sky)
@@ -121,9 +121,14 @@ def is_same(hit: Hit, point: np.ndarray, normal: np.ndarray) -> bool:
     return bool(away <= 2.0**-30 * hit.error and hit.normal @ normal > 1 - 2.0**-20)
 
 
-def _order(points: np.ndarray, keys: tuple[int, int], expected: np.ndarray) -> np.ndarray:
-    """Return which of the points expected vtray's rays have, (rays,): the same, in any order."""
-    found = np.array([fan_point(points, k, NO_OFFSET, keys) for k in range(len(expected))])
+def _order(
+    points: np.ndarray, own: tuple[tuple[int, int], tuple[int, int]], expected: np.ndarray
+) -> np.ndarray:
+    """Return which of the points expected vtray's rays have, (rays,): the same, in any order.
+
+    What `fan_of` returns makes them of the points of all fans.
+    """
+    found = np.array([fan_point(points, k, *own) for k in range(len(expected))])
     one, other = (np.lexsort(item.T) for item in (found, expected))
     np.testing.assert_array_equal(found[one], expected[other])
     order = np.empty(len(one), int)

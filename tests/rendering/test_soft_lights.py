@@ -150,6 +150,24 @@ def share(scene: vtray.Scene) -> float:
     return float(render(scene, exposure=1.0).linear.mean()) / 255
 
 
+@compiled_only
+def test_noise_of_neighbours_cancels() -> None:
+    """What 4 x 4 pixels are off by on the mean is less than a quarter of what one is off by."""
+    scene = vtray.Scene()
+    scene.add_plane((0, 0, 0), normal=(0, 0, 1))
+    places = [(x, y, 1.2) for x in range(-4, 5) for y in range(-4, 5)]
+    scene.add_spheres(places, 0.35)
+    scene.lights = [vtray.Ambient()]
+    # Between the balls, onto the floor.
+    scene.camera = vtray.Camera.orthographic((0.5, 0.5, 3), (0.5, 0.5, 0), 0.2, size=(32, 32))
+    pictures = np.array(
+        [render(scene, exposure=1, tolerance=100, seed=seed).linear for seed in range(16)]
+    )
+    off = (pictures - pictures.mean(axis=0))[..., 0]
+    of_squares = off.reshape(16, 8, 4, 8, 4).mean(axis=(2, 4))
+    assert of_squares.std() < 0.2 * off.std()
+
+
 @pytest.mark.parametrize("light", [vtray.Sky(), vtray.Ambient(), vtray.Ambient(distance=2)])
 def test_nothing_near_leaves_all_the_light(light: Any) -> None:
     assert share(floor(light)) == 1.0

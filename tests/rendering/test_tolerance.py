@@ -10,6 +10,7 @@ from conftest import JIT, compiled_only, once
 from vtray import render
 
 SIZE = (48, 36) if JIT else (6, 5)
+SEEDS = range(6)
 SUN = vtray.Sun((0.5, 0.6, -1), 0.8, angle=30)
 LIGHTS: dict[str, list[Any]] = {
     "ambient": [vtray.Ambient()],
@@ -46,21 +47,23 @@ def scene_of(lights: list[Any], kind: str = "balls") -> vtray.Scene:
 def test_errors_are_what_is_off_from_a_long_render(lights: list[Any], kind: str) -> None:
     scene = scene_of(lights, kind)
     long = render(scene, exposure=1.0, tolerance=2e-3, seed=9)
+    seen = np.isfinite(long.depth)
     for tolerance in (0.03, 0.008):
-        image = render(scene, exposure=1.0, tolerance=tolerance)
+        # Pixels of one picture are not independent.
+        images = [render(scene, exposure=1.0, tolerance=tolerance, seed=seed) for seed in SEEDS]
+        errors = np.array([image.error for image in images])
         # What no ray may see counts as well: half a ray of each light.
-        assert image.error.max() <= np.hypot(tolerance, 0.5 / 64 * 1.5) * image.white
-        off = np.abs(image.linear - long.linear).max(axis=2)
-        allowed = np.hypot(image.error, long.error)
-        seen = np.isfinite(image.depth)
+        assert errors.max() <= np.hypot(tolerance, 0.5 / 64 * 1.5) * long.white
+        off = np.array([np.abs(image.linear - long.linear).max(axis=2) for image in images])
+        allowed = np.hypot(errors, long.error)
         # Not too small on the whole, nor by far anywhere; bars finer than rays fool it most.
         honest = 1.0 if kind == "balls" else 1.2
-        assert np.sqrt((off[seen] ** 2).mean()) < honest * np.sqrt((allowed[seen] ** 2).mean())
+        assert (off[:, seen] ** 2).mean() < honest**2 * (allowed[:, seen] ** 2).mean()
         assert (off > 3 * allowed + 1e-9).mean() < 0.02
-        assert (off < 6 * allowed + 1e-9).all()
+        assert (off > 6 * allowed + 1e-9).mean() < 1 / errors[0].size
     # Nor useless.
     if kind == "balls":
-        assert image.error[seen].mean() < 4 * off[seen].mean() + 1e-3 * image.white
+        assert errors[:, seen].mean() < 4 * off[:, seen].mean() + 1e-3 * long.white
 
 
 @compiled_only

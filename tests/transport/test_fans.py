@@ -1,4 +1,4 @@
-"""Fans of points in a light: nets, runs that share a cell, and their own for each light."""
+"""Fans of points in a light: nets, those of neighbours too, and their own for each light."""
 
 import itertools
 from typing import Any
@@ -18,18 +18,24 @@ from vtray.transport.sampling.fans import (
     COARSER,
     NO_OFFSET,
     RUN,
+    Fans,
     Noise,
     block_offsets,
     fan_keys,
+    fan_of,
     fan_point,
     fan_points,
     fans_of_middles,
     fans_of_samples,
     fans_of_share,
     halvings_for,
-    offset_of,
     place_of,
     shared_keys,
+)
+from vtray.transport.sampling.pixel_order import (
+    order_offset,
+    order_offsets,
+    place_in_order,
 )
 from vtray.transport.sampling.sobol import (
     IMAGE_PLACE,
@@ -43,6 +49,7 @@ WORDS = st.sampled_from([0, 1, 2**16, 2**31, 2**32 - 1]) | st.integers(0, 2**32 
 KEYS = st.tuples(WORDS, WORDS)
 FANS = [8, 16, 32, 64, 128, 256]
 SIDE = 64 if JIT else 24
+NOISE = Noise(0.01, by_light=True)
 
 
 def points_of(fan: int, blocks: int) -> np.ndarray:
@@ -151,40 +158,74 @@ def test_each_fan_and_all_together_are_nets(fan: int, keys: tuple[int, int]) -> 
     assert_net(found)
 
 
+def points_of_fan(fans: Fans, number: int, sample: int, x: int, y: int) -> np.ndarray:
+    """Return the points of a fan of a pixel to light 3, with the seed 5, (rays, 2)."""
+    own, first = fan_of(fans, number, sample, x, y, 3, 5), fans.first
+    points = range(first, first + fans.rays)
+    return np.array([fan_point(fans.points, k, *own) for k in points])
+
+
 @pytest.mark.parametrize(("share", "rays"), [(0.5, 32), (0.3, 32), (0.2, 16), (0.01, 8)])
 def test_fans_of_fewer_rays_are_nets_too(share: float, rays: int) -> None:
-    fans = fans_of_share(fans_of_middles(Noise(0.01, by_light=True)), share)
+    fans = fans_of_share(fans_of_middles(NOISE), share)
     assert fans.rays == rays
-    keys = fan_keys(7, 2, 3, 5)
-
-    def fan(number: int) -> np.ndarray:
-        offset = offset_of(fans, 0, number)
-        points = range(fans.first, fans.first + rays)
-        return np.array([fan_point(fans.points, k, offset, keys) for k in points])
-
-    for number in range(4):
-        assert_net(fan(number))
-    assert_net(np.concatenate([fan(number) for number in range(4)]))
+    found = [points_of_fan(fans, number, 0, 7, 2) for number in range(8)]
+    for one in found:
+        assert_net(one)
+    assert_net(np.concatenate(found[4:]))
+    of_neighbours = [points_of_fan(fans, 0, 0, x, y) for x in (6, 7) for y in (2, 3)]
+    assert_net(np.concatenate(of_neighbours))
 
 
 @pytest.mark.parametrize("samples", [4, 16, 64])
 def test_fans_of_samples_are_nets_together_and_each(samples: int) -> None:
-    fans = fans_of_samples(samples, Noise(0.01, by_light=True))
-    keys, places_of_all = fan_keys(7, 2, 3, 5), range(1 << fans.levels)
+    fans = fans_of_samples(samples, NOISE)
+    places_of_all = range(1 << fans.levels)
 
     def fan(sample: int, number: int) -> np.ndarray:
-        place = place_of(fans.levels, sample, 7, 2, 3, 5)
-        offset = offset_of(fans, place, number)
-        return np.array([fan_point(fans.points, k, offset, keys) for k in range(fans.rays)])
+        return points_of_fan(fans, number, sample, 7, 2)
 
-    # The first fans of 2, 4 ... samples that follow each other, and the first fans of each.
+    # The first fans of 2, 4 ... samples that follow each other, and more fans of each.
     for count in (2, 4, samples):
         assert_net(np.concatenate([fan(sample, 0) for sample in places_of_all[:count]]))
     for sample in places_of_all[:4]:
-        for count in (2, 4):
-            assert_net(np.concatenate([fan(sample, number) for number in range(count)]))
+        for first in [count for count in (2, 4, 32) if 2 * count <= fans.fans]:
+            more = range(first, 2 * first)
+            assert_net(np.concatenate([fan(sample, number) for number in more]))
     numbers = [k ^ place for place in places_of_all for k in range(fans.fans)]
-    assert max(numbers) < fans.offsets.shape[1]
+    assert max(numbers) < fans.blocks
+
+
+@pytest.mark.parametrize(("samples", "side"), [(1, 2), (1, 4), (2, 2), (4, 4)])
+def test_first_fans_of_neighbours_are_nets_together(samples: int, side: int) -> None:
+    fans = fans_of_samples(samples, NOISE) if samples > 1 else fans_of_middles(NOISE)
+    pixels = [(8 + column, 1020 + row) for column in range(side) for row in range(side)]
+    found = [points_of_fan(fans, 0, k, *pixel) for pixel in pixels for k in range(samples)]
+    assert_net(np.concatenate(found))
+
+
+@pytest.mark.parametrize(("samples", "levels"), [(2, 20), (256, 20), (257, 18), (65536, 12)])
+def test_other_squares_and_other_lights_have_other_points(samples: int, levels: int) -> None:
+    fans = fans_of_samples(samples, NOISE)
+    assert fans.order_levels == levels
+    side = 1 << levels // 2
+    found = [points_of_fan(fans, 0, 0, *at)[0] for at in ((0, 0), (1, 0), (side, 0), (0, side))]
+    found.append(np.array(fan_point(fans.points, 0, *fan_of(fans, 0, 0, 0, 0, 4, 5))))
+    assert len(np.unique(found, axis=0)) == 5
+
+
+@given(st.integers(0, 2**16 - 1), st.integers(0, 2**16 - 1), st.sampled_from([2, 8, 20]), WORDS)
+def test_order_of_pixels(column: int, row: int, levels: int, key: int) -> None:
+    place = place_in_order(column, row, levels, key)
+    assert place == sample_places.place_in_order(column, row, levels, key)
+    assert 0 <= place < 2**levels
+    beside = place_in_order(column ^ 1, row, levels, key)
+    assert place // 4 == beside // 4
+    assert place != beside
+    offsets = order_offsets(64)
+    numbers = sample_places.sobol(1, 64 * place)
+    found = order_offset(offsets, 0, place)
+    assert list(found) == [sample_places.reversed_bits(number) for (number,) in numbers]
 
 
 @pytest.mark.parametrize(

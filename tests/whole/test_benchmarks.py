@@ -583,6 +583,53 @@ def test_movies_are_timed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     assert "\n| balls | vtray | 2 | " in report
 
 
+@compiled_only
+def test_paths_of_all_programs_find_the_same_light(tmp_path: Path) -> None:
+    measure = module("measures.paths")
+    found = results()
+    found.paths["balls"] = rows = measure.time_paths(FEW, SMALL, (1,), tmp_path, 1)
+    own, more, *others = rows
+    assert [row[:2] for row in (own, more)] == [("vtray", 16), ("vtray", 64)]
+    assert [row.program for row in others] == [
+        name for name, host in measure.HOSTS.items() if host.is_installed()
+    ]
+    assert 1.5 < own.error / more.error < 3
+    for row in others:
+        assert row.light == pytest.approx(more.light, abs=0.004)
+        assert row.error == pytest.approx(own.error, rel=0.5)
+    report = module("report.pages").full_report(found)
+    seconds = more.tracing[1].median * (100 * more.error) ** 2
+    assert f"| balls | vtray | 64 | {more.light:.4f} | {100 * more.error:.2f} | " in report
+    assert f" | {module('timing.jobs').in_seconds(seconds)} |\n" in report
+
+
+def test_error_is_that_of_one_of_two_pictures() -> None:
+    generator = np.random.default_rng(3)
+    pictures = 0.5 + 0.02 * generator.normal(size=(2, 64, 64, 3))
+    light, error = module("measures.paths").light_and_error(*pictures)
+    assert light == pytest.approx(0.5, abs=0.001)
+    assert error == pytest.approx(0.02, rel=0.05)
+
+
+def test_paths_scene_of_embree_is_seen_along_z(tmp_path: Path) -> None:
+    lamps, program = module("scenes.lamps"), module("peers.embree.program")
+    scene = lamps.sky_scene(FEW, SMALL)
+    given = lamps.for_mitsuba(scene, lamps.lamps()["sky"])
+    program.write_paths_scene(given, tmp_path / "scene")
+    written = module("peers.host.host_scene").read_scene(tmp_path / "scene")
+    # Seen from the eye, a ball is as far to the right and above as vtray has it.
+    camera = scene.camera
+    for row, at in ((0, 0), (FEW - 1, FEW - 1)):
+        column, line = camera.project(scene.objects[0].center[at : at + 1])[0][:2]
+        x, y, _, radius = written.spheres[row]
+        assert radius == 1
+        assert x / written.pixel_width + SMALL / 2 == pytest.approx(column, abs=0.01)
+        assert SMALL / 2 - y / written.pixel_height == pytest.approx(line, abs=0.01)
+    (floor,) = written.planes
+    below = floor[:3] @ written.spheres[:, :3].T - floor[3]
+    np.testing.assert_allclose(below, given.spheres[:, 1] - given.floor, atol=0.01)
+
+
 @once
 def test_copied_cubes_are_seen_as_those_written_out() -> None:
     cube = module("scenes.copied_cube")
@@ -758,7 +805,7 @@ def test_soft_light_is_measured_without_mitsuba(
     ours = [row for row in rows if row.program == "vtray"]
     errors = [row.error for row in ours]
     assert errors == sorted(errors, reverse=True)
-    assert 0 < errors[-1] < 0.008
+    assert 0 < errors[-1] < 1.2 * measure.TOLERANCES[-1]  # of few pixels, which are not independent
     assert all(0 < row.tracing[n].median < 60 for row in ours for n in (1, 2))
     assert all(np.isnan(row.error) and not row.tracing for row in rows if row not in ours)
     for row in found.studio.values():

@@ -114,9 +114,9 @@ inline RTCGeometry embree_spheres(const HostScene& scene, RTCDevice device) {
     return geometry;
 }
 
-inline RTCScene build(const HostScene& scene, RTCDevice device, bool own) {
+// A tree that was made quickly pays where each of its rays is one of few.
+inline RTCScene build(const HostScene& scene, RTCDevice device, bool own, bool quick) {
     const RTCScene embree = rtcNewScene(device);
-    const bool quick = !own && scene.header->spheres >= MANY;
     const RTCBuildQuality quality = quick ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM;
     rtcSetSceneFlags(embree, quick ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_NONE);
     rtcSetSceneBuildQuality(embree, quality);

@@ -304,7 +304,8 @@ int main(int count, char** arguments) {
     const double loaded = now();
     const std::string threads = "threads=" + std::to_string(options.threads);
     const RTCDevice device = rtcNewDevice(threads.c_str());
-    scene.embree = build(scene, device, options.own);
+    const bool quick = !options.own && scene.header->spheres >= MANY;
+    scene.embree = build(scene, device, options.own, quick);
     if (rtcGetDeviceError(device) != RTC_ERROR_NONE) fail("Embree cannot build this scene");
     const double built = now();
     Picture picture(scene.header->width, scene.header->height);

@@ -40,12 +40,12 @@ Trace = Callable[[mi.Scene, SoftScene, mi.Point3f, int, int], np.ndarray]
 """Returns the light of all pixels, (n, 3): the mean of so many samples each, by a seed."""
 
 
-def main(trace: Trace) -> None:
-    """Do what the arguments say."""
+def main(trace: Trace, integrator: dict[str, Any] | None = None) -> None:
+    """Do what the arguments say, by an integrator other than `direct` if one is given."""
     threads, path, output, samples, pictures = sys.argv[1:]
     dr.set_thread_count(int(threads))
     given = read_scene(Path(path))
-    scene = build(given)
+    scene = build(given, integrator or direct(given))
     starts = mi.Point3f(given.starts.reshape(-1, 3).T.astype(np.float32))
     found = []
     for seed in range(int(pictures)):
@@ -57,7 +57,17 @@ def main(trace: Trace) -> None:
     np.save(output, np.stack(found))
 
 
-def build(given: SoftScene) -> mi.Scene:
+def direct(given: SoftScene) -> dict[str, Any]:
+    """Return the integrator `direct`."""
+    return {
+        "type": "direct",
+        "emitter_samples": given.emitter_samples,
+        "bsdf_samples": 1,
+        "hide_emitters": True,
+    }
+
+
+def build(given: SoftScene, integrator: dict[str, Any]) -> mi.Scene:
     """Give the scene to Mitsuba."""
     matt = {"type": "diffuse", "reflectance": {"type": "rgb", "value": given.reflectance}}
     level = mi.ScalarTransform4f().translate([0, given.floor, 0]).rotate([1, 0, 0], -90)
@@ -65,12 +75,7 @@ def build(given: SoftScene) -> mi.Scene:
     return mi.load_dict(
         {
             "type": "scene",
-            "integrator": {
-                "type": "direct",
-                "emitter_samples": given.emitter_samples,
-                "bsdf_samples": 1,
-                "hide_emitters": True,
-            },
+            "integrator": integrator,
             "floor": {"type": "rectangle", "to_world": floor, "bsdf": matt},
             "lamp": lamp(given),
             **spheres(given.spheres, matt),

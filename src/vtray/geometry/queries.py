@@ -166,12 +166,12 @@ def nearest_in_tree(
     ratio = hierarchy.to_boxes.ratio
     beam = beam_of_ray(hierarchy.to_boxes, ray)
     start = lower_limit(beam, max(-ray.plane_depth, 0.0) * ratio * (1.0 - MARGIN))
+    far = upper_limit(beam, hit.distance * ratio * (1.0 + MARGIN))
     stack.node[base] = hierarchy.root
     stack.enter[base] = start
     waiting = base + 1
     while waiting > base:
         waiting -= 1
-        far = upper_limit(beam, hit.distance * ratio * (1.0 + MARGIN))
         if stack.enter[waiting] > far:
             continue
         child = stack.node[waiting]
@@ -180,6 +180,7 @@ def nearest_in_tree(
         else:
             begin, end = range_of(hierarchy, child)
             hit = nearest_of(world, subject, begin, end, ray, hit, stack, waiting)
+            far = upper_limit(beam, hit.distance * ratio * (1.0 + MARGIN))
     return hit
 
 

@@ -45,10 +45,8 @@ from vtray.transport.sampling.estimate import (
 )
 from vtray.transport.sampling.fans import (
     Fans,
-    fan_keys,
+    fan_of,
     fans_of_share,
-    offset_of,
-    place_of,
     shared_keys,
 )
 from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
@@ -271,16 +269,14 @@ def _trace_fan(
     point, normal, error_scale, _ = traced.interaction
     start = Start(point, plane_depth_of(scene.camera, point), error_scale)
     aim = aim_at(soft, light, start, normal)
-    keys, forward = fan_keys(column, row, light, seed), scene.camera.forward
-    place = place_of(fans.levels, traced.sample, column, row, light, seed)
-    offset = offset_of(fans, place, number)
+    offset, keys = fan_of(fans, number, traced.sample, column, row, light, seed)
     spread_fan(
         fan,
         fans.rays,
         aim,
         start,
         normal,
-        forward,
+        scene.camera.forward,
         soft.skies,
         fans.points,
         fans.first,

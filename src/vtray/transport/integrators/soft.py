@@ -61,7 +61,7 @@ from vtray.transport.sampling.estimate import (
     with_fan,
     with_unseen,
 )
-from vtray.transport.sampling.fans import Fans, fan_keys, fans_of_share, offset_of, place_of
+from vtray.transport.sampling.fans import Fans, fan_of, fans_of_share
 from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
 from vtray.transport.scene_arrays import LitWorld
 
@@ -461,7 +461,8 @@ def _spread_from(
     column, row, sample = sample_of(
         lane, casting.samples, casting.first, casting.block, casting.begin, work.pixels
     )
-    place = place_of(fans.levels, sample, column, row, light, seed)
+    number = load_estimate(batch, member).fans
+    offset, keys = fan_of(fans, number, sample, column, row, light, seed)
     set_start(work.fan, k, start, aim.error_scale + start.error_scale)
     rays = spread_fan(
         work.fan[k * fans.rays :],
@@ -473,8 +474,8 @@ def _spread_from(
         casting.soft.skies,
         fans.points,
         fans.first,
-        offset_of(fans, place, load_estimate(batch, member).fans),
-        fan_keys(column, row, light, seed),
+        offset,
+        keys,
     )
     return longest_ray(aim, start), rays
 

@@ -1,9 +1,15 @@
 """Where the shadow rays of a surface point aim within a light: a fan of points of the unit square.
 
-Fans are blocks of one of Sobol's sequences for all samples of a pixel. A fan fills the square
-evenly, and so do the first fans of 2, 4 ... samples: what one has too much, another has too little.
-Fan k of the sample at place n is block k XOR n; thus all fans of a sample fill the square evenly,
-too.
+Fans are blocks of Sobol's sequence, so that each fills the square evenly. The first fans of all
+pixels of a large part of the image are blocks of one sequence, those of the samples of a pixel side
+by side, and pixels in an order in which neighbours follow each other. So the first fans of 2, 4 ...
+samples fill the square evenly together, and so do those of 4, 16 ... pixels: what one has too much,
+another has too little.
+
+More fans are cast where light is noisy. What counts then is that those of one sample fill the
+square together. Blocks of neighbours would do that, but neighbours would be off alike, and blocks
+far apart would not. So each pixel has one more sequence, whose block k XOR n is fan k, 1 or more,
+of the sample at place n.
 
 Points that follow each other are near each other: each two share an elementary cell, a side of
 which is a power of 1/2, in the places of its size, and each 4, 8 ... a larger one. Scrambling moves
@@ -24,9 +30,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.transport.sampling.pixel_order import (
+    ENTRIES,
+    levels_for,
+    order_offset,
+    order_offsets,
+    place_in_order,
+)
 from vtray.transport.sampling.sobol import (
     FAN_ORDER,
+    FIRST_FANS,
     LIGHT_FANS,
+    PIXEL_ORDER,
     SHARED_FANS,
     pixel_keys,
     scrambled,
@@ -84,6 +99,10 @@ class Fans(NamedTuple):
         Where those for so many rays begin in `points` and in `offsets`.
     blocks
         How many blocks there are of each.
+    order, first_order
+        What `order_offsets` returns, likewise, and where that for so many rays begins.
+    order_levels
+        There are ``2**order_levels`` pixels whose first fans are blocks of one sequence.
     error
         The standard error that the light at a hit may have.
     by_light
@@ -99,6 +118,9 @@ class Fans(NamedTuple):
     first: int
     first_block: int
     blocks: int
+    order: Integers
+    first_order: int
+    order_levels: int
     error: float
     by_light: bool
 
@@ -110,9 +132,11 @@ def fans_of_share(fans: Fans, share: float) -> Fans:
     So much less its error counts, and so many fewer rays its fans have.
     """
     rays, first, first_block = fans.rays, fans.first, fans.first_block
+    first_order = fans.first_order
     while share <= 0.5 and rays > FEWEST:
         first += rays
         first_block += fans.blocks
+        first_order += ENTRIES
         rays //= 2
         share *= 2.0
     return Fans(
@@ -124,6 +148,9 @@ def fans_of_share(fans: Fans, share: float) -> Fans:
         first,
         first_block,
         fans.blocks,
+        fans.order,
+        first_order,
+        fans.order_levels,
         fans.error,
         fans.by_light,
     )
@@ -187,12 +214,18 @@ def _fans(rays: int, fans: int, samples: int, noise: Noise) -> Fans:
         fans = 1 << fans.bit_length() - 1
         blocks = 1
         points, offsets = shared_points(rays, fans), block_offsets(rays, blocks)
+        order = offsets
     else:
         blocks = max(1 << levels, 1 << (fans - 1).bit_length())
         sizes = [rays >> k for k in range(rays.bit_length()) if k == 0 or rays >> k >= FEWEST]
         points = np.concatenate([fan_points(size) for size in sizes], axis=1)
         offsets = np.concatenate([block_offsets(size, blocks) for size in sizes], axis=1)
-    return Fans(rays, fans, levels, points, offsets, 0, 0, blocks, error, noise.by_light)
+        order = np.concatenate([order_offsets(size << levels) for size in sizes], axis=1)
+    order_levels = levels_for(rays << levels)
+    return Fans(
+        *(rays, fans, levels, points, offsets),
+        *(0, 0, blocks, order, 0, order_levels, error, noise.by_light),
+    )
 
 
 def fan_points(fan: int) -> Integers:
@@ -250,7 +283,7 @@ def _along_first(count: int) -> Integers:
 
 @device
 def fan_keys(column: int, row: int, light: int, seed: int) -> tuple[int, int]:
-    """Return what scrambles the fans of a pixel for a light, which is given by its number."""
+    """Return what scrambles more fans of a pixel for a light, which is given by its number."""
     return pixel_keys(column, row, LIGHT_FANS + light, seed)
 
 
@@ -276,8 +309,40 @@ def place_of(levels: int, sample: int, column: int, row: int, light: int, seed: 
 
 
 @device
+def fan_of(
+    fans: Fans, number: int, sample: int, column: int, row: int, light: int, seed: int
+) -> tuple[tuple[int, int], tuple[int, int]]:
+    """Return what makes the points of the first block those of a fan: its offset, and its keys.
+
+    Parameters
+    ----------
+    fans
+        The fans.
+    number, sample
+        Which fan of which sample it is.
+    column, row
+        The pixel.
+    light, seed
+        The number of the light, and what chooses other places of all samples.
+    """
+    place = place_of(fans.levels, sample, column, row, light, seed)
+    offset = offset_of(fans, place, number)
+    if number > 0:
+        return offset, fan_keys(column, row, light, seed)
+    side = fans.order_levels // 2
+    across, down = column >> side, row >> side
+    key, _ = pixel_keys(across, down, PIXEL_ORDER + light, seed)
+    place = place_in_order(column, row, fans.order_levels, key)
+    x, y = order_offset(fans.order, fans.first_order, place)
+    return (x ^ offset[0], y ^ offset[1]), pixel_keys(across, down, FIRST_FANS + light, seed)
+
+
+@device
 def offset_of(fans: Fans, place: int, number: int) -> tuple[int, int]:
-    """Return the offset of a fan, given by its number, of the sample at a place."""
+    """Return that of a fan, given by its number, of the sample at a place, among those of a pixel.
+
+    Combined with it by XOR, the points of the first block become those of another one.
+    """
     block = fans.first_block + (place ^ number)
     return fans.offsets[0, block], fans.offsets[1, block]
 
@@ -292,10 +357,8 @@ def fan_point(
     ----------
     points, k
         Those of the first fan, and the number of one of them.
-    offset
-        What `offset_of` returns.
-    keys
-        What `fan_keys` returns.
+    offset, keys
+        What `fan_of` returns.
     """
     u = scrambled(points[0, k] ^ offset[0], keys[0])
     return u, scrambled(points[1, k] ^ offset[1], keys[1])

@@ -38,6 +38,12 @@ PATH_ORDER = 1 << 26
 PATHS = 1 << 27
 """The purposes from here on: where paths go on, two purposes for each step."""
 
+FIRST_FANS = 1 << 28
+"""As from `LIGHT_FANS` on: where the first fans of pixels aim, one purpose for each light."""
+
+PIXEL_ORDER = 1 << 29
+"""The purposes from here on: which pixel gets which first fan of a light, one purpose for each."""
+
 BITS = (1 << 32) - 1
 
 UNIT = 2.0**-32
