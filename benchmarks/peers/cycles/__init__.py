@@ -1,0 +1,1 @@
+"""Cycles, Blender's path tracer."""
