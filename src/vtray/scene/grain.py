@@ -1,5 +1,6 @@
 """How noisy soft light may be where nobody says it: grain is lost among small things."""
 
+import math
 from typing import TYPE_CHECKING
 
 from vtray.base.errors import SceneError
@@ -16,8 +17,9 @@ if TYPE_CHECKING:
 FINEST, COARSEST = 0.012, 0.06
 """The tolerance for large things, on which grain is seen, and for the smallest."""
 
-NO_GRAIN = 0.15
-"""The tolerance for things with a radius of a pixel, and for larger ones a part of that."""
+NO_GRAIN, LITTLE_GRAIN = 0.15, 0.081
+"""The tolerance is the first of these over the radius in pixels, or the second over the root of it,
+whichever is larger: on small things grain is not seen, on larger ones hardly."""
 
 DIGITS = 4
 """To so many the tolerance is rounded, so that it is the same on all machines."""
@@ -57,8 +59,10 @@ def tolerance_of(scene: "HasObjects", camera: Camera) -> float:
     if not len(area):
         return FINEST
     usual = float(pixels[order[area.searchsorted(0.5 * area[-1])]])
-    largest = NO_GRAIN / usual if usual > 0 else COARSEST
-    return round(min(max(largest, FINEST), COARSEST), DIGITS)
+    if usual <= 0.0:
+        return COARSEST
+    unseen = max(NO_GRAIN / usual, LITTLE_GRAIN / math.sqrt(usual))
+    return round(min(max(unseen, FINEST), COARSEST), DIGITS)
 
 
 def _sizes_of(balls: "Balls", camera: Camera) -> _Sizes:
