@@ -214,7 +214,7 @@ def _fans(rays: int, fans: int, samples: int, noise: Noise) -> Fans:
         fans = 1 << fans.bit_length() - 1
         blocks = 1
         points, offsets = shared_points(rays, fans), block_offsets(rays, blocks)
-        order = offsets
+        order = offsets  # not asked for
     else:
         blocks = max(1 << levels, 1 << (fans - 1).bit_length())
         sizes = [rays >> k for k in range(rays.bit_length()) if k == 0 or rays >> k >= FEWEST]
@@ -223,8 +223,19 @@ def _fans(rays: int, fans: int, samples: int, noise: Noise) -> Fans:
         order = np.concatenate([order_offsets(size << levels) for size in sizes], axis=1)
     order_levels = levels_for(rays << levels)
     return Fans(
-        *(rays, fans, levels, points, offsets),
-        *(0, 0, blocks, order, 0, order_levels, error, noise.by_light),
+        rays=rays,
+        fans=fans,
+        levels=levels,
+        points=points,
+        offsets=offsets,
+        first=0,
+        first_block=0,
+        blocks=blocks,
+        order=order,
+        first_order=0,
+        order_levels=order_levels,
+        error=error,
+        by_light=noise.by_light,
     )
 
 

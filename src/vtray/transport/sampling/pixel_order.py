@@ -11,6 +11,8 @@ Ahmed, Wonka, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error v
 Ordering of Pixels", ACM Transactions on Graphics 39 (6), 2020.
 """
 
+from functools import cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -35,10 +37,12 @@ def levels_for(points: int) -> int:
     return min(MOST_LEVELS, 32 - (points.bit_length() - 1)) // 2 * 2
 
 
+@cache
 def order_offsets(points: int) -> Integers:
     """Return what `order_offset` needs for pixels that have so many points, ``(2, ENTRIES)``.
 
     These are first points of blocks: those of the lowest digits of a place, then of the others.
+    They are kept, and not to be changed.
     """
     steps = points, points << _TABLE_BITS
     return np.concatenate([sobol_points(_TABLE, step) for step in steps], axis=1)
