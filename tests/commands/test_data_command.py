@@ -16,6 +16,7 @@ from vtray.commands.options import parse
 from vtray.figures.annotations import Annotations
 from vtray.figures.painted.picture import share_beside
 from vtray.scene.default_light import settings_of
+from vtray.scene.grain import LITTLE_GRAIN, NO_GRAIN
 from vtray.scene.scene import Scene
 
 WATER = """3
@@ -104,9 +105,11 @@ def test_large_balls_have_less_grain(water: Path) -> None:
     assert tolerance() == 0.012
     assert tolerance("--size", "4x3") == 0.06
     # Of three balls of 0.35 and 0.66, most of what is seen is the large one.
-    middle = [tolerance("--size", f"{4 * k}x{3 * k}") for k in (3, 4, 5)]
-    assert middle == pytest.approx([middle[0], middle[0] * 3 / 4, middle[0] * 3 / 5], rel=0.05)
-    assert 0.012 < middle[2] < middle[0] < 0.06
+    middle = [tolerance("--size", f"{4 * k}x{3 * k}") for k in (3, 4, 5, 20)]
+    pixels = [NO_GRAIN / middle[0] * k / 3 for k in (3, 4, 5, 20)]
+    expected = [max(NO_GRAIN / radius, LITTLE_GRAIN / radius**0.5) for radius in pixels]
+    assert middle == pytest.approx(expected, rel=0.05)
+    assert 0.012 < middle[3] < middle[0] < 0.06
     assert tolerance("--emission", "z") == 0.06
 
 
