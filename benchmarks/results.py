@@ -9,7 +9,7 @@ import msgspec
 from measures.from_arrays import ArraysRow
 from measures.movies import MovieRow
 from measures.own_scenes import ByThreads
-from measures.paths import PathsRow
+from measures.paths import Paths
 from measures.rendering import Row
 from measures.soft_light import SoftLight
 from measures.whitted import Whitted
@@ -45,7 +45,7 @@ class Results:
     whitted
         Whether mirrors and glass are right, and what they cost; None if that was not measured.
     paths
-        For each scene, what paths cost, and how noisy they are.
+        What paths cost, and how noisy they are; None if that was not measured.
     arrays
         As `cube`, from arrays in memory to a PNG.
     bonds
@@ -67,7 +67,7 @@ class Results:
     samples: dict[str, Timing] = field(default_factory=dict)
     soft_light: SoftLight | None = None
     whitted: Whitted | None = None
-    paths: dict[str, list[PathsRow]] = field(default_factory=dict)
+    paths: Paths | None = None
     arrays: dict[str, list[ArraysRow]] = field(default_factory=dict)
     bonds: dict[str, ByThreads] = field(default_factory=dict)
     copies: dict[str, ByThreads] = field(default_factory=dict)

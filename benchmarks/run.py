@@ -22,7 +22,7 @@ from measures.copies import time_copies
 from measures.from_arrays import time_arrays
 from measures.machine import cores, machine
 from measures.movies import time_movies
-from measures.paths import time_paths
+from measures.paths import Paths, time_paths
 from measures.rendering import THREADS, time_cube, time_scene, time_threads
 from measures.soft_light import FULL, QUICK, measure_soft_light
 from measures.whitted import measure_whitted
@@ -147,10 +147,11 @@ def _measure_light(results: Results, folder: Path, parts: list[str], *, quick: b
     if "paths" in parts:
         side = QUICK_PATHS_SIDE if quick else PATHS_SIDE
         times = min(results.repeats, SOFT_REPEATS)
+        results.paths = Paths()
         for count in QUICK_PATHS if quick else PATHS:
             title = f"{count:,} spheres, {side} x {side}"
             _say(f"paths: {title}")
-            results.paths[title] = time_paths(count, side, THREADS, folder, times)
+            results.paths.cubes[title] = time_paths(count, side, THREADS, folder, times)
 
 
 def _measure_own_scenes(results: Results, folder: Path, parts: list[str], *, quick: bool) -> None:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
@@ -87,6 +88,22 @@ class PathsRow(NamedTuple):
     light: float
     error: float
     tracing: dict[int, Spread]
+
+
+@dataclass
+class Paths:
+    """All that is measured here.
+
+    Attributes
+    ----------
+    cubes
+        For each scene, all programs.
+    conditions
+        What else is to be known of a run; "" for one as all others.
+    """
+
+    cubes: dict[str, list[PathsRow]] = field(default_factory=dict)
+    conditions: str = ""
 
 
 def time_paths(

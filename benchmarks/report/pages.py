@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from measures.from_arrays import ArraysRow
 from measures.rendering import THREADS, Row
 from peers.programs import CUBE_PEERS, PEERS
-from report import arrays_tables, movies_tables, paths_tables, samples_tables
+from report import arrays_tables, movies_tables, samples_tables
 from report.arrays_tables import arrays_table
 from report.cube_tables import (
     cube_table,
@@ -16,7 +16,7 @@ from report.cube_tables import (
 )
 from report.movies_tables import movies_table
 from report.own_scenes_tables import BONDS_NOTE, COPIES_NOTE, own_scenes_table
-from report.paths_tables import paths_table
+from report.paths_tables import paths_parts
 from report.samples_tables import samples_table
 from report.soft_light_tables import soft_light_parts
 from report.tables import ratio, table
@@ -69,7 +69,7 @@ def _own_scenes(results: Results) -> list[str]:
     if results.whitted:
         parts += ["## Mirrors and glass", *whitted_parts(results.whitted)]
     if results.paths:
-        parts += ["## Paths", paths_table(results.paths), paths_tables.NOTE]
+        parts += ["## Paths", *paths_parts(results.paths)]
     if results.bonds:
         parts += ["## Bonds", own_scenes_table(results.bonds), BONDS_NOTE]
     if results.copies:

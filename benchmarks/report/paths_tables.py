@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from measures.paths import SURFACES, PathsRow
+from measures.paths import SURFACES, Paths, PathsRow
 from report.tables import table
 from timing.jobs import in_seconds
 
@@ -19,6 +19,11 @@ radiance: the root of the mean square of what two pictures with other random num
 the root of 2. Seconds for an error of {ERROR:.0%} are those of one thread, if errors fall as the
 root of the samples. The others' seconds are those of the second picture of a process, when all is
 compiled, and their hierarchies are there."""
+
+
+def paths_parts(found: Paths) -> list[str]:
+    """Write all that was measured."""
+    return [paths_table(found.cubes), NOTE, *filter(None, [found.conditions])]
 
 
 def paths_table(scenes: Mapping[str, Sequence[PathsRow]]) -> str:

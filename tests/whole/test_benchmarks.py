@@ -587,7 +587,8 @@ def test_movies_are_timed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
 def test_paths_of_all_programs_find_the_same_light(tmp_path: Path) -> None:
     measure = module("measures.paths")
     found = results()
-    found.paths["balls"] = rows = measure.time_paths(FEW, SMALL, (1,), tmp_path, 1)
+    rows = measure.time_paths(FEW, SMALL, (1,), tmp_path, 1)
+    found.paths = measure.Paths({"balls": rows}, "On a busy machine.")
     own, more, *others = rows
     assert [row[:2] for row in (own, more)] == [("vtray", 16), ("vtray", 64)]
     assert [row.program for row in others] == [
@@ -601,6 +602,7 @@ def test_paths_of_all_programs_find_the_same_light(tmp_path: Path) -> None:
     seconds = more.tracing[1].median * (100 * more.error) ** 2
     assert f"| balls | vtray | 64 | {more.light:.4f} | {100 * more.error:.2f} | " in report
     assert f" | {module('timing.jobs').in_seconds(seconds)} |\n" in report
+    assert "\nOn a busy machine.\n" in f"{report}\n"
 
 
 def test_error_is_that_of_one_of_two_pictures() -> None:
