@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 
 from peers.cycles import program as cycles
 from peers.embree import program as embree
+from peers.host import host
+from peers.host.soft_scene import SoftScene, write_scene
 from peers.mitsuba import program as mitsuba
-from peers.mitsuba.soft_scene import SoftScene, write_scene
 from peers.peer import python_of_peers
 from scenes.lamps import for_mitsuba, lamps, sky_scene
 from timing import vtray_process
-from timing.jobs import Job, Spread, run_interleaved, run_once, seconds_after
+from timing.jobs import Job, Spread, run_interleaved, run_once
 
 Floats = NDArray[np.floating]
 
@@ -114,10 +115,10 @@ def time_paths(
     scene.render = scene.render.replace(integrator="path", depth=SURFACES - 1, filter="box")
     ours = folder / f"paths-{count}.json"
     scene.save(ours)
-    hosts = {name: host for name, host in HOSTS.items() if host.is_installed()}
+    hosts = {name: other for name, other in HOSTS.items() if other.is_installed()}
     given = for_mitsuba(scene, lamps()["sky"])
-    for name, host in hosts.items():
-        host.write_scene(given, _their_scene(folder, name))
+    for name, other in hosts.items():
+        other.write_scene(given, _their_scene(folder, name))
     own = [(vtray_process.NAME, SAMPLES), (vtray_process.NAME, MORE)]
     timed = [*own, *((name, SAMPLES) for name in hosts)]
     jobs = {
@@ -174,7 +175,7 @@ def _their_job(name: str, folder: Path, threads: int) -> Job:
     return Job(
         f"{picture.stem}, {threads}",
         [*command, *map(str, numbers)],
-        inner_seconds=lambda output: seconds_after(r"^trace +([0-9.]+) s$", output),
+        inner_seconds=host.trace_seconds,
     )
 
 

@@ -10,14 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 import vtray
+from peers.host import host
+from peers.host.soft_scene import write_scene
 from peers.mitsuba import program as mitsuba
-from peers.mitsuba.soft_scene import write_scene
 from peers.peer import python_of_peers
 from peers.programs import is_installed
 from scenes import clouds
 from scenes.lamps import for_mitsuba, lamp_scene, lamps, sky_scene
 from timing import vtray_process
-from timing.jobs import Job, Spread, run_interleaved, run_once, seconds_after
+from timing.jobs import Job, Spread, run_interleaved, run_once
 
 Floats = NDArray[np.float64]
 
@@ -283,7 +284,7 @@ def _mitsuba_job(
     return Job(
         output.stem + f", {threads}",
         [python_of_peers(), str(script), *arguments],
-        inner_seconds=lambda output: seconds_after(r"^trace +([0-9.]+) s$", output),
+        inner_seconds=host.trace_seconds,
     )
 
 

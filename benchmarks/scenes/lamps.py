@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import vtray
-from peers.mitsuba.soft_scene import SoftScene
+from peers.host.soft_scene import SoftScene
 from scenes.cube import FLOOR, make_cube
 from vtray.scene.light_types import AnyLight
 from vtray.scene.placing.directions import unit, view_axes

@@ -60,6 +60,7 @@ def test_errors_are_what_is_off_from_a_long_render(lights: list[Any], kind: str)
         honest = 1.0 if kind == "balls" else 1.2
         assert (off[:, seen] ** 2).mean() < honest**2 * (allowed[:, seen] ** 2).mean()
         assert (off > 3 * allowed + 1e-9).mean() < 0.02
+        assert (off[0] < 6 * allowed[0] + 1e-9).all()
         assert (off > 6 * allowed + 1e-9).mean() < 1 / errors[0].size
     # Nor useless.
     if kind == "balls":

@@ -19,10 +19,8 @@ import bpy
 import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[2]))  # for `peers`
-from peers.mitsuba.soft_scene import SoftScene, read_scene
+from peers.host.soft_scene import REACH, SoftScene, read_scene
 
-REACH = 300.0
-"""How far the floor reaches to each side, in sizes of the picture."""
 DEEP = 12.0
 """How far the camera sees, in sizes of the picture."""
 

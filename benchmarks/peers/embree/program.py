@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from peers.host import host, host_scene
-from peers.mitsuba.soft_scene import SoftScene
+from peers.host.soft_scene import SoftScene
 from peers.peer import Peer, answer
 
 HOST = Path(__file__).parents[1] / "host"

@@ -51,6 +51,11 @@ def phases(output: str) -> Phases:
     return Phases(*(seconds_after(rf"^{step} +([0-9.]+) s$", output) for step in steps))
 
 
+def trace_seconds(output: str) -> float:
+    """Return the seconds of tracing of a host, from what it printed."""
+    return phases(output).trace
+
+
 def _plane(surface: Surface) -> list[float]:
     """Return the unit normal of a plane, its product with a point of it, and the colour."""
     normal = np.array(surface.shape)

@@ -22,18 +22,12 @@ import mitsuba as mi
 import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[2]))  # for `peers`
-from peers.mitsuba.soft_scene import SoftScene, read_scene
+from peers.host.soft_scene import REACH, SoftScene, read_scene
 
 mi.set_variant("llvm_ad_rgb")
 
 FEW = 1000
 """Up to so many spheres are a shape each, which is more exact than ellipsoids are."""
-REACH = 300.0
-"""How far the floor reaches to each side, in sizes of the picture.
-
-Mitsuba works places out from their share of its edges: with 100,000, they would be off by more than
-a pixel; with a second floor around a small one, a part of the rays to a sky pass through both.
-"""
 
 
 Trace = Callable[[mi.Scene, SoftScene, mi.Point3f, int, int], np.ndarray]

@@ -1,4 +1,4 @@
-"""The scene file of `mitsuba_soft.py`: spheres over a floor in the light of one lamp.
+"""A scene file of scripts that render spheres over a floor, in soft light or by paths.
 
 Needs only NumPy, as the peers' own Python environment has no vtray.
 """
@@ -8,6 +8,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+
+REACH = 300.0
+"""How far the floor reaches to each side, in sizes of the picture.
+
+Mitsuba works places out from their share of its edges: with 100,000, they would be off by more than
+a pixel; with a second floor around a small one, a part of the rays to a sky pass through both.
+"""
 
 
 class SoftScene(NamedTuple):
