@@ -8,10 +8,7 @@
 // a multiple of 16, go in packets of 16, or single. What the last picture took goes to standard
 // output, after building.
 
-#include <pmmintrin.h>
-
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -19,16 +16,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "embree_geometry.h"
+#include "embree_work.h"
 #include "host_scene.h"
 
 namespace {
 
-constexpr int TILE = 32;
-constexpr int LANES = 16;
 constexpr float OFF = 1e-2F;  // how far off its surface a ray starts, in radii: rounding, with room
 constexpr float PI = 3.14159265F;
 
@@ -152,14 +146,7 @@ float light_packets(const Scene& scene, const Options& options, int seed, int co
                 packet.ray.dir_x[i] = ray[i].dx;
                 packet.ray.dir_y[i] = ray[i].dy;
                 packet.ray.dir_z[i] = ray[i].dz;
-                packet.ray.tnear[i] = 0;
-                packet.ray.tfar[i] = BEYOND;
-                packet.ray.time[i] = 0;
-                packet.ray.mask[i] = 0xFFFFFFFF;
-                packet.ray.flags[i] = 0;
-                packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-                packet.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
-                packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+                clear_ray(packet, i);
             }
             rtcIntersect16(valid, scene.embree, &context, &packet);
             bool any = false;
@@ -181,27 +168,15 @@ float light_packets(const Scene& scene, const Options& options, int seed, int co
 
 void trace(const Scene& scene, const Options& options, int seed, float* picture) {
     const int width = scene.header->width, height = scene.header->height;
-    const int across = (width + TILE - 1) / TILE;
-    const int tiles = across * ((height + TILE - 1) / TILE);
-    std::atomic<int> next{0};
-    const auto work = [&] {
-        _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);  // as Embree's manual demands of each thread
-        _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-        for (int i = next++; i < tiles; i = next++) {
-            const int left = i % across * TILE, top = i / across * TILE;
-            for (int row = top; row < std::min(top + TILE, height); row++) {
-                for (int column = left; column < std::min(left + TILE, width); column++) {
-                    const auto light_of = options.single ? light_single : light_packets;
-                    const float light = light_of(scene, options, seed, column, row);
-                    std::fill_n(picture + 3 * (static_cast<size_t>(row) * width + column), 3, light);
-                }
+    const auto light_of = options.single ? light_single : light_packets;
+    for_each_tile(width, height, options.threads, [&](int left, int top, int right, int bottom) {
+        for (int row = top; row < bottom; row++) {
+            for (int column = left; column < right; column++) {
+                const float light = light_of(scene, options, seed, column, row);
+                std::fill_n(picture + 3 * (static_cast<size_t>(row) * width + column), 3, light);
             }
         }
-    };
-    std::vector<std::thread> workers;
-    for (int i = 1; i < options.threads; i++) workers.emplace_back(work);
-    work();
-    for (std::thread& worker : workers) worker.join();
+    });
 }
 
 void write(const Header& header, const std::vector<float>& light, const Options& options) {

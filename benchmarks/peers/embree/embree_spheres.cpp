@@ -8,10 +8,7 @@
 //
 // Camera space: the eye at the origin, x to the right, y up, z forward.
 
-#include <pmmintrin.h>
-
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -19,18 +16,16 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "embree_geometry.h"
+#include "embree_work.h"
 #include "host_picture.h"
 #include "host_scene.h"
 
 namespace {
 
-constexpr int TILE = 32;
 constexpr int SIDE = 4;  // a packet is 4 x 4 pixels
-constexpr int LANES = SIDE * SIDE;
+static_assert(LANES == SIDE * SIDE);
 constexpr float NEAR = 1e-4F;  // where a shadow ray starts: rounding, with room to spare
 
 struct Scene : HostScene {
@@ -171,17 +166,10 @@ void trace_packet(const Scene& scene, int left, int top, Hits& hits) {
         const float unit = 1.0F / std::sqrt(across * across + above * above + 1.0F);
         valid[i] = column < header.width && row < header.height ? -1 : 0;
         packet.ray.org_x[i] = packet.ray.org_y[i] = packet.ray.org_z[i] = 0;
-        packet.ray.tnear[i] = 0;
-        packet.ray.tfar[i] = BEYOND;
         packet.ray.dir_x[i] = across * unit;
         packet.ray.dir_y[i] = above * unit;
         packet.ray.dir_z[i] = unit;
-        packet.ray.time[i] = 0;
-        packet.ray.mask[i] = 0xFFFFFFFF;
-        packet.ray.flags[i] = 0;
-        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-        packet.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
-        packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        clear_ray(packet, i);
     }
     rtcIntersect16(valid, scene.embree, &context, &packet);
     bool any = false;
@@ -234,39 +222,25 @@ void develop(const Hits& hits, int i, Picture& picture, int column, int row) {
     pixel[2] = static_cast<uint8_t>(std::min(255.0F, hits.b[i] * hits.sum[i]));
 }
 
-void trace_tile(const Scene& scene, bool single, int left, int top, Picture& picture) {
-    Hits hits{};
-    const int side = single ? 1 : SIDE;
-    const int right = std::min(left + TILE, picture.width);
-    const int bottom = std::min(top + TILE, picture.height);
-    for (int row = top; row < bottom; row += side) {
-        for (int column = left; column < right; column += side) {
-            if (single) {
-                trace_single(scene, column, row, hits);
-                develop(hits, 0, picture, column, row);
-                continue;
-            }
-            trace_packet(scene, column, row, hits);
-            for (int i = 0; i < LANES; i++)
-                develop(hits, i, picture, column + i % SIDE, row + i / SIDE);
-        }
-    }
-}
-
 void trace(const Scene& scene, const Options& options, Picture& picture) {
-    const int across = (picture.width + TILE - 1) / TILE;
-    const int tiles = across * ((picture.height + TILE - 1) / TILE);
-    std::atomic<int> next{0};
-    const auto work = [&] {
-        _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);  // as Embree's manual demands of each thread
-        _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-        for (int i = next++; i < tiles; i = next++)
-            trace_tile(scene, options.single, i % across * TILE, i / across * TILE, picture);
+    const bool single = options.single;
+    const auto trace_tile = [&](int left, int top, int right, int bottom) {
+        Hits hits{};
+        const int side = single ? 1 : SIDE;
+        for (int row = top; row < bottom; row += side) {
+            for (int column = left; column < right; column += side) {
+                if (single) {
+                    trace_single(scene, column, row, hits);
+                    develop(hits, 0, picture, column, row);
+                    continue;
+                }
+                trace_packet(scene, column, row, hits);
+                for (int i = 0; i < LANES; i++)
+                    develop(hits, i, picture, column + i % SIDE, row + i / SIDE);
+            }
+        }
     };
-    std::vector<std::thread> workers;
-    for (int i = 1; i < options.threads; i++) workers.emplace_back(work);
-    work();
-    for (std::thread& worker : workers) worker.join();
+    for_each_tile(picture.width, picture.height, options.threads, trace_tile);
 }
 
 Options parse(int count, char** arguments) {

@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-
 REACH = 300.0
 """How far the floor reaches to each side, in sizes of the picture.
 

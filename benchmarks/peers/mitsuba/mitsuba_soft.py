@@ -29,7 +29,6 @@ mi.set_variant("llvm_ad_rgb")
 FEW = 1000
 """Up to so many spheres are a shape each, which is more exact than ellipsoids are."""
 
-
 Trace = Callable[[mi.Scene, SoftScene, mi.Point3f, int, int], np.ndarray]
 """Returns the light of all pixels, (n, 3): the mean of so many samples each, by a seed."""
 
