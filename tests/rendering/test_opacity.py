@@ -74,6 +74,27 @@ def test_threads_and_tiles_change_nothing() -> None:
 
 
 @compiled_only
+@pytest.mark.parametrize("fog", [None, (9.0, 22.0), (9.0, 22.0, "blue")])
+def test_what_is_opaque_covers_its_pixels_beside_a_faded_body(fog: Any) -> None:
+    scene = vtray.Scene(camera(), [vtray.Light((4, -9, 8), 1.0)], [])
+    scene.add_sphere((-1.4, 0, 0), 2.0, "gold")
+    scene.add_sphere((2.2, 0, 0), 0.8, "skyblue", opacity=0.4)
+    one, some = (vtray.render(scene, samples=n, fog=fog, exposure=1.0) for n in (1, 4))
+    # The pixels whose neighbours see the same need no samples.
+    is_gold = one.ids[..., 0] == 0
+    inside = is_gold[2:-2, 2:-2].copy()
+    for y in range(5):
+        for x in range(5):
+            inside &= is_gold[y : y + inside.shape[0], x : x + inside.shape[1]]
+    assert np.count_nonzero(inside) > 20
+    for name, near in (("alpha", 0.02), ("linear", 8.0)):
+        found, expected = (getattr(image, name)[2:-2, 2:-2][inside] for image in (some, one))
+        np.testing.assert_allclose(found, expected, atol=near)
+    if fog is None:
+        assert (some.alpha[2:-2, 2:-2][inside] == 1.0).all()
+
+
+@compiled_only
 @pytest.mark.parametrize("opacity", [0.1, 0.4])
 def test_error_is_what_other_rays_show(opacity: float) -> None:
     scene = vtray.Scene(camera(), [vtray.Ambient(1.0)], [])

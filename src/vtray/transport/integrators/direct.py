@@ -314,7 +314,7 @@ def _light_lanes(
                     work,
                     stop,
                 )
-            see_all(packet, lanes)
+            see_all(packet, lanes, scene.fog)
     if looks is not None:  # noqa: SIM102
         if linear is not None:  # noqa: SIM102
             if not has_width(sampling.footprint):

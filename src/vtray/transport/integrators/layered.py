@@ -101,10 +101,17 @@ def choose_surfaces(
 
 
 @device
-def see_all(packet: Packet, lanes: int) -> None:
-    """Note that all light of what the lanes meet is seen: those that see layers are left out."""
+def see_all(packet: Packet, lanes: int, fog: FogFrame | None) -> None:
+    """Note that lanes see all of what they meet, and fog: those that see layers are left out."""
+    numbers = integers(packet)
     for lane in range(lanes):
         packet[SHARE + lane] = 1.0
+        packet[COVER + lane] = 1.0 if numbers[PRIMITIVE + lane] != NO_PRIMITIVE else 0.0
+        packet[FOGGED + lane] = 0.0
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if fog is not None:
+        for lane in range(lanes):
+            packet[FOGGED + lane] = lane_share(packet, lane, fog)
 
 
 @device
