@@ -331,3 +331,21 @@ def test_legend_of_data(water: Path) -> None:
     assert options.legend is True
     with pytest.raises(SceneError, match="--legend: colours have no names"):
         scene_of(water, "--legend", "--color", "charge")
+
+
+def test_a_file_may_have_any_name(water: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    other = water.rename(water.with_name("run.100"))
+    assert cli.run(["--columns", "--format", "xyz", str(other)]) == 0
+    assert capfd.readouterr().out.startswith("3 particles")
+    assert cli.run([str(other), str(water.with_name("a.png"))]) == 1
+    assert "if it is data, say by --format what it is" in capfd.readouterr().err
+
+
+def test_texts_of_one_picture_name_its_frame(water: Path) -> None:
+    options = parse([str(water), "picture.png", "--frame", "1", "--title", "frame {frame}"])
+    assert load_data(options)[1]["title"] == "frame 1"
+
+
+def test_colors_without_values_have_no_bar(water: Path) -> None:
+    with pytest.raises(SceneError, match="--color-bar: colours stand for no values"):
+        load_data(parse([str(water), "picture.png", "--color-bar="]))

@@ -164,6 +164,7 @@ def test_legend_of_names_and_pairs() -> None:
     assert entries == [("O", (255, 0, 0)), ("H", (255, 255, 255)), ("C", (128, 128, 128))]
     assert legend_entries(list(given.items())) == legend_entries(iter(given.items())) == entries
     assert legend_entries([(" two\nwords ", "red")])[0].name == "two words"
+    assert legend_entries([]) == legend_entries({}) == []
 
 
 def test_ball_has_its_colour_and_smooth_edges() -> None:
@@ -228,7 +229,7 @@ def test_distance_of_a_scale_bar_is_told_in_perspective(image: vtray.Image) -> N
 
 
 WRONG: list[tuple[Mapping[str, Any], str]] = [
-    ({"legend": {}}, r"legend: expected pairs of a name and a colour, such as .*, or None, got {}"),
+    ({"legend": 7}, r"legend: expected pairs of a name and a colour, such as .*, or None, got 7"),
     ({"legend": True}, "legend: expected pairs of a name and a colour"),
     ({"legend": [("O", "red"), "H"]}, r"legend\[1\]: expected pairs of a name and a colour"),
     (

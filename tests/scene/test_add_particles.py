@@ -283,3 +283,59 @@ def test_bonds_without_elements(options: dict[str, Any]) -> None:
     ):
         vtray.Scene().add_particles([(0, 0, 0)], **options)
     assert vtray.Scene().add_particles(np.zeros((0, 3)), **options).spheres.center.size == 0
+
+
+def many(**columns: Any) -> Particles:
+    """Return twelve particles in a row."""
+    return Particles([(k, 0, 0) for k in range(12)], columns)
+
+
+def test_types_are_categories_however_many_there_are() -> None:
+    types = many(type=np.arange(12), count=np.arange(12))
+    legend = drawn(types).legend
+    assert [name for name, _ in legend] == [str(k) for k in range(12)]
+    assert drawn(types, color="count").legend == []
+
+
+def test_legends_sort_as_people_do_and_name_what_has_no_name() -> None:
+    names = [f"c{k}" for k in range(11)] + [""]
+    legend = drawn(many(kind=np.array(names)), color="kind").legend
+    assert [name for name, _ in legend] == ["(none)", *names[:-1]]
+
+
+def test_colors_may_be_worked_out() -> None:
+    force = np.random.default_rng(1).normal(size=(12, 3))
+    found = many(force=force)
+    for text, values in {
+        "force.x": force[:, 0],
+        "force[1] + 2": force[:, 1] + 2,
+        "norm(force)": np.sqrt((force**2).sum(axis=1)),
+    }.items():
+        np.testing.assert_array_equal(
+            drawn(found, color=text).spheres.color, drawn(found, color=values).spheres.color
+        )
+    assert [name for name, _ in drawn(found, color="force.x > 0").legend] == ["False", "True"]
+    with pytest.raises(SceneError, match=r"color 'forc.x': at 1: no column 'forc'; did you mean"):
+        drawn(found, color="forc.x")
+    with pytest.raises(SceneError, match="a vector; expected a component, or norm"):
+        drawn(found, color="force * 2")
+
+
+def test_balls_of_types_leave_room_for_their_bonds() -> None:
+    chain = Particles([(1.4 * k, 0, 0) for k in range(5)], {"type": np.ones(5, int)})
+    found = drawn(chain, style="ball-and-stick", bonds=1.5)
+    assert found.spheres.radius == pytest.approx(0.42)
+    assert found.bonds.radius == pytest.approx(0.3 * 0.42)
+    across = Particles(
+        chain.positions[[0, 4]],
+        {"type": [1, 1]},
+        bonds=[(0, 1)],
+        cell=np.diag([7.0, 9, 9]),
+    )
+    assert drawn(across, bonds=True).spheres.radius == pytest.approx(0.42)
+
+
+def test_what_rounding_puts_before_a_cell_stays_there() -> None:
+    found = Particles([(-1e-16, 0, 0), (6.5, 0, 0), (-0.1, 0, 0)], cell=6 * np.eye(3))
+    places = drawn(found, wrap=True).spheres.center[:, 0]
+    np.testing.assert_allclose(places, [0, 0.5, 5.9], atol=1e-12)

@@ -91,7 +91,7 @@ def test_names_are_those_of_matplotlib(name: str) -> None:
 
 
 KINDS = 'expected a name such as "red", a text such as "#ff8000", or three numbers, got'
-ALPHA = "expected three numbers, as vtray's surfaces are opaque and have no alpha, got"
+ALPHA = "expected three numbers, as colours have no alpha (opacity=... lets light through), got"
 FLOATS = "expected floats from 0 to 1, or integers from 0 to 255, got"
 
 

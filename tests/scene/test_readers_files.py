@@ -231,6 +231,47 @@ def test_data_of_lammps_beside_ase(tmp_path: Path) -> None:
     assert np.abs(found.cell - theirs.cell).max() < 1e-9
     assert found["type"].tolist() == theirs.arrays["type"].tolist()
     assert np.abs(found["mass"] - theirs.get_masses()).max() < 1e-7
+    assert found["element"].tolist() == WATER.get_chemical_symbols()  # ASE notes them at the masses
+
+
+LABELLED = """Made by write_data
+
+3 atoms
+2 atom types
+0 5 0 avec
+0 1 5 bvec
+5 0 0 cvec
+1 2 3 abc origin
+
+Atom Type Labels
+
+1 {first}
+2 O
+
+Masses
+
+{first} 12.011
+2 15.999
+
+Atoms # atomic
+
+1 {first} 0 0 0
+2 2 1 0 0
+3 O 2 0 0
+"""
+
+
+def test_types_and_edges_of_lammps_may_have_names(tmp_path: Path) -> None:
+    path = tmp_path / "a.data"
+    path.write_text(LABELLED.format(first="C"))
+    found = vtray.read(path)
+    assert found["type"].tolist() == found["element"].tolist() == ["C", "O", "O"]
+    assert found["mass"].tolist() == [12.011, 15.999, 15.999]
+    np.testing.assert_array_equal(found.cell, [(0, 5, 0), (0, 1, 5), (5, 0, 0)])
+    np.testing.assert_array_equal(found.origin, (1, 2, 3))
+    path.write_text(LABELLED.format(first="ca"))
+    found = vtray.read(path)
+    assert found["type"].tolist() == ["ca", "O", "O"]
     assert "element" not in found.columns
 
 
@@ -584,3 +625,62 @@ def test_molecule_of_ase() -> None:
     assert found["velocity"].tolist() == ethanol.get_velocities().tolist()
     assert found["charge"].tolist() == list(range(9))
     assert found.cell is None
+
+
+MISSING = """x,y,z,kind,value,count,is_new
+0,0,0,a,1.5,1,True
+1,0,0,,NA,,false
+2,0,0,b,,3,
+"""
+
+
+@pytest.mark.parametrize("ending", ["csv", "parquet"])
+def test_entries_that_are_missing(ending: str, tmp_path: Path) -> None:
+    path = tmp_path / f"a.{ending}"
+    if ending == "csv":
+        path.write_text(MISSING)
+    else:
+        columns = {name: pa.array([0.0, 1.0, 2.0]) for name in "xyz"}
+        columns["kind"] = pa.array(["a", None, "b"]).dictionary_encode()
+        columns["value"] = pa.array([1.5, None, None])
+        columns["count"] = pa.array([1, None, 3])
+        columns["is_new"] = pa.array([True, False, None])
+        pa.parquet.write_table(pa.table(columns), path)
+    found = vtray.read(path)
+    assert found["kind"].tolist() == ["a", "", "b"]
+    np.testing.assert_array_equal(found["value"], [1.5, np.nan, np.nan])
+    np.testing.assert_array_equal(found["count"], [1, np.nan, 3])
+    np.testing.assert_array_equal(found["is_new"], [1, 0, np.nan])
+
+
+def test_truths_of_csv(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text("x,y,z,ok\n0,0,0,true\n1,0,0,False\n")
+    assert vtray.read(path)["ok"].dtype == np.bool_
+    assert vtray.read(path)["ok"].tolist() == [True, False]
+
+
+ATOM = "ATOM  {:5d} {:4} {:3} A{:4d}    {:8.3f}   0.000   0.000  1.00  0.00"
+
+
+@pytest.mark.parametrize(
+    ("atoms", "elements"),
+    [
+        ([("N", "MET"), ("CA", "MET"), ("CD1", "MET"), ("HG1", "MET"), ("NE", "MET")], "N C C H N"),
+        ([("CA", "ALA"), ("CA", "CA")], "C Ca"),
+        (
+            [("C1", "LIG"), ("CL2", "LIG"), ("SOD", "SOD"), ("ZN", "ZN2"), ("FE", "HEM")],
+            "C Cl Na Zn Fe",
+        ),
+        ([("NA", "UNK"), ("CL", "UNK")], "Na Cl"),
+        ([(" N", "MET"), (" CA", "MET"), ("CA", "CA"), ("FE", "HEM")], "N C Ca Fe"),
+    ],
+    ids=["left", "alpha", "ions", "right", "usual"],
+)
+def test_elements_of_names_in_pdb(
+    atoms: list[tuple[str, str]], elements: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "a.pdb"
+    lines = [ATOM.format(k, name, residue, k, k) for k, (name, residue) in enumerate(atoms, 1)]
+    path.write_text("\n".join(lines))
+    assert vtray.read(path)["element"].tolist() == elements.split()

@@ -61,7 +61,7 @@ def test_scenes_keep_what_is_set_and_what_belongs_to_them() -> None:
     [
         (SCENE.add_spheres, "vmin", "the limits of the colour map are clim=(low, high)"),
         (SCENE.add_spheres, "norm", "the limits of the colour map are clim=(low, high); for log"),
-        (SCENE.add_spheres, "alpha", "surfaces are opaque, and there is no transparency"),
+        (SCENE.add_spheres, "alpha", 'did you mean "opacity"?'),
         (SCENE.add_spheres, "colour", 'did you mean "color"?'),
         (SCENE.add_spheres, "radii", 'did you mean "radius"?'),
         (SCENE.add_sphere, "colour", 'did you mean "color"?'),
@@ -73,7 +73,7 @@ def test_scenes_keep_what_is_set_and_what_belongs_to_them() -> None:
         (vtray.Image.recolor, "vmin", "the limits of the colour map are clim=(low, high)"),
         (vtray.Camera.fit, "fov", 'did you mean "fov_degrees"?'),
         (vtray.Sphere, "colour", 'did you mean "color"?'),
-        (vtray.Spheres, "alpha", "surfaces are opaque, and there is no transparency"),
+        (vtray.Spheres, "alpha", 'did you mean "opacity"?'),
         (LIGHT.replace, "place", "the arguments are location, intensity"),
     ],
 )

@@ -77,6 +77,8 @@ def check_client(client: Any) -> None:  # noqa: ANN401
     if not isinstance(client, distributed.Client) or client.asynchronous:
         words = "expected a distributed.Client, not an asynchronous one"
         raise RenderError(f"client: {words}, got {type(client).__name__}")
+    if client.status in ("closing", "closed"):
+        raise RenderError(f"client: expected one that is connected, and it is {client.status}")
 
     def version() -> str:  # as it is no function of a module, it travels as code
         try:

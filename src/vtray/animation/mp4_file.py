@@ -6,6 +6,7 @@ https://trac.ffmpeg.org/wiki/Encode/H.264
 """
 
 import contextlib
+import signal
 import subprocess
 import tempfile
 from collections.abc import Iterator
@@ -89,9 +90,15 @@ def write_mp4(path: Path, feed: Feed, fps: float) -> None:
         if process.returncode:
             said.seek(0)
             lines = said.read().decode(errors="replace").strip().splitlines()
-            reason = lines[-1][:200] if lines else f"status {process.returncode}"
+            reason = lines[-1][:200] if lines else _end_of(process.returncode)
             message = f"{path}: ffmpeg cannot write it: {reason}"
             raise OutputError(message)
+
+
+def _end_of(status: int) -> str:
+    """Say how a process has ended, by its status."""
+    words = signal.strsignal(-status) if status < 0 else None
+    return f"status {status}" if words is None else words.lower()
 
 
 def _feed(process: "subprocess.Popen[bytes]", first: "Pixels", others: "Iterator[Pixels]") -> None:

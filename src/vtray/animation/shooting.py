@@ -10,8 +10,10 @@ from typing import Self
 
 from vtray.animation.done import PART, Done
 from vtray.animation.film import Film
+from vtray.animation.output import Output
 from vtray.animation.script import Script
 from vtray.animation.stage import Shot, Stage, common_of
+from vtray.base.atomic_file import explained
 from vtray.image.image import Image
 from vtray.scene.default_light import settings_of
 
@@ -102,10 +104,14 @@ class _writing:  # noqa: N801 - used like a function
         output = self._film.output
         if output.format is not None:
             self._part = output.folder / PART
-            self._movie = self._pool.submit(
-                output.format.write, self._part, self._film.feed, self._film.fps
-            )
+            self._movie = self._pool.submit(self._write, output, self._part)
         return self
+
+    def _write(self, output: Output, part: Path) -> None:
+        """Write the movie; what keeps that from being done is said of its own name."""
+        assert output.format is not None  # noqa: S101 - numbered pictures are not put together
+        with explained(output.path):
+            output.format.write(part, self._film.feed, self._film.fps)
 
     def __exit__(self, *_: object) -> None:
         """Give up what is not whole."""

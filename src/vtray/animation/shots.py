@@ -13,6 +13,7 @@ from vtray.base.errors import SceneError
 from vtray.rendering.beside import MARGIN, Margin, fit_beside
 from vtray.scene.camera import Camera
 from vtray.scene.checks.scene_words import show
+from vtray.scene.default_camera import check_is_scene
 from vtray.scene.particles.view import USUAL
 from vtray.scene.placing.bounds import balls_of, middle_of
 from vtray.scene.placing.directions import Vec
@@ -76,6 +77,7 @@ class TurnedShots:
 
 def camera_around(scene: Scene, look: Look) -> tuple[Camera, Vector]:
     """Return the camera of a scene, or one that shows it from all sides, and what it goes about."""
+    check_is_scene(scene)
     if _is_none(scene.camera):
         return around_beside(scene, _usual_camera(scene, look), look.annotate)
     x, y, z = map(float, middle_of(balls_of(scene, "turntable")))

@@ -38,7 +38,7 @@ _OPEN = re.compile(r"/dev/std(?:out|err)|/(?:dev|proc/self)/fd/([0-9]{1,6})")
 
 def check_writable(path: Path) -> None:
     """Raise OutputError if it is plain before any work that `path` cannot be written."""
-    with _explained(path):
+    with explained(path):
         if _is_special(path):
             return
         target = Path(os.path.realpath(path))
@@ -60,7 +60,7 @@ def check_replaceable(path: Path, remedy: str) -> None:
     remedy
         What to do instead.
     """
-    with _explained(path):
+    with explained(path):
         if _is_special(path):
             message = f"{path}: is no file whose content can be replaced; {remedy}"
             raise OutputError(message)
@@ -102,7 +102,7 @@ def write_whole(path: Path, write: Callable[[BinaryIO], object]) -> None:
     OutputError
         The file cannot be written. What was there before is unchanged.
     """
-    with _explained(path):
+    with explained(path):
         if _is_special(path):
             with _open_special(path) as file:
                 write(file)
@@ -269,7 +269,7 @@ def _usual_mode() -> int:
 
 
 @contextlib.contextmanager
-def _explained(path: Path) -> Iterator[None]:
+def explained(path: Path) -> Iterator[None]:
     """Turn an OSError into an OutputError that names the file."""
     if "\0" in os.fspath(path):
         message = f"{path}: cannot be written: no file name may hold a null character"

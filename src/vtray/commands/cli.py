@@ -5,9 +5,11 @@ import contextlib
 import sys
 import warnings
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from vtray.base.errors import printable
+from vtray.base.errors import SceneError, printable
+from vtray.base.input_file import open_input
 from vtray.base.memory import BYTES_PER_PIXEL_AND_MORE, check_memory, check_memory_of_start
 from vtray.base.signals import LastStep
 from vtray.commands import data_options
@@ -159,8 +161,8 @@ def _warn(message: str, options: argparse.Namespace) -> None:
 def _is_data(options: argparse.Namespace) -> bool:
     """Tell whether there is a file of data in place of a scene; see that the options are for it."""
     given = data_options.given(options)
-    is_data = False
-    if options.scene.suffix != ".json":
+    is_data = "format" in given
+    if options.scene.suffix != ".json" and not is_data:
         from vtray.scene.readers.reader_table import is_data as is_called_data
 
         is_data = is_called_data(str(options.scene))
@@ -186,13 +188,27 @@ def _load(options: argparse.Namespace) -> "Scene":
     def warn(message: str) -> None:
         _warn(message, options)
 
-    if options.quiet or not sys.stderr.isatty():
-        return load(options.scene, warn=warn)
+    announced: Any = contextlib.nullcontext
+    if not options.quiet and sys.stderr.isatty():
+        from vtray.commands.progress import announced
+    try:
+        with announced(printable(f"vtray: reading {options.scene} ...")):
+            return load(options.scene, warn=warn)
+    except SceneError as error:
+        # Names of scene files may end in anything.
+        if options.scene.suffix in (".json", "") or _begins_as_scene(options.scene):
+            raise
+        raise SceneError(f"{error}; if it is data, say by --format what it is") from None
 
-    from vtray.commands.progress import announced
 
-    with announced(printable(f"vtray: reading {options.scene} ...")):
-        return load(options.scene, warn=warn)
+def _begins_as_scene(path: Path) -> bool:
+    """Tell whether a file begins as a scene file does, or cannot be read."""
+    try:
+        with open_input(path) as file:
+            begin: bytes = file.read(64)
+    except (OSError, ValueError):
+        return True
+    return begin.lstrip().startswith((b"{", b"\xef\xbb\xbf"))
 
 
 def _render(scene: "Scene", options: argparse.Namespace, growing: Growing) -> "Image":

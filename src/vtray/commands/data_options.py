@@ -79,6 +79,10 @@ FLAG: dict[str, Any] = {"action": "store_true", "default": None}
 
 WHAT: dict[str, dict[str, Any]] = {
     "frame": {"metavar": "N", "type": _integer, "help": "which frame, from 0; -1 is the last"},
+    "format": {
+        "metavar": "NAME",
+        "help": "what the file is where its name does not say it: xyz, lammps-dump, csv, ...",
+    },
     "columns": {**FLAG, "help": "write no image, print what is known of the particles"},
     "select": {"metavar": "EXPR", "help": "draw those alone, such as \"element == 'O' and z > 3\""},
     "replicate": {"metavar": "A,B,C", "type": _times, "help": "show the cell so many times"},
@@ -105,7 +109,10 @@ HOW: dict[str, dict[str, Any]] = {
         "type": _between(1e-20, 1e20, "a number from 1e-20 to 1e20"),
         "help": "multiply all radii by it",
     },
-    "bonds": {**YES_OR_NO, "help": "bonds by covalent radii, or none"},
+    "bonds": {
+        **YES_OR_NO,
+        "help": "bonds by covalent radii, of types those that the file names, or none",
+    },
     "cutoff": {"metavar": "LENGTH", "type": _positive, "help": "bonds of that length or shorter"},
     "hydrogen-bonds": {**FLAG, "help": "hydrogen bonds as dashes"},
     "cell": {**YES_OR_NO, "help": "the edges of the cell, or not"},

@@ -6,6 +6,7 @@ from functools import partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+from vtray.animation.annotating import VARYING, annotated
 from vtray.base.errors import SceneError
 from vtray.commands import data_options
 from vtray.commands.annotation_options import PointLabel, labels_of, value_of
@@ -25,7 +26,7 @@ MOST_LABELS = 2000
 LOST = 0.1
 """Particles that are narrower beside their cell are hardly seen."""
 
-UNDRAWN = ("frame", "columns", "legend")
+UNDRAWN = ("frame", "format", "columns", "legend")
 """Options that `add_particles` need not know."""
 
 
@@ -143,6 +144,13 @@ def _is_empty(drawn: "Drawn") -> bool:
 def _marks(options: argparse.Namespace, drawn: "Drawn", particles: "Particles") -> dict[str, Any]:
     """Return what is painted on a picture of particles: a legend, and labels."""
     marks: dict[str, Any] = {}
+    texts = {name: value_of(options, name) for name in VARYING}
+    known = {name: text for name, text in texts.items() if text is not None and "{" in text}
+    if known:
+        marks |= annotated(known, particles.frame, particles.time, {})
+    if value_of(options, "colorbar") and drawn.color_scale is None and drawn.stars is None:
+        message = "--color-bar: colours stand for no values; --legend says what names they have"
+        raise SceneError(message)
     if data_options.given(options).get("legend"):
         if not drawn.legend and len(drawn.indices):
             message = "--legend: colours have no names; --color-bar says what values they stand for"
@@ -187,7 +195,14 @@ def read_particles(options: argparse.Namespace) -> "Particles":
     """Read the frame that is asked for."""
     from vtray.scene.readers.read import read
 
-    return read(options.scene, frame=data_options.given(options).get("frame", 0))
+    given = data_options.given(options)
+    return read(options.scene, frame=given.get("frame", 0), **reading_of(options))
+
+
+def reading_of(options: argparse.Namespace) -> dict[str, Any]:
+    """Return what `vtray.read` is told of the file."""
+    given = data_options.given(options)
+    return {name: given[name] for name in ("format",) if name in given}
 
 
 def describe(options: argparse.Namespace) -> str:

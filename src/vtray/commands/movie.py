@@ -23,7 +23,7 @@ from vtray.base.signals import LastStep
 from vtray.commands import data_options
 from vtray.commands.annotation_options import annotations_of
 from vtray.commands.command import print_note
-from vtray.commands.data_scene import draw_data, read_particles, shown_data
+from vtray.commands.data_scene import draw_data, read_particles, reading_of, shown_data
 from vtray.commands.movie_options import FPS
 from vtray.commands.options import settings_of
 from vtray.rendering.beside import Margin
@@ -124,7 +124,7 @@ def _make(options: argparse.Namespace, film: Film, load: "Callable[[], Scene] | 
 
 def _go_through(options: argparse.Namespace, film: Film) -> None:
     """Make a movie of the frames of a file."""
-    source = source_of(options.scene, getattr(options, "frames", None))
+    source = source_of(options.scene, getattr(options, "frames", None), reading_of(options))
     first, source = first_of(source)
     given = data_options.given(options)
     view = {name: given[name] for name in VIEW if name in given}

@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+MOST_TENTHS = 1000
+"""The widest figure that is thought of, in tenths of an inch."""
+
 FONT_SIZES = (
     "font.size",
     "axes.titlesize",
@@ -94,6 +97,21 @@ def _lay_out(sheet: Sheet, panel: Panel, dpi: float | None) -> None:
     _finish(sheet, panel, rooms, (across, width, height), dpi)
 
 
+def _least_width(panel: Panel, width: float) -> float:
+    """Return about the least width in inches in which a panel has room.
+
+    In a wider one a legend has more lines, and fewer columns.
+    """
+    tenths = math.ceil(10 * width)
+    while tenths < MOST_TENTHS:
+        points = INCH * tenths / 10
+        _, rooms = panel.fit(points - 2 * panel.em, math.inf)
+        if _margin(panel, rooms) <= (1 - LEAST_SHARE) * points:
+            break
+        tenths = math.ceil(1.03 * tenths + 1e-9)
+    return tenths / 10
+
+
 def _lay_out_in_width(sheet: Sheet, panel: Panel, width: float, dpi: float | None) -> None:
     """Make a sheet of a width in inches, and as high as its panel then is.
 
@@ -105,8 +123,8 @@ def _lay_out_in_width(sheet: Sheet, panel: Panel, width: float, dpi: float | Non
     _, rooms = panel.fit(points - 2 * panel.em, math.inf)
     margin = _margin(panel, rooms)
     if margin > (1 - LEAST_SHARE) * points:
-        least = margin / (1 - LEAST_SHARE) / INCH
-        message = f"width: expected at least {least:.3g} inches with this text, got {width:g}"
+        least = _least_width(panel, width)
+        message = f"width: expected at least {least:.1f} inches with this text, got {width:g}"
         raise FigureError(f"{message}; or give a smaller fontsize")
     if dpi is not None:
         across = math.floor(width * dpi + 1e-6)

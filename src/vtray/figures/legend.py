@@ -43,16 +43,14 @@ def legend_entries(legend: "LegendGiven") -> list[Entry]:
     Raises
     ------
     FigureError
-        There is none, or one is no such pair.
+        One is no such pair.
     """
     given: Any = legend
     try:
         pairs = list(given.items() if isinstance(given, Mapping) else given)
     except TypeError:
-        pairs = []
-    if not pairs:
         message = f"legend: expected {WANTED}, or None, got {legend!r}"
-        raise FigureError(message)
+        raise FigureError(message) from None
     return [_entry(pair, f"legend[{k}]") for k, pair in enumerate(pairs)]
 
 

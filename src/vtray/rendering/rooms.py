@@ -82,6 +82,8 @@ def rooms_of(style: Style, scene: Scene) -> Rooms | None:
     count = len(scene.objects)
     for name, plane in given:
         _check_objects(plane.objects, count, name)
+        if plane.objects == ():
+            continue  # it cuts nothing
         place = _place_of(plane, scene, name)
         if isinstance(plane, Slice):
             sides = (_wall(plane, place, 0.5 * plane.thickness, side) for side in (1.0, -1.0))

@@ -1,8 +1,10 @@
 """From where scenes are seen whose camera was never set."""
 
+import os
 from copy import copy
 from typing import TYPE_CHECKING, Any
 
+from vtray.base.errors import SceneError
 from vtray.base.exact_math import cosine, sine
 from vtray.scene.camera import Camera
 from vtray.scene.default_light import lit_objects
@@ -38,6 +40,7 @@ def with_camera(scene: "Scene", size: tuple[int, int] | None) -> "Scene":
     SceneError
         The scene is not valid, or has no camera, and nothing that has an end.
     """
+    check_is_scene(scene)
     seen = scene
     if not _has_camera(scene):
         type(scene)(None, scene.lights, scene.objects, scene.render, scene.style)  # checks the rest
@@ -47,6 +50,16 @@ def with_camera(scene: "Scene", size: tuple[int, int] | None) -> "Scene":
             seen.camera = Camera.fit(scene, **_view_of(scene), **asked)
     seen.check()
     return seen
+
+
+def check_is_scene(given: object) -> None:
+    """Raise SceneError if something is no scene."""
+    from vtray.scene.checks.scene_words import show
+    from vtray.scene.scene import Scene
+
+    if not isinstance(given, Scene):
+        remedy = "; vtray.load reads scene files" if isinstance(given, (str, os.PathLike)) else ""
+        raise SceneError(f"scene: expected a vtray.Scene, got {show(given)}{remedy}")
 
 
 def _has_camera(scene: HasCamera) -> bool:

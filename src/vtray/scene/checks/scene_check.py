@@ -98,10 +98,12 @@ class FileChecker:
         return _convert_leaf(found, kind, place, self.make)
 
     def _named(self, found: Members, kind: Kind, place: str) -> None:
-        """Check materials, of which none is named by another."""
+        """Check materials, of which blends may name others that are none."""
         self._check_repeated(found, place)
-        names, self.names = self.names, frozenset()
+        names = self.names
+        single = frozenset(key for key, _, value in found if not _is_blend(value))
         for key, _, value in found:
+            self.names = single if _is_blend(value) else frozenset()
             self.check(value, typing.get_args(plain_kind(kind))[1], join(place, key))
         self.names = names
 
@@ -268,6 +270,13 @@ def _kinds_of_items(kind: Kind, count: int) -> tuple[Kind, ...]:
     """Give the kinds of the items of an array; of one of any length, of so many."""
     first, *rest = typing.get_args(plain_kind(kind))
     return (first,) * count if rest in ([], [...]) else (first, *rest)
+
+
+def _is_blend(found: Tree) -> bool:
+    """Tell whether a material of a file is one of two."""
+    return isinstance(found, Members) and any(
+        key == "type" and value == b'"blend"' for key, _, value in found
+    )
 
 
 def _least_length(kind: Kind) -> int:

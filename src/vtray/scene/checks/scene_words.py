@@ -186,7 +186,8 @@ def nearest(word: str, known: list[str], cutoff: float = 0.0) -> str:
     """Give the most similar known word in quotes, "" if none is similar enough."""
     import difflib
 
-    close = difflib.get_close_matches(word, known, n=1, cutoff=cutoff)
+    same = next((one for one in known if one.casefold() == word.casefold()), None)
+    close = [same] if same else difflib.get_close_matches(word, known, n=1, cutoff=cutoff)
     return quoted(close[0]) if close else ""
 
 

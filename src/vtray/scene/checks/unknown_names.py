@@ -11,7 +11,6 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 _LIMITS = "the limits of the colour map are clim=(low, high)"
-_OPAQUE = "surfaces are opaque, and there is no transparency"
 
 # What other programs call it, and what to say where there is this argument of vtray.
 _MEANT = {
@@ -20,9 +19,8 @@ _MEANT = {
     "norm": {"clim": f"{_LIMITS}; for logarithms, give those of the values as color"},
     "alpha": {
         "background": 'for a transparent background, background="transparent"',
-        "color": _OPAQUE,
+        "opacity": 'did you mean "opacity"?',
     },
-    "opacity": {"color": _OPAQUE},
     "c": {"color": 'did you mean "color"?'},
     "center": {"positions": 'did you mean "positions"?', "point": 'did you mean "point"?'},
     "points": {"positions": 'did you mean "positions"?'},

@@ -125,7 +125,7 @@ def _numbers(color: Any, place: str) -> list[Any]:  # noqa: ANN401
     return numbers
 
 
-ALPHA = "expected three numbers, as vtray's surfaces are opaque and have no alpha"
+ALPHA = "expected three numbers, as colours have no alpha (opacity=... lets light through)"
 
 
 def _of_integers(numbers: list[int], place: str, *, sure: bool) -> Rgb:

@@ -52,14 +52,29 @@ def in_their_places(raw: bytes, images: PatternImages) -> tuple[bytes, bool]:
     """
     import json
 
-    materials = msgspec.json.decode(raw, type=_Named, dec_hook=images).materials
     scene = msgspec.json.decode(raw)
     is_plain = json.dumps(scene).count(":") == raw.count(b":")
-    named = scene.pop("materials", {})
+    named = with_parts(scene.pop("materials", {}))
+    text = json.dumps({"materials": named}).encode()
+    materials = msgspec.json.decode(text, type=_Named, dec_hook=images).materials
     is_plain = is_plain and all(map(_is_known, named.values(), materials.values()))
     if isinstance(scene.get("objects"), list):
         scene["objects"] = [with_named(item, named) for item in scene["objects"]]
     return json.dumps(scene).encode(), is_plain  # which, unlike msgspec, writes all integers
+
+
+def with_parts(materials: Any) -> Any:  # noqa: ANN401
+    """Return the materials of a file with those that blends name in their places."""
+    if not isinstance(materials, Mapping):
+        return materials
+    single = {name: one for name, one in materials.items() if not _is_blend(one)}
+    return {
+        name: _named_by(one, single) if _is_blend(one) else one for name, one in materials.items()
+    }
+
+
+def _is_blend(given: Any) -> bool:  # noqa: ANN401
+    return isinstance(given, Mapping) and given.get("type") == "blend"
 
 
 def _is_known(given: Any, made: AnyMaterial) -> bool:  # noqa: ANN401

@@ -16,7 +16,7 @@ from vtray.scene.checks.scene_words import Unknown, join, nearest, show
 from vtray.scene.copies import Copies
 from vtray.scene.default_light import lights_of, settings_of
 from vtray.scene.files.in_file import without_integrator
-from vtray.scene.files.named_materials import with_named
+from vtray.scene.files.named_materials import with_named, with_parts
 from vtray.scene.files.pattern_images import PatternImages, without_image
 from vtray.scene.files.scene_file import Warn, loads_bytes
 from vtray.scene.light_types import AnyLight
@@ -85,7 +85,7 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
         _check(given, "", name)
         raise
     unknown = Unknown("key")
-    named = data.get("materials", {})
+    named = with_parts(data.get("materials", {}))
     for index, item in enumerate(with_named(item, named) for item in data["objects"]):
         if _kind_of_arrays(item) is not None or _are_copies(item):
             place = f"objects[{index}]"

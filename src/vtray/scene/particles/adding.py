@@ -85,10 +85,11 @@ class AddingParticles:
             What all radii are multiplied by, those of bonds too, from 1e-20 to 1e20.
         color
             A colour, in any of the ways of `vtray.colors.to_rgb`; the name of a column, or x, y or
-            z; or one colour or one number for each particle. Names and at most eight different
-            integers get a colour each, which people with any colour vision can tell apart; numbers
-            those of `cmap`, and vectors those of their lengths. By default the columns ``color``,
-            ``element`` or ``type``, whichever is there first.
+            z; what is worked out of these, such as ``"velocity.x"`` or ``"norm(force)"``, as for
+            `select`; or one colour or one number for each particle. Names, types and at most eight
+            different integers get a colour each, of which people with any colour vision can tell
+            the first eight apart; numbers those of `cmap`, and vectors those of their lengths. By
+            default the columns ``color``, ``element`` or ``type``, whichever is there first.
         colors
             Whose colours elements have.
         cmap

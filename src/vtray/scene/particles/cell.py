@@ -25,6 +25,9 @@ THIN = 0.0035
 IMAGES = (("ix", "iy", "iz"),)
 """Names of columns that say how many cells away a particle is from where it stands."""
 
+ROUNDED = 2.0**-40
+"""What is before a face of the cell by less than this part of an edge is on it but for rounding."""
+
 _BYTES = 100
 """Of memory for each copy of a cell while they are placed."""
 
@@ -54,7 +57,7 @@ def wrapped(particles: "Particles") -> tuple[Floats, Integers]:
     if lattice is None:
         raise SceneError("wrap: there is no cell that repeats")
     columns = columns_of(particles.positions)
-    moves = lattice.outside(columns)
+    moves = lattice.outside(columns, ROUNDED)
     moved = lattice.moved(columns, [-moves[:, k] for k in range(3)])
     return np.stack(moved, axis=1), moves
 

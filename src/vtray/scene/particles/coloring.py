@@ -1,5 +1,6 @@
 """The colours of particles: of their elements, of a column, of categories."""
 
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -13,6 +14,7 @@ from vtray.scene.colors.color_arrays import color_arrays
 from vtray.scene.colors.color_scale import ColorScale
 from vtray.scene.colors.names import Rgb, to_rgb
 from vtray.scene.particles.elements import SCHEMES, SYMBOLS, atomic_numbers, colors_of
+from vtray.scene.particles.expression import values_of
 from vtray.scene.particles.particles import POSITION
 
 if TYPE_CHECKING:
@@ -36,6 +38,12 @@ References
 M. Okabe and K. Ito, "Color Universal Design", 2008; black, which shows no shape, is left out, and
 grey is added.
 """
+
+KINDS = "type"
+"""The column of integers that are categories, however many there are."""
+
+NAMELESS = "(none)"
+"""What a legend calls the category whose name is empty."""
 
 SHADE, TINT = 0.55, 0.5
 """How much of the palette's colours there is where it comes a second time, darker, and a third
@@ -112,6 +120,9 @@ def color_particles(
             return _of_elements(particles["element"][rows], colors)
         if color in particles.columns or color in POSITION:
             return _of_column(color, particles[color], rows, scaled, categories)
+        if _is_expression(color):
+            values = values_of(particles, color, "color")
+            return _of_column(color, values, rows, scaled, categories)
         return Coloring(np.array(_one(color, particles), np.uint8))
     return _of_values(color, len(particles), rows, scaled)
 
@@ -157,7 +168,7 @@ def _of_column(
         values = _lengths(values, name)
     is_text = values.dtype.kind in "OUST"
     few = values.dtype.kind in "iub" and (
-        categories is not None or len(np.unique(values)) <= len(PALETTE)
+        name == KINDS or categories is not None or len(np.unique(values)) <= len(PALETTE)
     )
     if scaled["cmap"] is None and scaled["clim"] is None and (is_text or few):
         return _of_categories(values, rows, categories)
@@ -179,11 +190,25 @@ def _of_categories(values: NDArray[Any], rows: Integers, known: Sequence[Any] | 
     drawn = which[rows]
     named = dict(zip(kinds, (_rgb(row) for row in table), strict=True))
     shown = {kinds[k] for k in np.unique(drawn)}
-    legend = [(str(kind), named[kind]) for kind in kinds if kind in shown]
+    in_order = sorted((kind for kind in kinds if kind in shown), key=_natural)
+    legend = [(_label(kind), named[kind]) for kind in in_order]
     if known is not None:
-        listed = [(str(kind), palette[k % len(palette)]) for k, kind in enumerate(known)]
+        listed = [(_label(kind), palette[k % len(palette)]) for k, kind in enumerate(known)]
         legend = listed + [(name, color) for name, color in legend if name not in dict(listed)]
     return Coloring(table[drawn], None, legend, kinds if known is None else known)
+
+
+def _label(kind: object) -> str:
+    """Return what a legend calls a category."""
+    return str(kind).strip() or NAMELESS
+
+
+def _natural(kind: object) -> list[tuple[int, int, str]]:
+    """Return by what names are sorted as people do: a2 before a10, integers by their value."""
+    if isinstance(kind, int):
+        return [(0, kind, "")]
+    parts = enumerate(re.split("([0-9]+)", str(kind)))
+    return [(0, int(part), part) if k % 2 else (1, 0, part) for k, part in parts if part]
 
 
 def _palette() -> list[Rgb]:
@@ -241,6 +266,11 @@ def _lengths(vectors: NDArray[Any], name: str) -> NDArray[np.float64]:
         part = column.astype(np.float64)
         squares += part * part
     return np.sqrt(squares)
+
+
+def _is_expression(color: str) -> bool:
+    """Tell whether a text is to be worked out: it has a sign that no colour has."""
+    return re.search(r"[A-Za-z].*[(\[.*+/<>=]|[(*+/<>=].*[A-Za-z]", color) is not None
 
 
 def _one(color: str, particles: "Particles") -> Rgb:

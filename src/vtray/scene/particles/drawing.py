@@ -35,6 +35,7 @@ from vtray.scene.particles.styles import (
     COVERED,
     STYLES,
     ball_radii,
+    radius_beside,
     screen_radii,
     stick_radius,
     style_of,
@@ -273,6 +274,8 @@ def _solid(
 
     The first are without the copies of their cell.
     """
+    if radii is None and placed.bonds is not None:
+        radii = radius_beside(particles, style, placed.bonds, placed.positions)
     radius = _radii(particles, style, radii, scale, placed, camera)
     balls = _spheres(particles, placed, radius, found)
     bonds, times = (placed.bonds, placed.hydrogen_bonds), placed.times
@@ -406,6 +409,8 @@ def _bonds_of(particles: Particles, bonds: Any) -> Bonds:  # noqa: ANN401
     """Return the bonds that are asked for."""
     if bonds is True:
         if "element" not in particles.columns and len(particles):
+            if particles.bonds is not None:
+                return bonds_between(particles, particles.bonds)
             words = "which ones there are follows from elements, and there is no column element"
             raise SceneError(f"bonds: {words}; give a length, as bonds=2.5 or --cutoff 2.5")
         return find_bonds(particles)

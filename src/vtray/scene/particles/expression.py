@@ -98,6 +98,37 @@ def mask(particles: Table, expression: str, name: str = "select") -> "Mask":
     """
     import numpy as np
 
+    text, found = _worked_out(particles, expression, name)
+    count = len(particles.positions)
+    if isinstance(found, (bool, np.bool_)):
+        return np.full(count, bool(found))
+    if not _is_truth(found):
+        raise _problem(name, text, 1, "expected something true or false, such as z > 0")
+    return np.asarray(found, np.bool_)
+
+
+def values_of(particles: Table, expression: str, name: str) -> "Array":
+    """Return what an expression is for each particle: numbers, names or truths, (n,).
+
+    The parameters, and what it may have, are those of `mask`.
+
+    Raises
+    ------
+    SceneError
+        The expression is not understood, there is no such column, or it is a vector.
+    """
+    import numpy as np
+
+    text, found = _worked_out(particles, expression, name)
+    if getattr(found, "ndim", 0) == 2:
+        raise _problem(name, text, 1, f"a vector; expected a component, or norm({text})")
+    return np.broadcast_to(np.asarray(found), len(particles.positions))
+
+
+def _worked_out(particles: Table, expression: str, name: str) -> tuple[str, Any]:
+    """Return an expression without blanks around it, and what it is."""
+    import numpy as np
+
     text = re.sub(r"\s", " ", expression).strip()
     if len(text) > _LONGEST:
         raise SceneError(f"{name}: longer than {_LONGEST} characters: {short(text)!r}")
@@ -113,15 +144,9 @@ def mask(particles: Table, expression: str, name: str = "select") -> "Mask":
         raise _problem(name, text, 1, f"not understood: {error}") from None
     try:
         with np.errstate(all="ignore"):
-            found = _Steps(particles, text, name).value(tree.body)
+            return text, _Steps(particles, text, name).value(tree.body)
     except RecursionError:
         raise _problem(name, text, 1, "too many brackets within brackets") from None
-    count = len(particles.positions)
-    if isinstance(found, (bool, np.bool_)):
-        return np.full(count, bool(found))
-    if not _is_truth(found):
-        raise _problem(name, text, 1, "expected something true or false, such as z > 0")
-    return np.asarray(found, np.bool_)
 
 
 class _Steps:

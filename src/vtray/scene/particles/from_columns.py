@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.column_names import canonical, name_columns
+from vtray.scene.particles.object_column import without_objects
 from vtray.scene.particles.particles import POSITION, Particles
 
 if TYPE_CHECKING:
@@ -43,7 +44,7 @@ def from_columns(
     import numpy as np
 
     positions: Any
-    left = renamed(columns, called or {})
+    left = {name: without_objects(of) for name, of in renamed(columns, called or {}).items()}
     places = {name.lower(): name for name in reversed(left)}
     whole = [name for name in left if canonical(name) == "position"]
     if all(name in places for name in POSITION):

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any
 from vtray.base.errors import SceneError
 from vtray.scene.checks.given_array import positions_in, show_array
 from vtray.scene.particles.column_names import name_columns
-from vtray.scene.particles.elements import symbols_of
+from vtray.scene.particles.elements import SYMBOLS, symbol_of, symbols_of
+from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.from_columns import from_columns
+from vtray.scene.particles.object_column import without_objects
 from vtray.scene.particles.particles import Particles
 
 if TYPE_CHECKING:
@@ -20,6 +22,8 @@ if TYPE_CHECKING:
 
 _RESULTS = ("forces", "charges", "magmoms", "energies")
 """What calculators of ASE find for each atom."""
+
+_SYMBOLS = frozenset(SYMBOLS)
 
 _ATTRIBUTES = {
     "elements": "element",
@@ -118,10 +122,10 @@ def from_mdanalysis(group: Any) -> Particles:  # noqa: ANN401
     columns: dict[str, Array] = {}
     for attribute, name in _ATTRIBUTES.items():
         if hasattr(atoms, attribute):
-            values = np.asarray(getattr(atoms, attribute))
-            columns[name] = values.astype(np.str_) if values.dtype == object else values
-    if "element" in columns:  # those of sites without mass, for instance, are left blank
-        columns["element"] = np.where(columns["element"] == "", "X", columns["element"])
+            columns[name] = without_objects(np.asarray(getattr(atoms, attribute)))
+    elements = _elements_of(columns)
+    if elements is not None:
+        columns = {"element": elements, **{k: v for k, v in columns.items() if k != "element"}}
     if now.has_velocities:
         columns["velocity"] = np.array(atoms.velocities)
     if now.has_forces:
@@ -165,7 +169,7 @@ def as_particles(given: Any) -> Particles:  # noqa: ANN401
     if isinstance(given, Mapping):
         return from_columns({str(name): np.asarray(given[name]) for name in given})
     if hasattr(given, "columns") and hasattr(given, "shape"):
-        return from_columns({str(name): _column(given[name]) for name in given.columns})
+        return from_columns({str(name): np.asarray(given[name]) for name in given.columns})
     places = positions_in(given)
     try:
         positions = np.asarray(places)
@@ -222,6 +226,20 @@ def _results(atoms: Any) -> "dict[str, Array]":  # noqa: ANN401
     return {name: values for name, values in arrays.items() if len(values) == len(atoms)}
 
 
+def _elements_of(columns: "dict[str, Array]") -> "Array | None":
+    """Return the elements of atoms by their column, or by types that are all symbols, if any are.
+
+    X is what is none, such as the sites without mass of some models of water.
+    """
+    if "element" in columns:
+        listed = columns["element"].tolist()
+        known = {name: symbol_of(name) for name in set(listed)}
+        return texts_of(listed, lambda name: known[name] or "X") if any(known.values()) else None
+    types = columns.get("type")
+    is_known = types is not None and types.dtype.kind == "U" and set(types.tolist()) <= _SYMBOLS
+    return types if is_known else None
+
+
 def _bonds_within(universe: Any, chosen: "Array") -> "Array | None":  # noqa: ANN401
     """Return the bonds between chosen atoms, by their places among these."""
     import numpy as np
@@ -233,14 +251,6 @@ def _bonds_within(universe: Any, chosen: "Array") -> "Array | None":  # noqa: AN
     bonds: Array = places[np.asarray(universe.bonds.indices, np.int64).reshape(-1, 2)]
     within: Array = bonds[(bonds >= 0).all(axis=1)]
     return within
-
-
-def _column(values: Any) -> "Array":  # noqa: ANN401
-    """Return a column of a data frame, names as text."""
-    import numpy as np
-
-    found = np.asarray(values)
-    return found.astype(np.str_) if found.dtype == object else found
 
 
 def _time(value: object) -> float | None:

@@ -81,14 +81,17 @@ class Lattice(NamedTuple):
             for axis, column in enumerate(columns)
         ]
 
-    def outside(self, columns: Sequence[Floats]) -> Integers:
-        """Return how many edges points are away from the cell, (n, 3); 0 where nothing repeats."""
+    def outside(self, columns: Sequence[Floats], slack: float = 0.0) -> Integers:
+        """Return how many edges points are away from the cell, (n, 3); 0 where nothing repeats.
+
+        Those that are before a face by such a part of an edge count as beyond it.
+        """
         import numpy as np
 
         found = np.zeros((len(columns[0]), 3), np.int64)
         for k, fraction in enumerate(self.fractions(columns)):
             if self.periodic[k]:
-                found[:, k] = np.floor(fraction)
+                found[:, k] = np.floor(fraction + slack)
         return found
 
 

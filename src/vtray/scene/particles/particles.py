@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from vtray.base.errors import SceneError
 from vtray.scene.checks.given_array import show_array
 from vtray.scene.particles.expression import mask
+from vtray.scene.particles.object_column import without_objects
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -89,7 +90,9 @@ class Particles:
         if positions.ndim != 2 or positions.shape[1] != 3:
             raise SceneError(f"Particles.positions: must have shape (n, 3), got {positions.shape}")
         _check_finite(positions, "positions")
-        columns = {str(name): np.asarray(values) for name, values in self.columns.items()}
+        columns = {
+            str(name): without_objects(np.asarray(values)) for name, values in self.columns.items()
+        }
         for name, values in columns.items():
             _check_column(name, values, len(positions))
         bonds = self.bonds

@@ -1,5 +1,6 @@
 """Styles of drawing particles: how large balls and bonds are."""
 
+import math
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -16,6 +17,7 @@ from vtray.scene.placing.directions import dot, unit
 from vtray.scene.placing.panorama import pixel_angle
 
 if TYPE_CHECKING:
+    from vtray.scene.particles.bonds import Bonds
     from vtray.scene.particles.particles import Particles
     from vtray.scene.particles.radii import Radii
 
@@ -36,6 +38,11 @@ SLIM = 0.3
 COVERED = 0.75
 """Radius of a point in pixels: from 0.71 on, a disc has the middle of a pixel in it wherever it
 lies."""
+
+
+BESIDE = 0.3
+"""Radius of balls beside sticks whose size is not known, in bond lengths of the usual bond: about
+that of carbon."""
 
 
 class Style(NamedTuple):
@@ -127,6 +134,33 @@ def default_radii(particles: "Particles", table: str) -> "Radii":
     if "radius" in particles.columns:
         return "radius"
     return table if "element" in particles.columns else FILLED * mean_spacing(particles)
+
+
+def radius_beside(
+    particles: "Particles", style: str, bonds: "Bonds", positions: NDArray[Any]
+) -> float | None:
+    """Return the radius of balls by how long bonds are; None where it is known otherwise.
+
+    Parameters
+    ----------
+    particles, style
+        The particles, and the name of the style.
+    bonds, positions
+        Those that are drawn, and where all particles are, (n, 3).
+    """
+    is_known = not {"radius", "element"}.isdisjoint(particles.columns)
+    if is_known or STYLES[style].stick is None or not len(bonds):
+        return None
+    edges = np.zeros((3, 3)) if particles.cell is None else particles.cell
+    ways = positions[bonds.pairs[:, 1]] - positions[bonds.pairs[:, 0]]
+    squares = np.zeros(len(bonds))
+    for axis in range(3):
+        way = ways[:, axis].astype(np.float64)
+        for k in range(3):
+            way += bonds.shifts[:, k] * edges[k, axis]
+        squares += way * way
+    usual = math.sqrt(np.partition(squares, len(squares) // 2)[len(squares) // 2])
+    return BESIDE * usual if usual > 0.0 else None
 
 
 def stick_radius(particles: "Particles", style: str, radii: "Radii | None", scale: float) -> float:

@@ -6,11 +6,14 @@ https://docs.lammps.org/read_data.html
 """
 
 import re
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.column_names import name_columns
+from vtray.scene.particles.elements import SYMBOLS
+from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.frames import frame_number
 from vtray.scene.readers.lines import Lines
@@ -40,6 +43,8 @@ _STYLES = {
 _BY_WIDTH = {5: "atomic", 8: "atomic", 7: "full", 10: "full"}
 """The style where none is named, by the number of columns."""
 
+_SYMBOLS = frozenset(SYMBOLS)
+
 _INTEGERS = ("id", "mol", "type", "ellipsoid")
 
 _COUNT = re.compile(r"\s*([0-9]{1,18})\s+([a-z ]+?)\s*")
@@ -48,11 +53,56 @@ _BOUNDS = re.compile(r"\s*(\S+)\s+(\S+)\s+([xyz])lo\s+[xyz]hi\s*")
 
 _TILTS = re.compile(r"\s*(\S+)\s+(\S+)\s+(\S+)\s+xy\s+xz\s+yz\s*")
 
+_EDGE = re.compile(r"\s*(\S+)\s+(\S+)\s+(\S+)\s+([abc]vec|abc\s+origin)\s*")
+
 _OTHER = re.compile(r"[A-Z]|[-+0-9.]")
 """What titles of other sections, and their rows, begin with."""
 
-_SECTIONS = {"Velocities": "atoms", "Bonds": "bonds", "Masses": "atom types"}
-"""What is read beside the atoms, and what counts its rows."""
+_SECTIONS = {"Velocities": ("atoms", "IRRR"), "Bonds": ("bonds", "IIII")}
+"""What is read beside the atoms: what counts its rows, and the kinds of their entries."""
+
+_MASSES, _LABELS = "Masses", "Atom Type Labels"
+"""The sections that say something of each type: its mass, and its name, which may stand for it."""
+
+
+class _Types(NamedTuple):
+    """What is said of the types of atoms, by their numbers as text, or by their names.
+
+    Attributes
+    ----------
+    masses
+        Their masses.
+    notes
+        The words behind these, which are often the names of elements.
+    labels
+        Their names by their numbers, if they have some.
+    """
+
+    masses: dict[str, float]
+    notes: dict[str, str]
+    labels: dict[str, str]
+
+    def names_of(self, types: "Array") -> "Array":
+        """Return the names of types; types as they are if there are none."""
+        if not self.labels:
+            return types
+        return texts_of([*map(str, types.tolist())], lambda kind: self.labels.get(kind, kind))
+
+    def masses_of(self, types: "Array") -> "Array":
+        """Return the masses of types, given by number or by name; NaN where it is not known."""
+        import numpy as np
+
+        known = {self.labels.get(kind, kind): mass for kind, mass in self.masses.items()}
+        return np.array([known.get(kind, np.nan) for kind in map(str, types.tolist())])
+
+    def elements_of(self, types: "Array") -> "Array | None":
+        """Return the elements of types, if their names, or the notes, are symbols of some."""
+        kinds = [*map(str, types.tolist())]
+        notes = {self.labels.get(kind, kind): note for kind, note in self.notes.items()}
+        for known in ({kind: kind for kind in kinds}, notes):
+            if kinds and {known.get(kind) for kind in kinds} <= _SYMBOLS:
+                return texts_of(kinds, known.__getitem__)
+        return None
 
 
 class _Box:
@@ -64,11 +114,14 @@ class _Box:
         Least and greatest x, y and z.
     tilts
         By how much edges lean: xy, xz, yz.
+    vectors
+        The edges avec, bvec and cvec, and their origin, where a box is said so.
     """
 
     def __init__(self) -> None:
         self.bounds: dict[str, tuple[float, float]] = {}
         self.tilts = [0.0, 0.0, 0.0]
+        self.vectors: dict[str, list[float]] = {}
 
     def take(self, line: str, number: int) -> bool:
         """Take a line of the head if it is one of the box, and tell whether it was."""
@@ -77,12 +130,19 @@ class _Box:
             self.bounds[bound[3]] = (low, high)
         elif tilt := _TILTS.fullmatch(line):
             self.tilts = _numbers(tilt.group(1, 2, 3), number)
-        return bool(bound or _TILTS.fullmatch(line))
+        elif edge := _EDGE.fullmatch(line):
+            self.vectors[edge[4].split()[-1]] = _numbers(edge.group(1, 2, 3), number)
+        else:
+            return False
+        return True
 
     def edges(self) -> "tuple[Cell | None, Cell]":
         """Return the edges of the box, if there is one, and its corner."""
         import numpy as np
 
+        if {"avec", "bvec", "cvec"} <= self.vectors.keys():
+            edges = np.array([self.vectors[name] for name in ("avec", "bvec", "cvec")])
+            return edges, np.array(self.vectors.get("origin", [0.0, 0.0, 0.0]))
         if len(self.bounds) < 3:
             return None, np.zeros(3)
         x, y, z = (high - low for low, high in (self.bounds[name] for name in "xyz"))
@@ -94,8 +154,9 @@ class _Box:
 def read(given: Given) -> Particles:
     """Read a data file.
 
-    Columns are those of its style, with ``type``, ``charge`` (its q), ``radius`` (half its
-    diameter), ``mass`` (of its types) and ``velocity``. Elements are not read, as LAMMPS has none.
+    Columns are those of its style, with ``type``, a number or a label, ``charge`` (its q),
+    ``radius`` (half its diameter), ``mass`` (of its types) and ``velocity``. LAMMPS knows no
+    elements: they are those of the labels, or of the words behind the masses, if all are symbols.
 
     Raises
     ------
@@ -107,14 +168,17 @@ def read(given: Given) -> Particles:
 
     frame_number(given.frame, 1)
     box = _Box()
-    atoms, sections = _sections_of(Lines(given.file), box)
+    atoms, sections, types = _sections_of(Lines(given.file), box)
     rows = {number: row for row, number in enumerate(atoms["id"].tolist())}
     positions = np.stack([atoms.pop(name) for name in "xyz"], axis=1)
     if "diameter" in atoms:
         atoms["radius"] = atoms.pop("diameter") / 2
-    if "Masses" in sections:
-        masses = dict(sections["Masses"].tolist())
-        atoms["mass"] = np.array([masses.get(kind, np.nan) for kind in atoms["type"].tolist()])
+    atoms["type"] = types.names_of(atoms["type"])
+    elements = types.elements_of(atoms["type"])
+    if elements is not None:
+        atoms = {"element": elements, **atoms}
+    if types.masses:
+        atoms["mass"] = types.masses_of(atoms["type"])
     if "Velocities" in sections:
         ids, values = sections["Velocities"][:, 0], sections["Velocities"][:, 1:]
         atoms["velocity"] = np.zeros((len(rows), 3))
@@ -126,9 +190,12 @@ def read(given: Given) -> Particles:
     return Particles(positions, name_columns(atoms), bonds=bonds, cell=cell, origin=origin)
 
 
-def _sections_of(lines: Lines, box: _Box) -> "tuple[dict[str, Array], dict[str, Array]]":
-    """Read the whole file: return the columns of the atoms, and other sections of numbers."""
+def _sections_of(lines: Lines, box: _Box) -> "tuple[dict[str, Array], dict[str, Array], _Types]":
+    """Read the whole file: return the columns of the atoms, sections of numbers, and the types."""
+    import numpy as np
+
     counts: dict[str, int] = {}
+    types = _Types({}, {}, {})
     atoms: dict[str, Array] = {}
     found: dict[str, Array] = {}
     lines.next()  # the first line is a title
@@ -140,12 +207,36 @@ def _sections_of(lines: Lines, box: _Box) -> "tuple[dict[str, Array], dict[str, 
         elif title == "Atoms":
             atoms = _atoms_of(lines, counts.get("atoms", 0), note)
         elif title in _SECTIONS:
-            found[title] = _section(lines, counts.get(_SECTIONS[title], 0), title)
+            counted, kinds = _SECTIONS[title]
+            lines.next()
+            rows = read_rows(lines, counts.get(counted, 0), kinds, more=True)
+            found[title] = np.stack(rows, axis=1)
+        elif title in (_MASSES, _LABELS):
+            for kind, word, note in _of_types(lines, counts.get("atom types", 0), title):
+                if title == _LABELS:
+                    types.labels[kind] = word
+                else:
+                    (types.masses[kind],) = _numbers((word,), lines.number)
+                    types.notes[kind] = note
         elif title and not box.take(title, lines.number) and not _OTHER.match(title):
             raise SceneError(f"line {lines.number}: expected a section, got {short(title)!r}")
     if not atoms:
         raise SceneError("expected the number of atoms, and a section Atoms; there is none")
-    return atoms, found
+    return atoms, found, types
+
+
+def _of_types(lines: Lines, count: int, title: str) -> Iterator[tuple[str, str, str]]:
+    """Give what a section says of each type, a word, and what is noted behind it."""
+    lines.next()
+    for k in range(count):
+        text = lines.next()
+        if text is None:
+            raise SceneError(f"line {lines.number}: the file ends after {k} of {count} rows")
+        row, _, note = text.partition("#")
+        parts = row.split()
+        if len(parts) < 2:
+            raise SceneError(f"line {lines.number}: section {title}: expected a type and a word")
+        yield parts[0], parts[1], note.strip()
 
 
 def _atoms_of(lines: Lines, count: int, style: str) -> "dict[str, Array]":
@@ -163,20 +254,15 @@ def _atoms_of(lines: Lines, count: int, style: str) -> "dict[str, Array]":
         remedy = f"expected, as in 'Atoms # full', one of {known}"
         raise SceneError(f"line {lines.number - 1}: {problem}; {remedy}")
     names = _STYLES[name].split()
-    kinds = "".join("I" if each in _INTEGERS else "R" for each in names)
+    kind_of = dict.fromkeys(names, "R") | dict.fromkeys(_INTEGERS, "I")
+    entries = dict(zip(names, first, strict=False))
+    if re.match("[A-Za-z]", entries.get("type", "")):
+        kind_of["type"] = "S"  # called by their labels
+    kinds = "".join(kind_of[name] for name in names)
     columns = dict(zip(names, read_rows(lines, count, kinds, more=True), strict=True))
     positions = np.stack([columns[name] for name in "xyz"], axis=1)
     check_places(positions, range(lines.number - count + 1, lines.number + 1))
     return columns
-
-
-def _section(lines: Lines, count: int, title: str) -> "Array":
-    """Read a section of numbers."""
-    import numpy as np
-
-    lines.next()
-    kinds = {"Velocities": "IRRR", "Bonds": "IIII", "Masses": "IR"}[title]
-    return np.stack(read_rows(lines, count, kinds, more=True), axis=1)
 
 
 def _places(ids: "Array", rows: dict[int, int], title: str) -> "Array":

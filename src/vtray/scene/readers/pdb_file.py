@@ -59,6 +59,8 @@ def read(given: Given) -> Particles:
     Columns are ``element``, ``name``, ``resname``, ``resid``, ``chain``, ``occupancy`` and
     ``tempfactor``, and ``altloc`` where it is used. Elements are those of columns 77 and 78; where
     these are blank, of the first two characters of the name, in which a symbol stands to the right.
+    In files whose names all begin in the first of these, as CHARMM and NAMD write them, a symbol
+    has one letter, unless the residue is an ion or no name of another atom begins so.
     Bonds are those of CONECT, where they reach each atom of all residues with more than one; most
     files name but a few of them, which are not read. There is a cell where the atoms are all that
     it repeats; not where its space group makes others of them, as in most crystals of proteins.
@@ -91,11 +93,12 @@ def _read_model(model: _Model, cell: "Cell | None", conects: list[bytes], number
     table = lines.view("S1").reshape(len(atoms), _WIDTH)
     places = [_numbers(table, start, start + 8, numbers, "xyz"[i]) for i, start in _PLACES]
     columns: dict[str, Array] = {}
-    elements = _elements_of(_text(table, 76, 78, strip=False), _text(table, 12, 16, strip=False))
+    names, residues = _text(table, 12, 16, strip=False), _text(table, 17, 21)
+    elements = _elements_of(_text(table, 76, 78, strip=False), names, residues)
     if elements is not None:
         columns["element"] = elements
     columns["name"] = _text(table, 12, 16)
-    columns["resname"] = _text(table, 17, 21)
+    columns["resname"] = residues
     columns["chain"] = _text(table, 21, 22)
     columns["resid"] = _whole(_text(table, 22, 26))
     altloc = _text(table, 16, 17)
@@ -109,6 +112,30 @@ def _read_model(model: _Model, cell: "Cell | None", conects: list[bytes], number
     bonds = _bonds_of(conects, table) if conects else None
     return Particles(positions, columns, bonds=bonds, cell=cell, frame=number)
 
+
+_IONS = {
+    "SOD": "Na",
+    "CLA": "Cl",
+    "POT": "K",
+    "CAL": "Ca",
+    "CES": "Cs",
+    "LIT": "Li",
+    "RUB": "Rb",
+    "BAR": "Ba",
+    "CAD": "Cd",
+}
+"""What CHARMM calls ions."""
+
+_NAMED = """
+    ALA ARG ASN ASP CYS GLN GLU GLY HIS ILE LEU LYS MET PHE PRO SER THR TRP TYR VAL
+    CYX HID HIE HIP HSD HSE HSP MSE
+"""
+
+_AMINO_ACIDS = frozenset(_NAMED.split())
+"""Residues whose CA is no calcium."""
+
+_SURE = ("CL", "BR", "FE", "ZN", "MG", "MN", "CU", "SE")
+"""Beginnings of names that stand for a symbol of two letters, whatever the residue."""
 
 _PLACES = ((0, 30), (1, 38), (2, 46))
 """Where x, y and z begin in a line."""
@@ -233,19 +260,39 @@ def _whole(texts: "Array") -> "Array":
         return texts
 
 
-def _elements_of(columns: "Array", names: "Array") -> "Array | None":
+def _elements_of(columns: "Array", names: "Array", residues: "Array") -> "Array | None":
     """Return the elements of atoms, X where one is not known; None if none is."""
-    pairs = [one + other for one, other in zip(columns.tolist(), names.tolist(), strict=True)]
-    known = {pair: _element_of(pair[:2], pair[2:]) for pair in set(pairs)}
+    triples = [*zip(columns.tolist(), names.tolist(), residues.tolist(), strict=True)]
+    different = set(triples)
+    # With a symbol to the right, the names of carbon, nitrogen, oxygen begin with a blank.
+    is_left = all(name[:1].isalpha() for _, name, _ in different) and any(
+        residue in _AMINO_ACIDS or not name[1:2].isalpha() for _, name, residue in different
+    )
+    known = {
+        (column, name, residue): _element_of(column, name, residue, is_left)
+        for column, name, residue in different
+    }
     if not any(known.values()):
         return None
-    return texts_of(pairs, lambda pair: known[pair] or "X")
+    texts = ["".join(triple) for triple in triples]
+    symbols = {"".join(triple): symbol or "X" for triple, symbol in known.items()}
+    return texts_of(texts, symbols.__getitem__)
 
 
-def _element_of(column: str, name: str) -> str | None:
-    """Return the element of an atom, by the columns of the element and of the name."""
+def _element_of(column: str, name: str, residue: str, is_left: bool) -> str | None:
+    """Return the element of an atom.
+
+    Parameters
+    ----------
+    column, name, residue
+        The columns of the element, of the name, and the name of the residue.
+    is_left
+        Whether all names of the file begin in the first of their columns.
+    """
     if column.strip():
         return symbol_of(re.sub(r"[0-9+-]", "", column))
+    if is_left:
+        return _element_of_left(name.strip(), residue)
     name = name.ljust(4)
     two = name[:2]
     # Names of hydrogen that have four characters begin one column before.
@@ -254,3 +301,16 @@ def _element_of(column: str, name: str) -> str | None:
         if found is not None:
             return found
     return symbol_of(next((letter for letter in name if letter.isalpha()), ""))
+
+
+def _element_of_left(name: str, residue: str) -> str | None:
+    """Return the element of an atom whose name has its symbol to the left."""
+    letters = re.match(r"[A-Za-z]*", name)
+    word = letters[0].upper() if letters else ""
+    if word in _IONS:
+        return _IONS[word]
+    if word[:2] in _SURE or word == re.sub(r"[0-9+-]", "", residue).upper():
+        found = symbol_of(word[:2])
+        if found is not None:
+            return found
+    return symbol_of(word[:1])

@@ -14,6 +14,7 @@ from vtray.base.input_file import read_stream
 from vtray.base.memory import lack_of_memory
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.from_columns import from_columns
+from vtray.scene.particles.object_column import without_objects
 from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.frames import frame_number
 from vtray.scene.readers.libraries import check_room, told
@@ -28,6 +29,12 @@ _SEPARATORS = ",;\t"
 
 CELLS = {"cell", "box", "lattice"}
 """What the three vectors of a cell, or its three lengths, are called in .npz files."""
+
+_MISSING = {"", "na", "n/a", "nan", "null", "none", "<na>", "-nan"}
+"""What .csv files have in the place of a number that is missing, in any case."""
+
+_TRUTHS = {"true": True, "false": False}
+"""What they have for what is true or not, in any case."""
 
 _BYTES = 160
 """Of memory for an entry of a .csv file while it is read."""
@@ -114,19 +121,23 @@ def _check_names(names: list[str]) -> None:
 
 
 def _column(entries: list[str]) -> "Array":
-    """Return entries as integers, as numbers (where one is left out, NaN), or as text."""
+    """Return entries as integers, numbers (NaN where one is missing), truths, or text."""
     import numpy as np
 
-    for kind, parse in ((np.int64, int), (np.float64, float)):
+    for kind, parse in ((np.int64, int), (np.float64, float), (np.float64, _number_or_nan)):
         try:
             return np.fromiter(map(parse, entries), kind, len(entries))
         except (ValueError, OverflowError):
             continue
-    try:
-        numbers = (float(entry) if entry.strip() else np.nan for entry in entries)
-        return np.fromiter(numbers, np.float64, len(entries))
-    except ValueError:
-        return np.array([entry.strip() for entry in entries], np.str_)
+    words = [entry.strip() for entry in entries]
+    if {word.lower() for word in words} - _MISSING <= _TRUTHS.keys():
+        return without_objects(np.array([_TRUTHS.get(word.lower()) for word in words], object))
+    return np.array(words, np.str_)
+
+
+def _number_or_nan(entry: str) -> float:
+    """Return an entry as a number, NaN where it says that there is none."""
+    return float("nan") if entry.strip().lower() in _MISSING else float(entry)
 
 
 def _read_npz(given: Given) -> "dict[str, Array]":
@@ -183,9 +194,10 @@ def _read_parquet(given: Given) -> "dict[str, Array]":
         table = parquet.read_table(given.file)
         columns = {}
         for name in table.column_names:
-            found = table[name].to_numpy()
+            column = table[name]
+            if hasattr(column.type, "value_type") and hasattr(column.type, "index_type"):
+                column = column.cast(column.type.value_type)  # categories as what they stand for
+            found = column.to_numpy()
             is_list = found.dtype == object and len(found) and isinstance(found[0], np.ndarray)
             columns[name] = np.stack(found) if is_list else found
-            if columns[name].dtype == object:
-                columns[name] = columns[name].astype(np.str_)
         return columns

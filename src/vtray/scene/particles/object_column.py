@@ -1,0 +1,59 @@
+"""Columns of Python's objects, which tables have where entries are missing, as numbers or names."""
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+
+MISSING_NAME = ""
+"""The name of what has none."""
+
+
+def without_objects(column: "Array") -> "Array":
+    """Return a column of numbers or names for one of Python's objects; others as they are.
+
+    What is missing, ``None`` or not a number, is NaN among numbers, and a name without letters
+    among names. What is true or false counts as 1 or 0 where some of it is missing.
+
+    Parameters
+    ----------
+    column
+        Of any dtype, (n,) or (n, k).
+    """
+    import numpy as np
+
+    if column.dtype != object:
+        return column
+    entries = column.ravel().tolist()
+    missing = [_is_missing(entry) for entry in entries]
+    there = [entry for entry, gone in zip(entries, missing, strict=True) if not gone]
+    if there and all(isinstance(entry, (bool, np.bool_)) for entry in there) and not any(missing):
+        return np.array(entries, np.bool_).reshape(column.shape)
+    if there and all(isinstance(entry, (bool, int, float, np.number, np.bool_)) for entry in there):
+        are_whole = all(isinstance(entry, (int, np.integer)) for entry in there)
+        if are_whole and not any(missing):
+            return np.array(entries).reshape(column.shape)
+        numbers = [np.nan if gone else entry for entry, gone in zip(entries, missing, strict=True)]
+        return np.array(numbers, np.float64).reshape(column.shape)
+    names = [
+        MISSING_NAME if gone else _text_of(entry)
+        for entry, gone in zip(entries, missing, strict=True)
+    ]
+    return np.array(names, np.str_).reshape(column.shape)
+
+
+def _text_of(entry: object) -> str:
+    """Return the text of an entry."""
+    return entry.decode("utf-8", "replace") if isinstance(entry, bytes) else str(entry)
+
+
+def _is_missing(entry: object) -> bool:
+    """Tell whether an entry is missing: None, or what is not equal to itself, such as NaN."""
+    if entry is None:
+        return True
+    try:
+        return not bool(entry == entry)  # noqa: PLR0124
+    except (TypeError, ValueError):  # what pandas has for what is missing is neither
+        return True
