@@ -67,6 +67,30 @@ def style_of(planes: Any, cap: Any) -> dict[str, Any]:
     return {"clip": [(*normal, distance) for normal, distance in planes], "cap": cap}
 
 
+def test_planes_of_no_objects_cut_nothing() -> None:
+    scene = vtray.Scene(lights=[vtray.Light((0, -9, 3), 1)])
+    scene.add_sphere((0, 0, 0), 1)
+    scene.camera = vtray.Camera.fit(scene, size=(8, 6))
+    plain = vtray.render(scene)
+    for clip in (vtray.ClipPlane((1, 0, 0), objects=[]), []):
+        np.testing.assert_array_equal(vtray.render(scene, clip=clip).linear, plain.linear)
+
+
+def test_planes_may_be_rows_of_an_array() -> None:
+    rows = np.array([(1.0, 0.0, 0.0, 0.5), (0.0, 1.0, 0.0, 0.25)])
+    wanted = (vtray.ClipPlane((1, 0, 0), 0.5), vtray.ClipPlane((0, 1, 0), 0.25))
+    assert vtray.Style(clip=rows).clip == vtray.Style(clip=rows.tolist()).clip == wanted
+    assert vtray.Style(clip=rows[0]).clip == wanted[:1]
+    with pytest.raises(vtray.SceneError, match="such as 1,0,0,2.5, got 1,0,0;$"):
+        vtray.Style(clip="1,0,0;")
+
+
+@pytest.mark.parametrize("given", [None, [vtray.Scene()], "room.json"])
+def test_what_is_rendered_is_a_scene(given: Any) -> None:
+    with pytest.raises(vtray.SceneError, match=r"scene: expected a vtray\.Scene, got"):
+        vtray.render(given)
+
+
 @pytest.mark.parametrize("cap", [False, True, (255, 255, 0)])
 @pytest.mark.parametrize(
     ("planes", "kinds", "camera"),

@@ -76,6 +76,23 @@ def test_are_those_of_blends_too() -> None:
     jsonschema.validate(given, json.loads(SCHEMA.read_text(encoding="utf-8")))
 
 
+def test_blends_of_the_table_may_name_others() -> None:
+    given = scene("wet", "mixed")
+    given["materials"]["wet"] = {"type": "blend", "first": "water", "second": "chrome"}
+    given["materials"]["mixed"] = {"type": "blend", "first": "ruby", "second": "lambert"}
+    for read in (lambda: vtray.loads(json.dumps(given)), lambda: vtray.load_dict(given)):
+        one, other = (item.material for item in read().objects[:2])
+        assert one == vtray.Blend(vtray.Glass(1.33), "mirror")
+        assert other == vtray.Blend(vtray.Glass(1.76), "lambert")
+    jsonschema.validate(given, json.loads(SCHEMA.read_text(encoding="utf-8")))
+    given["materials"]["mixed"]["first"] = "wet"
+    with pytest.raises(vtray.SceneError, match=r"materials\.mixed\.first: expected .*got \"wet\""):
+        vtray.loads(json.dumps(given))
+    given["materials"]["mixed"]["first"] = "watr"
+    with pytest.raises(vtray.SceneError, match=r"materials\.mixed\.first: .*did you mean \"water"):
+        vtray.load_dict(given)
+
+
 def test_may_be_named_like_those_that_all_files_know() -> None:
     given = scene("glass", "metal", materials={"glass": RUBY, "ruby": "mirror"})
     found = [item.material for item in vtray.loads(json.dumps(given)).objects[:2]]
