@@ -69,7 +69,7 @@ def test_pixels_of_the_picture_are_told() -> None:
 @pytest.mark.parametrize("objects", [[], [vtray.Plane((0, 0, 0), (0, 1, 0))]])
 def test_what_has_no_end_needs_a_camera(objects: list[Any]) -> None:
     scene = vtray.Scene(objects=objects)
-    with pytest.raises(SceneError, match=r"^Scene\.camera: there is none; set one, for instance"):
+    with pytest.raises(SceneError, match=r"^Scene\.camera: there is none; nothing has an end"):
         vtray.render(scene)
 
 

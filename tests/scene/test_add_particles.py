@@ -339,3 +339,15 @@ def test_what_rounding_puts_before_a_cell_stays_there() -> None:
     found = Particles([(-1e-16, 0, 0), (6.5, 0, 0), (-0.1, 0, 0)], cell=6 * np.eye(3))
     places = drawn(found, wrap=True).spheres.center[:, 0]
     np.testing.assert_allclose(places, [0, 0.5, 5.9], atol=1e-12)
+
+
+def test_lengths_of_a_cell_are_its_edges() -> None:
+    found = Particles([(0, 0, 0)], cell=[1, 2, 3])
+    np.testing.assert_array_equal(found.cell, np.diag([1.0, 2, 3]))
+
+
+def test_rows_are_no_columns() -> None:
+    with pytest.raises(SceneError, match="expected the name of a column, got slice"):
+        WATER[:2]  # type: ignore[index]
+    with pytest.raises(SceneError, match="rename them, as in table.rename"):
+        drawn({"px": [0.0], "py": [0.0], "pz": [0.0]})

@@ -211,6 +211,7 @@ def describe(options: argparse.Namespace) -> str:
 
     particles = read_particles(options)
     lines = [f"{len(particles)} particles, frame {particles.frame}"]
+    wide = max(11, *map(len, particles.columns)) + 1 if particles.columns else 12
     for name in ("x", "y", "z", *particles.columns):
         values = particles[name]
         kind = "" if values.ndim == 1 else f" of {values.shape[1]}"
@@ -219,7 +220,7 @@ def describe(options: argparse.Namespace) -> str:
         else:
             words = [str(word) for word in np.unique(values)[:9].tolist()]
             range_ = f"names{kind}: {', '.join(words[:8])}{', ...' if len(words) > 8 else ''}"
-        lines.append(f"{name:12}{range_}")
+        lines.append(f"{name:{wide}}{range_}")
     if particles.bonds is not None:
         lines.append(f"{'bonds':12}{len(particles.bonds)}")
     if particles.cell is not None:

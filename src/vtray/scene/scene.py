@@ -143,7 +143,11 @@ class Scene(
         """
         Scene(self.camera, self.lights, self.objects, self.render, self.style)
         if _is_none(self.camera):
+            from vtray.scene.default_light import lit_objects
+
             remedy = "set one, for instance vtray.Camera.fit(scene)"
+            if all(isinstance(item, Plane) for item in lit_objects(self)):
+                remedy = "nothing has an end that one could show; set one by vtray.Camera.look_at"
             raise SceneError(f"Scene.camera: there is none; {remedy}")
         if any(issubclass(kind, ArrayHolder) for kind in set(map(type, self.objects))):
             for index, item in enumerate(self.objects):

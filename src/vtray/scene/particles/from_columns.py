@@ -58,7 +58,10 @@ def from_columns(
         positions = left.pop(min(whole, key=lambda name: left[name].ndim != 2))
     else:
         known = short(", ".join(columns), 100) or "none"
-        remedy = 'name them, as in columns={"x": "px", "y": "py", "z": "pz"}'
+        names = '{"x": "px", "y": "py", "z": "pz"}'
+        remedy = f"name them, as in columns={names}, or columns={{'position': 'r'}} for all three"
+        if called is None:  # of a table that is at hand
+            remedy = 'rename them, as in table.rename(columns={"px": "x", "py": "y", "pz": "z"})'
         if "x" in places and "y" in places:
             remedy = "places in a plane need a column z of zeros"
         raise SceneError(f"expected the columns x, y and z, got {known}; {remedy}")

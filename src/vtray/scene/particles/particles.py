@@ -45,7 +45,7 @@ class Particles:
         Which particles are bound, as indices; None where that is not known.
     cell : array (3, 3) or None
         The cell's three edges from `origin`, in rows; None if there is no cell, as where none of
-        these has a length.
+        these has a length. Three numbers are the lengths of edges along x, y and z.
     origin : array (3,)
         The cell's corner; 0 by default.
     periodic : tuple of bool
@@ -101,7 +101,8 @@ class Particles:
             _check_bonds(bonds, len(positions))
         cell = self.cell
         if cell is not None:
-            cell = _numbers_of(cell, "cell", (3, 3))
+            edges = np.asarray(cell)
+            cell = _numbers_of(np.diag(edges) if edges.shape == (3,) else cell, "cell", (3, 3))
         given = (cell is not None,) * 3 if self.periodic is None else self.periodic
         repeats = _three_of_bool(given)
         if cell is not None:
@@ -133,6 +134,10 @@ class Particles:
         SceneError
             There is none of this name.
         """
+        given: object = name
+        if not isinstance(given, str):
+            words = 'rows are chosen by select="index < 5" as they are drawn'
+            raise SceneError(f"expected the name of a column, got {show_array(given)}; {words}")
         if name in self.columns:
             return self.columns[name]
         if name in POSITION:
