@@ -311,6 +311,24 @@ def test_particles_leave_room_for_what_stands_beside(water: Path, mark: str) -> 
     assert beside <= 300 * (1 - taken) + 1
 
 
+def test_particles_leave_room_for_what_stands_above_and_below(water: Path) -> None:
+    given = ["--no-cell", "--view", "top", "--size", "400x200", str(water)]
+
+    def ends(*marks: str) -> tuple[float, float]:
+        scene = scene_of(*given, *marks)
+        (spheres,) = scene.objects
+        lift = spheres.radius[:, None] * np.array([(0, 1, 0)])
+        rows = scene.camera.project(np.concatenate([spheres.center + lift, spheres.center - lift]))
+        return float(rows[:, 1].min()), float(rows[:, 1].max())
+
+    alone, titled, barred = ends(), ends("--title", "Water"), ends("--scale-bar=Å")
+    assert titled[0] > alone[0] + 8
+    assert titled[1] == pytest.approx(alone[1], abs=3)
+    assert barred[1] < alone[1] - 8
+    assert barred[0] == pytest.approx(alone[0], abs=3)
+    assert ends("--title", "Water\n" * 8) == alone  # for which there is no room
+
+
 def test_points_that_shine_leave_room_for_their_bars(water: Path) -> None:
     shining = ["--emission", "y", "--color", "charge", "--cmap", "viridis", "--view", "front"]
     given = [*shining, "--size", "600x400", str(water)]

@@ -26,6 +26,9 @@ MOST_LABELS = 2000
 LOST = 0.1
 """Particles that are narrower beside their cell are hardly seen."""
 
+AROUND = ("colorbar", "title", "time", "scalebar")
+"""What options paint around what is shown, which is left room."""
+
 UNDRAWN = ("frame", "format", "columns", "legend")
 """Options that `add_particles` need not know."""
 
@@ -104,7 +107,7 @@ def draw_data(
         drawn = scene.add_particles(particles, **drawing)
         marks = _marks(options, drawn, particles)
         if camera is None and not _is_empty(drawn):
-            annotate = {"colorbar": value_of(options, "colorbar"), **marks}
+            annotate = {**{name: value_of(options, name) for name in AROUND}, **marks}
             fit = partial(camera_of, scene, has_cell, size, **view)
             scene.camera = fit_beside(fit, scene.objects, annotate)
             if drawn.style == "points" and drawn.stars is None:

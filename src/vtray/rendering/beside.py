@@ -1,4 +1,4 @@
-"""Cameras that leave room for a legend and colour bars beside what they show."""
+"""Cameras that leave room for what is painted beside, above and below what they show."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -7,7 +7,7 @@ import numpy as np
 
 from vtray.figures.annotations import Annotations
 from vtray.figures.brightness_scale import BrightnessScale
-from vtray.figures.painted.picture import MOST_BESIDE, share_beside
+from vtray.figures.painted.picture import MOST_BESIDE, share_above, share_below, share_beside
 from vtray.rendering.starlight import peak_of
 from vtray.scene.camera import Camera
 from vtray.scene.objects import Object
@@ -15,6 +15,12 @@ from vtray.scene.stars import Stars
 
 MARKS = ("legend", "colorbar")
 """What stands beside what is shown, as keywords of `vtray.Image.annotated`."""
+
+TEXTS = ("title", "time")
+"""What stands above it."""
+
+MOST_ABOVE = 0.3
+"""The share of the height from which on texts, or a scale bar, stand on what is shown."""
 
 MARGIN = 0.05
 """What stays free at each side, as a share of width and height."""
@@ -34,7 +40,7 @@ def fit_beside(
     annotate: Mapping[str, Any],
     size: tuple[int, int] | None = None,
 ) -> Camera:
-    """Return a camera that leaves room for a legend and colour bars.
+    """Return a camera that leaves room for a legend, colour bars, texts above, and a scale bar.
 
     Parameters
     ----------
@@ -50,21 +56,36 @@ def fit_beside(
     Raises
     ------
     FigureError
-        The legend or the colour bars are not right.
+        The legend, the colour bars or the texts are not right.
     """
     camera = fit(MARGIN)
-    if not has_beside(annotate):
-        return camera
-    given = {name: annotate[name] for name in MARKS if annotate.get(name)}
     width, height = map(int, size or camera.size)
-    brightness = (
-        _brightness(objects, camera.resized((width, height))) if "colorbar" in given else []
+    fontsize = annotate.get("fontsize")
+    above = below = right = 0.0
+    if has_beside(annotate):
+        given = {name: annotate[name] for name in MARKS if annotate.get(name)}
+        brightness = (
+            _brightness(objects, camera.resized((width, height))) if "colorbar" in given else []
+        )
+        wanted = Annotations(**given)
+        right = share_beside(objects, wanted, (width, height), brightness, fontsize)
+    title, caption = (str(annotate.get(name) or "") for name in TEXTS)
+    if title or caption:
+        above = share_above(title, caption, (width, height), fontsize)
+    if annotate.get("scalebar"):
+        below = share_below((width, height), fontsize)
+    free = (
+        MARGIN,
+        _free(above, MOST_ABOVE),
+        _free(right, MOST_BESIDE),
+        _free(below, MOST_ABOVE),
     )
-    wanted, fontsize = Annotations(**given), annotate.get("fontsize")
-    right = share_beside(objects, wanted, (width, height), brightness, fontsize)
-    if not MARGIN < right < MOST_BESIDE:
-        return camera
-    return fit((MARGIN, MARGIN, right, MARGIN))
+    return camera if set(free) == {MARGIN} else fit(free)
+
+
+def _free(share: float, most: float) -> float:
+    """Return what stays free at a side, if marks take such a share of it; no more than most."""
+    return share if MARGIN < share < most else MARGIN
 
 
 def _brightness(objects: Sequence[Object], camera: Camera) -> list[BrightnessScale]:

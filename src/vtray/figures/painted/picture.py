@@ -28,6 +28,11 @@ LEGIBLE = 11
 LEAST = 7
 """The least size with which all is still written, in pixels."""
 
+BAR = 2.8
+"""The height of a scale bar with its length and the remark below it, about, in sizes of letters."""
+
+NO_MARKS = Marks("", "", [], [], [], None, [], [])
+
 MOST_BESIDE = 0.4
 """The share of the width from which on a legend stands on what is shown, so that it stays large."""
 
@@ -133,6 +138,35 @@ def share_beside(
     if not placed:
         return 0.0
     return max(_share_of(one, em, width) for one in placed)
+
+
+def share_above(
+    title: str, caption: str, size: tuple[int, int], fontsize: float | None = None
+) -> float:
+    """Return the share of a picture's height that a title and a caption take at its top.
+
+    Parameters
+    ----------
+    title, caption
+        The texts, "" for none.
+    size, fontsize
+        As for `share_beside`.
+
+    Raises
+    ------
+    FigureError
+        One of them is not right.
+    """
+    found = _largest(_checked(NO_MARKS._replace(title=title, caption=caption)), fontsize, *size)
+    placed, em = found or ([], 0)
+    end = max((one.top + one.block.height for one in placed), default=0)
+    return (end + round(MARGIN * em)) / size[1]
+
+
+def share_below(size: tuple[int, int], fontsize: float | None = None) -> float:
+    """Return the share of a picture's height that a scale bar takes at its bottom, about."""
+    em = next(_sizes(fontsize, *size))
+    return (BAR + 2.0 * MARGIN) * em / size[1]
 
 
 def _share_of(one: Placed, em: int, width: int) -> float:
