@@ -39,7 +39,7 @@ M. Okabe and K. Ito, "Color Universal Design", 2008; black, which shows no shape
 grey is added.
 """
 
-KINDS = "type"
+TYPE = "type"
 """The column of integers that are categories, however many there are."""
 
 NAMELESS = "(none)"
@@ -168,7 +168,7 @@ def _of_column(
         values = _lengths(values, name)
     is_text = values.dtype.kind in "OUST"
     few = values.dtype.kind in "iub" and (
-        name == KINDS or categories is not None or len(np.unique(values)) <= len(PALETTE)
+        name == TYPE or categories is not None or len(np.unique(values)) <= len(PALETTE)
     )
     if scaled["cmap"] is None and scaled["clim"] is None and (is_text or few):
         return _of_categories(values, rows, categories)

@@ -5,15 +5,15 @@ References
 https://docs.lammps.org/read_data.html
 """
 
+import math
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.column_names import name_columns
 from vtray.scene.particles.elements import SYMBOLS
-from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.frames import frame_number
 from vtray.scene.readers.lines import Lines
@@ -84,25 +84,32 @@ class _Types(NamedTuple):
 
     def names_of(self, types: "Array") -> "Array":
         """Return the names of types; types as they are if there are none."""
-        if not self.labels:
-            return types
-        return texts_of([*map(str, types.tolist())], lambda kind: self.labels.get(kind, kind))
+        return _of_each(types, lambda kind: self.labels.get(kind, kind)) if self.labels else types
 
     def masses_of(self, types: "Array") -> "Array":
         """Return the masses of types, given by number or by name; NaN where it is not known."""
-        import numpy as np
-
         known = {self.labels.get(kind, kind): mass for kind, mass in self.masses.items()}
-        return np.array([known.get(kind, np.nan) for kind in map(str, types.tolist())])
+        return _of_each(types, lambda kind: known.get(kind, math.nan))
 
     def elements_of(self, types: "Array") -> "Array | None":
         """Return the elements of types, if their names, or the notes, are symbols of some."""
-        kinds = [*map(str, types.tolist())]
+        import numpy as np
+
+        kinds = [*map(str, np.unique(types).tolist())]
         notes = {self.labels.get(kind, kind): note for kind, note in self.notes.items()}
         for known in ({kind: kind for kind in kinds}, notes):
             if kinds and {known.get(kind) for kind in kinds} <= _SYMBOLS:
-                return texts_of(kinds, known.__getitem__)
+                return _of_each(types, known.__getitem__)
         return None
+
+
+def _of_each(types: "Array", of: Callable[[str], str | float]) -> "Array":
+    """Return what is said of each type, asked for once for all atoms of one."""
+    import numpy as np
+
+    kinds, which = np.unique(types, return_inverse=True)
+    each: Array = np.array([of(str(kind)) for kind in kinds.tolist()])
+    return each[which]
 
 
 class _Box:
