@@ -136,17 +136,15 @@ class EyeDome(Frozen, frozen=True, omit_defaults=True, gc=False):
 
 def _outline(given: Any, place: str) -> Outline:  # noqa: ANN401
     """Return an outline of its width, or of that and a colour."""
-    parts = _parts(
-        given, place, 1, "a width in pixels, or that and a colour such as 1.5,navy", given
-    )
+    words = "a width in pixels, or that and a colour such as 1.5,navy"
+    parts = _parts(given, place, 1, words, given)
     return Outline(*parts)
 
 
 def _fog(given: Any, place: str) -> Fog:  # noqa: ANN401
     """Return fog between two distances, maybe of a colour."""
-    parts = _parts(
-        given, place, 2, "two distances, maybe a colour, such as 5,20 or 5,20,white", given
-    )
+    words = "two distances, maybe a colour, such as 5,20 or 5,20,white"
+    parts = _parts(given, place, 2, words, given)
     return Fog(*parts)
 
 
