@@ -203,12 +203,14 @@ def _load(options: argparse.Namespace) -> "Scene":
 
 def _begins_as_scene(path: Path) -> bool:
     """Tell whether a file begins as a scene file does, or cannot be read."""
+    from vtray.scene.files.scene_file import begins_as_scene
+
     try:
         with open_input(path) as file:
             begin: bytes = file.read(64)
     except (OSError, ValueError):
         return True
-    return begin.lstrip().startswith((b"{", b"\xef\xbb\xbf"))
+    return begins_as_scene(begin)
 
 
 def _render(scene: "Scene", options: argparse.Namespace, growing: Growing) -> "Image":

@@ -204,8 +204,7 @@ def read_particles(options: argparse.Namespace) -> "Particles":
 
 def reading_of(options: argparse.Namespace) -> dict[str, Any]:
     """Return what `vtray.read` is told of the file."""
-    given = data_options.given(options)
-    return {name: given[name] for name in ("format",) if name in given}
+    return {"format": data_options.given(options).get("format")}
 
 
 def describe(options: argparse.Namespace) -> str:

@@ -105,8 +105,7 @@ def _least_width(panel: Panel, width: float) -> float:
     tenths = math.ceil(10 * width)
     while tenths < MOST_TENTHS:
         points = INCH * tenths / 10
-        _, rooms = panel.fit(points - 2 * panel.em, math.inf)
-        if _margin(panel, rooms) <= (1 - LEAST_SHARE) * points:
+        if _margin(panel, _rooms_in(panel, points)) <= (1 - LEAST_SHARE) * points:
             break
         tenths = math.ceil(1.03 * tenths + 1e-9)
     return tenths / 10
@@ -120,7 +119,7 @@ def _lay_out_in_width(sheet: Sheet, panel: Panel, width: float, dpi: float | Non
     """
     sheet.figure.set_dpi(dpi or 300)
     points = INCH * width
-    _, rooms = panel.fit(points - 2 * panel.em, math.inf)
+    rooms = _rooms_in(panel, points)
     margin = _margin(panel, rooms)
     if margin > (1 - LEAST_SHARE) * points:
         least = _least_width(panel, width)
@@ -139,6 +138,12 @@ def _lay_out_in_width(sheet: Sheet, panel: Panel, width: float, dpi: float | Non
             across += 1
         dpi = across / width
     _finish(sheet, panel, rooms, (across, shown, high), dpi, width)
+
+
+def _rooms_in(panel: Panel, points: float) -> Rooms:
+    """Return the room around the picture of a panel in a sheet of a width in points."""
+    _, rooms = panel.fit(points - 2 * panel.em, math.inf)
+    return rooms
 
 
 def _margin(panel: Panel, rooms: Rooms) -> float:

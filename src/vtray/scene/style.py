@@ -137,21 +137,21 @@ class EyeDome(Frozen, frozen=True, omit_defaults=True, gc=False):
 def _outline(given: Any, place: str) -> Outline:  # noqa: ANN401
     """Return an outline of its width, or of that and a colour."""
     words = "a width in pixels, or that and a colour such as 1.5,navy"
-    parts = _parts(given, place, 1, words, given)
+    parts = _parts(given, place, 1, words)
     return Outline(*parts)
 
 
 def _fog(given: Any, place: str) -> Fog:  # noqa: ANN401
     """Return fog between two distances, maybe of a colour."""
     words = "two distances, maybe a colour, such as 5,20 or 5,20,white"
-    parts = _parts(given, place, 2, words, given)
+    parts = _parts(given, place, 2, words)
     return Fog(*parts)
 
 
 def _eye_dome(given: Any, place: str) -> EyeDome:  # noqa: ANN401
     """Return eye-dome lighting of a strength, maybe of a radius too."""
     words = "a strength, or that and a radius in pixels such as 1,1.5"
-    parts = _parts(given, place, 1, words, given)
+    parts = _parts(given, place, 1, words)
     if len(parts) > 1:
         parts[1] = _number(parts[1], place, words, given)
     return EyeDome(*parts)
@@ -169,7 +169,7 @@ def _clip(given: Any, place: str) -> tuple[ClipPlane, ...]:  # noqa: ANN401
         given = given.split(";")
     elif not isinstance(given, Sequence):
         raise _wrong(whole, place, words)
-    elif given and not any(_is_plane(one) for one in given):
+    elif given and not any(isinstance(one, ClipPlane) or hasattr(one, "__len__") for one in given):
         given = (given,)
     planes = []
     for one in given:
@@ -178,14 +178,12 @@ def _clip(given: Any, place: str) -> tuple[ClipPlane, ...]:  # noqa: ANN401
         elif isinstance(one, Mapping):
             planes.append(ClipPlane(**one))
         else:
-            *normal, distance = _numbers(one, place, 3, words, whole)
+            try:
+                *normal, distance = _numbers(one, place, 3, words)
+            except SceneError:
+                raise _wrong(whole, place, words) from None
             planes.append(ClipPlane(_direction(normal, place, words, whole), distance))
     return tuple(planes)
-
-
-def _is_plane(given: object) -> bool:
-    """Tell whether one of several may be a plane: it is no number."""
-    return isinstance(given, (ClipPlane, Mapping, Sequence)) or hasattr(given, "__len__")
 
 
 def _slice(given: Any, place: str) -> Slice:  # noqa: ANN401
@@ -193,17 +191,14 @@ def _slice(given: Any, place: str) -> Slice:  # noqa: ANN401
     words = "a slab as NX,NY,NZ,THICKNESS or NX,NY,NZ,D,THICKNESS, such as 0,0,1,2.5,1"
     if given is True:
         raise _wrong(given, place, words)
-    x, y, z, first, last = _numbers(given, place, 4, words, given)
+    x, y, z, first, last = _numbers(given, place, 4, words)
     distance, thickness = (None, first) if last is None else (first, last)
     return Slice(_direction([x, y, z], place, words, given), thickness, distance)
 
 
-def _numbers(one: Any, place: str, numbers: int, words: str, given: Any) -> list[Any]:  # noqa: ANN401
-    """Return so many numbers and one more, None in its place if it is not given.
-
-    They are of one part of what is given.
-    """
-    found = _parts(one, place, numbers, words, given)
+def _numbers(given: Any, place: str, numbers: int, words: str) -> list[Any]:  # noqa: ANN401
+    """Return so many numbers and one more, None in its place if it is not given."""
+    found = _parts(given, place, numbers, words)
     return [*found[:numbers], *(_number(part, place, words, given) for part in found[numbers:])] + [
         None
     ] * (numbers + 1 - len(found))
@@ -392,18 +387,15 @@ def _structs(kind: Any) -> list[Any]:  # noqa: ANN401
     return [part for part in alternatives(kind) if isinstance(part, msgspec.StructMeta)]
 
 
-def _parts(one: Any, place: str, numbers: int, words: str, given: Any) -> list[Any]:  # noqa: ANN401
-    """Return numbers, and maybe one thing more, of a text with commas or of a sequence.
-
-    It is one part of what is given, or all of it.
-    """
-    if isinstance(one, str):
-        found: list[Any] = one.split(",", numbers)
-    elif isinstance(one, Sequence) or hasattr(one, "tolist"):
-        found = [*one] if hasattr(one, "__len__") and len(one) else [one]
+def _parts(given: Any, place: str, numbers: int, words: str) -> list[Any]:  # noqa: ANN401
+    """Return numbers, and maybe one thing more, of a text with commas or of a sequence."""
+    if isinstance(given, str):
+        found: list[Any] = given.split(",", numbers)
+    elif isinstance(given, Sequence) or hasattr(given, "tolist"):
+        found = [*given] if hasattr(given, "__len__") and len(given) else [given]
     else:
-        found = [one]
-    if one is None or not numbers <= len(found) <= numbers + 1:
+        found = [given]
+    if given is None or not numbers <= len(found) <= numbers + 1:
         raise _wrong(given, place, words)
     return [_number(part, place, words, given) for part in found[:numbers]] + found[numbers:]
 

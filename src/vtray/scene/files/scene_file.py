@@ -87,10 +87,15 @@ def load(path: str | os.PathLike[str], *, warn: Warn | None = None) -> Scene:
     try:
         return loads_bytes(raw, name, PatternImages(folder), folder, warn or _warn)
     except SceneError:
-        if not raw.lstrip().startswith((b"{", _BYTE_ORDER_MARK)) and _is_data(name):
+        if not begins_as_scene(raw) and _is_data(name):
             problem = "is data by its name, which vtray.read reads; expected a scene file"
             raise SceneError(f"{name}: {problem}") from None
         raise
+
+
+def begins_as_scene(raw: bytes) -> bool:
+    """Tell whether a file begins as those of scenes do."""
+    return raw.lstrip().startswith((b"{", _BYTE_ORDER_MARK))
 
 
 def _is_data(name: str) -> bool:

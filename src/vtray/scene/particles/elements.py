@@ -9,6 +9,7 @@ https://jmol.sourceforge.net/jscolors/
 
 import math
 import re
+from collections.abc import Iterable
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -122,6 +123,11 @@ def symbol_of(name: str) -> str | None:
     label = _LABEL.fullmatch(name.strip())
     symbol = label[1].capitalize() if label else ""
     return symbol if symbol in _NUMBERS else None
+
+
+def are_symbols(names: Iterable[str | None]) -> bool:
+    """Tell whether all names are symbols, as they are written: "Ca", and not "CA" or "C1"."""
+    return set(names).issubset(SYMBOLS)
 
 
 def symbols_of(numbers: "ArrayLike") -> "NDArray[np.str_]":

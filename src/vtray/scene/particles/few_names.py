@@ -1,6 +1,6 @@
 """Names of many particles, of which there are only a few different ones."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
     Texts = NDArray[np.str_]
 
-Name = TypeVar("Name", bytes, str)
+Name = TypeVar("Name", bound=Hashable)
 
 
 def texts_of(names: Sequence[Name], text: "Callable[[Name], str]") -> "Texts":

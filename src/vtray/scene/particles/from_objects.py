@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from vtray.base.errors import SceneError
 from vtray.scene.checks.given_array import positions_in, show_array
 from vtray.scene.particles.column_names import name_columns
-from vtray.scene.particles.elements import SYMBOLS, symbol_of, symbols_of
+from vtray.scene.particles.elements import are_symbols, symbol_of, symbols_of
 from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.from_columns import from_columns
 from vtray.scene.particles.object_column import without_objects
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
 _RESULTS = ("forces", "charges", "magmoms", "energies")
 """What calculators of ASE find for each atom."""
-
-_SYMBOLS = frozenset(SYMBOLS)
 
 _ATTRIBUTES = {
     "elements": "element",
@@ -236,7 +234,7 @@ def _elements_of(columns: "dict[str, Array]") -> "Array | None":
         known = {name: symbol_of(name) for name in set(listed)}
         return texts_of(listed, lambda name: known[name] or "X") if any(known.values()) else None
     types = columns.get("type")
-    is_known = types is not None and types.dtype.kind == "U" and set(types.tolist()) <= _SYMBOLS
+    is_known = types is not None and types.dtype.kind == "U" and are_symbols(types.tolist())
     return types if is_known else None
 
 

@@ -29,14 +29,11 @@ def without_objects(column: "Array") -> "Array":
     entries = column.ravel().tolist()
     missing = [_is_missing(entry) for entry in entries]
     there = [entry for entry, gone in zip(entries, missing, strict=True) if not gone]
-    if there and all(isinstance(entry, (bool, np.bool_)) for entry in there) and not any(missing):
-        return np.array(entries, np.bool_).reshape(column.shape)
     if there and all(isinstance(entry, (bool, int, float, np.number, np.bool_)) for entry in there):
-        are_whole = all(isinstance(entry, (int, np.integer)) for entry in there)
-        if are_whole and not any(missing):
-            return np.array(entries).reshape(column.shape)
+        # Integers and truths stay what they are where none is missing.
+        are_exact = not any(missing) and not any(isinstance(e, (float, np.floating)) for e in there)
         numbers = [np.nan if gone else entry for entry, gone in zip(entries, missing, strict=True)]
-        return np.array(numbers, np.float64).reshape(column.shape)
+        return np.array(numbers, None if are_exact else np.float64).reshape(column.shape)
     names = [
         MISSING_NAME if gone else _text_of(entry)
         for entry, gone in zip(entries, missing, strict=True)

@@ -12,6 +12,7 @@ from vtray.base.errors import SceneError
 from vtray.scene.camera import Camera
 from vtray.scene.checks.scene_words import either, nearest, quoted, show
 from vtray.scene.particles.elements import RADII
+from vtray.scene.particles.hydrogen_bonds import steps_of
 from vtray.scene.particles.radii import FILLED, mean_spacing, radii_of
 from vtray.scene.placing.directions import dot, unit
 from vtray.scene.placing.panorama import pixel_angle
@@ -151,14 +152,8 @@ def radius_beside(
     is_known = not {"radius", "element"}.isdisjoint(particles.columns)
     if is_known or STYLES[style].stick is None or not len(bonds):
         return None
-    edges = np.zeros((3, 3)) if particles.cell is None else particles.cell
-    ways = positions[bonds.pairs[:, 1]] - positions[bonds.pairs[:, 0]]
-    squares = np.zeros(len(bonds))
-    for axis in range(3):
-        way = ways[:, axis].astype(np.float64)
-        for k in range(3):
-            way += bonds.shifts[:, k] * edges[k, axis]
-        squares += way * way
+    x, y, z = steps_of(particles, bonds, positions)
+    squares = x * x + y * y + z * z
     usual = math.sqrt(np.partition(squares, len(squares) // 2)[len(squares) // 2])
     return BESIDE * usual if usual > 0.0 else None
 

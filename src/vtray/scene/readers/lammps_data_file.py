@@ -7,13 +7,13 @@ https://docs.lammps.org/read_data.html
 
 import math
 import re
-from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.column_names import name_columns
-from vtray.scene.particles.elements import SYMBOLS
+from vtray.scene.particles.elements import are_symbols
 from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.frames import frame_number
 from vtray.scene.readers.lines import Lines
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
     Array = NDArray[Any]
     Cell = NDArray[np.float64]
+
+Said = TypeVar("Said", float, str)
 
 _STYLES = {
     "atomic": "id type x y z",
@@ -42,8 +44,6 @@ _STYLES = {
 
 _BY_WIDTH = {5: "atomic", 8: "atomic", 7: "full", 10: "full"}
 """The style where none is named, by the number of columns."""
-
-_SYMBOLS = frozenset(SYMBOLS)
 
 _INTEGERS = ("id", "mol", "type", "ellipsoid")
 
@@ -82,34 +82,24 @@ class _Types(NamedTuple):
     notes: dict[str, str]
     labels: dict[str, str]
 
-    def names_of(self, types: "Array") -> "Array":
-        """Return the names of types; types as they are if there are none."""
-        return _of_each(types, lambda kind: self.labels.get(kind, kind)) if self.labels else types
+    def names_of(self, kinds: "Sequence[int | str]") -> "list[str]":
+        """Return the names of types: their labels, if they have some, or their numbers."""
+        return [self.labels.get(str(kind), str(kind)) for kind in kinds]
 
-    def masses_of(self, types: "Array") -> "Array":
-        """Return the masses of types, given by number or by name; NaN where it is not known."""
-        known = {self.labels.get(kind, kind): mass for kind, mass in self.masses.items()}
-        return _of_each(types, lambda kind: known.get(kind, math.nan))
+    def masses_of(self, names: "Sequence[str]") -> list[float]:
+        """Return the masses of types; NaN where one is not known."""
+        known = self._by_name(self.masses)
+        return [known.get(name, math.nan) for name in names]
 
-    def elements_of(self, types: "Array") -> "Array | None":
+    def elements_of(self, names: "Sequence[str]") -> "list[str] | None":
         """Return the elements of types, if their names, or the notes, are symbols of some."""
-        import numpy as np
+        known = self._by_name(self.notes)
+        noted = [known.get(name, "") for name in names]
+        return next((found for found in ([*names], noted) if found and are_symbols(found)), None)
 
-        kinds = [*map(str, np.unique(types).tolist())]
-        notes = {self.labels.get(kind, kind): note for kind, note in self.notes.items()}
-        for known in ({kind: kind for kind in kinds}, notes):
-            if kinds and {known.get(kind) for kind in kinds} <= _SYMBOLS:
-                return _of_each(types, known.__getitem__)
-        return None
-
-
-def _of_each(types: "Array", of: Callable[[str], str | float]) -> "Array":
-    """Return what is said of each type, asked for once for all atoms of one."""
-    import numpy as np
-
-    kinds, which = np.unique(types, return_inverse=True)
-    each: Array = np.array([of(str(kind)) for kind in kinds.tolist()])
-    return each[which]
+    def _by_name(self, found: "Mapping[str, Said]") -> "dict[str, Said]":
+        """Return what is said of types by their names."""
+        return {self.labels.get(kind, kind): said for kind, said in found.items()}
 
 
 class _Box:
@@ -180,12 +170,16 @@ def read(given: Given) -> Particles:
     positions = np.stack([atoms.pop(name) for name in "xyz"], axis=1)
     if "diameter" in atoms:
         atoms["radius"] = atoms.pop("diameter") / 2
-    atoms["type"] = types.names_of(atoms["type"])
-    elements = types.elements_of(atoms["type"])
+    # Asked once for all atoms of a type.
+    kinds, which = np.unique(atoms["type"], return_inverse=True)
+    names = types.names_of(kinds.tolist())
+    if types.labels:
+        atoms["type"] = np.array(names)[which]
+    elements = types.elements_of(names)
     if elements is not None:
-        atoms = {"element": elements, **atoms}
+        atoms = {"element": np.array(elements)[which], **atoms}
     if types.masses:
-        atoms["mass"] = types.masses_of(atoms["type"])
+        atoms["mass"] = np.array(types.masses_of(names))[which]
     if "Velocities" in sections:
         ids, values = sections["Velocities"][:, 0], sections["Velocities"][:, 1:]
         atoms["velocity"] = np.zeros((len(rows), 3))

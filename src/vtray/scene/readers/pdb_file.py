@@ -60,7 +60,7 @@ def read(given: Given) -> Particles:
     ``tempfactor``, and ``altloc`` where it is used. Elements are those of columns 77 and 78; where
     these are blank, of the first two characters of the name, in which a symbol stands to the right.
     In files whose names all begin in the first of these, as CHARMM and NAMD write them, a symbol
-    has one letter, unless the residue is an ion or no name of another atom begins so.
+    has one letter, but for ions and a few metals, halogens and selenium.
     Bonds are those of CONECT, where they reach each atom of all residues with more than one; most
     files name but a few of them, which are not read. There is a cell where the atoms are all that
     it repeats; not where its space group makes others of them, as in most crystals of proteins.
@@ -268,15 +268,10 @@ def _elements_of(columns: "Array", names: "Array", residues: "Array") -> "Array 
     is_left = all(name[:1].isalpha() for _, name, _ in different) and any(
         residue in _AMINO_ACIDS or not name[1:2].isalpha() for _, name, residue in different
     )
-    known = {
-        (column, name, residue): _element_of(column, name, residue, is_left)
-        for column, name, residue in different
-    }
+    known = {triple: _element_of(*triple, is_left) for triple in different}
     if not any(known.values()):
         return None
-    texts = ["".join(triple) for triple in triples]
-    symbols = {"".join(triple): symbol or "X" for triple, symbol in known.items()}
-    return texts_of(texts, symbols.__getitem__)
+    return texts_of(triples, lambda triple: known[triple] or "X")
 
 
 def _element_of(column: str, name: str, residue: str, is_left: bool) -> str | None:
