@@ -33,6 +33,7 @@ LARGER = 2.0**7
 """By that a scene becomes larger, and must look the same."""
 
 LENGTHS = {"radius", "radius_end", "size", "distance", "focus", "focus_distance", "resolution"}
+LENGTHS |= {"thickness"}
 PLACES = {"center", "start", "end", "location", "edges", "at", "focus_on"}
 
 
@@ -113,7 +114,7 @@ def _fault_of_repetition(
         "threads and tiles": taken(scene, folder, truth.FEW, how, threads=2, tile=3),
         "the hierarchy": taken(scene, folder, truth.ALL, how),
     }
-    if plain != scene:
+    if plain != scene and not _are_copies_one(scene):
         others["copies"] = taken(plain, folder, truth.ALL, how)
     grown = larger(scene)
     is_number = "Infinity" not in json.dumps(grown)
@@ -126,6 +127,13 @@ def _fault_of_repetition(
         if other.pixels.tobytes() != first.pixels.tobytes():
             return f"{name}: other pixels of the same light"
     return _fault_of_traced(first) or _fault_of_replay(scene, folder, how)
+
+
+def _are_copies_one(scene: Scene) -> bool:
+    """Tell whether copies of an object are one in some way in which those written out are not."""
+    borders = scene.get("style", {}).get("outline", {}).get("borders")
+    copied = [one for item in scene["objects"] for one in item.get("objects", [])]
+    return borders == "objects" or any(0 < one.get("opacity", 1.0) < 1 for one in copied)
 
 
 def _fault_of_energy(scene: Scene, how: dict[str, Any], folder: Path) -> str | None:

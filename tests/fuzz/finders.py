@@ -17,6 +17,7 @@ FINDERS = {
     "truth": "random scenes beside their picture as the rules say it",
     "values": "strange values in code",
     "bounces": "random scenes of all materials, taken in all ways",
+    "styles": "random scenes cut, faded, in fog and in lines",
 }
 
 

@@ -214,16 +214,16 @@ def random_scene(random: Random) -> Scene:
     for place in _places(scene):
         np.add(place, world, out=place)
     return {
-        "camera": _written(scene["camera"]),
-        "lights": [_written(item) for item in points],
-        "objects": [_written(objects[k]) for k in random.permutation(len(objects))],
+        "camera": written(scene["camera"]),
+        "lights": [written(item) for item in points],
+        "objects": [written(objects[k]) for k in random.permutation(len(objects))],
     }
 
 
 def with_cylinders(random: Random, scene: Scene) -> Scene:
     """Return a scene with cylinders and cones: beside, in, around what is there, and cut open."""
     camera = scene["camera"]
-    center, size = _array(camera["center"]), WIDTH * camera["resolution"][0]
+    center, size = array_of(camera["center"]), WIDTH * camera["resolution"][0]
     objects = list(scene["objects"]) if random.random() < 0.4 else []
     cylinders: list[Scene] = []
     for _ in range(random.choice([1, 2, 5, 20])):
@@ -232,14 +232,14 @@ def with_cylinders(random: Random, scene: Scene) -> Scene:
     points = [
         {**light, "location": _beside(random, size, center, cylinders)} for light in scene["lights"]
     ]
-    start = _array(cylinders[0]["start"])
+    start = array_of(cylinders[0]["start"])
     if random.random() < 0.6 and np.any(start != center):
-        camera = {**camera, **_written({"normal": start - center})}
+        camera = {**camera, **written({"normal": start - center})}
         camera.pop("up", None)
     return {"camera": camera, "lights": points, "objects": [*objects, *cylinders]}
 
 
-def _array(xyz: dict[str, float]) -> np.ndarray:
+def array_of(xyz: dict[str, float]) -> np.ndarray:
     """Return a point of a file as an array."""
     return np.array([xyz[axis] for axis in "xyz"])
 
@@ -255,7 +255,7 @@ def _cylinder(random: Random, size: float, center: np.ndarray, others: list[Scen
     kind = random.integers(6)
     if kind == 0 and others:
         other = others[random.integers(len(others))]
-        start = _array(other.get("center") or other["start"])
+        start = array_of(other.get("center") or other["start"])
     elif kind == 1:  # the image plane cuts it
         start = center - random.choice([0.0, 0.5, 1.0]) * length * way
     elif kind == 2:  # or touches it
@@ -268,7 +268,7 @@ def _cylinder(random: Random, size: float, center: np.ndarray, others: list[Scen
         other = size * random.choice(sizes, p=_OFTEN)
         radius_end = float(random.choice([0.0, radius, 0.5 * radius, other]))
         item |= {"type": "cone", "radius_end": radius_end}
-    return _written(item)
+    return written(item)
 
 
 def _beside(
@@ -276,7 +276,7 @@ def _beside(
 ) -> dict[str, float]:
     """Return a place for a light: on a cylinder, in it, or elsewhere."""
     item = cylinders[random.integers(len(cylinders))]
-    start, way = _array(item["start"]), _array(item["end"]) - _array(item["start"])
+    start, way = array_of(item["start"]), array_of(item["end"]) - array_of(item["start"])
     aside = np.cross(way, _way(random))
     aside = aside / max(np.sqrt(aside @ aside), 1e-300)
     place = {
@@ -284,8 +284,8 @@ def _beside(
         1: start + random.uniform(0, 1) * way + item["radius"] * aside,
         2: start + random.choice([0.0, 1.0]) * way + random.uniform(0, 3) * size * aside,
     }.get(int(random.integers(5)), center + size * _way(random) * random.choice([1, 3, 100]))
-    written: dict[str, float] = _written({"location": place})["location"]
-    return written
+    location: dict[str, float] = written({"location": place})["location"]
+    return location
 
 
 def _places(scene: Scene) -> Iterator[np.ndarray]:
@@ -295,7 +295,7 @@ def _places(scene: Scene) -> Iterator[np.ndarray]:
     yield from (item["location"] for item in scene["lights"])
 
 
-def _written(item: dict[str, Any]) -> dict[str, Any]:
+def written(item: dict[str, Any]) -> dict[str, Any]:
     """Return a part of a scene as a file has it."""
 
     def plain(key: str, value: object) -> object:

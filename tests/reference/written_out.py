@@ -68,13 +68,28 @@ def written_out(objects: Iterable[Any]) -> list[Any]:
 
 def written_out_file(scene: dict[str, Any]) -> dict[str, Any]:
     """Return a scene, as a file says it, with copies written out."""
-    objects = []
+    objects: list[dict[str, Any]] = []
+    places: list[list[int]] = []
     for item in scene["objects"]:
+        made = [item]
         if item["type"] == "copies":
-            objects += [_moved(part, place) for place in item["at"] for part in item["objects"]]
-        else:
-            objects.append(item)
-    return {**scene, "objects": objects}
+            made = [_moved(part, place) for place in item["at"] for part in item["objects"]]
+        places.append(list(range(len(objects), len(objects) + len(made))))
+        objects += made
+    written = {**scene, "objects": objects}
+    if "style" in scene:
+        cuts = {name: scene["style"][name] for name in ("clip", "slice") if name in scene["style"]}
+        written["style"] = scene["style"] | {name: _cut(cut, places) for name, cut in cuts.items()}
+    return written
+
+
+def _cut(cut: Any, places: list[list[int]]) -> Any:
+    """Return what cuts objects, as a file says it, that stand at new places."""
+    if isinstance(cut, list):
+        return [_cut(one, places) for one in cut]
+    if "objects" not in cut:
+        return cut
+    return cut | {"objects": [place for old in cut["objects"] for place in places[old]]}
 
 
 def _moved(part: dict[str, Any], place: dict[str, float]) -> dict[str, Any]:

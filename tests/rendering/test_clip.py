@@ -167,6 +167,19 @@ def test_copies_are_cut_as_if_written_out(cap: bool) -> None:
     assert set(np.unique(image.copies)) > {-1}
 
 
+@pytest.mark.skipif(JIT, reason="needs kernels of its own, which take long to compile")
+def test_copies_of_what_fades_beside_what_does_not_are_cut_as_if_written_out() -> None:
+    scene = load(crowd(5, 1, "sphere", **VIEW))
+    parts = [vtray.Sphere((0, 0, 0), 0.1), vtray.Sphere((0.2, 0, 0), 0.1, opacity=0.5)]
+    corners = np.indices((3, 7, 4)).reshape(3, -1).T
+    scene.add_copies(parts, corners * (0.5, 0.25, 0.5) + (-0.6, -0.8, 3))
+    options = style_of([((1, 0.2, 0.3), 1.0), ((-0.1, 1, 0.1), 0.7)], True)
+    image, whole = vtray.render(scene, **options), vtray.render(write_out(scene)[0], **options)
+    np.testing.assert_array_equal(image.linear, whole.linear)
+    np.testing.assert_array_equal(image.depth, whole.depth)
+    assert len(np.unique(image.copies)) > 5
+
+
 def with_all_cut(kept: Acceleration) -> Acceleration:
     """Return shapes of which all that are copied count as such that clip planes may cut."""
     assert kept.placed is not None

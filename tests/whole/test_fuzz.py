@@ -25,7 +25,11 @@ ATTEMPTS: dict[str, Iterable[int]] = {
 }
 
 
-UNCOMPILED: dict[str, Iterable[int]] = {"bounces": range(3), "values": range(60)}
+UNCOMPILED: dict[str, Iterable[int]] = {
+    "bounces": range(3),
+    "styles": range(8),
+    "values": range(60),
+}
 """Those whose attempts need kernels of more kinds than tests have the time to compile."""
 
 

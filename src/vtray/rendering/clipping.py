@@ -65,10 +65,10 @@ def clip_shapes(kept: Acceleration, rooms: Rooms, room_of: Sequence[int]) -> Acc
         relations = _relations(shapes, kept.columns[k], rooms, room, scale)
         columns[k] = _in_order(shapes, columns[k], relations, room)
         halves.append(_split(shapes, kept.bvh, relations, room, len(rooms.walls)))
-    placed = [
-        _clip_places(kept, by, rooms, room_of, scale)
-        for by in ((kept.placed, kept.copied), (kept.faded_placed, kept.faded))
-    ]
+    opaque_places = _clip_places(kept, kept.placed, rooms, room_of, scale, 0, 0)
+    begin, slot = (len(one.shift) if one else 0 for one in (kept.placed, opaque_places[0]))
+    fading_places = _clip_places(kept, kept.faded_placed, rooms, room_of, scale, begin, slot)
+    placed = opaque_places, fading_places
     # Those of what is copied stay as they are.
     pruned = [*(one for one, _ in halves), *(one for _, cut in halves for one in cut)]
     trees = [*(one.bvh for one in pruned), *(bvh for _, bvh in placed)]
@@ -239,17 +239,21 @@ def _pruned(shapes: Shapes, bvh: Bvh, is_left: NDArray[np.bool_], slot: int) -> 
 
 def _clip_places(
     kept: Acceleration,
-    by: tuple[Placed | None, Sequence[Shapes]],
+    placed: Placed | None,
     rooms: Rooms,
     room_of: Sequence[int],
     scale: float,
+    begin: int,
+    slot: int,
 ) -> tuple[Placed | None, Bvh | None]:
-    """Return the places at which something is left, and the nodes above them, if there are any."""
-    placed, shapes = by
+    """Return the places at which something is left, and the nodes above them, if there are any.
+
+    The slots of the places begin at `begin`, and those of what is left of them at `slot`.
+    """
     if placed is None:
         return None, None
     relations = np.full(len(placed.item), WITHIN, np.int8)
-    items = kept.items_of(shapes)
+    items = kept.items_of(kept.copied if placed is kept.placed else kept.faded)
     for item, parts in enumerate(items):
         mine = placed.item == item
         walls = rooms.walls[room_of[parts[0].place] if room_of else 0]
@@ -268,7 +272,7 @@ def _clip_places(
     )
     if placed.root == NO_TREE:
         return made, None
-    return made, prune(kept.bvh, placed.root, is_left, 0, 0)
+    return made, prune(kept.bvh, placed.root, is_left, begin, slot)
 
 
 def _relations_of_places(
