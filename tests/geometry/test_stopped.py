@@ -29,10 +29,18 @@ from vtray.geometry.packets.fan import (
     Fan,
     Start,
     new_fan,
+    set_direction,
     set_start,
     spot_at,
 )
-from vtray.geometry.packets.fan_rays import View, balls_seen, octet_within
+from vtray.geometry.packets.fan_rays import (
+    View,
+    balls_seen,
+    narrow_directions,
+    octet_within,
+    rays_along,
+    set_ball,
+)
 from vtray.geometry.packets.packet import (
     ERROR_SCALE,
     NORMAL,
@@ -235,6 +243,26 @@ def ask_octet(singles: Any, first: Any, step: Any, way: Any, least: Any) -> Any:
 
 
 @device
+def ask_along(fan: Any, balls: Any, way: Any, tangent2: Any, apart: Any) -> Any:
+    set_ball(balls, 0, way, tangent2, apart, False)
+    return rays_along(fan, FAN, (balls[0], balls[8], balls[16]), balls[24])
+
+
+@pytest.mark.parametrize("apart", [0.0, 0.5, 3.0])
+def test_rays_that_start_apart_are_left_out_if_none_of_them_can_meet_a_ball(apart: float) -> None:
+    fan, balls, far, radius = new_fan(), np.zeros(4 * WIDTH, np.float32), 200.0, 1.0
+    beside = np.linspace(0, 2.5 * (radius + apart), FAN)
+    for ray, sine in enumerate((beside / far).tolist()):
+        set_direction(fan, ray, (sine, 0.0, math.sqrt(1 - sine * sine)))
+    narrow_directions(fan, FAN)
+    wide = radius + apart
+    near = int(ask_along(fan, balls, (0.0, 0.0, far), far * far - wide * wide, apart))
+    found = np.array([near >> ray & 1 for ray in range(FAN)], bool)
+    assert found[beside <= wide].all()
+    assert not found[beside > 1.1 * wide].any()
+
+
+@device
 def ask_bits(bits: Any) -> Any:
     return count_bits(bits), lowest_bit(bits)
 
@@ -260,7 +288,7 @@ def ask_balls(bvh: Any, view: Any, balls: Any) -> Any:
 @compiled_only
 @given(
     st.lists(st.floats(-4, 4, width=32), min_size=SIDES, max_size=SIDES),
-    st.lists(st.floats(-1e3, 1e3, width=32), min_size=11, max_size=11),
+    st.lists(st.floats(-1e3, 1e3, width=32), min_size=10, max_size=10),
 )
 def test_balls_are_seen_as_numpy_has_them(sides: list[float], numbers: list[float]) -> None:
     bvh = Bvh(np.float32([0.0] * SIDES + sides), np.zeros(2 * WIDTH, np.int32))

@@ -74,12 +74,6 @@ FEW = 8
 FEW_IN_LEAF = 2
 """Up to so many rays are asked about all shapes of a leaf, and not about their balls first."""
 
-SMALL = 4.0
-"""From a box on that is smaller than so many times what they start apart, rays go on alone. They
-would all have to look at whatever is near any of them: 15 times as long, in a lattice of spheres
-that are smaller than a pixel.
-"""
-
 ALL_SLACK = 1.0
 """By so much, for each unit of length, any ray may lead out of a half-space."""
 
@@ -190,7 +184,7 @@ def _stop_by_tree(bundle: Bundle, world: World, group: Group, stack: Stack) -> N
     view = view_from(apex, bundle.spot, ratio, margin, bundle.longest)
     few = FEW if magnitude(apex) < SINGLE_HUGE else FAN + 1
     unstopped = open_rays(fan, bundle.rays)
-    stack.node[0], stack.rays[0], stack.enter[0] = group.root, unstopped, np.inf
+    stack.node[0], stack.rays[0] = group.root, unstopped
     waiting = 1
     while waiting > 0:
         waiting -= 1
@@ -198,10 +192,9 @@ def _stop_by_tree(bundle: Bundle, world: World, group: Group, stack: Stack) -> N
         rays = stack.rays[waiting] & unstopped
         if rays == NONE:
             continue
-        is_small = stack.enter[waiting] < np.float32(SMALL) * view.extent
-        if node < 0 and not is_small:
+        if node < 0:
             unstopped &= ~_stop_by_leaf(bundle, world, group, node, rays, stack)
-        elif count_bits(rays) < few or is_small:
+        elif count_bits(rays) < few:
             while rays != NONE:
                 ray = lowest_bit(rays)
                 rays &= rays - ONE
@@ -233,7 +226,7 @@ def push_near(
     base: int,
 ) -> int:
     """Push the children of a node that some of its rays may meet; return the stack's new height."""
-    top, balls, nodes, sizes, near_rays = base, stack.balls, stack.node, stack.enter, stack.rays
+    top, balls, nodes, near_rays = base, stack.balls, stack.node, stack.rays
     nearest = np.float32(np.inf)
     seen = balls_seen(bvh, node * SIDES, view, balls)
     while seen != 0:
@@ -242,30 +235,18 @@ def push_near(
         way = balls[k], balls[WIDTH + k], balls[2 * WIDTH + k]
         near = rays & rays_along(bundle.fan, bundle.rays, way, balls[3 * WIDTH + k])
         if near != NONE:
-            child, size = bvh.child[node * WIDTH + k], _size_of(bvh, node, k, view)
+            child = bvh.child[node * WIDTH + k]
             away = way[0] * way[0] + way[1] * way[1] + way[2] * way[2]
             # The nearest is visited first: what it stops need not look at the others.
             if away < nearest or top == base:
-                nodes[top], near_rays[top], sizes[top] = child, near, size
+                nodes[top], near_rays[top] = child, near
                 nearest = away
             else:
                 last = top - 1
-                nodes[top], near_rays[top], sizes[top] = nodes[last], near_rays[last], sizes[last]
-                nodes[last], near_rays[last], sizes[last] = child, near, size
+                nodes[top], near_rays[top] = nodes[last], near_rays[last]
+                nodes[last], near_rays[last] = child, near
             top += 1
     return top
-
-
-@device
-def _size_of(bvh: Bvh, node: int, k: int, view: View) -> np.float32:
-    """Return the longest side of the box of a child, infinite where that is not asked."""
-    size = np.float32(np.inf)
-    if view.extent > 0.0:
-        first, high = node * SIDES + k, 3 * WIDTH
-        size = np.float32(0.0)
-        for side in range(first, first + high, WIDTH):
-            size = max(size, bvh.sides[side + high] - bvh.sides[side])
-    return size
 
 
 @device

@@ -86,7 +86,7 @@ def write_balls_seen(_: object, bvh: Any, first: Any, view: Any, balls: Any) -> 
 
         low, high = [load(axis) for axis in range(3)], [load(3 + axis) for axis in range(3)]
         apex, normal = ([lanes_of((k, axis)) for axis in range(3)] for k in range(2))
-        margin, limit2, below, tilt = (lanes_of((k,)) for k in (2, 3, 5, 6))
+        margin, limit2, below, tilt = (lanes_of((k,)) for k in (2, 3, 4, 5))
         half = [mul(lanes(0.5), sub(b, a)) for a, b in zip(low, high, strict=True)]
         middle = [mul(lanes(0.5), add(a, b)) for a, b in zip(low, high, strict=True)]
         way = [sub(a, b) for a, b in zip(middle, apex, strict=True)]
@@ -101,7 +101,7 @@ def write_balls_seen(_: object, bvh: Any, first: Any, view: Any, balls: Any) -> 
         starts_outside = builder.fcmp_ordered(">", tangent2, lanes(0.0))
         tangent = root_of(builder.select(starts_outside, tangent2, lanes(0.0)))
         away = sum_of([size_of(a) for a in way])
-        error = add(mul(lanes(SINGLE_ERROR), away), margin)
+        error = mul(lanes(SINGLE_ERROR), away)
         least = builder.select(starts_outside, sub(tangent, error), lanes(-NEVER))
         for row, value in enumerate([*way, least]):
             store(row, value)

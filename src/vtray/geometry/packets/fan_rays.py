@@ -54,8 +54,6 @@ class View(NamedTuple):
         How far rounding, and that they start apart, may have moved the boxes against the rays.
     limit2
         ``FAR_SHARE`` times the square of how far from there they end.
-    extent
-        How far from there they start at the most.
     below, tilt
         How far below the plane through the point what they meet may be, and by how much more for
         each unit of distance.
@@ -65,7 +63,6 @@ class View(NamedTuple):
     normal: Singles
     margin: np.float32
     limit2: np.float32
-    extent: np.float32
     below: np.float32
     tilt: np.float32
 
@@ -91,7 +88,6 @@ def view_from(apex: Vec, spot: Spot, ratio: float, margin: float, longest: float
         narrow(spot.normal),
         np.float32(error + extent),
         np.float32(FAR_SHARE * length * length),
-        np.float32(extent),
         np.float32(4.0 * error + ratio * spot.sunk),
         np.float32((1.0 + SINGLE_ERROR) * spot.tilt),
     )
@@ -129,7 +125,7 @@ def balls_seen(bvh: Bvh, first: int, view: View, balls: NDArray[np.float32]) -> 
     distance2 = _sum(way * way)
     tangent2 = distance2 * single(1.0 - SINGLE_ERROR) - radius2 * single(1.0 + SINGLE_ERROR)
     tangent = np.sqrt(np.where(tangent2 > 0.0, tangent2, single(0.0)))
-    error = single(SINGLE_ERROR) * _sum(abs(way)) + margin
+    error = single(SINGLE_ERROR) * _sum(abs(way))
     balls[: 3 * WIDTH] = way.reshape(-1)
     balls[3 * WIDTH :] = np.where(tangent2 > 0.0, tangent - error, single(-NEVER))
     lowest = view.below + view.tilt * (_sum(abs(way)) + _sum(half))
@@ -185,14 +181,17 @@ def set_ball(
         The square of the distance to where a ray touches the ball: that to the centre less that of
         the radius, which is wider than rounding could explain. Below 0 they start within it.
     margin
-        How far rounding may have moved the ball against the rays.
+        How far rounding, and that rays start apart, may have moved the ball against the rays.
     starts_inside
         Whether they may start inside the ball if they start within it, and not only on it: then
         those that lead away from its centre meet it, too.
     """
-    # With m = way * direction, a ray meets the ball if m > 0 and way^2 - m^2 < radius^2.
-    tangent = math.sqrt(max(tangent2, 0.0))
-    least = tangent - SINGLE_ERROR * magnitude(way) - SINGLE_TINY - margin
+    # With m = way * direction, a ray meets the ball if m > 0 and way^2 - m^2 < radius^2. From
+    # elsewhere, by a step s of no more than the margin, that is to say m > s * direction, and
+    # way^2 - m^2 < (radius + the part of s square to the direction)^2. The wider ball, with the
+    # margin in its radius, holds all those ways for which m may be below 0 then.
+    tangent = math.sqrt(tangent2) if tangent2 > 0.0 else -margin
+    least = tangent - SINGLE_ERROR * magnitude(way) - SINGLE_TINY
     x, y, z = narrow(way)
     balls[k] = x
     balls[WIDTH + k] = y
