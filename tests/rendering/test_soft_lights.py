@@ -325,7 +325,8 @@ def test_half_shadows_of_a_million_spheres_take_no_time() -> None:
     scene.add_plane((0, 0, -0.5), (0, 0, 1))
     scene.camera = vtray.Camera.fit(scene, direction=(-3, 4, -2.4), size=(64, 48))
     scene.lights = [vtray.SphereLight((60, -220, 220), 50)]
-    render(scene, samples=4, size=(8, 6))  # kernels and the hierarchy are there then
-    begin = time.process_time()
-    render(scene, samples=4)
-    assert time.process_time() - begin < 4, "it takes 15 s where all are looked at"
+    render(scene, samples=4, size=(2, 2))  # kernels and the hierarchy are there then
+    for size in ((8, 6), (64, 48), (256, 192)):  # balls are smaller than pixels, or larger
+        begin = time.process_time()
+        render(scene, samples=4, size=size)
+        assert time.process_time() - begin < 4, "it takes 15 s where all are looked at"
