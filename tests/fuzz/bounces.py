@@ -32,8 +32,10 @@ PADDED = 0.0 if numba.config.DISABLE_JIT else 0.85
 LARGER = 2.0**7
 """By that a scene becomes larger, and must look the same."""
 
-LENGTHS = {"radius", "radius_end", "size", "distance", "focus", "focus_distance", "resolution"}
-LENGTHS |= {"thickness"}
+LENGTHS = {
+    *("radius", "radius_end", "size", "distance", "thickness"),
+    *("focus", "focus_distance", "resolution"),
+}
 PLACES = {"center", "start", "end", "location", "edges", "at", "focus_on"}
 
 
@@ -43,22 +45,33 @@ def attempt(random: python_random.Random, folder: Path) -> None:
     scene = truth.random_scene(numbers)
     if numbers.random() < 0.3:
         scene = truth.with_cylinders(numbers, scene)
-    for item in scene["objects"]:
-        item.pop("color_end", None)
-    if numbers.random() < copies.SHARE:
-        scene = copies.with_copies(numbers, scene)
-    if numbers.random() < 0.6:
-        scene = lights.with_soft_lights(numbers, scene)
+    scene = with_copies_and_lamps(numbers, scene, 0.6)
     scene = looks.with_camera(numbers, looks.with_looks(numbers, scene, folder))
     if numbers.random() < PADDED:
         scene = looks.padded(numbers, scene)
     how = looks.settings(numbers, scene)
-    scene["render"] = {"size": SIZE}
-    (folder / "scene.json").write_text(json.dumps(scene, indent=1))
-    (folder / "how.json").write_text(json.dumps(how))
+    keep(scene, how, folder)
     fault = fault_of(scene, how, folder)
     if fault is not None:
         raise AssertionError(fault)
+
+
+def with_copies_and_lamps(random: Random, scene: Scene, lamps: float) -> Scene:
+    """Return a scene without colours of halves, with copies, and with soft lights so often."""
+    for item in scene["objects"]:
+        item.pop("color_end", None)
+    if random.random() < copies.SHARE:
+        scene = copies.with_copies(random, scene)
+    if random.random() < lamps:
+        scene = lights.with_soft_lights(random, scene)
+    return scene
+
+
+def keep(scene: Scene, how: dict[str, Any], folder: Path) -> None:
+    """Write down what is tried, in the size of all pictures."""
+    scene["render"] = {"size": SIZE}
+    (folder / "scene.json").write_text(json.dumps(scene, indent=1))
+    (folder / "how.json").write_text(json.dumps(how))
 
 
 def fault_of(scene: Scene, how: dict[str, Any], folder: Path) -> str | None:

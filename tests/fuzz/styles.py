@@ -1,6 +1,5 @@
 """Random scenes that are cut, let light through, and lie in fog: what is promised of pictures."""
 
-import json
 import random as python_random
 from pathlib import Path
 from typing import Any
@@ -8,7 +7,7 @@ from typing import Any
 import numpy as np
 
 import vtray
-from fuzz import bounces, copies, lights, looks, truth
+from fuzz import bounces, looks, truth
 
 Scene = dict[str, Any]
 Random = np.random.Generator
@@ -29,12 +28,7 @@ def attempt(random: python_random.Random, folder: Path) -> None:
         scene = truth.random_scene(numbers)
         if numbers.random() < 0.4:
             scene = truth.with_cylinders(numbers, scene)
-            for item in scene["objects"]:
-                item.pop("color_end", None)
-    if numbers.random() < copies.SHARE:
-        scene = copies.with_copies(numbers, scene)
-    if numbers.random() < 0.4:
-        scene = lights.with_soft_lights(numbers, scene)
+    scene = bounces.with_copies_and_lamps(numbers, scene, 0.4)
     how = {
         "integrator": str(numbers.choice(["direct", "direct", "direct", "whitted", "path"])),
         "samples": int(numbers.choice([1, 2, 4])),
@@ -46,9 +40,7 @@ def attempt(random: python_random.Random, folder: Path) -> None:
     scene = with_style(numbers, scene)
     if numbers.random() < bounces.PADDED:
         scene = looks.padded(numbers, scene)
-    scene["render"] = {"size": bounces.SIZE}
-    (folder / "scene.json").write_text(json.dumps(scene, indent=1))
-    (folder / "how.json").write_text(json.dumps(how))
+    bounces.keep(scene, how, folder)
     fault = bounces.fault_of(scene, how, folder) or _fault_of_samples(scene, how, folder)
     if fault is not None:
         raise AssertionError(fault)

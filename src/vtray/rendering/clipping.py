@@ -28,7 +28,7 @@ from vtray.geometry.vector import Vec, dot
 from vtray.geometry.world import CYLINDER, NO_TREE, SPHERE
 from vtray.rendering.acceleration import Acceleration, Shapes
 from vtray.rendering.numbering import number_objects
-from vtray.rendering.placed import Placed
+from vtray.rendering.placed import Placed, count_places
 from vtray.rendering.rooms import Rooms, Wall
 from vtray.rendering.shape_kinds import KINDS
 
@@ -66,7 +66,7 @@ def clip_shapes(kept: Acceleration, rooms: Rooms, room_of: Sequence[int]) -> Acc
         columns[k] = _in_order(shapes, columns[k], relations, room)
         halves.append(_split(shapes, kept.bvh, relations, room, len(rooms.walls)))
     opaque_places = _clip_places(kept, kept.placed, rooms, room_of, scale, 0, 0)
-    begin, slot = (len(one.shift) if one else 0 for one in (kept.placed, opaque_places[0]))
+    begin, slot = count_places(kept.placed), count_places(opaque_places[0])
     fading_places = _clip_places(kept, kept.faded_placed, rooms, room_of, scale, begin, slot)
     placed = opaque_places, fading_places
     # Those of what is copied stay as they are.

@@ -27,7 +27,7 @@ from vtray.rendering.acceleration import Acceleration, Shapes
 from vtray.rendering.bodies import BodyCount, FadedBodies, number_bodies
 from vtray.rendering.clipping import clip_shapes
 from vtray.rendering.numbering import Numbering, copied_rows, find_ranges, number_objects
-from vtray.rendering.placed import Placed, place_copies
+from vtray.rendering.placed import Placed, count_places, place_copies
 from vtray.rendering.rooms import rooms_of
 from vtray.rendering.shape_kinds import KINDS, Kind, Source, collect
 from vtray.scene.array_holder import ArrayHolder
@@ -184,9 +184,8 @@ def _make(
     placed, places = _place(items, copied, threads)
     faded_placed, faded_places = _place(items, faded, threads)
     columns, begins = _join_columns(parts, built, numbering)
-    count = len(placed.shift) if placed else 0
     trees = [*(one.tree for one in built), places, faded_places]
-    bvh, roots = _join_trees(trees, [*begins, 0, count], threads)
+    bvh, roots = _join_trees(trees, [*begins, 0, count_places(placed)], threads)
     shapes = list(map(_shapes, parts, built, begins, roots))
     after = len(given) + len(copied)
     return Acceleration(

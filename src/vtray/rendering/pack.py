@@ -34,7 +34,7 @@ from vtray.rendering.pack_looks import MadeOf, made_of, pack_looks, rows_of_rang
 from vtray.rendering.pack_patterns import pack_patterns
 from vtray.rendering.pack_skies import up_of
 from vtray.rendering.pack_surroundings import is_even, pack_surroundings
-from vtray.rendering.placed import Placed
+from vtray.rendering.placed import Placed, count_places
 from vtray.rendering.rooms import Rooms
 from vtray.scene.colors.color_light import light_of, light_of_numbers
 from vtray.scene.colors.tone_map_names import ToneMapName
@@ -272,7 +272,7 @@ def _pack_places(kept: Acceleration, rows: list[int], origin: Vec, unit: float) 
     if not kept.all_placed:
         return None
     placed = kept.placed
-    end = len(placed.shift) if placed else 0
+    end = count_places(placed)
     hierarchy = _hierarchy_of(placed, 0, origin, unit)
     # Groups of faded shapes follow those of the others.
     items = len(used_places(kept.copied)) * (2 if kept.rooms else 1) if placed else 0
@@ -290,8 +290,7 @@ def _pack_places(kept: Acceleration, rows: list[int], origin: Vec, unit: float) 
 
 def _faded_places(kept: Acceleration, origin: Vec, unit: float) -> Hierarchy:
     """Return the hierarchy over the places of faded shapes."""
-    begin = len(kept.placed.shift) if kept.placed else 0
-    return _hierarchy_of(kept.faded_placed, begin, origin, unit)
+    return _hierarchy_of(kept.faded_placed, count_places(kept.placed), origin, unit)
 
 
 def _hierarchy_of(placed: Placed | None, begin: int, origin: Vec, unit: float) -> Hierarchy:

@@ -53,6 +53,11 @@ class Placed:
         return self.shift, self.item, self.copy
 
 
+def count_places(placed: Placed | None) -> int:
+    """Return how many places there are; where those of what fades begin, given the others."""
+    return len(placed.shift) if placed else 0
+
+
 def place_copies(
     copies: Sequence[Copies], boxes: Sequence[tuple[Vec, Vec]], threads: int
 ) -> tuple[Placed, Tree | None]:
