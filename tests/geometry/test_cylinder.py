@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from conftest import JIT
 from vtray.geometry.bundle import Bundle, image_plane_range
@@ -19,6 +21,7 @@ from vtray.geometry.shapes.cylinder import (
     load_cylinder,
 )
 from vtray.geometry.shapes.cylinder_columns import GivenCylinders
+from vtray.geometry.vector import magnitude
 
 Point = tuple[float, float, float]
 
@@ -189,6 +192,28 @@ def test_hides_nothing_behind_the_image_plane(
     ends = tuple(map(float, start)), tuple(map(float, end))
     segment = Segment(*ends, 1.0, float(end_plane_depth), 2.0, 2.0)
     assert bool(cylinder_hides(cylinder(*LYING), segment)) is hides
+
+
+@pytest.mark.skipif(JIT, reason="replaces what compiled code has taken in")
+@settings(max_examples=300)
+@given(st.integers(0, 2**32 - 1), st.sampled_from([0.0, 3.0, 1e6]))
+def test_what_passes_by_is_hidden_by_no_way_that_is_slower(seed: int, away: float) -> None:
+    rng = np.random.default_rng(seed)
+    first, axis, way = rng.normal(size=(3, 3))
+    first += away * rng.normal(size=3)
+    shape = cylinder(tuple(first), tuple(first + axis), abs(rng.normal()))
+    # They pass the axis between the caps, at about the radius: off by rounding, or by more.
+    beside = np.cross(axis, way)
+    beside *= shape.side_radius / math.sqrt(beside @ beside)
+    beside *= 1.0 + rng.choice([-1, 1]) * 10.0 ** rng.uniform(-17, 0)
+    passed = first + rng.random() * axis + beside
+    ends = [tuple(map(float, passed + to * way)) for to in (-rng.random(), rng.random())]
+    scales = [magnitude(end) for end in ends]
+    segment = Segment(*ends, 1.0, 1.0, *scales)
+    quick = cylinder_hides(shape, segment)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("vtray.geometry.shapes.cylinder.passes_by", lambda *_: False)
+        assert quick == cylinder_hides(shape, segment)
 
 
 def test_a_light_far_away_does_not_blur_where_it_passes_the_image_plane() -> None:

@@ -107,6 +107,16 @@ def move_along(line: Line, distance: float) -> Line:
 
 
 @device
+def passes_by(line: Line, radius: float, margin: float) -> bool:
+    """Tell whether a line stays farther from the axis than a radius, by more than a margin."""
+    reach = radius + margin
+    square, along = dot(line.aside, line.aside), dot(line.beside, line.aside)
+    beside = dot(line.beside, line.beside) * (1.0 - ROUNDING)
+    misses: bool = (beside - reach * reach) * square > along * along
+    return misses
+
+
+@device
 def cap_span(line: Line, low: float, high: float) -> Span:
     """Return where a line is between two heights."""
     rises = line.rise != 0.0

@@ -18,7 +18,7 @@ from vtray.geometry.bundle import (
     spread_beside,
 )
 from vtray.geometry.ray import Ray, Segment, way_in_front
-from vtray.geometry.rounding import ROUNDING
+from vtray.geometry.rounding import MARGIN, ROUNDING
 from vtray.geometry.shapes.axis_line import (
     Line,
     Span,
@@ -30,6 +30,7 @@ from vtray.geometry.shapes.axis_line import (
     is_second_half,
     line_beside,
     move_along,
+    passes_by,
     sides_around,
 )
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
@@ -205,6 +206,8 @@ def cylinder_hides(cylinder: CylinderShape, segment: Segment) -> bool:
     end_bound = ROUNDING * (cylinder.error_scale + segment.end_scale)
     way, end, end_bound = way_in_front(segment, error_bound, end_bound)
     line = line_beside(cylinder, segment.start, way)
+    if passes_by(line, cylinder.side_radius, MARGIN * (segment.start_scale + cylinder.error_scale)):
+        return False
     span = both_spans(side_span(line, cylinder.side_radius), cap_span(line, 0.0, cylinder.length))
     start_outside = signed_distance(cylinder, line)
     end_outside = signed_distance(cylinder, line_beside(cylinder, end, way))
