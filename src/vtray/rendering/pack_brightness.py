@@ -5,6 +5,7 @@ the same on every machine.
 """
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -75,6 +76,7 @@ def _table_of(nodes: Pictures) -> _Table:
     return _Table(SHARE, level, heights / angles, rows, cells)
 
 
+@lru_cache(maxsize=16)
 def _rows_of(height: int) -> tuple[Floats, Floats]:
     """Return what part of an axis from 1 to -1 each row of cells takes, and its angle in radians.
 

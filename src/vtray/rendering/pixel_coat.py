@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+from vtray.base.compiler.compiled import pinned
 from vtray.figures.traced_rays import FanRay, Hit, ShadowFan, ShadowRay, Surface, WayToLight
 from vtray.geometry.packets.packet import Packet
 from vtray.geometry.packets.stack import Stack
@@ -48,15 +49,15 @@ class Coat(NamedTuple):
 def coat_lights(coat: Coat) -> tuple[WayToLight, ...]:
     """Return the ways from a glossy hit to all lights."""
     arrays, scene = coat.pixel.packed.arrays, coat.pixel.scene
+    world, glossy, stack = pinned(arrays), pinned(coat.glossy), pinned(coat.stack)
     ways: list[WayToLight] = []
     for number, (k, light) in enumerate(point_lights(scene)):
-        told = tell_point(arrays, coat.glossy, coat.packet, number, coat.stack)
+        told = tell_point(world, glossy, coat.packet, number, stack)
         ways.append(_to_point(coat, k, light, told))
     others, soft, asked = asked_lights(scene), arrays.lights.soft, {}
     if soft is not None:
         for number in range(min(len(others), PICKED)):
-            known = arrays, coat.glossy, soft, coat.step, coat.packet, number, coat.stack
-            told = tell_lamp(*known)
+            told = tell_lamp(world, glossy, soft, coat.step, coat.packet, number, stack)
             asked[int(told.light)] = told
     ways += [_to_lamp(coat, k, light, asked.get(row)) for row, (k, light) in enumerate(others)]
     return tuple(sorted(ways, key=lambda way: way.light))

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import uncompiled
+from vtray.base.compiler.compiled import pinned, uncompiled
 from vtray.base.exact_math import hypotenuse
 from vtray.figures.traced_rays import FanRay, Hit, ShadowFan, ShadowRay, WayToLight
 from vtray.geometry.packets.fan import DIRECTION, END, FAN, WEIGHT, Fan, new_fan
@@ -132,13 +132,15 @@ def trace_fans(
     fan, stack, blockers = new_fan(), new_stack(), np.full(own.rays, NOTHING)
     walk = new_walk(body_count(arrays.world))
     start, length = traced.interaction.point, packed.unit
+    world, lamps, cast = pinned(arrays), pinned(soft), pinned(fans)
+    scratch = pinned(stack), fan, blockers, pinned(walk)
     for k, light in asked_lights(lit.scene):
-        known = arrays, soft, traced, *pixel, len(ways), fans
-        lamp = trace_lamp(*known, spent, seed, stack, fan, blockers, walk)
+        known = world, lamps, traced, *pixel, len(ways), cast
+        lamp = trace_lamp(*known, spent, seed, *scratch)
         components = uncompiled(component_count)(soft, len(ways))
         rays: list[FanRay] = []
         for number in range(lamp.fans):
-            trace_fan(*known, number, seed, stack, fan, blockers, walk)
+            trace_fan(*known, number, seed, *scratch)
             rays += [
                 fan_ray(lit, light, SpreadRay(fan, ray, start, length, components), int(blocker))
                 for ray, blocker in enumerate(blockers)

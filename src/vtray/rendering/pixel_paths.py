@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import uncompiled
+from vtray.base.compiler.compiled import pinned, uncompiled
 from vtray.figures.traced_rays import Choice, Hit, PathRay, WayToLight
 from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.packet import (
@@ -19,10 +19,11 @@ from vtray.geometry.packets.packet import (
     NO_PRIMITIVE,
     ORIGIN,
     PRIMITIVE,
+    Packet,
     new_packet,
 )
 from vtray.geometry.packets.pending import NUMBERS
-from vtray.geometry.packets.workspace import new_workspace
+from vtray.geometry.packets.workspace import Workspace, new_workspace
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.geometry.world import body_count
@@ -47,9 +48,10 @@ from vtray.transport.integrators.single_path import (
 )
 from vtray.transport.lights.crowd import sharing_lights
 from vtray.transport.lights.light import light_count
+from vtray.transport.materials.look import Looks
 from vtray.transport.sampling.paths import Step, seed_of_step
 from vtray.transport.sampling.pixel_samples import Sampling
-from vtray.transport.scene_arrays import depth_of
+from vtray.transport.scene_arrays import SceneArrays, depth_of
 
 BLACK, WHITE = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
 
@@ -86,6 +88,15 @@ class _Lit(NamedTuple):
     shown: Vec | None
 
 
+class _Pinned(NamedTuple):
+    """What kernels are given for each ray."""
+
+    arrays: SceneArrays
+    looks: Looks
+    sampling: Sampling
+    work: Workspace
+
+
 class _Follower:
     """Follows the rays of a path, one after the other, in the first lane of a packet."""
 
@@ -99,6 +110,9 @@ class _Follower:
         sharing = sharing_lights(arrays.lights.crowd)
         self._packet = new_packet()
         self._work = new_workspace(arrays.world, sharing, depth_of(arrays))
+        self._pinned = _Pinned(
+            pinned(arrays), pinned(self._looks), pinned(sampling), pinned(self._work)
+        )
         self._waiting: list[_Waiting] = []
         self._rays: list[PathRay] = []
         self._light = BLACK
@@ -119,8 +133,7 @@ class _Follower:
     def _begin(self) -> PathRay:
         """Cast the ray of the camera."""
         pixel, packet = self._pixel, self._packet
-        given = self._arrays, self._looks, self._sampling, self._place, packet, self._work
-        begun = begin_path(*given)
+        begun = begin_path(*self._given())
         x, y, z = direction = self._vector(DIRECTION)
         start, before = in_world(pixel, self._vector(ORIGIN)), pixel.packed.before
         eye = start[0] - before * x, start[1] - before * y, start[2] - before * z
@@ -153,7 +166,8 @@ class _Follower:
         pending = self._work.pending
         pending.numbers[:NUMBERS], pending.waiting[0] = waiting.numbers, 1
         self._put_light(light)
-        found = follow_ray(self._arrays, self._looks, self._packet, self._work)
+        arrays, looks, _, work = self._pinned
+        found = follow_ray(arrays, looks, self._packet, work)
         return self._vector(GATHERED), found
 
     def _arrive(self, ray: PathRay, before: float) -> None:
@@ -162,14 +176,13 @@ class _Follower:
         if int(self._packet.view(np.int64)[PRIMITIVE]) <= NO_PRIMITIVE:
             return
         self._put_light(BLACK)
-        given = self._arrays, self._looks, self._sampling, self._place, self._packet, self._work
-        chosen = leave_hit(*given)
+        chosen = leave_hit(*self._given())
         # What a surface shines by itself, or what a coat shows of lights.
         own = self._vector(GATHERED)
         points = uncompiled(light_count)(self._arrays.lights)
         asked = np.zeros(points), np.full(points, NOTHING)
         walk, stack = new_walk(body_count(self._arrays.world)), self._work.stack
-        traced = light_matt(self._arrays, self._place, self._packet, stack, *asked, walk)
+        traced = light_matt(self._pinned.arrays, self._place, self._packet, stack, *asked, walk)
         hit = hit_of(self._pixel, traced, before)
         lit = self._lit(chosen, traced, hit, asked)
         onward = self._take_waiting(len(self._rays) - 1, hit)
@@ -251,6 +264,11 @@ class _Follower:
             for seen, of in zip(traced.material.color, own, strict=True)
         )
         return red, green, blue
+
+    def _given(self) -> tuple[SceneArrays, Looks, Sampling, Place, Packet, Workspace]:
+        """Return what kernels are given."""
+        arrays, looks, sampling, work = self._pinned
+        return arrays, looks, sampling, self._place, self._packet, work
 
     def _lamp(self, row: int) -> int | None:
         """Return the place of a lamp in the scene, given its row."""

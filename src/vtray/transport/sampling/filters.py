@@ -13,6 +13,7 @@ with the Discrete Fourier Transform", Proc. IEEE 66 (1), 1978.
 
 import math
 from collections.abc import Callable
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -88,6 +89,7 @@ FILTERS: dict[FilterName, Filter] = {
 }
 
 
+@lru_cache
 def filter_places(name: FilterName) -> Floats:
     """Return the table by which a filter's samples are placed, (STEPS + 2,).
 
