@@ -32,6 +32,7 @@ COLUMNS = dict(zip("xyz", np.array(POINTS).T.tolist(), strict=True))
         {"positions": POINTS, "mass": [1, 2]},
         pd.DataFrame({**COLUMNS, "name": ["a", "b"]}),
         pl.DataFrame({**COLUMNS, "name": ["a", "b"]}),
+        pd.DataFrame(COLUMNS).to_records(),
         SimpleNamespace(positions=POINTS),
         SimpleNamespace(get_positions=lambda: POINTS),
     ],
@@ -43,6 +44,14 @@ def test_whatever_has_places(given: object) -> None:
     if not isinstance(given, dict):
         scene = vtray.Scene()
         assert scene.add_spheres(given, 1).center.tolist() == found.positions.tolist()
+
+
+def test_fields_of_records_are_columns() -> None:
+    fields = [("x", "i4"), ("y", "f4"), ("z", "f8"), ("element", "S1")]
+    records = np.array([(0, 1, 2, b"O")], fields)
+    found = as_particles(records)
+    assert found.positions.tolist() == [[0, 1, 2]]
+    assert found["element"].tolist() == ["O"]
 
 
 def test_atoms_are_spheres() -> None:

@@ -33,6 +33,13 @@ def test_plain(tmp_path: Path) -> None:
     assert water.source == tmp_path / "a.xyz"
 
 
+def test_the_mark_at_the_begin_of_files_of_windows_is_no_text(tmp_path: Path) -> None:
+    path = tmp_path / "a.xyz"
+    path.write_text(WATER + WATER, "utf-8-sig", newline="\r\n")
+    for frame in (0, 1):
+        assert vtray.read(path, frame)["element"].tolist() == ["O", "H", "H"]
+
+
 def test_frames(tmp_path: Path) -> None:
     text = "".join(f"1\n i = {i}, time = {i / 2}, E = -1\nHe {i} 0 0\n" for i in range(4)) + "\n"
     found = [read(text, tmp_path, frame) for frame in (0, 2, -1, -4)]

@@ -6,7 +6,7 @@ What is found is what a loop over all shapes would find; the hierarchies only le
 from collections.abc import Callable
 from typing import Any
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.bits import lowest_bit
 from vtray.geometry.bvh.boxes import fetch_node
 from vtray.geometry.bvh.tree import WIDTH
@@ -41,7 +41,7 @@ from vtray.geometry.world import (
 )
 
 
-@device
+@part
 def first_between(world: World, segment: Segment, stack: Stack) -> int:
     """Return the lowest number of what stands between two points, or ``NOTHING``."""
     return _between(world, segment, stack, False)

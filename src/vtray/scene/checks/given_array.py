@@ -68,16 +68,26 @@ def positions_in(given: Any) -> Any:  # noqa: ANN401
     """Return the places of what has some, or what was given itself.
 
     Atoms of ASE and MDAnalysis have them as ``positions`` or by ``get_positions()``, tables in the
-    columns x, y and z, among others.
+    columns x, y and z, among others; structured arrays in fields of these names.
     """
     if hasattr(given, "positions"):
         return given.positions
     if hasattr(given, "get_positions"):
         return given.get_positions()
+    fields = fields_of(given)
+    if all(name in fields for name in COORDINATES):
+        import numpy as np
+
+        return np.stack([given[name] for name in COORDINATES], axis=-1)
     names = _columns(given)
     if len(names) > len(COORDINATES) and all(name in names for name in COORDINATES):
         return given[list(COORDINATES)]
     return given
+
+
+def fields_of(given: Any) -> tuple[str, ...]:  # noqa: ANN401
+    """Return the names of the fields of a structured array; none for what is no such."""
+    return getattr(getattr(given, "dtype", None), "names", None) or ()
 
 
 def _columns(given: Any) -> list[str]:  # noqa: ANN401

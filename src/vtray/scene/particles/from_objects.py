@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
-from vtray.scene.checks.given_array import positions_in, show_array
+from vtray.scene.checks.given_array import fields_of, positions_in, show_array
 from vtray.scene.particles.column_names import name_columns
 from vtray.scene.particles.elements import are_symbols, symbol_of, symbols_of
 from vtray.scene.particles.few_names import texts_of
@@ -146,7 +146,8 @@ def as_particles(given: Any) -> Particles:  # noqa: ANN401
     ----------
     given
         `Particles`; objects of ASE, MDAnalysis or OVITO; what has ``positions`` or
-        ``get_positions()``; tables and mappings with the columns x, y and z; or an array (n, 3).
+        ``get_positions()``; tables, mappings and structured arrays with the columns x, y
+        and z; or an array (n, 3).
 
     Raises
     ------
@@ -166,6 +167,8 @@ def as_particles(given: Any) -> Particles:  # noqa: ANN401
         return _from_ovito(given)
     if isinstance(given, Mapping):
         return from_columns({str(name): np.asarray(given[name]) for name in given})
+    if fields_of(given):
+        return from_columns({name: given[name] for name in fields_of(given)})
     if hasattr(given, "columns") and hasattr(given, "shape"):
         return from_columns({str(name): np.asarray(given[name]) for name in given.columns})
     places = positions_in(given)

@@ -1,5 +1,6 @@
 """Lines of a text file of any length: one by one, skipped fast, or many at once."""
 
+from codecs import BOM_UTF8
 from collections.abc import Iterator
 from typing import BinaryIO
 
@@ -44,6 +45,8 @@ class Lines:
         self.number += 1
         if len(line) == LONGEST:
             raise self._too_long(self.number)
+        if self.number == 1:
+            line = line.removeprefix(BOM_UTF8)
         return text_of(line, self.number).rstrip("\r\n")
 
     def skip(self, count: int) -> int:
