@@ -94,6 +94,7 @@ def test_picked_particles_that_are_faded(
     drawn = scene.add_particles(PAIR, **faded, **options)
     assert drawn.copies is not None
     scene.camera = vtray.Camera.orthographic((2, -3, 4), (2, 2, 4), 8, up=(0, 0, 1), size=(80, 80))
+    scene.lights = [vtray.Light((2, -3, 4))]
     image = vtray.render(scene)
     found = [image.pick(25, y) for y in (60, 20)]
     assert [(p.particle, p.copy) for p in found if p is not None] == [(0, 0), (0, 1)]

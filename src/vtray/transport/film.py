@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device, part
+from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import (
     BLOCK,
     COLOR,
@@ -160,7 +160,7 @@ def clear_sums(sums: Sums, pixels: int, coverage: Rows) -> None:
         store(sums.squares, 0, k, (0.0, 0.0, 0.0))
 
 
-@part
+@device
 def add_samples(
     packet: Packet,
     lanes: int,
@@ -245,7 +245,7 @@ def _bring_back(packet: Packet, lanes: int, hits: int) -> None:
         store(packet, LIGHT, numbers[SOURCE + hit], load(packet, VALUE, hit))
 
 
-@part
+@device
 def write_pixels(
     block: Block,
     begin: int,
@@ -303,7 +303,7 @@ def _write_error(row: int, column: int, sums: Sums, k: int, samples: int, error:
     error[row, column] = math.sqrt(most) / abs(weight)
 
 
-@part
+@device
 def write_middles(
     packet: Packet,
     block: Block,
