@@ -197,7 +197,7 @@ def test_hides_nothing_behind_the_image_plane(
 @pytest.mark.skipif(JIT, reason="replaces what compiled code has taken in")
 @settings(max_examples=300)
 @given(st.integers(0, 2**32 - 1), st.sampled_from([0.0, 3.0, 1e6]))
-def test_what_passes_by_is_hidden_by_no_way_that_is_slower(seed: int, away: float) -> None:
+def test_what_passes_by_hides_nothing(seed: int, away: float) -> None:
     rng = np.random.default_rng(seed)
     first, axis, way = rng.normal(size=(3, 3))
     first += away * rng.normal(size=3)

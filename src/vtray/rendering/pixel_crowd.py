@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from vtray.base.compiler.compiled import pinned
 from vtray.figures.traced_rays import FanRay, ShadowFan, WayToLight
 from vtray.geometry.packets.cone import new_touching
 from vtray.geometry.packets.fan import BLOCKED, FAN, WEIGHT, Fan, new_fan
@@ -45,7 +46,7 @@ def trace_shared(
     assert crowd is not None  # noqa: S101
     fan, stack = new_fan(), new_stack()
     shared, blockers = new_shared(len(soft.kind)), np.full(fans.rays, NOTHING)
-    given = arrays, soft, crowd, traced, *pixel, fans
+    given = pinned(arrays), pinned(soft), pinned(crowd), traced, *pixel, pinned(fans)
     walk = new_walk(body_count(arrays.world))
     found = trace_crowd(*given, seed, stack, fan, blockers, shared, new_touching(), walk)
     lights = asked_lights(lit.scene)

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vtray.base.compiler.compiled import uncompiled
+from vtray.base.compiler.compiled import pinned, uncompiled
 from vtray.figures.traced_rays import Hit, Layer, WayToLight
 from vtray.geometry.packets.layer_notes import AT_ONCE, new_layers, new_walk
 from vtray.geometry.packets.stack import new_stack
@@ -47,17 +47,18 @@ def look_through(pixel: Pixel) -> tuple[tuple[Layer, ...], Behind, Vec]:
     bodies, points = body_count(arrays.world), uncompiled(light_count)(arrays.lights)
     cosines, blockers = np.zeros(points), np.full(points, NOTHING)
     stack, walk, notes = new_stack(), new_walk(bodies), new_layers(bodies)
-    traced = trace_pixel(arrays, *pixel.place, stack, cosines, blockers, walk)
+    scene = pinned(arrays)
+    traced = trace_pixel(scene, *pixel.place, stack, cosines, blockers, walk)
     found: list[Layer] = []
     share, light = 1.0, (0.0, 0.0, 0.0)
     if arrays.world.faded is not None:
-        given = arrays, arrays.world.faded, *pixel.place, traced.distance, traced.primitive
+        given = scene, arrays.world.faded, *pixel.place, traced.distance, traced.primitive
         count = AT_ONCE
         while len(found) < count:
             count = list_pixel(*given, len(found), notes, walk, stack)
             for k in range(int(notes.listed[0])):
                 notes.share[k] *= _clear(pixel, notes.distance[k])
-                layer = trace_layer(arrays, *pixel.place, notes, k, stack, cosines, blockers, walk)
+                layer = trace_layer(scene, *pixel.place, notes, k, stack, cosines, blockers, walk)
                 hit = hit_of(pixel, layer, pixel.packed.before)
                 ways, light_of_layer = ways_to_lights(pixel, layer, hit, cosines, blockers)
                 found.append(Layer(hit, layer.share, ways, light_of_layer))
@@ -66,7 +67,7 @@ def look_through(pixel: Pixel) -> tuple[tuple[Layer, ...], Behind, Vec]:
             if not count:
                 break
         seen = share * _clear(pixel, traced.distance)
-        traced = trace_dimmed_pixel(arrays, *pixel.place, seen, stack, cosines, blockers, walk)
+        traced = trace_dimmed_pixel(scene, *pixel.place, seen, stack, cosines, blockers, walk)
     if traced.primitive == NOTHING:
         behind = Behind(traced, None, (), share)
         return tuple(found), behind, uncompiled(add)(light, traced.value)

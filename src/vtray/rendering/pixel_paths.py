@@ -19,11 +19,10 @@ from vtray.geometry.packets.packet import (
     NO_PRIMITIVE,
     ORIGIN,
     PRIMITIVE,
-    Packet,
     new_packet,
 )
 from vtray.geometry.packets.pending import NUMBERS
-from vtray.geometry.packets.workspace import Workspace, new_workspace
+from vtray.geometry.packets.workspace import new_workspace
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.geometry.world import body_count
@@ -48,10 +47,9 @@ from vtray.transport.integrators.single_path import (
 )
 from vtray.transport.lights.crowd import sharing_lights
 from vtray.transport.lights.light import light_count
-from vtray.transport.materials.look import Looks
 from vtray.transport.sampling.paths import Step, seed_of_step
 from vtray.transport.sampling.pixel_samples import Sampling
-from vtray.transport.scene_arrays import SceneArrays, depth_of
+from vtray.transport.scene_arrays import depth_of
 
 BLACK, WHITE = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
 
@@ -88,15 +86,6 @@ class _Lit(NamedTuple):
     shown: Vec | None
 
 
-class _Pinned(NamedTuple):
-    """What kernels are given for each ray."""
-
-    arrays: SceneArrays
-    looks: Looks
-    sampling: Sampling
-    work: Workspace
-
-
 class _Follower:
     """Follows the rays of a path, one after the other, in the first lane of a packet."""
 
@@ -110,9 +99,9 @@ class _Follower:
         sharing = sharing_lights(arrays.lights.crowd)
         self._packet = new_packet()
         self._work = new_workspace(arrays.world, sharing, depth_of(arrays))
-        self._pinned = _Pinned(
-            pinned(arrays), pinned(self._looks), pinned(sampling), pinned(self._work)
-        )
+        scene, looks, cast = pinned(arrays), pinned(self._looks), pinned(sampling)
+        # What kernels are given for each ray.
+        self._given = scene, looks, cast, self._place, self._packet, pinned(self._work)
         self._waiting: list[_Waiting] = []
         self._rays: list[PathRay] = []
         self._light = BLACK
@@ -133,7 +122,7 @@ class _Follower:
     def _begin(self) -> PathRay:
         """Cast the ray of the camera."""
         pixel, packet = self._pixel, self._packet
-        begun = begin_path(*self._given())
+        begun = begin_path(*self._given)
         x, y, z = direction = self._vector(DIRECTION)
         start, before = in_world(pixel, self._vector(ORIGIN)), pixel.packed.before
         eye = start[0] - before * x, start[1] - before * y, start[2] - before * z
@@ -166,8 +155,8 @@ class _Follower:
         pending = self._work.pending
         pending.numbers[:NUMBERS], pending.waiting[0] = waiting.numbers, 1
         self._put_light(light)
-        arrays, looks, _, work = self._pinned
-        found = follow_ray(arrays, looks, self._packet, work)
+        scene, looks, _, _, packet, work = self._given
+        found = follow_ray(scene, looks, packet, work)
         return self._vector(GATHERED), found
 
     def _arrive(self, ray: PathRay, before: float) -> None:
@@ -176,13 +165,14 @@ class _Follower:
         if int(self._packet.view(np.int64)[PRIMITIVE]) <= NO_PRIMITIVE:
             return
         self._put_light(BLACK)
-        chosen = leave_hit(*self._given())
+        scene, *_ = self._given
+        chosen = leave_hit(*self._given)
         # What a surface shines by itself, or what a coat shows of lights.
         own = self._vector(GATHERED)
         points = uncompiled(light_count)(self._arrays.lights)
         asked = np.zeros(points), np.full(points, NOTHING)
         walk, stack = new_walk(body_count(self._arrays.world)), self._work.stack
-        traced = light_matt(self._pinned.arrays, self._place, self._packet, stack, *asked, walk)
+        traced = light_matt(scene, self._place, self._packet, stack, *asked, walk)
         hit = hit_of(self._pixel, traced, before)
         lit = self._lit(chosen, traced, hit, asked)
         onward = self._take_waiting(len(self._rays) - 1, hit)
@@ -264,11 +254,6 @@ class _Follower:
             for seen, of in zip(traced.material.color, own, strict=True)
         )
         return red, green, blue
-
-    def _given(self) -> tuple[SceneArrays, Looks, Sampling, Place, Packet, Workspace]:
-        """Return what kernels are given."""
-        arrays, looks, sampling, work = self._pinned
-        return arrays, looks, sampling, self._place, self._packet, work
 
     def _lamp(self, row: int) -> int | None:
         """Return the place of a lamp in the scene, given its row."""

@@ -111,6 +111,7 @@ def passes_by(line: Line, radius: float, margin: float) -> bool:
     """Tell whether a line stays farther from the axis than a radius, by more than a margin."""
     reach = radius + margin
     square, along = dot(line.aside, line.aside), dot(line.beside, line.aside)
+    # Less by more than what rounding may leave of the difference below.
     beside = dot(line.beside, line.beside) * (1.0 - ROUNDING)
     misses: bool = (beside - reach * reach) * square > along * along
     return misses
