@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -52,6 +53,28 @@ def test_fields_of_records_are_columns() -> None:
     found = as_particles(records)
     assert found.positions.tolist() == [[0, 1, 2]]
     assert found["element"].tolist() == ["O"]
+
+
+@pytest.mark.parametrize("x", [[], [("x", "U4")], [("x", "f8", (3,))], [("x", "M8[s]")]])
+def test_records_without_places(x: list[Any]) -> None:
+    records = np.zeros(2, [*x, ("y", "f8"), ("z", "f8")])
+    with pytest.raises(SceneError, match="^add_spheres: positions: expected an array of numbers"):
+        vtray.Scene().add_spheres(records, 1)
+    with pytest.raises(SceneError, match="^(expected the columns x, y and z|column 'x')"):
+        as_particles(records)
+
+
+def test_records_that_are_masked() -> None:
+    fields = [("x", "f8"), ("y", "f8"), ("z", "f8")]
+    records = np.ma.array(np.zeros(2, fields), mask=[(True, False, False), (False, False, False)])
+    for take in (as_particles, lambda given: vtray.Scene().add_spheres(given, 1)):
+        with pytest.raises(SceneError, match="masked"):
+            take(records)
+    with pytest.raises(SceneError, match="column 'x': expected a value for each .* leave out"):
+        as_particles({name: records[name] for name in "xyz"})
+    records.mask = False
+    assert as_particles(records).positions.tolist() == [[0, 0, 0]] * 2
+    assert vtray.Scene().add_spheres(records, 1).center.tolist() == [[0, 0, 0]] * 2
 
 
 def test_atoms_are_spheres() -> None:

@@ -75,10 +75,10 @@ def positions_in(given: Any) -> Any:  # noqa: ANN401
     if hasattr(given, "get_positions"):
         return given.get_positions()
     fields = fields_of(given)
-    if all(name in fields for name in COORDINATES):
-        import numpy as np
+    if all(name in fields and given.dtype[name].kind in "iuf" for name in COORDINATES):
+        from numpy.lib.recfunctions import structured_to_unstructured
 
-        return np.stack([given[name] for name in COORDINATES], axis=-1)
+        return structured_to_unstructured(given[list(COORDINATES)])
     names = _columns(given)
     if len(names) > len(COORDINATES) and all(name in names for name in COORDINATES):
         return given[list(COORDINATES)]

@@ -3,11 +3,17 @@
 None of the libraries is imported: what an object is, is told by its attributes.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
-from vtray.scene.checks.given_array import fields_of, positions_in, show_array
+from vtray.scene.checks.given_array import (
+    fields_of,
+    is_masked,
+    positions_in,
+    remedy_for,
+    show_array,
+)
 from vtray.scene.particles.column_names import name_columns
 from vtray.scene.particles.elements import are_symbols, symbol_of, symbols_of
 from vtray.scene.particles.few_names import texts_of
@@ -139,6 +145,23 @@ def from_mdanalysis(group: Any) -> Particles:  # noqa: ANN401
     )
 
 
+def _columns_of(table: Any, names: Iterable[Any]) -> "dict[str, Array]":  # noqa: ANN401
+    """Return the columns of a table by their names.
+
+    Raises
+    ------
+    SceneError
+        Some entries of one are masked.
+    """
+    import numpy as np
+
+    for name in names:
+        if is_masked(table[name]):
+            got = f"got {show_array(table[name])}{remedy_for(table[name], ())}"
+            raise SceneError(f"column {str(name)!r}: expected a value for each particle, {got}")
+    return {str(name): np.asarray(table[name]) for name in names}
+
+
 def as_particles(given: Any) -> Particles:  # noqa: ANN401
     """Return the particles of whatever has places.
 
@@ -166,11 +189,11 @@ def as_particles(given: Any) -> Particles:  # noqa: ANN401
     if inner is not None and hasattr(inner, "positions"):
         return _from_ovito(given)
     if isinstance(given, Mapping):
-        return from_columns({str(name): np.asarray(given[name]) for name in given})
+        return from_columns(_columns_of(given, given))
     if fields_of(given):
-        return from_columns({name: given[name] for name in fields_of(given)})
+        return from_columns(_columns_of(given, fields_of(given)))
     if hasattr(given, "columns") and hasattr(given, "shape"):
-        return from_columns({str(name): np.asarray(given[name]) for name in given.columns})
+        return from_columns(_columns_of(given, given.columns))
     places = positions_in(given)
     try:
         positions = np.asarray(places)
