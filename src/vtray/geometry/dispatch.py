@@ -101,7 +101,7 @@ from vtray.geometry.shapes.sphere import (
 )
 from vtray.geometry.shapes.surface import no_power
 from vtray.geometry.shapes.verbs import Shape, Verbs
-from vtray.geometry.world import CONE, CUT, CYLINDER, PLANE, Clip, Group, World
+from vtray.geometry.world import CONE, CUT, CYLINDER, PLANE, Clip, Group, Solids, World
 
 Action = Callable[[Shape, Verbs, int, Any], Any]
 """What is done with a shape: given the shape, its verbs, its number, and arguments of its own."""
@@ -129,7 +129,13 @@ def with_any(world: World, group: Group, slot: int, action: Action, arguments: A
 
 
 @device
-def with_bounded(world: World, group: Group, slot: int, action: Action, arguments: Any) -> Any:  # noqa: ANN401
+def with_bounded(
+    world: World | Solids,
+    group: Group,
+    slot: int,
+    action: Action,
+    arguments: Any,  # noqa: ANN401
+) -> Any:  # noqa: ANN401
     """Return what an action returns for a shape of a group that is none of whole planes."""
     spheres, cylinders, cones = world.spheres, world.cylinders, world.cones
     return _with_one_of(spheres, cylinders, cones, world.clip, group, slot, action, arguments)

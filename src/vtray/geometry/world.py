@@ -230,6 +230,24 @@ class World(NamedTuple):
     clip: Clip | None = None
 
 
+class Solids(NamedTuple):
+    """The shapes of a world that are no whole planes, and what cuts them; as in `World`.
+
+    What depends on these alone is compiled once for worlds that differ in other things.
+    """
+
+    spheres: Columns
+    cylinders: Columns | None
+    cones: Columns | None
+    clip: Clip | None
+
+
+@device
+def solids_of(world: World) -> Solids:
+    """Return the shapes of a world that are no whole planes."""
+    return Solids(world.spheres, world.cylinders, world.cones, world.clip)
+
+
 class Group(NamedTuple):
     """One of the groups, where it stands; see `Groups`.
 

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.bundle import Bundle, Crossing, image_plane_range
 from vtray.geometry.dispatch import with_bounded
 from vtray.geometry.packets.packet import (
@@ -36,14 +36,13 @@ from vtray.geometry.packets.ray_bounds import (
     note_mixed,
     octets_met,
 )
-from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Footprint, Ray, has_width, ray_point, width_at
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.plane import load_plane, plane_crossing, plane_distance
 from vtray.geometry.shapes.surface import no_power
 from vtray.geometry.shapes.verbs import Shape, Verbs
 from vtray.geometry.vector import Vec
-from vtray.geometry.world import Clip, Group, World
+from vtray.geometry.world import Clip, Group, Solids, World
 
 
 @device
@@ -98,18 +97,18 @@ def nearest_planes(
             _note_crossings(packet, 0, lanes, sheaf, footprint, True, plane, plane_crossing)
 
 
-@device
+@part
 def nearest_slots(
     packet: Packet,
     first: int,
     count: int,
     sheaf: Sheaf,
     footprint: Footprint | None,
-    world: World,
+    solids: Solids,
     group: Group,
     begin: int,
     end: int,
-    work: Workspace,
+    cones: Cones,
 ) -> None:
     """Let shapes of a group take lanes of some octets in which they are nearer.
 
@@ -119,17 +118,17 @@ def nearest_slots(
         The rays.
     first, count
         The first of the octets, and how many there are.
-    world, group
+    solids, group
         The group, which is none of planes.
     begin, end
         The slots of its shapes, from the first to before the last.
-    work
-        Scratch memory.
+    cones
+        What is known of the directions of the rays.
     """
     for slot in range(begin, end):
-        rays = packet, first, count, sheaf, footprint, work
-        arguments = rays, join_met(group.row, slot), world.clip
-        with_bounded(world, group, slot, _take_octets, arguments)
+        rays = packet, first, count, sheaf, footprint, cones
+        arguments = rays, join_met(group.row, slot), solids.clip
+        with_bounded(solids, group, slot, _take_octets, arguments)
 
 
 @device
@@ -137,14 +136,12 @@ def _take_octets(
     shape: Shape,
     verbs: Verbs,
     number: int,
-    arguments: tuple[tuple[Packet, int, int, Sheaf, Footprint | None, Workspace], int, Clip | None],
+    arguments: tuple[tuple[Packet, int, int, Sheaf, Footprint | None, Cones], int, Clip | None],
 ) -> None:
     """Test a shape for those of some octets that it may meet."""
-    (packet, first, count, sheaf, footprint, work), met_here, clip = arguments
+    (packet, first, count, sheaf, footprint, cones), met_here, clip = arguments
     margin = MARGIN * (shape.error_scale + sheaf.error_scale)
-    met = octets_met(
-        work.cones, first, count, sheaf, shape.center, shape.radius + margin, footprint
-    )
+    met = octets_met(cones, first, count, sheaf, shape.center, shape.radius + margin, footprint)
     distance = ball_distance(shape.center, shape.radius, sheaf)
     may_cover = shape.radius > width_at(footprint, distance)
     lane = first * OCTET
@@ -165,12 +162,12 @@ def _take_octets(
                 verbs.power_at,
                 clip,
             )
-            if has_width(footprint) and (may_cover or not is_known_mixed(work.cones, lane)):
-                is_cut = distance <= latest_start(work.cones, lane)
+            if has_width(footprint) and (may_cover or not is_known_mixed(cones, lane)):
+                is_cut = distance <= latest_start(cones, lane)
                 cross = verbs.crossing
                 _note_crossings(packet, begin, end, sheaf, footprint, is_cut, shape, cross)
-                note_mixed(packet, lane, work.cones)
-            find_farthest(packet, lane // OCTET, 1, footprint, work.cones)
+                note_mixed(packet, lane, cones)
+            find_farthest(packet, lane // OCTET, 1, footprint, cones)
         met >>= 1
         lane += OCTET
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.dispatch import with_bounded
 from vtray.geometry.packets.packet import (
     BLOCKED,
@@ -35,9 +35,12 @@ from vtray.geometry.shapes.plane import PlaneShape, end_side, hides_side, load_p
 from vtray.geometry.shapes.sphere import load_sphere
 from vtray.geometry.shapes.verbs import Shape, Verbs
 from vtray.geometry.vector import Vec, add, dot, lower, magnitude, scale, sub, upper
-from vtray.geometry.world import PLANE, SPHERE, Group, World, group_count, load_group
+from vtray.geometry.world import PLANE, SPHERE, Group, Solids, World, group_count, load_group
 
 Flags = NDArray[np.bool_]
+
+SOONER = 16
+"""So few points are tested sooner than a shape is found to be outside their shaft."""
 
 
 class Target(NamedTuple):
@@ -272,13 +275,13 @@ def _any_open(packet: Packet, hits: int, is_wide: bool | None) -> bool:
     return count > 0
 
 
-@device
+@part
 def block_by_few(
     packet: Packet,
     hits: int,
     box: PointBox,
     own: int,
-    world: World,
+    solids: Solids,
     group: Group,
     target: Target,
     near: Flags,
@@ -288,18 +291,46 @@ def block_by_few(
     If all are on one sphere, `own` is its slot, and it is not asked; otherwise it is -1.
     """
     for slot in range(group.begin, group.end):
-        near[slot] = in_shaft(world, group, slot, target, box)
+        near[slot] = _in_shaft(solids, group, slot, target, box)
     for slot in range(group.begin, group.end):
         if near[slot] and not (slot == own and group.kind == SPHERE):
-            block_by_slot(packet, 0, hits, world, group, slot, target)
+            _block_by_slot(packet, 0, hits, solids, group, slot, target)
+
+
+@part
+def block_by_leaf(
+    packet: Packet,
+    begin: int,
+    end: int,
+    box: PointBox,
+    solids: Solids,
+    group: Group,
+    first: int,
+    after: int,
+    target: Target,
+) -> None:
+    """Mark the points of a range that shapes of a leaf hide from a light.
+
+    Parameters
+    ----------
+    packet, begin, end, box
+        The points, and what they are within.
+    solids, group, first, after
+        The shapes in the slots of a group from `first` to before `after`.
+    target
+        The light.
+    """
+    for slot in range(first, after):
+        if end - begin <= SOONER or _in_shaft(solids, group, slot, target, box):
+            _block_by_slot(packet, begin, end, solids, group, slot, target)
 
 
 @device
-def block_by_slot(
-    packet: Packet, begin: int, end: int, world: World, group: Group, slot: int, target: Target
+def _block_by_slot(
+    packet: Packet, begin: int, end: int, solids: Solids, group: Group, slot: int, target: Target
 ) -> None:
     """Mark the points of a range that a shape of a group hides from a light."""
-    with_bounded(world, group, slot, _block_by_shape, (packet, begin, end, target))
+    with_bounded(solids, group, slot, _block_by_shape, (packet, begin, end, target))
 
 
 @device
@@ -316,9 +347,9 @@ def _block_by_shape(
 
 
 @device
-def in_shaft(world: World, group: Group, slot: int, target: Target, box: PointBox) -> bool:
+def _in_shaft(solids: Solids, group: Group, slot: int, target: Target, box: PointBox) -> bool:
     """Tell whether a shape of a group may stand between any point of a box and a light."""
-    in_way: bool = with_bounded(world, group, slot, _is_in_shaft, (target, box))
+    in_way: bool = with_bounded(solids, group, slot, _is_in_shaft, (target, box))
     return in_way
 
 

@@ -16,7 +16,7 @@ from vtray.geometry.packets.tree_nearest import nearest_in_group, nearest_placed
 from vtray.geometry.packets.tree_occlusion import block_by_placed, block_in_group
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Footprint
-from vtray.geometry.world import NO_TREE, PLANE, Places, World, group_count, load_group
+from vtray.geometry.world import NO_TREE, PLANE, Places, World, group_count, load_group, solids_of
 
 
 @part
@@ -58,7 +58,16 @@ def find_nearest(
             if group.root == NO_TREE:
                 begin, end = group.begin, group.end
                 nearest_slots(
-                    packet, octet, count, sheaf, footprint, world, group, begin, end, work
+                    packet,
+                    octet,
+                    count,
+                    sheaf,
+                    footprint,
+                    solids_of(world),
+                    group,
+                    begin,
+                    end,
+                    work.cones,
                 )
             else:
                 nearest_in_group(packet, octet, count, sheaf, footprint, world, group, work, 0)
@@ -106,7 +115,7 @@ def find_blocked(
                 return False
         elif group.root == NO_TREE:
             box = widened_box(packet, hits, box_of(bounds), target.is_wide)
-            block_by_few(packet, hits, box, own, world, group, target, work.near)
+            block_by_few(packet, hits, box, own, solids_of(world), group, target, work.near)
         else:
             block_in_group(packet, world, group, target, work)
     _find_blocked_by_placed(packet, world, world.places, target, work)

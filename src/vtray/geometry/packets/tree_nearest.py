@@ -24,6 +24,7 @@ from vtray.geometry.world import (
     load_group,
     placed_row,
     range_of,
+    solids_of,
     to_box_space,
 )
 
@@ -75,7 +76,8 @@ def _nearest_of_leaf(
 ) -> None:
     """Let the shapes of a range of slots take lanes in which they are nearer."""
     packet, first, count, sheaf, footprint = rays
-    nearest_slots(packet, first, count, sheaf, footprint, world, group, begin, end, work)
+    solids, cones = solids_of(world), work.cones
+    nearest_slots(packet, first, count, sheaf, footprint, solids, group, begin, end, cones)
 
 
 @device

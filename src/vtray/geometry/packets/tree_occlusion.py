@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.from_light import FOR_EVER, Box, search_from_light
-from vtray.geometry.packets.occlusion import PointBox, Target, block_by_slot, in_shaft
+from vtray.geometry.packets.occlusion import PointBox, Target, block_by_leaf
 from vtray.geometry.packets.packet import ERROR_SCALE, POINT, Packet, load
 from vtray.geometry.packets.patch import is_open, widest_reach
 from vtray.geometry.packets.stack import Stack
@@ -21,10 +21,8 @@ from vtray.geometry.world import (
     hierarchy_of_places,
     load_group,
     placed_row,
+    solids_of,
 )
-
-SOONER = 16
-"""So few points are tested sooner than a shape is found to be outside their shaft."""
 
 PATIENCE = 256
 """After so many leaves, points of a cluster are taken to be far apart, and go on one by one."""
@@ -124,9 +122,8 @@ def _block_by_leaf(
 ) -> int:
     """Mark the points of a cluster that shapes of a range of slots hide."""
     packet, end, target = cluster.packet, cluster.end, cluster.target
-    for slot in range(first, after):
-        if end - begin <= SOONER or in_shaft(world, group, slot, target, cluster.points):
-            block_by_slot(packet, begin, end, world, group, slot, target)
+    solids = solids_of(world)
+    block_by_leaf(packet, begin, end, cluster.points, solids, group, first, after, target)
     return _first_open(packet, begin, end, target.is_wide)
 
 

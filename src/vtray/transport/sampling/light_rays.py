@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device
+from vtray.base.compiler.compiled import device, part
 from vtray.geometry.packets.fan import (
     BLOCKED,
     DIRECTION,
@@ -42,7 +42,7 @@ from vtray.transport.sampling.fans import fan_point
 from vtray.transport.sampling.sky_rays import spread_to_sky
 
 
-@device
+@part
 def spread_fan(
     fan: Fan,
     rays: int,
