@@ -93,13 +93,17 @@ def test_directions_are_as_dense_as_said(material: Material, cosine: float) -> N
     ]
     kept = [one for one in drawn if one.density > 0]
     found = np.bincount(cells(np.array([one.way for one in kept])), minlength=64)
-    expected, fine = np.zeros(64), 160
-    for k in range(fine):
-        for j in range(fine):
-            way = direction((k + 0.5) / fine, 2 * math.pi * (j + 0.5) / fine)
-            density = uncompiled(gloss.seen_light)(looks, looks.albedos, seen, way).density
-            expected[cells(np.array([way]))[0]] += density * 2 * math.pi / fine**2
-    expected *= count
+    fine = 160
+    ways = [
+        direction((k + 0.5) / fine, 2 * math.pi * (j + 0.5) / fine)
+        for k in range(fine)
+        for j in range(fine)
+    ]
+    densities = [
+        uncompiled(gloss.seen_light)(looks, looks.albedos, seen, way).density for way in ways
+    ]
+    each = count * 2 * math.pi / fine**2 * np.array(densities)
+    expected = np.bincount(cells(np.array(ways)), each, minlength=64)
     is_many = expected > 20
     off = found[is_many] - expected[is_many]
     # What is left of the error of the integral, where the density is sharp, is some percent.
