@@ -226,6 +226,7 @@ def test_settings_of_the_picture_reach_the_render(
             "integrator": "direct",
             "depth": 8,
             "firefly": "off",
+            "edge_samples": 1,
             **msgspec.structs.asdict(vtray.Style()),
         }
     ]

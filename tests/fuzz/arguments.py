@@ -13,7 +13,7 @@ from fuzz.promises import run_quietly
 OPTIONS = [
     *("-t", "--threads", "-q", "--samples", "--filter", "--seed", "--size", "--exposure", "-V"),
     *("--background", "--alpha", "--bits", "--aov", "--replay", "--stats", "--pixel", "--help"),
-    *("--outline", "--fog", "--eye-dome", "--stops", "--tonemap"),
+    *("--outline", "--fog", "--eye-dome", "--stops", "--tonemap", "--edge-samples"),
 ]
 OF_LOOKS = [
     *("--integrator", "--depth", "--firefly", "--tolerance", "--clip", "--slice", "--cap"),

@@ -218,6 +218,7 @@ def settings(random: Random, scene: Scene) -> dict[str, Any]:
         (0.9, "tolerance", lambda: float(random.choice([0.05, 1e6, 1e6, 1e6]))),
         (0.1, "fog", lambda: True),
         (0.1, "outline", lambda: 1.5),
+        (0.3, "edge_samples", lambda: int(random.choice([1, 3, 8, 16]))),
     ]
     for chance, name, value in chances:
         if random.random() < chance:

@@ -32,6 +32,7 @@ def attempt(random: python_random.Random, folder: Path) -> None:
     how = {
         "integrator": str(numbers.choice(["direct", "direct", "direct", "whitted", "path"])),
         "samples": int(numbers.choice([1, 2, 4])),
+        "edge_samples": int(numbers.choice([1, 1, 6])),
         "tolerance": 1e6,
     }
     if how["integrator"] != "direct":

@@ -33,7 +33,7 @@ MADE: dict[Callable[..., Any], dict[str, Any]] = {
     vtray.Stripes: {"colors": (None, None), "size": 1, "up": None, "rotation": 3, "run": "along"},
     vtray.ImagePattern: {"image": IMAGE, "size": 1, "up": None, "rotation": 3},
     vtray.Lens: {"radius": 0.1, "focus_distance": 5, "blades": 5},
-    vtray.RenderSettings: {"samples": 2, "integrator": "path", "depth": 3, "firefly": 2.0},
+    vtray.RenderSettings: {"samples": 2, "integrator": "path", "depth": 3, "edge_samples": 9},
     vtray.Camera.panorama: {"eye": (0, 0, 0), "target": (0, 0, 1), "up": (0, 1, 0), "size": (4, 2)},
 }
 """What is made in code, and right values for it."""

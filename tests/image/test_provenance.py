@@ -33,6 +33,7 @@ SETTINGS = {
     "integrator": "whitted",
     "depth": 3,
     "firefly": 2.5,
+    "edge_samples": 30,
 }
 
 

@@ -52,7 +52,8 @@ def test_what_is_asked_for_is_done() -> None:
     image = render(scene, exposure="max", background="black")
     assert image.pixels.max() == 255
     assert not image.pixels[0, 0].any()
-    scene.render = vtray.RenderSettings(2, exposure=0.5, background="transparent", tolerance=0.5)
+    own = {"exposure": 0.5, "background": "transparent", "tolerance": 0.5, "edge_samples": 8}
+    scene.render = vtray.RenderSettings(2, **own)
     assert render(scene).settings == scene.render
     locked = render(scene, lock=image)
     assert locked.white == image.white

@@ -163,14 +163,15 @@ def test_bad_values(place: str, value: object, problem: str) -> None:
             "render",
             3,
             "expected an object with the keys samples, filter, seed, size, exposure, "
-            "background, tolerance, denoise, stops, tonemap, integrator, depth and firefly, got 3",
+            "background, tolerance, denoise, stops, tonemap, integrator, depth, firefly and "
+            "edge_samples, got 3",
         ),
         (
             "render",
             None,
             "expected an object with the keys samples, filter, seed, size, exposure, "
-            "background, tolerance, denoise, stops, tonemap, integrator, depth and firefly, "
-            "got null",
+            "background, tolerance, denoise, stops, tonemap, integrator, depth, firefly and "
+            "edge_samples, got null",
         ),
         ("render.size[1]", 0, "expected an integer from 1 to 2147483647, got 0"),
         ("render.background.g", 256, "expected an integer from 0 to 255, got 256"),
@@ -238,6 +239,8 @@ CODE: list[tuple[dict[str, Any], str]] = [
     ({"tonemap": float("nan")}, "tonemap: expected a finite number, got nan"),
     ({"firefly": 0}, f"firefly: {FIREFLY} 0"),
     ({"firefly": "on"}, f"firefly: {FIREFLY} 'on'"),
+    ({"edge_samples": 0}, "edge_samples: expected an integer from 1 to 65536, got 0"),
+    ({"edge_samples": 2.5}, "edge_samples: expected an integer from 1 to 65536, got 2.5"),
     ({"stops": "1"}, f"stops: {STOPS} '1'"),
     ({"stops": 101}, f"stops: {STOPS} 101"),
     ({"stops": float("nan")}, "stops: expected a finite number, got nan"),

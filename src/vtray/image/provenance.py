@@ -29,7 +29,7 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
     scene : str
         The hash of the scene.
     samples, filter, seed, tolerance, exposure, background, denoise, stops,
-    tonemap, integrator, depth, firefly
+    tonemap, integrator, depth, firefly, edge_samples
         As in the settings of the render, those that were left out too.
     size : tuple of int or None
         Width and height of the picture in pixels; None for those of the camera.
@@ -78,6 +78,7 @@ _SELDOM = (
     "integrator",
     "depth",
     "firefly",
+    "edge_samples",
     "style",
     "partial",
 )

@@ -67,8 +67,8 @@ class Rendered:
         How much of its light each pixel keeps in eye-dome lighting, if there is any.
     error
         The standard error of light, if it is not 0 everywhere.
-    sampled
-        Which pixels have samples; None where each has one ray.
+    samples
+        How many rays each pixel has; None where each has one.
     noise
         How noisy soft light was allowed to be, which says what rays were cast, if there is any.
     relighting
@@ -108,7 +108,7 @@ class Rendered:
         lines: Shares | None = None,
         shade: Shares | None = None,
         error: Floats | None = None,
-        sampled: NDArray[np.bool_] | None = None,
+        samples: NDArray[np.int32] | None = None,
         noise: Any = None,  # noqa: ANN401
         relighting: Callable[[Scene], Floats] | None = None,
         raw: Floats | None = None,
@@ -136,7 +136,7 @@ class Rendered:
         self._lines = lines
         self._shade = shade
         self._error = error
-        self._sampled = sampled
+        self._samples = samples
         self.noise = noise
         self._relighting = relighting
         self._raw = raw
@@ -420,12 +420,12 @@ class Rendered:
     def samples(self) -> NDArray[np.int32]:
         """How many rays of the camera each pixel has, int32, (height, width).
 
-        One where the whole pixel is known to look the same, or ``settings.samples``.
+        One where the whole pixel is known to look the same, else ``settings.samples``; where these
+        differ most, ``settings.edge_samples`` if that is more.
         """
-        count = np.ones(self.linear.shape[:2], np.int32)
-        if self._sampled is not None:
-            count[self._sampled] = int(self.settings.samples)
-        return count
+        if self._samples is not None:
+            return self._samples
+        return np.ones(self.linear.shape[:2], np.int32)
 
     @cached_property
     def scene_hash(self) -> str:

@@ -75,7 +75,7 @@ class Darkroom:
         lines: Shares | None = None,
         shade: Shares | None = None,
         error: Floats | None = None,
-        sampled: NDArray[np.bool_] | None = None,
+        samples: NDArray[np.int32] | None = None,
         noise: Noise | None = None,
         relighting: Callable[[Scene], Floats] | None = None,
         denoising: Callable[[Scene, Floats], Floats] | None = None,
@@ -90,7 +90,7 @@ class Darkroom:
         fog, lines, shade
             How much of each pixel fog is, and lines hide, and how much light eye-dome lighting
             leaves, if there are any.
-        error, sampled, noise, relighting, partial
+        error, samples, noise, relighting, partial
             What the picture has.
         denoising
             Gives the light of a scene without grain, if the picture shall have that.
@@ -122,7 +122,7 @@ class Darkroom:
             lines=lines,
             shade=shade,
             error=error,
-            sampled=sampled,
+            samples=samples,
             noise=noise,
             relighting=relighting,
             raw=raw,

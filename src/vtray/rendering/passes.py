@@ -1,4 +1,4 @@
-"""From the arrays of a scene to a film: which rays are cast, tile by tile, in one pass or two."""
+"""From the arrays of a scene to a film: which rays are cast, tile by tile, in some passes."""
 
 import math
 from collections.abc import Sequence
@@ -15,6 +15,7 @@ from vtray.geometry.ray import Footprint
 from vtray.geometry.shapes import cone, cylinder, sphere
 from vtray.geometry.world import World
 from vtray.image.white import white_of
+from vtray.rendering.edge_pixels import edge_pixels
 from vtray.rendering.engines.engine import Engine, trace_to
 from vtray.rendering.engines.threads import Threads
 from vtray.rendering.growth import DRAFT_TILE, Growth, draft_camera
@@ -24,6 +25,7 @@ from vtray.transport.light_buffer import KeptLight, new_kept_light
 from vtray.transport.sampling.fans import (
     Fans,
     Noise,
+    fans_of_edges,
     fans_of_middles,
     fans_of_paths,
     fans_of_samples,
@@ -62,8 +64,8 @@ class Traced(NamedTuple):
         How noisy soft light may be, if there is any.
     kept
         What was kept of the rays of each pass; nothing unless asked for.
-    sampled
-        Which pixels have samples; None where each has one ray.
+    samples
+        How many rays each pixel has; None where each has one.
     """
 
     film: Film
@@ -71,7 +73,7 @@ class Traced(NamedTuple):
     rays: int
     noise: Noise | None = None
     kept: tuple[KeptLight, ...] = ()
-    sampled: NDArray[np.bool_] | None = None
+    samples: NDArray[np.int32] | None = None
 
 
 class Tracer:
@@ -132,6 +134,7 @@ class Tracer:
         """
         samples, seed = int(settings.samples), int(settings.seed)
         noise = self.noise(settings, white, keep=keep)
+        has_edges = has_more_for_edges(settings) and not keep
         # What rays see layer by layer is not kept.
         keep = keep and self._scene.world.faded is None
         first, later = rays_from_surfaces(settings, noise)
@@ -142,7 +145,7 @@ class Tracer:
             return found._replace(film=_covered(found.film), noise=noise)
         if self._scene.camera.lens is not None:
             return self._through_lens(settings, first, later, keep=keep)._replace(noise=noise)
-        self._passes = 2
+        self._passes = 2 + has_edges
         footprint = filter_footprint(settings, self._scene.camera)
         thickest = _thickest(self._scene.world)
         fans, paths = first
@@ -159,7 +162,24 @@ class Tracer:
             film = film._replace(kept=kept[-1])
         sampled = self._trace(filter_samples(settings, marks, later.fans, later.paths), film)
         peak, cast = max(found.peak, sampled.peak), found.rays + sampled.rays
-        return Traced(film, peak, cast, noise, kept, marks)
+        count = np.where(marks, samples, 1).astype(np.int32)
+        traced = Traced(film, peak, cast, noise, kept, count)
+        return self._with_edges(settings, white, traced) if has_edges else traced
+
+    def _with_edges(self, settings: RenderSettings, white: float | None, traced: Traced) -> Traced:
+        """Trace more samples of the pixels in which edges are sharpest, in place of theirs."""
+        film, noise, samples = traced.film, traced.noise, traced.samples
+        assert samples is not None  # noqa: S101 - some pixels have several
+        if white is None:
+            white = white_of(settings, film.linear, peak=traced.peak)
+        marks, more = edge_pixels(film, samples > 1, settings, white), int(settings.edge_samples)
+        fans = None if noise is None else fans_of_edges(more, int(settings.samples), noise)
+        found = self._trace(filter_samples(settings, marks, fans, samples=more), film)
+        return traced._replace(
+            peak=max(float(film.linear.max(initial=0.0)), 0.0),
+            rays=traced.rays + found.rays,
+            samples=np.where(marks, more, samples).astype(np.int32),
+        )
 
     def _through_lens(
         self, settings: RenderSettings, first: "SurfaceRays", later: "SurfaceRays", *, keep: bool
@@ -180,7 +200,8 @@ class Tracer:
             kept = self._keep(~marks, 1), self._keep(marks, samples)
             film = film._replace(kept=kept[-1])
         sampled = filter_samples(settings, marks, later.fans, later.paths, lens)
-        return self._trace(sampled, film)._replace(kept=kept, sampled=marks)
+        count = np.full(marks.shape, samples, np.int32)
+        return self._trace(sampled, film)._replace(kept=kept, samples=count)
 
     def noise(self, settings: RenderSettings, white: float | None, *, keep: bool) -> Noise | None:
         """Return how noisy soft light may be, if there is any; the parameters are those of `light`.
@@ -280,6 +301,14 @@ class Tracer:
                 self._growth.update(before + done, total)
 
         return tell
+
+
+def has_more_for_edges(settings: RenderSettings) -> bool:
+    """Tell whether pixels with sharp edges may have more samples than others.
+
+    The light of paths differs by chance: more for those that happen to differ would make it darker.
+    """
+    return settings.edge_samples > settings.samples > 1 and settings.integrator == "direct"
 
 
 class SurfaceRays(NamedTuple):

@@ -88,6 +88,7 @@ def render(
     integrator: str | None = None,
     depth: int | None = None,
     firefly: Literal["off"] | float | None = None,
+    edge_samples: int | None = None,
     outline: Any = None,  # noqa: ANN401 - all that `Style` takes
     fog: Any = None,  # noqa: ANN401
     eye_dome: Any = None,  # noqa: ANN401
@@ -159,6 +160,10 @@ def render(
         The brightest light that one path may bring to a pixel with ``integrator="path"``, 1 for
         white: specks of light become darker, and so does the picture, which is then biased.
         ``"off"`` by default.
+    edge_samples
+        Rays for each pixel whose samples differ much, if that is more than `samples`: for one pixel
+        of sixteen at the most, those that differ most. 16 is the default of scenes whose lights
+        were never set. In direct light, without a lens and without `keep_lights`.
     tonemap
         How light becomes the numbers of a file: ``"linear"``, the default, as it is; ``"srgb"``,
         ``"filmic"`` and ``"agx"`` encoded for monitors. For these, all colours that are given are
@@ -301,7 +306,7 @@ def render(
         lines=drawing.lines(traced.film),
         shade=drawing.shade(traced.film),
         error=traced.film.error,
-        sampled=traced.sampled,
+        samples=traced.samples,
         noise=traced.noise,
         relighting=relighting if keep_lights else None,
         denoising=denoising if settings.denoise else None,

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from vtray.scene.objects import Object
 
 
-SAMPLES = 4
-"""Rays for each pixel that needs them, in default light."""
+SAMPLES, EDGE_SAMPLES = 4, 16
+"""Rays for each pixel that needs them in default light, and for those with the sharpest edges."""
 
 
 class HasLights(HasCamera, Protocol):
@@ -100,6 +100,8 @@ def settings_of(
         look["background"] = Color(255, 255, 255)
     if set_.samples == 1:
         look["samples"] = SAMPLES
+    if set_.edge_samples == 1:
+        look["edge_samples"] = EDGE_SAMPLES
     if set_.tolerance == TOLERANCE and given.get("tolerance") is None and scene.camera is not None:
         width, height = asked.size or scene.camera.size
         look["tolerance"] = tolerance_of(scene, scene.camera.resized((int(width), int(height))))

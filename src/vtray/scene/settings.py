@@ -140,6 +140,9 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
         Firefly,
         Option("off|NUMBER", "the brightest light of one path, 1 for white: less grain, too dark"),
     ] = "off"
+    edge_samples: Annotated[
+        Samples, Option("N", "rays for the pixels whose samples differ most, if that is more")
+    ] = 1
 
     def __post_init__(self) -> None:
         """Hold equal settings equally: integers as such, and the colour black as "black"."""
@@ -225,6 +228,10 @@ class RenderSettings(
     firefly : "off" or float
         The brightest channel that one path of `integrator="path"` may bring to a pixel, > 0, 1 for
         white: specks of light become darker, and so does the picture. "off" by default.
+    edge_samples : int
+        Rays for each pixel whose samples differ much, if that is more than `samples`, from 1 to
+        65536: for one pixel of sixteen at the most, those that differ most. In direct light, where
+        that of the lamps is not kept apart, and without a lens.
     """
 
     if TYPE_CHECKING:  # what code may give, beside what the attributes hold
@@ -244,6 +251,7 @@ class RenderSettings(
             integrator: str = "direct",
             depth: int = 8,
             firefly: Literal["off"] | float = "off",
+            edge_samples: int = 1,
         ) -> None: ...
 
     def replace(self, **changes: Any) -> Self:  # noqa: ANN401

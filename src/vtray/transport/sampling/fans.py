@@ -63,6 +63,9 @@ WHOLE_FAN = 64
 LEAST_FAN = 16
 """Rays of each of many samples of a pixel."""
 
+LEAST_EDGE_FAN = 4
+"""Rays of each of the samples of a pixel with sharp edges, among which grain is not seen."""
+
 FEWEST = 8
 """Rays of each fan of a layer of which little is seen, at the least."""
 
@@ -197,6 +200,23 @@ def fans_of_samples(samples: int, noise: Noise) -> Fans:
     while 2 * rays * samples <= WHOLE_FAN:
         rays *= 2
     return _fans(rays >> noise.halvings, max(MOST_FANS_OF_SAMPLES // samples, 1), samples, noise)
+
+
+def fans_of_edges(edge_samples: int, samples: int, noise: Noise) -> Fans:
+    """Return the fans of pixels with more samples than others, which cast as many rays in all.
+
+    Parameters
+    ----------
+    edge_samples, samples
+        The samples of such a pixel, and of others that have some.
+    noise
+        How noisy soft light may be.
+    """
+    rays = fans_of_samples(samples, noise).rays
+    most = rays * samples
+    while rays > LEAST_EDGE_FAN and rays * edge_samples > most:
+        rays //= 2
+    return _fans(rays, max(MOST_FANS_OF_SAMPLES // edge_samples, 1), edge_samples, noise)
 
 
 def fans_of_paths(samples: int, noise: Noise) -> Fans:

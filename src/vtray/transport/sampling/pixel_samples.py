@@ -100,12 +100,14 @@ def filter_samples(
     fans: Fans | None,
     paths: Paths | None = None,
     lens: Paths | None = None,
+    samples: int | None = None,
 ) -> Sampling:
-    """Return the samples of the pixels that are marked."""
+    """Return the samples of the pixels that are marked, as many as the settings say or as given."""
+    samples = int(settings.samples) if samples is None else samples
     return Sampling(
-        int(settings.samples),
+        samples,
         int(settings.seed),
-        sobol_points(int(settings.samples)),
+        sobol_points(samples),
         fans,
         filter_places(settings.filter),
         FILTERS[settings.filter].positive,
