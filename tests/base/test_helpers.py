@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,8 +13,10 @@ import pytest
 from machine_code import code_in
 
 from conftest import compiled_only
-from vtray.base.compiler import helpers
-from vtray.base.compiler.object_code import read_object_code
+from vtray.base.compiler import helpers, parts
+from vtray.base.compiler.function_names import full_name
+from vtray.base.compiler.object_code import PART_MARK, read_object_code
+from vtray.geometry import edges, stopped
 
 ECHO = "import sys\nfor line in sys.stdin.buffer: print('met', line, '\\ndone', flush=True)"
 SLEEP = "import time; time.sleep(60)"
@@ -93,6 +96,33 @@ def test_orders_are_handed_over_one_by_one(monkeypatch: pytest.MonkeyPatch) -> N
     assert ask("two") == []  # only once
     wait_until(lambda: not helpers._at_work)
     assert ask("three") == [b"met b'three\\n' \n"]
+
+
+@pytest.mark.usefixtures("two_cores")
+def test_what_takes_long_is_begun_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    # The first is at work until all others have been asked for.
+    go_on = threading.Event()
+    monkeypatch.setattr(helpers, "_PROGRAM", ECHO)
+    told: list[bytes] = []
+
+    def wait_and_tell(line: bytes) -> None:
+        assert go_on.wait(20)
+        told.append(line)
+
+    helpers.ask("one", b"one\n", wait_and_tell)
+    wait_until(helpers._asked["one"].running)
+    for name in ("two", "long", "three", "longer"):
+        helpers.ask(name, f"{name}\n".encode(), told.append, is_long=name.startswith("long"))
+    go_on.set()
+    wait_until(lambda: all(each.done() for each in helpers._asked.values()))
+    names = [line.split(b"'")[1].decode().removesuffix("\\n") for line in told]
+    assert names == ["one", "long", "longer", "two", "three"]
+
+
+@compiled_only
+def test_parts_that_take_long_are_known_by_name() -> None:
+    for function, is_long in ((stopped.stop_rays, True), (edges.has_edge, False)):
+        assert parts._is_long(f"{full_name(function)}{PART_MARK}0123456789abcdef") == is_long
 
 
 @pytest.mark.usefixtures("two_cores")

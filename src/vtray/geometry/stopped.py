@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device, part
+from vtray.base.compiler.compiled import device, long_part
 from vtray.geometry.between import is_occluded_below, is_occluded_by_placed
 from vtray.geometry.bits import count_bits, lowest_bit
 from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh, leaf_range
@@ -106,7 +106,7 @@ class Bundle(NamedTuple):
     longest: float
 
 
-@part
+@long_part
 def stop_rays(bundle: Bundle, world: World, touching: Touching, count: int, stack: Stack) -> None:
     """Mark in field ``BLOCKED`` the rays that something stops.
 

@@ -51,7 +51,13 @@ from vtray.base.compiler.object_code import (
     read_object_code,
     write_object_code,
 )
-from vtray.base.compiler.parts import get_help, load_parts, make_parts, new_name
+from vtray.base.compiler.parts import (
+    compile_sooner,
+    get_help,
+    load_parts,
+    make_parts,
+    new_name,
+)
 from vtray.base.errors import RenderError
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -106,6 +112,13 @@ def part(function: Function) -> Function:
     The annotation says what it returns: a number, a truth value, or nothing.
     """
     return function if _is_off() else cast("Function", Part(function))
+
+
+def long_part(function: Function) -> Function:
+    """Compile a part that takes longer than others, and so is begun before these."""
+    if not _is_off():
+        compile_sooner(function)
+    return part(function)
 
 
 def kernel(function: Function) -> Function:

@@ -31,8 +31,11 @@ _PROGRAM = "import sys; sys.path[:] = {path!r}; from {module} import work; work(
 
 _MODULE = "vtray.base.compiler.helper"
 
-_orders: queue.SimpleQueue[tuple["Future[None]", bytes, Callable[[bytes], object]]]
-_orders = queue.SimpleQueue()
+_Order = tuple[tuple[bool, int], "Future[None]", bytes, Callable[[bytes], object]]
+
+_orders: queue.PriorityQueue[_Order] = queue.PriorityQueue()
+"""Orders in their places, which are all different."""
+
 _asked: dict[str, "Future[None]"] = {}
 _lock = threading.Lock()
 _at_work: list[threading.Thread] = []
@@ -51,7 +54,7 @@ def get_ready() -> None:
             _at_work.append(thread)
 
 
-def ask(name: str, order: bytes, tell: Callable[[bytes], object]) -> None:
+def ask(name: str, order: bytes, tell: Callable[[bytes], object], *, is_long: bool = False) -> None:
     """Let the next that is free compile a part.
 
     Parameters
@@ -60,12 +63,15 @@ def ask(name: str, order: bytes, tell: Callable[[bytes], object]) -> None:
         The part, and a line that says how to compile it.
     tell
         Called from another thread with such a line for each part that this one calls.
+    is_long
+        Whether it takes longer than others, and so comes before them.
     """
     get_ready()
     with _lock:
         if _at_work and name not in _asked:
+            place = not is_long, len(_asked)
             _asked[name] = Future()
-            _orders.put((_asked[name], order, tell))
+            _orders.put((place, _asked[name], order, tell))
 
 
 def is_at_work_on(name: str) -> bool:
@@ -84,7 +90,7 @@ def _serve() -> None:
     process = _started()
     while True:
         try:
-            future, order, tell = _orders.get(timeout=IDLE_SECONDS)
+            _, future, order, tell = _orders.get(timeout=IDLE_SECONDS)
         except queue.Empty:
             with _lock:
                 if not _orders.empty():

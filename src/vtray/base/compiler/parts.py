@@ -19,6 +19,7 @@ import msgspec
 from vtray.base.compiler.function_names import UnnamedError, full_name
 from vtray.base.compiler.mode import compiling, is_kept
 from vtray.base.compiler.object_code import (
+    PART_MARK,
     ObjectCode,
     compile_part,
     link,
@@ -57,6 +58,7 @@ class KeptPart(msgspec.Struct, frozen=True):
     types: bytes
 
 
+_long: set[str] = set()
 _origins: dict[str, Origin] = {}
 _kept: dict[str, KeptPart] = {}
 _addresses: dict[str, int] = {}
@@ -82,6 +84,16 @@ def new_name(
             with contextlib.suppress(UnnamedError):
                 _call_for(kept_part(name))
     return name
+
+
+def compile_sooner(function: Callable[..., object]) -> None:
+    """Compile a part before others, as it takes longer than these."""
+    _long.add(full_name(function))
+
+
+def _is_long(name: str) -> bool:
+    """Tell whether a part takes longer to compile than others."""
+    return name.partition(PART_MARK)[0] in _long
 
 
 def kept_part(name: str) -> KeptPart:
@@ -137,7 +149,7 @@ def _call_for(part: KeptPart) -> None:
         if _told:
             _told[0](order)
         else:
-            helpers.ask(part.name, order, _know_order)
+            helpers.ask(part.name, order, _know_order, is_long=_is_long(part.name))
 
 
 def _know_order(order: bytes) -> None:
@@ -161,7 +173,8 @@ def make_parts(compiled: ObjectCode) -> dict[str, int]:
     from vtray.base.compiler import helpers
 
     # Meanwhile, what others are at comes to an end.
-    for name in sorted(compiled.parts, key=helpers.is_at_work_on):
+    order = {name: (helpers.is_at_work_on(name), not _is_long(name)) for name in compiled.parts}
+    for name in sorted(compiled.parts, key=order.__getitem__):
         if name not in _addresses:
             _addresses[name] = _load(name) or _make(name)
     return {name: _addresses[name] for name in compiled.parts}
