@@ -24,7 +24,7 @@ SLEEP = "import time; time.sleep(60)"
 PARTS = {
     "vtray.geometry.packets.nearest.nearest_slots",
     "vtray.geometry.packets.occlusion.block_by_few",
-    "vtray.geometry.packets.occlusion.block_by_leaf",
+    "vtray.geometry.packets.occlusion.block_by_slots",
     "vtray.geometry.packets.search.find_blocked",
     "vtray.geometry.packets.search.find_nearest",
     "vtray.transport.camera_rays.cast_rays",

@@ -25,6 +25,9 @@ def edge_pixels(film: Film, marks: Flags, settings: RenderSettings, white: float
     """Return the pixels whose samples differ most, (height, width).
 
     Those are taken whose standard error is largest; the fewer, the more pixels have sharp edges.
+    The light of a pixel with the background is L + (1 - c) B, where c is the share of it that is
+    covered. Where nothing is, L is 0; so the squared error of n samples is that of L and
+    (1 - c) B (c B - 2 L) / n.
 
     Parameters
     ----------
@@ -40,23 +43,16 @@ def edge_pixels(film: Film, marks: Flags, settings: RenderSettings, white: float
     squared, behind = np.zeros(marks.shape), white * _background(settings)
     for top in range(0, len(marks), ROWS):
         rows = slice(top, top + ROWS)
-        squared[rows] = _squared_errors(film, rows, int(settings.samples), behind)
-    squared[~marks] = 0.0
+        own = marks[rows]
+        light, covered, error = (
+            part[rows][own] for part in (film.linear, film.coverage, film.error)
+        )
+        bare, covered = 1.0 - covered[:, None], covered[:, None]
+        with np.errstate(over="ignore", invalid="ignore"):
+            more = (bare * behind * (covered * behind - 2.0 * light)).max(axis=-1)
+            squared[rows][own] = error * error + more / int(settings.samples)
     sharp = SHARP * white
     return squared > _limit(squared, sharp * sharp)
-
-
-def _squared_errors(film: Film, rows: slice, samples: int, behind: Floats) -> Floats:
-    """Return the squared standard errors of pixels with the background.
-
-    Their light is L + (1 - c) B, where c is the share of a pixel that is covered. Where nothing is,
-    L is 0; so the squared error of n samples is that of L and (1 - c) B (c B - 2 L) / n.
-    """
-    covered = film.coverage[rows][..., None]
-    with np.errstate(over="ignore", invalid="ignore"):
-        more = (1.0 - covered) * behind * (covered * behind - 2.0 * film.linear[rows])
-        errors: Floats = film.error[rows] * film.error[rows] + more.max(axis=-1) / samples
-    return errors
 
 
 def _limit(squared: Floats, sharp: float) -> float:

@@ -174,7 +174,7 @@ class Tracer:
             white = white_of(settings, film.linear, peak=traced.peak)
         marks, more = edge_pixels(film, samples > 1, settings, white), int(settings.edge_samples)
         fans = None if noise is None else fans_of_edges(more, int(settings.samples), noise)
-        found = self._trace(filter_samples(settings, marks, fans, samples=more), film)
+        found = self._trace(filter_samples(settings.replace(samples=more), marks, fans), film)
         return traced._replace(
             peak=max(float(film.linear.max(initial=0.0)), 0.0),
             rays=traced.rays + found.rays,

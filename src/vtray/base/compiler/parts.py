@@ -173,8 +173,7 @@ def make_parts(compiled: ObjectCode) -> dict[str, int]:
     from vtray.base.compiler import helpers
 
     # Meanwhile, what others are at comes to an end.
-    order = {name: (helpers.is_at_work_on(name), not _is_long(name)) for name in compiled.parts}
-    for name in sorted(compiled.parts, key=order.__getitem__):
+    for name in sorted(compiled.parts, key=lambda k: (helpers.is_at_work_on(k), not _is_long(k))):
         if name not in _addresses:
             _addresses[name] = _load(name) or _make(name)
     return {name: _addresses[name] for name in compiled.parts}

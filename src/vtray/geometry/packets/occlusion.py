@@ -298,7 +298,7 @@ def block_by_few(
 
 
 @part
-def block_by_leaf(
+def block_by_slots(
     packet: Packet,
     begin: int,
     end: int,

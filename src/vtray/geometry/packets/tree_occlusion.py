@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.from_light import FOR_EVER, Box, search_from_light
-from vtray.geometry.packets.occlusion import PointBox, Target, block_by_leaf
+from vtray.geometry.packets.occlusion import PointBox, Target, block_by_slots
 from vtray.geometry.packets.packet import ERROR_SCALE, POINT, Packet, load
 from vtray.geometry.packets.patch import is_open, widest_reach
 from vtray.geometry.packets.stack import Stack
@@ -123,7 +123,7 @@ def _block_by_leaf(
     """Mark the points of a cluster that shapes of a range of slots hide."""
     packet, end, target = cluster.packet, cluster.end, cluster.target
     solids = solids_of(world)
-    block_by_leaf(packet, begin, end, cluster.points, solids, group, first, after, target)
+    block_by_slots(packet, begin, end, cluster.points, solids, group, first, after, target)
     return _first_open(packet, begin, end, target.is_wide)
 
 

@@ -100,14 +100,12 @@ def filter_samples(
     fans: Fans | None,
     paths: Paths | None = None,
     lens: Paths | None = None,
-    samples: int | None = None,
 ) -> Sampling:
-    """Return the samples of the pixels that are marked, as many as the settings say or as given."""
-    samples = int(settings.samples) if samples is None else samples
+    """Return the samples of the pixels that are marked."""
     return Sampling(
-        samples,
+        int(settings.samples),
         int(settings.seed),
-        sobol_points(samples),
+        sobol_points(int(settings.samples)),
         fans,
         filter_places(settings.filter),
         FILTERS[settings.filter].positive,
