@@ -69,6 +69,13 @@ def nearest_hit(world: World, ray: Ray, stack: Stack) -> Hit:
 
 
 @device
+def nearer_of(world: World, ray: Ray, hit: Hit, row: int, slot: int) -> Hit:
+    """Return the nearer of a hit and that of one shape, in a slot of the group in a row."""
+    found: Hit = with_any(world, load_group(world, row), slot, _nearer, (ray, hit, row, slot))
+    return found
+
+
+@device
 def _nearest_of_group(
     world: World, group: Group, ray: Ray, hit: Hit, stack: Stack, base: int
 ) -> Hit:

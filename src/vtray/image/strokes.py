@@ -13,14 +13,15 @@ Shares = NDArray[np.float32]
 @kernel
 def draw_strokes(
     primitive: NDArray[np.int32],
-    place: Shares,
     part: Shares,
+    place: Shares,
     share: Shares,
     width: float,
     top: int,
     bottom: int,
     lines: Shares,
     points: NDArray[np.float64],
+    marks: NDArray[np.bool_],
 ) -> None:
     """Draw lines into some rows of a picture.
 
@@ -31,31 +32,43 @@ def draw_strokes(
     ----------
     primitive
         What each pixel sees, (height, width).
-    place, part, share
-        Where lines cross the ways from each pixel to those right of it and below, how wide they
-        are in parts of the width, 0 for none, and how much they hide, each (2, height, width).
+    part, place, share
+        How wide the lines are that cross the ways from each pixel to those right of it and below,
+        in parts of the width, 0 for none; where they cross these, and how much they hide; each
+        (2, height, width).
     width
         The width of lines in pixels.
     top, bottom
         The rows from the first to before the last.
     lines
-        How much of each pixel lines hide, (height, width), 0 before.
-    points
-        Scratch memory, (5, 4).
+        Out: how much of each pixel of these rows lines hide, (height, width).
+    points, marks
+        Scratch memory, (5, 4) and (width,).
     """
     height, columns = primitive.shape
     reach = int(0.5 * width + 0.5) + 1
+    lines[top:bottom] = 0.0
     for y in range(max(top - reach - 1, 0), min(bottom + reach, height - 1)):
+        _mark_cells(part, y, columns - 1, marks)
         for x in range(columns - 1):
-            found = _crossings_of(place, part, share, width, y, x, points)
-            if found > 1:
-                _join(primitive, y, x, found, points, top, bottom, reach, lines)
+            if marks[x]:
+                found = _crossings_of(part, place, share, width, y, x, points)
+                _join(primitive, y, x, found, points, top, bottom, lines)
+
+
+@device
+def _mark_cells(part: Shares, y: int, columns: int, marks: NDArray[np.bool_]) -> None:
+    """Mark the cells of a row whose sides more than one line crosses: few do."""
+    for x in range(columns):
+        above, below = int(part[0, y, x] > 0.0), int(part[0, y + 1, x] > 0.0)
+        before, after = int(part[1, y, x] > 0.0), int(part[1, y, x + 1] > 0.0)
+        marks[x] = above + below + before + after > 1
 
 
 @device
 def _crossings_of(
-    place: Shares,
     part: Shares,
+    place: Shares,
     share: Shares,
     width: float,
     y: int,
@@ -87,18 +100,17 @@ def _join(
     points: NDArray[np.float64],
     top: int,
     bottom: int,
-    reach: int,
     lines: Shares,
 ) -> None:
     """Draw the lines between the crossings of a cell."""
     if found == 2:
-        _stroke(points, 0, 1, top, bottom, reach, lines)
+        _stroke(points, 0, 1, top, bottom, lines)
     elif found == 4 and primitive[y, x] == primitive[y + 1, x + 1]:
-        _stroke(points, 0, 1, top, bottom, reach, lines)
-        _stroke(points, 2, 3, top, bottom, reach, lines)
+        _stroke(points, 0, 1, top, bottom, lines)
+        _stroke(points, 2, 3, top, bottom, lines)
     elif found == 4 and primitive[y, x + 1] == primitive[y + 1, x]:
-        _stroke(points, 0, 3, top, bottom, reach, lines)
-        _stroke(points, 1, 2, top, bottom, reach, lines)
+        _stroke(points, 0, 3, top, bottom, lines)
+        _stroke(points, 1, 2, top, bottom, lines)
     else:
         for k in range(4):
             total = 0.0
@@ -106,7 +118,7 @@ def _join(
                 total += points[point, k]
             points[4, k] = total / found
         for point in range(found):
-            _stroke(points, point, 4, top, bottom, reach, lines)
+            _stroke(points, point, 4, top, bottom, lines)
 
 
 @device
@@ -116,17 +128,17 @@ def _stroke(
     two: int,
     top: int,
     bottom: int,
-    reach: int,
     lines: Shares,
 ) -> None:
     """Draw a line from one point to another, with round ends."""
     x, y = points[one, 0], points[one, 1]
     across, down = points[two, 0] - x, points[two, 1] - y
     square = across * across + down * down
-    first, last = min(y, points[two, 1]), max(y, points[two, 1])
-    start, end = min(x, points[two, 0]), max(x, points[two, 0])
-    for row in range(max(int(first) - reach, top), min(int(last) + reach + 2, bottom)):
-        for column in range(max(int(start) - reach, 0), min(int(end) + reach + 2, lines.shape[1])):
+    reach = 0.5 * max(points[one, 2], points[two, 2]) + 0.5
+    first, last = min(y, points[two, 1]) - reach, max(y, points[two, 1]) + reach
+    start, end = min(x, points[two, 0]) - reach, max(x, points[two, 0]) + reach
+    for row in range(max(int(first), top), min(int(last) + 1, bottom)):
+        for column in range(max(int(start), 0), min(int(end) + 1, lines.shape[1])):
             right, below = column - x, row - y
             along = (right * across + below * down) / square if square > 0.0 else 0.0
             along = min(max(along, 0.0), 1.0)

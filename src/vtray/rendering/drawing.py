@@ -27,29 +27,27 @@ class Drawing:
         The style.
     scene, packed
         The scene as it is rendered, and its arrays.
-    has_samples
-        Whether pixels have samples, so that the same kernels are used.
     threads
         How many threads to use at the most.
     """
 
-    def __init__(
-        self, style: Style, scene: Scene, packed: Packed, *, has_samples: bool, threads: int
-    ) -> None:
+    def __init__(self, style: Style, scene: Scene, packed: Packed, threads: int) -> None:
         self._outline = style.outline if isinstance(style.outline, Outline) else None
         self._eye_dome = style.eye_dome if isinstance(style.eye_dome, EyeDome) else None
         self._scene = scene
         self._packed = packed
-        self._has_samples = has_samples
         self._threads = threads
 
     @property
     def wanted(self) -> tuple[str, ...]:
         """What is wanted of the rays that find light, by the names of a film's rows."""
-        if self._looks_apart:
-            return ()
+        return () if self._looks_apart else self._needed
+
+    @property
+    def _needed(self) -> tuple[str, ...]:
+        """What is needed of what the middle rays meet, likewise."""
         if self._outline is not None:
-            return ("primitive", "distance")
+            return ("primitive", "distance", "met")
         return () if self._eye_dome is None else ("distance",)
 
     @property
@@ -63,7 +61,8 @@ class Drawing:
 
     def _surfaces(self) -> Film:
         """Return the surfaces that are drawn."""
-        return Tracer(without_light(self._packed.arrays), self._threads).surfaces()
+        tracer = Tracer(without_light(self._packed.arrays), self._threads)
+        return tracer.surfaces(*self._needed)
 
     def warm_up(self) -> None:
         """Load the kernels, or compile them."""
@@ -77,20 +76,15 @@ class Drawing:
         """Return how much of each pixel lines hide, if there are any."""
         if self._outline is None:
             return None
-        normal = None
         if self._looks_apart:
             film = self._surfaces()
-            normal = film.normal if self._outline.normals else None
-        elif self._outline.normals:
-            # Of pixels that get samples, no normals are known.
-            normal = self._surfaces().normal if film.primitive.size else np.zeros((0, 0, 3))
+        normal = np.empty((*film.primitive.shape, 3)) if self._outline.normals else None
         return draw_outlines(
             self._outline,
             self._scene,
             self._packed,
-            Seen(film.primitive, film.distance, normal),
-            has_samples=self._has_samples,
-            threads=self._threads,
+            Seen(film.primitive, film.distance, film.met, normal),
+            self._threads,
         )
 
     def shade(self, film: Film) -> Shares | None:

@@ -5,11 +5,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.base.compiler.compiled import pinned
 from vtray.base.pool import run_tasks
 from vtray.base.tiles import TILE, Tile, split_into_tiles
-from vtray.geometry.packets.packet import LANES, new_packet
-from vtray.geometry.packets.workspace import new_workspace
-from vtray.geometry.ray import Footprint
 from vtray.image.strokes import draw_strokes
 from vtray.rendering.numbering import number_objects
 from vtray.rendering.pack import Packed
@@ -17,7 +15,13 @@ from vtray.scene.camera import Camera
 from vtray.scene.placing.panorama import pixel_angle
 from vtray.scene.scene import Scene
 from vtray.scene.style import Outline
-from vtray.transport.integrators.outlines import Pen, Seen, find_crossings, new_crossings
+from vtray.transport.integrators.outlines import (
+    Pen,
+    Seen,
+    find_crossings,
+    find_normals,
+    new_crossings,
+)
 from vtray.transport.scene_arrays import without_light
 
 JUMP = 0.01
@@ -41,8 +45,6 @@ def draw_outlines(
     scene: Scene,
     packed: Packed,
     seen: Seen,
-    *,
-    has_samples: bool,
     threads: int,
 ) -> NDArray[np.float32]:
     """Return how much of each pixel lines hide, from 0 to 1, (height, width).
@@ -54,31 +56,33 @@ def draw_outlines(
     scene, packed
         The scene, and its arrays.
     seen
-        What the middle rays see.
-    has_samples
-        Whether pixels have samples, so that the same kernels are used.
+        What the middle rays see; normals, if any, are found here.
     threads
         How many threads to use at the most.
     """
     height, width = seen.primitive.shape
-    fog, arrays = packed.arrays.fog, without_light(packed.arrays)
-    pen, crossings = _pen_of(outline, scene, packed), new_crossings(height, width)
-    footprint = Footprint(0.0, 0.0) if has_samples else None
+    arrays, crossings = pinned(without_light(packed.arrays)), new_crossings(height, width)
+    fog, pen = pinned(packed.arrays.fog), pinned(_pen_of(outline, scene, packed))
+    pixels, found = pinned(seen), pinned(crossings)
+    tiles = split_into_tiles(width, height) or [Tile(0, 0, 0, 0)]
+    if seen.normal is not None:
+        run_tasks(tiles, lambda: lambda tile: find_normals(arrays, pixels, *tile), threads)
 
     def new_worker() -> Callable[[Tile], None]:
-        scratch = new_packet(), new_workspace(arrays.world), np.zeros(LANES, np.int64)
+        marks = pinned(np.zeros(TILE, np.bool_))
 
         def find(tile: Tile) -> None:
-            find_crossings(arrays, footprint, fog, seen, pen, *tile, crossings, *scratch)
+            find_crossings(arrays, fog, pixels, pen, *tile, found, marks)
 
         return find
 
-    run_tasks(split_into_tiles(width, height) or [Tile(0, 0, 0, 0)], new_worker, threads)
-    lines = np.zeros((height, width), np.float32)
+    run_tasks(tiles, new_worker, threads)
+    lines = np.empty((height, width), np.float32)
 
     def draw(top: int) -> None:
-        bottom, points = min(top + TILE, height), np.zeros((5, 4))
-        draw_strokes(seen.primitive, *crossings, float(outline.width), top, bottom, lines, points)
+        bottom, points, marks = min(top + TILE, height), np.zeros((5, 4)), np.zeros(width, np.bool_)
+        pen_width = float(outline.width)
+        draw_strokes(seen.primitive, *crossings, pen_width, top, bottom, lines, points, marks)
 
     run_tasks(range(0, max(height, 1), TILE), lambda: draw, threads)
     return lines

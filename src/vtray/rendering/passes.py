@@ -115,10 +115,10 @@ class Tracer:
         self._passes = 1
         self._done = 0
 
-    def surfaces(self) -> Film:
-        """Return distance, normal, primitive and half of the middle rays."""
-        wanted = new_film(*self._size, *SURFACES)
-        return self._trace(middle_rays(), wanted).film
+    def surfaces(self, *wanted: str) -> Film:
+        """Return what the middle rays meet: what is wanted of it, all of `SURFACES` for nothing."""
+        film = new_film(*self._size, *(wanted or SURFACES))
+        return self._trace(middle_rays(), film).film
 
     def light(self, settings: RenderSettings, white: float | None, *, keep: bool = False) -> Traced:
         """Return the light of all pixels, and their coverage if they have samples.

@@ -254,7 +254,7 @@ def render(
     clock.lap("build")
     packed = styled(pack(shown, kept), style)
     clock.lap("pack")
-    drawing = Drawing(style, shown, packed, has_samples=settings.samples > 1, threads=threads)
+    drawing = Drawing(style, shown, packed, threads)
     compile_kernels(packed.arrays, settings, drawing.wanted)
     drawing.warm_up()
     warm_up()

@@ -17,6 +17,7 @@ from vtray.geometry.packets.packet import (
     LAMBERT,
     LANES,
     LIGHT,
+    MET,
     MIXED,
     NO_PRIMITIVE,
     NOISE,
@@ -72,6 +73,8 @@ class Film(NamedTuple):
         At the middle ray's hit, on its side, 0 for no hit, (height, width, 3).
     primitive
         What the middle ray hits, -1 for nothing, (height, width).
+    met
+        Where to find that, as `join_met` says it, of no meaning for nothing, (height, width).
     half
         As in field ``HALF`` of a packet, 0 where nothing is hit, (height, width).
     albedo
@@ -93,6 +96,7 @@ class Film(NamedTuple):
     distance: Rows
     normal: Rows
     primitive: Rows
+    met: Rows
     half: Rows
     albedo: Rows
     orders: Rows
@@ -116,6 +120,7 @@ def new_film(width: int, height: int, *wanted: str, left: int = 0, top: int = 0)
         distance=rows("distance"),
         normal=rows("normal", np.float64, 3),
         primitive=rows("primitive", np.int32),
+        met=rows("met", np.int64),
         half=rows("half", np.int8),
         albedo=rows("albedo", np.float64, 3),
         orders=rows("orders", np.float64, 9),
@@ -321,6 +326,7 @@ def write_middles(
     _write_normals(packet, block, begin, end, hits, pixels, film.normal)
     _write_distances(packet, block, begin, end, pixels, film.distance)
     _write_primitives(packet, block, begin, end, pixels, film.primitive, film.mixed)
+    _write_met(packet, block, begin, end, pixels, film.met)
     _write_halves(packet, block, begin, end, pixels, film.half)
     _write_albedos(
         packet, block, begin, end, hits, pixels, world, materials, materials.looks, film.albedo
@@ -362,6 +368,19 @@ def _write_primitives(
     for lane in range(end - begin):
         row, column = place_of(block, pixels[begin + lane])
         primitive[row, column] = numbers[field + lane]
+
+
+@device
+def _write_met(
+    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, met: Rows
+) -> None:
+    """Write where to find what the rays hit."""
+    if met is None:
+        return
+    numbers = integers(packet)
+    for lane in range(end - begin):
+        row, column = place_of(block, pixels[begin + lane])
+        met[row, column] = numbers[MET + lane]
 
 
 @device

@@ -1,39 +1,25 @@
 """Where lines are drawn around what is seen: between which pixels, and where between their middles.
 
 The middle rays say which pixels see different things. Between two of these, a few rays more halve
-again and again the way from middle to middle on which one thing ends and the other begins. So lines
-are as smooth as if all pixels had hundreds of rays, and cost a few for each pixel of their length.
+again and again the way from middle to middle on which one thing ends and the other begins. These
+rays are only asked where they meet the two things that are known, for which nothing is searched. So
+lines are as smooth as if all pixels had hundreds of rays, and cost little.
 """
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
-from vtray.geometry.packets.packet import (
-    BLOCK,
-    COLUMN,
-    DISTANCE,
-    LANES,
-    LIGHT,
-    MET,
-    NO_PRIMITIVE,
-    PART,
-    PRIMITIVE,
-    ROW,
-    Packet,
-    integers,
-    load_ray,
-    split_met,
-)
-from vtray.geometry.packets.search import find_nearest
-from vtray.geometry.packets.workspace import Workspace
-from vtray.geometry.ray import Footprint
+from vtray.geometry.packets.packet import NO_PRIMITIVE, split_met
+from vtray.geometry.queries import NOTHING, Hit, nearer_of
+from vtray.geometry.ray import Ray
 from vtray.geometry.vector import Vec, dot
-from vtray.transport.camera_rays import cast_rays, sheaf_of
+from vtray.geometry.world import World
+from vtray.transport.camera_rays import camera_ray
 from vtray.transport.fog import FogFrame, fog_share
-from vtray.transport.integrators.layered import choose_surfaces
 from vtray.transport.interaction import interact
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -49,9 +35,6 @@ as some pixels alone would be all line."""
 
 TAPER = 2.0
 """From the least jump to that with lines of full width, in parts of the least: there they taper."""
-
-BEFORE, AFTER = LIGHT, LIGHT + LANES
-"""In the packet: how far what is seen on both sides of a crossing is."""
 
 CREASE = 0.8
 SMOOTH = 0.97
@@ -90,12 +73,15 @@ class Seen(NamedTuple):
         What they hit, (height, width).
     distance
         How far that is, (height, width).
+    met
+        Where to find what they hit, as `join_met` says it, (height, width).
     normal
         Its normal, (height, width, 3); None where no creases are drawn.
     """
 
     primitive: NDArray[np.int32]
     distance: NDArray[np.float64]
+    met: NDArray[np.int64]
     normal: Any
 
 
@@ -104,28 +90,44 @@ class Crossings(NamedTuple):
 
     Attributes
     ----------
-    place
-        How far from the pixel, from 0 to 1, (2, height, width).
     width
         In parts of the width of lines, from 0, for none, to 1, (2, height, width).
+    place
+        How far from the pixel, from 0 to 1, (2, height, width); of no meaning where none is.
     share
-        How much of what is under the line it hides, which fog makes less, (2, height, width).
+        How much of what is under the line it hides, which fog makes less, likewise.
     """
 
-    place: NDArray[np.float32]
     width: NDArray[np.float32]
+    place: NDArray[np.float32]
     share: NDArray[np.float32]
 
 
 def new_crossings(height: int, width: int) -> Crossings:
-    """Return crossings that no line has yet."""
-    return Crossings(*(np.zeros((2, height, width), np.float32) for _ in range(3)))
+    """Return room for crossings, of no certain content."""
+    return Crossings(*(np.empty((2, height, width), np.float32) for _ in range(3)))
+
+
+@kernel
+def find_normals(
+    scene: SceneArrays, seen: Seen, left: int, top: int, right: int, bottom: int
+) -> None:
+    """Write the normals of a tile of what is seen, 0 where nothing is."""
+    for row in range(top, bottom):
+        for column in range(left, right):
+            normal = 0.0, 0.0, 0.0
+            if seen.primitive[row, column] > NO_PRIMITIVE:
+                ray = camera_ray(scene.camera, column, row)
+                group, slot = split_met(seen.met[row, column])
+                distance = seen.distance[row, column]
+                normal = interact(scene.world, ray, distance, group, slot).normal
+            for k in range(3):
+                seen.normal[row, column, k] = normal[k]
 
 
 @kernel
 def find_crossings(
     scene: SceneArrays,
-    footprint: Footprint | None,
     fog: FogFrame | None,
     seen: Seen,
     pen: Pen,
@@ -134,9 +136,7 @@ def find_crossings(
     right: int,
     bottom: int,
     crossings: Crossings,
-    packet: Packet,
-    work: Workspace,
-    pending: NDArray[np.int64],
+    marks: NDArray[np.bool_],
 ) -> None:
     """Find where lines cross the ways that begin at the pixels of a tile.
 
@@ -144,8 +144,6 @@ def find_crossings(
     ----------
     scene
         The scene, without its lights.
-    footprint
-        None, or one without width, as the rays of the picture have.
     fog
         What lines fade in, or None.
     seen, pen
@@ -154,115 +152,96 @@ def find_crossings(
         The tile in pixels.
     crossings
         Out: those of the tile.
-    packet, work
-        Scratch memory of this thread.
-    pending
-        Likewise, for the ways of a packet, (LANES,).
+    marks
+        Scratch memory of this thread, one for each pixel of a row of the tile.
     """
-    count = 0
-    for y in range(top, bottom, BLOCK):
-        for x in range(left, right, BLOCK):
-            for row in range(y, min(y + BLOCK, bottom)):
-                for column in range(x, min(x + BLOCK, right)):
-                    count = _list_ways(seen, pen, row, column, pending, count)
-                    if count > LANES - 2:
-                        _settle(
-                            scene,
-                            footprint,
-                            fog,
-                            seen,
-                            pen,
-                            crossings,
-                            packet,
-                            work,
-                            pending,
-                            count,
-                        )
-                        count = 0
-    if count > 0:
-        _settle(scene, footprint, fog, seen, pen, crossings, packet, work, pending, count)
-
-
-@device
-def _list_ways(
-    seen: Seen, pen: Pen, row: int, column: int, pending: NDArray[np.int64], count: int
-) -> int:
-    """List the ways from a pixel that a line may cross; return how many are listed then."""
     height, width = seen.primitive.shape
-    for axis in range(2):
-        below, beside = row + axis, column + 1 - axis
-        if not (below < height and beside < width):
-            continue
-        # Most see the same, which need not take a call.
-        is_same = seen.primitive[row, column] == seen.primitive[below, beside]
-        if is_same and not pen.normals:
-            continue
-        if _may_differ(seen, seen.normal, pen, row, column, below, beside):
-            pending[count] = (row * width + column) * 2 + axis
-            count += 1
-    return count
+    for row in range(top, bottom):
+        _mark_pixels(seen.primitive, pen.normals, row, left, right, marks)
+        crossings.width[:, row, left:right] = 0.0
+        for column in range(left, right):
+            if not marks[column - left]:
+                continue
+            if column + 1 < width:
+                _find_crossing(scene, fog, seen, seen.normal, pen, row, column, 0, crossings)
+            if row + 1 < height:
+                _find_crossing(scene, fog, seen, seen.normal, pen, row, column, 1, crossings)
 
 
 @device
-def _may_differ(
-    seen: Seen,
-    normal: Any,  # noqa: ANN401
-    pen: Pen,
+def _mark_pixels(
+    primitive: NDArray[np.int32],
+    are_all: bool,
     row: int,
-    column: int,
-    below: int,
-    beside: int,
-) -> bool:
-    """Tell whether there may be a line between two pixels."""
-    one, two = seen.primitive[row, column], seen.primitive[below, beside]
-    if one != two:
-        near, far = seen.distance[row, column], seen.distance[below, beside]
-        at_row, at_column = (below, beside) if far < near else (row, column)
-        near, far = min(near, far), max(near, far)
-        may_jump = pen.depth and far - near > 0.5 * (pen.jump + pen.growth * near)
-        is_wanted = may_jump or _is_border(pen, one, two)
-        if is_wanted and _fullness(seen.primitive, at_row, at_column) > 0.0:
-            return True
-    return _is_crease(seen, normal, pen, row, column, below, beside)
+    left: int,
+    right: int,
+    marks: NDArray[np.bool_],
+) -> None:
+    """Mark the pixels of a row of a tile that see another thing than those right of or below them.
 
-
-@device
-def _width(
-    seen: Seen,
-    normal: Any,  # noqa: ANN401
-    pen: Pen,
-    row: int,
-    column: int,
-    below: int,
-    beside: int,
-    near: float,
-    far: float,
-) -> float:
-    """Return the width of a line between two pixels, from 0 to 1.
-
-    Parameters
-    ----------
-    seen, normal, pen
-        What the middle rays see, and which lines are drawn.
-    row, column, below, beside
-        The two pixels.
-    near, far
-        The distances to the nearer and the farther side of it.
+    Most do not. If `are_all`, all pixels are marked.
     """
+    height, width = primitive.shape
+    below = min(row + 1, height - 1)
+    for column in range(left, right):
+        marks[column - left] = are_all or primitive[row, column] != primitive[below, column]
+    for column in range(left, min(right, width - 1)):
+        marks[column - left] |= primitive[row, column] != primitive[row, column + 1]
+
+
+@device
+def _find_crossing(
+    scene: SceneArrays,
+    fog: FogFrame | None,
+    seen: Seen,
+    normal: Any,  # noqa: ANN401
+    pen: Pen,
+    row: int,
+    column: int,
+    axis: int,
+    crossings: Crossings,
+) -> None:
+    """Find whether and where a line crosses the way from a pixel to that right of it or below."""
+    below, beside = row + axis, column + 1 - axis
+    fullness = _fullness_between(seen, pen, row, column, below, beside)
+    has_crease = _is_crease(seen, normal, pen, row, column, below, beside)
+    if not (fullness > 0.0 or has_crease):
+        return
+    place, before, after = _halve(scene, seen, normal, row, column, axis)
+    near, far = min(before, after), max(before, after)
     one, two = seen.primitive[row, column], seen.primitive[below, beside]
-    found = 0.0
-    if one != two:
-        if _is_border(pen, one, two):
-            found = 1.0
-        elif pen.depth:
-            least = pen.jump + pen.growth * near
-            found = min(max((far - near) / least - 1.0, 0.0) / TAPER, 1.0)
-        is_second = seen.distance[below, beside] < seen.distance[row, column]
-        at_row, at_column = (below, beside) if is_second else (row, column)
-        found *= _fullness(seen.primitive, at_row, at_column)
-    if found < 1.0 and _is_crease(seen, normal, pen, row, column, below, beside):
-        found = 1.0
-    return found
+    share = 1.0 if has_crease else fullness * _width(pen, one, two, near, far)
+    crossings.place[axis, row, column] = place
+    crossings.width[axis, row, column] = share
+    crossings.share[axis, row, column] = _left_by(fog, near)
+
+
+@device
+def _fullness_between(
+    seen: Seen, pen: Pen, row: int, column: int, below: int, beside: int
+) -> float:
+    """Return how wide a line where what two pixels see ends may be, from 0 to 1."""
+    one, two = seen.primitive[row, column], seen.primitive[below, beside]
+    if one == two:
+        return 0.0
+    near, far = seen.distance[row, column], seen.distance[below, beside]
+    at_row, at_column = (below, beside) if far < near else (row, column)
+    near, far = min(near, far), max(near, far)
+    may_jump = pen.depth and far - near > 0.5 * (pen.jump + pen.growth * near)
+    if may_jump or _is_border(pen, one, two):
+        return _fullness(seen.primitive, at_row, at_column)
+    return 0.0
+
+
+@device
+def _width(pen: Pen, one: int, two: int, near: float, far: float) -> float:
+    """Return the width of a line between two primitives that are so far away, from 0 to 1."""
+    if _is_border(pen, one, two):
+        return 1.0
+    if not pen.depth:
+        return 0.0
+    least = pen.jump + pen.growth * near
+    return min(max((far - near) / least - 1.0, 0.0) / TAPER, 1.0)
 
 
 @device
@@ -339,86 +318,92 @@ def _normal(normal: NDArray[np.float64], row: int, column: int) -> Vec:
 
 
 @device
-def _settle(
-    scene: SceneArrays,
-    footprint: Footprint | None,
-    fog: FogFrame | None,
-    seen: Seen,
-    pen: Pen,
-    crossings: Crossings,
-    packet: Packet,
-    work: Workspace,
-    pending: NDArray[np.int64],
-    count: int,
-) -> None:
-    """Find where lines cross some ways: halve these, and halve what is left."""
-    width, place = seen.primitive.shape[1], crossings.place
-    whole = (count + PART - 1) // PART * PART
-    for lane in range(count):
-        axis, pixel = pending[lane] & 1, pending[lane] >> 1
-        row, column = pixel // width, pixel % width
-        place[axis, row, column] = 0.5
-        packet[BEFORE + lane] = seen.distance[row, column]
-        packet[AFTER + lane] = seen.distance[row + axis, column + 1 - axis]
-    step, sheaf = 0.25, sheaf_of(scene.camera)
-    for _ in range(HALVINGS):
-        for lane in range(whole):
-            way = pending[min(lane, count - 1)]
-            axis, pixel = way & 1, way >> 1
-            row, column = pixel // width, pixel % width
-            along = float(place[axis, row, column])
-            packet[ROW + lane] = row + axis * along
-            packet[COLUMN + lane] = column + (1 - axis) * along
-        cast_rays(packet, whole, scene.camera)
-        find_nearest(packet, whole, PART, sheaf, footprint, scene.world, work)
-        choose_surfaces(packet, whole, sheaf, scene.world, scene.world.faded, work)
-        for lane in range(count):
-            axis, pixel = pending[lane] & 1, pending[lane] >> 1
-            row, column = pixel // width, pixel % width
-            is_first = _is_first(packet, lane, scene, seen, seen.normal, row, column, axis)
-            place[axis, row, column] += step if is_first else -step
-            packet[(BEFORE if is_first else AFTER) + lane] = packet[DISTANCE + lane]
-        step *= 0.5
-    for lane in range(count):
-        axis, pixel = pending[lane] & 1, pending[lane] >> 1
-        row, column = pixel // width, pixel % width
-        near = min(packet[BEFORE + lane], packet[AFTER + lane])
-        far = max(packet[BEFORE + lane], packet[AFTER + lane])
-        crossings.width[axis, row, column] = _width(
-            seen, seen.normal, pen, row, column, row + axis, column + 1 - axis, near, far
-        )
-        crossings.share[axis, row, column] = _left_by(fog, near)
-
-
-@device
-def _is_first(
-    packet: Packet,
-    lane: int,
+def _halve(
     scene: SceneArrays,
     seen: Seen,
     normal: Any,  # noqa: ANN401
     row: int,
     column: int,
     axis: int,
-) -> bool:
-    """Tell whether a ray between two pixels sees what the first of them sees."""
+) -> tuple[float, float, float]:
+    """Return where a line crosses the way between two pixels, and the distances on both sides."""
     below, beside = row + axis, column + 1 - axis
+    before, after = seen.distance[row, column], seen.distance[below, beside]
+    is_nearer = before <= after
+    place, step = 0.5, 0.25
+    for _ in range(HALVINGS):
+        ray = camera_ray(scene.camera, column + (1 - axis) * place, row + axis * place)
+        hit = _nearer_of_both(scene.world, ray, seen, row, column, below, beside)
+        is_first = _is_first(
+            scene.world, ray, hit, seen, normal, is_nearer, row, column, below, beside
+        )
+        place += step if is_first else -step
+        step *= 0.5
+        # Where it meets neither, another thing may be seen, which is as far as what is known.
+        if hit.primitive != NOTHING and is_first:
+            before = hit.distance
+        elif hit.primitive != NOTHING:
+            after = hit.distance
+    return place, before, after
+
+
+@device
+def _nearer_of_both(
+    world: World, ray: Ray, seen: Seen, row: int, column: int, below: int, beside: int
+) -> Hit:
+    """Return where a ray meets the nearer of what two pixels see."""
+    hit = Hit(math.inf, 0.0, NOTHING, 0, 0)
     one, two = seen.primitive[row, column], seen.primitive[below, beside]
-    found = integers(packet)[PRIMITIVE + lane]
+    if one > NO_PRIMITIVE:
+        group, slot = split_met(seen.met[row, column])
+        hit = nearer_of(world, ray, hit, group, slot)
+    if two > NO_PRIMITIVE and two != one:
+        group, slot = split_met(seen.met[below, beside])
+        hit = nearer_of(world, ray, hit, group, slot)
+    return hit
+
+
+@device
+def _is_first(
+    world: World,
+    ray: Ray,
+    hit: Hit,
+    seen: Seen,
+    normal: Any,  # noqa: ANN401
+    is_nearer: bool,
+    row: int,
+    column: int,
+    below: int,
+    beside: int,
+) -> bool:
+    """Tell whether a ray between two pixels sees what the first of them sees.
+
+    Parameters
+    ----------
+    world
+        What there is.
+    ray, hit
+        The ray, and where it meets what both see.
+    seen, normal
+        What they see.
+    is_nearer
+        Whether the first is nearer, which then ends there; else the second begins there.
+    row, column, below, beside
+        The two pixels.
+    """
+    one, two = seen.primitive[row, column], seen.primitive[below, beside]
     if one == two:
         return normal is not None and _leans_to_first(
-            packet, lane, scene, normal, row, column, below, beside
+            world, ray, hit, normal, row, column, below, beside
         )
-    if seen.distance[row, column] <= seen.distance[below, beside]:
-        return bool(found == one)
-    return bool(found != two)
+    return bool(hit.primitive == one) if is_nearer else bool(hit.primitive != two)
 
 
 @device
 def _leans_to_first(
-    packet: Packet,
-    lane: int,
-    scene: SceneArrays,
+    world: World,
+    ray: Ray,
+    hit: Hit,
     normal: NDArray[np.float64],
     row: int,
     column: int,
@@ -426,12 +411,9 @@ def _leans_to_first(
     beside: int,
 ) -> bool:
     """Tell whether the normal that a ray finds is nearer to that of the first of two pixels."""
-    numbers = integers(packet)
-    if numbers[PRIMITIVE + lane] <= NO_PRIMITIVE:
+    if hit.primitive == NOTHING:
         return False
-    group, slot = split_met(numbers[MET + lane])
-    ray = load_ray(packet, sheaf_of(scene.camera), lane)
-    found = interact(scene.world, ray, packet[DISTANCE + lane], group, slot).normal
+    found = interact(world, ray, hit.distance, hit.group, hit.slot).normal
     one, two = _normal(normal, row, column), _normal(normal, below, beside)
     return dot(found, one) > dot(found, two)
 
