@@ -201,3 +201,26 @@ def test_eye_dome_lighting_of_a_wall_is_none() -> None:
     image = vtray.render(found, eye_dome=True, samples=2)
     np.testing.assert_array_equal(image.drawn, image.linear)
     assert isinstance(Style(outline=True).outline, Outline)
+
+
+@pytest.mark.skipif(JIT, reason="its kernels take half a minute to compile")
+def test_lines_around_what_is_found_in_another_way() -> None:
+    ball, other = sphere((0.2, 0, 5), 0.83), cylinder((-1, -1, 6), (1, 0.5, 7), 0.4)
+    plain = world(ball, other)
+    expected = lines_of(plain)
+    assert expected.sum() > 60
+    # Layers are asked for surfaces by themselves, and so are scenes with a lens.
+    faded = world({**ball, "opacity": 0.9}, {**other, "opacity": 0.9})
+    np.testing.assert_allclose(lines_of(faded), expected, atol=1e-6)
+    with_lens = world(ball, other, projection="perspective", focus=20)
+    sharp = lines_of(with_lens)
+    with_lens.camera = with_lens.camera.replace(lens=vtray.Lens(radius=0.2, focus_distance=25))
+    np.testing.assert_array_equal(lines_of(with_lens, samples=2), sharp)
+    # What is placed is found through its place, and what is cut through its planes.
+    placed = world({"type": "copies", "objects": [ball, other], "at": [{"x": 0, "y": 0, "z": 0}]})
+    borders = {"borders": "particles"}
+    np.testing.assert_array_equal(lines_of(placed, borders), lines_of(plain, borders))
+    drawn = lines_of(world(ball), clip=vtray.ClipPlane((0, 1, 0), 0))
+    halves = drawn[: SIZE // 2 - 1], drawn[SIZE // 2 + 2 :]
+    assert min(half.sum() for half in halves) == 0.0
+    assert drawn.sum() == pytest.approx(8.3 * (np.pi + 2), rel=0.05)

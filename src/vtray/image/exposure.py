@@ -35,28 +35,6 @@ class Overlay(NamedTuple):
     color: Color
 
 
-class Drawn(NamedTuple):
-    """What a style draws onto light: (0, 0) arrays for what there is not.
-
-    Attributes
-    ----------
-    shade
-        How much of its light each pixel keeps, (height, width).
-    lines
-        How much of each pixel lines hide, (height, width).
-    fog
-        How much of it, beside lines, fog of its own colour is, (height, width).
-    line_color, fog_color
-        Red, green and blue, from 0 to 255.
-    """
-
-    shade: NDArray[np.float32]
-    lines: NDArray[np.float32]
-    fog: NDArray[np.float64]
-    line_color: tuple[float, float, float]
-    fog_color: tuple[float, float, float]
-
-
 def check_brightness(lights: Sequence[AnyLight]) -> None:
     """Raise RenderError if the lights are so bright that a pixel could overflow."""
     total = sum(map(brightest, lights))
@@ -123,19 +101,6 @@ def develop(
     return pixels
 
 
-def develop_drawn(
-    linear: NDArray[np.float64], white: float, drawn: Drawn, threads: int = 1
-) -> NDArray[np.uint8]:
-    """Expose light as `develop` does for a black background, with what is drawn onto it."""
-    pixels = np.empty(linear.shape, np.uint8)
-
-    def develop_rows(top: int) -> None:
-        _expose_drawn(linear, float(white), drawn, top, min(top + TILE, len(linear)), pixels)
-
-    run_tasks(range(0, len(linear), TILE), lambda: develop_rows, threads)
-    return pixels
-
-
 def put_on_background(
     linear: NDArray[np.float64],
     white: float,
@@ -188,26 +153,3 @@ def _expose(linear: NDArray[np.float64], white: float, bytes_: NDArray[np.uint8]
         # For one peak in seven, 255 * peak / peak rounds to just below 255.
         exposed = 255.0 if linear[k] == white > 0.0 else exposed
         bytes_[k] = np.uint8(exposed)
-
-
-@kernel
-def _expose_drawn(
-    linear: NDArray[np.float64],
-    white: float,
-    drawn: Drawn,
-    top: int,
-    bottom: int,
-    bytes_: NDArray[np.uint8],
-) -> None:
-    """Expose some rows of a picture with what is drawn onto it, all (height, width, 3)."""
-    for row in range(top, bottom):
-        for column in range(linear.shape[1]):
-            shade = float(drawn.shade[row, column]) if drawn.shade.size > 0 else 1.0
-            line = float(drawn.lines[row, column]) if drawn.lines.size > 0 else 0.0
-            fog = drawn.fog[row, column] if drawn.fog.size > 0 else 0.0
-            for k in range(3):
-                light = linear[row, column, k] * shade * (1.0 - line)
-                share = (255.0 * light) / white if white > 0.0 else 0.0
-                share = 255.0 if light == white > 0.0 else share
-                own = fog * (1.0 - line) * drawn.fog_color[k] + line * drawn.line_color[k]
-                bytes_[row, column, k] = np.uint8(math.floor(min(max(share + own, 0.0), 255.0)))

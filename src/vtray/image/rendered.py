@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import RenderError
 from vtray.figures.brightness_scale import SHADES, BrightnessScale
-from vtray.image.exposure import Drawn, Overlay, check_brightness, develop, develop_drawn
+from vtray.image.compositing import Drawn, composite, has_background
+from vtray.image.exposure import Overlay, check_brightness, develop
 from vtray.image.orders import Orders, unknown_orders
 from vtray.image.surfaces import Surfaces
 from vtray.image.toned import Toning, develop_toned
@@ -172,8 +173,16 @@ class Rendered:
         background = self.settings.background
         if is_encoded(self.settings.tonemap):
             return self._develop_toned(bits)
-        if bits == 8 and background == "black" and self._is_drawn_on:
-            self._pixels = develop_drawn(self.linear, self.white, self._drawn, self._threads)
+        is_drawn_on = background == "black" and self._is_drawn_on
+        if bits == 8 and (is_drawn_on or has_background(self.settings)):
+            self._pixels = composite(
+                self.linear,
+                self.white,
+                background,
+                lambda: self.alpha,
+                self._drawn,
+                self._threads,
+            )
             return self._pixels
         pixels = develop(
             self.with_sky,

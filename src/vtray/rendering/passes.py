@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from vtray.base.memory import check_memory_of_lights
 from vtray.base.pool import Progress
 from vtray.base.tiles import TILE, Tile, split_into_tiles
-from vtray.geometry.packets.packet import NO_PRIMITIVE
 from vtray.geometry.ray import Footprint
 from vtray.geometry.shapes import cone, cylinder, sphere
 from vtray.geometry.world import World
@@ -142,7 +141,9 @@ class Tracer:
             self._scene = with_pinhole(self._scene)
             rays = middle_rays(fans=first.fans, paths=first.paths, seed=seed)
             found = self._middles(rays, keep, *one_ray(self._scene, self._more))
-            return found._replace(film=_covered(found.film), noise=noise)
+            if settings.background != "black" or self._scene.lights.visible is not None:
+                found = found._replace(film=_with_coverage(found.film))
+            return found._replace(noise=noise)
         if self._scene.camera.lens is not None:
             return self._through_lens(settings, first, later, keep=keep)._replace(noise=noise)
         self._passes = 2 + has_edges
@@ -338,10 +339,7 @@ def one_ray(scene: SceneArrays, more: Sequence[str] = ()) -> tuple[str, ...]:
     wanted = ["linear", *more]
     if scene.lights.soft is not None:
         wanted.append("error")
-    if scene.world.faded is not None:
-        wanted.append("coverage")
-    elif scene.lights.visible is not None:
-        wanted.append("primitive")
+    wanted.append("covered" if scene.world.faded is None else "coverage")
     if scene.fog is not None:
         wanted.append("fog")
     return tuple(wanted)
@@ -353,11 +351,11 @@ def with_samples(scene: SceneArrays, more: Sequence[str] = ()) -> tuple[str, ...
     return ("linear", "error", "coverage", "mixed", *fog, *more)
 
 
-def _covered(film: Film) -> Film:
-    """Return a film with the coverage by what the middle rays meet, if they say it."""
-    if film.primitive is None:
+def _with_coverage(film: Film) -> Film:
+    """Return a film with the coverage by what the middle rays meet, if it has no other."""
+    if film.covered is None:
         return film
-    return film._replace(coverage=(film.primitive != NO_PRIMITIVE).astype(float))
+    return film._replace(coverage=film.covered.astype(float))
 
 
 def _thickest(world: World) -> float:

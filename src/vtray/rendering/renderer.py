@@ -19,8 +19,9 @@ from vtray.base.pool import Progress as StepProgress
 from vtray.base.pool import available_cores
 from vtray.base.stopwatch import Stopwatch
 from vtray.base.tiles import TILE
+from vtray.image.compositing import warm_up
 from vtray.image.denoise import load_library
-from vtray.image.exposure import check_brightness, warm_up
+from vtray.image.exposure import check_brightness
 from vtray.image.image import Image
 from vtray.image.white import known_white, locked_white
 from vtray.rendering.clipping import is_nothing_left
@@ -257,7 +258,7 @@ def render(
     drawing = Drawing(style, shown, packed, threads)
     compile_kernels(packed.arrays, settings, drawing.wanted)
     drawing.warm_up()
-    warm_up()
+    warm_up(settings)
     sky = SeenSky(packed.arrays.camera, settings, threads)
     sky.warm_up(shown)
     clock.lap("compile")

@@ -59,7 +59,10 @@ class Film(NamedTuple):
     linear
         Linear light, (height, width, 3).
     coverage
-        Share of the pixel in which something is hit, (height, width); None for one ray a pixel.
+        Share of the pixel in which something is hit, (height, width); None for one ray a pixel,
+        unless there are faded bodies.
+    covered
+        Whether the middle ray meets anything, lamps too, (height, width).
     fog
         Share of the pixel in which fog is seen, (height, width).
     error
@@ -90,6 +93,7 @@ class Film(NamedTuple):
     top: int
     linear: Rows
     coverage: Rows
+    covered: Rows
     fog: Rows
     error: Rows
     mixed: Rows
@@ -114,6 +118,7 @@ def new_film(width: int, height: int, *wanted: str, left: int = 0, top: int = 0)
         top=top,
         linear=rows("linear", np.float64, 3),
         coverage=rows("coverage"),
+        covered=rows("covered", np.bool_),
         fog=rows("fog"),
         error=rows("error"),
         mixed=rows("mixed", np.bool_),
@@ -332,6 +337,7 @@ def write_middles(
         packet, block, begin, end, hits, pixels, world, materials, materials.looks, film.albedo
     )
     _write_coverage(packet, block, begin, end, pixels, film.coverage, world.faded)
+    _write_covered(packet, block, begin, end, pixels, film.covered)
     _write_fog(packet, block, begin, end, pixels, film.fog, fog, world.faded)
     _write_mixed(packet, block, begin, end, pixels, film.mixed)
     _write_noise(packet, block, begin, end, hits, pixels, film.error)
@@ -413,6 +419,19 @@ def _write_coverage(
     for lane in range(end - begin):
         row, column = place_of(block, pixels[begin + lane])
         coverage[row, column] = _cover_of(packet, lane, faded)
+
+
+@device
+def _write_covered(
+    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, covered: Rows
+) -> None:
+    """Write whether the rays meet anything."""
+    if covered is None:
+        return
+    numbers = integers(packet)
+    for lane in range(end - begin):
+        row, column = place_of(block, pixels[begin + lane])
+        covered[row, column] = numbers[PRIMITIVE + lane] != NO_PRIMITIVE
 
 
 @device
