@@ -188,7 +188,8 @@ def _series(x: "Real", coefficients: list[float]) -> "Real":
     """Return a polynomial, by Horner's rule; its highest coefficient comes first."""
     value = 0.0 * x
     for coefficient in coefficients:
-        value = value * x + coefficient
+        value *= x  # in place, where x is an array
+        value += coefficient
     return value
 
 

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.pool import run_tasks
-from vtray.base.tiles import TILE
 from vtray.image.exposure import Overlay
 from vtray.image.tone_maps.table import TONE_MAPS
 from vtray.scene.colors.color_light import light_of
@@ -22,6 +21,9 @@ from vtray.scene.settings import Background
 from vtray.scene.vectors import Color
 
 Floats = NDArray[np.float64]
+
+ROWS = 32
+"""Rows that are made together: arrays of more leave the caches, and take twice as long."""
 
 MOST = 2.0**40
 """More light than this counts as this: all tone maps show it as white."""
@@ -73,13 +75,13 @@ def develop_toned(
     pixels = np.empty((*linear.shape[:2], channels), kind)
 
     def develop_rows(top: int) -> None:
-        rows = slice(top, top + TILE)
+        rows = slice(top, top + ROWS)
         some = [Overlay(share[rows], color) for share, color in overlays]
         pixels[rows] = _developed(
             linear[rows], toning, None if cover is None else cover[rows], some
         )
 
-    run_tasks(range(0, len(linear), TILE), lambda: develop_rows, threads)
+    run_tasks(range(0, len(linear), ROWS), lambda: develop_rows, threads)
     return pixels
 
 
