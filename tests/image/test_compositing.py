@@ -67,7 +67,7 @@ def test_all_at_once_is_step_by_step(
         )
         for threads in (1, 3):
             found = composite(
-                image.linear, white, background, lambda: image.alpha, image._drawn, threads
+                image.linear, white, background, lambda: image._covered, image._drawn, threads
             )
             np.testing.assert_array_equal(found, expected)
         assert found.shape[2] == (4 if background == "transparent" else 3)

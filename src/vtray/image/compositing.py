@@ -94,8 +94,10 @@ def composite(
 
     Parameters
     ----------
-    linear, white, alpha, threads
+    linear, white, threads
         As for `develop`, light without what is drawn.
+    alpha
+        Likewise, without lines: these cover what they are drawn on.
     background
         What is seen where nothing is, any but a sky.
     drawn
@@ -116,7 +118,8 @@ def composite(
         _composite(light, exposure, drawn, cover, behind, top, bottom, bytes_)
         if is_transparent:
             with_alpha[top:bottom, :, :3] = pixels[top:bottom]
-            with_alpha[top:bottom, :, 3] = np.rint(255.0 * cover[top:bottom].clip(0.0, 1.0))
+            share = _with_lines(cover[top:bottom], drawn.lines[top:bottom])
+            with_alpha[top:bottom, :, 3] = np.rint(255.0 * share.clip(0.0, 1.0))
 
     run_tasks(range(0, height, TILE), lambda: develop_rows, threads)
     return with_alpha if is_transparent else pixels
@@ -131,6 +134,11 @@ def warm_up(settings: RenderSettings) -> None:
     shares = none.astype(np.float32)
     drawn = Drawn(shares, shares, none, color, color)
     composite(np.zeros((1, 0, 3)), 0.0, "transparent", lambda: np.zeros((1, 0)), drawn)
+
+
+def _with_lines(cover: NDArray[np.float64], lines: NDArray[np.float32]) -> NDArray[np.float64]:
+    """Return how much of each pixel is covered, by lines too, if there are any."""
+    return 1.0 - (1.0 - cover) * (1.0 - lines.astype(np.float64)) if lines.size > 0 else cover
 
 
 def _exposure_of(white: float) -> Exposure:
@@ -153,7 +161,7 @@ def _composite(
 ) -> None:
     """Expose some rows of a picture with what is drawn onto it, (height, 3 * width).
 
-    `cover` is how much of each pixel is covered, (height, width), or (0, 0) for all of it.
+    `cover` is how much of each pixel is covered without lines, (height, width), or (0, 0) for all.
     """
     for row in range(top, bottom):
         _expose_alone(linear[row], exposure, bytes_[row])
@@ -161,7 +169,10 @@ def _composite(
             shade = float(drawn.shade[row, column]) if drawn.shade.size > 0 else 1.0
             line = float(drawn.lines[row, column]) if drawn.lines.size > 0 else 0.0
             fog = drawn.fog[row, column] * (1.0 - line) if drawn.fog.size > 0 else 0.0
-            covered = min(max(cover[row, column], 0.0), 1.0) if cover.size > 0 else 1.0
+            covered = cover[row, column] if cover.size > 0 else 1.0
+            if drawn.lines.size > 0:
+                covered = 1.0 - (1.0 - covered) * (1.0 - line)
+            covered = min(max(covered, 0.0), 1.0)
             if not (shade == 1.0 and line == 0.0 and fog == 0.0 and covered == 1.0):
                 part = Part(shade, line, fog, covered)
                 _expose_with(linear[row], column, exposure, drawn, part, behind, bytes_[row])

@@ -179,7 +179,7 @@ class Rendered:
                 self.linear,
                 self.white,
                 background,
-                lambda: self.alpha,
+                lambda: self._covered,
                 self._drawn,
                 self._threads,
             )
@@ -307,13 +307,19 @@ class Rendered:
         Fog of no colour of its own covers nothing: as much of the background is seen. Lines cover
         what they are drawn on.
         """
+        covered = self._covered
+        if self._lines is not None:
+            covered = 1.0 - (1.0 - covered) * self._seen_beside_lines
+        return covered
+
+    @property
+    def _covered(self) -> Floats:
+        """How much of each pixel is covered if there are no lines, (height, width)."""
         covered = self._alpha
         if covered is None:
             covered = (self.ids[..., 0] >= 0).astype(np.float64)
         if self._fog is not None and self._fog_color is None:
             covered = np.maximum(covered - self._fog, 0.0)
-        if self._lines is not None:
-            covered = 1.0 - (1.0 - covered) * self._seen_beside_lines
         return covered
 
     @property

@@ -14,8 +14,9 @@ Shares = NDArray[np.float32]
 def draw_strokes(
     primitive: NDArray[np.int32],
     part: Shares,
-    place: Shares,
-    share: Shares,
+    place: NDArray[np.uint8],
+    share: Shares | None,
+    steps: int,
     width: float,
     top: int,
     bottom: int,
@@ -34,8 +35,10 @@ def draw_strokes(
         What each pixel sees, (height, width).
     part, place, share
         How wide the lines are that cross the ways from each pixel to those right of it and below,
-        in parts of the width, 0 for none; where they cross these, and how much they hide; each
-        (2, height, width).
+        in parts of the width, 0 for none; where they cross these, and how much they hide, None for
+        all; each (2, height, width).
+    steps
+        How many steps of `place` the whole way has.
     width
         The width of lines in pixels.
     top, bottom
@@ -52,7 +55,7 @@ def draw_strokes(
         _mark_cells(part, y, columns - 1, marks)
         for x in range(columns - 1):
             if marks[x]:
-                found = _crossings_of(part, place, share, width, y, x, points)
+                found = _crossings_of(part, place, share, steps, width, y, x, points)
                 _join(primitive, y, x, found, points, top, bottom, lines)
 
 
@@ -68,8 +71,9 @@ def _mark_cells(part: Shares, y: int, columns: int, marks: NDArray[np.bool_]) ->
 @device
 def _crossings_of(
     part: Shares,
-    place: Shares,
-    share: Shares,
+    place: NDArray[np.uint8],
+    share: Shares | None,
+    steps: int,
     width: float,
     y: int,
     x: int,
@@ -82,13 +86,22 @@ def _crossings_of(
         axis = side & 1
         row, column = y + (1 if side == 2 else 0), x + (1 if side == 1 else 0)
         if part[axis, row, column] > 0.0:
-            along = float(place[axis, row, column])
+            along = place[axis, row, column] / steps
             points[found, 0] = column + (1 - axis) * along
             points[found, 1] = row + axis * along
             points[found, 2] = width * part[axis, row, column]
-            points[found, 3] = share[axis, row, column]
+            points[found, 3] = _share_at(share, axis, row, column)
             found += 1
     return found
+
+
+@device
+def _share_at(share: Shares | None, axis: int, row: int, column: int) -> float:
+    """Return how much a line hides where it crosses a side of a cell."""
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if share is not None:
+        return float(share[axis, row, column])
+    return 1.0
 
 
 @device

@@ -16,6 +16,7 @@ from vtray.scene.placing.panorama import pixel_angle
 from vtray.scene.scene import Scene
 from vtray.scene.style import Outline
 from vtray.transport.integrators.outlines import (
+    STEPS,
     Pen,
     Seen,
     find_crossings,
@@ -61,7 +62,8 @@ def draw_outlines(
         How many threads to use at the most.
     """
     height, width = seen.primitive.shape
-    arrays, crossings = pinned(without_light(packed.arrays)), new_crossings(height, width)
+    crossings = new_crossings(height, width, has_fog=packed.arrays.fog is not None)
+    arrays = pinned(without_light(packed.arrays))
     fog, pen = pinned(packed.arrays.fog), pinned(_pen_of(outline, scene, packed))
     pixels, found = pinned(seen), pinned(crossings)
     tiles = split_into_tiles(width, height) or [Tile(0, 0, 0, 0)]
@@ -82,7 +84,9 @@ def draw_outlines(
     def draw(top: int) -> None:
         bottom, points, marks = min(top + TILE, height), np.zeros((5, 4)), np.zeros(width, np.bool_)
         pen_width = float(outline.width)
-        draw_strokes(seen.primitive, *crossings, pen_width, top, bottom, lines, points, marks)
+        draw_strokes(
+            seen.primitive, *crossings, STEPS, pen_width, top, bottom, lines, points, marks
+        )
 
     run_tasks(range(0, max(height, 1), TILE), lambda: draw, threads)
     return lines

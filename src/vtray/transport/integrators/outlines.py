@@ -26,6 +26,9 @@ from vtray.transport.scene_arrays import SceneArrays
 HALVINGS = 2
 """How often the way from middle to middle is halved: lines are within 1/8 of a pixel."""
 
+STEPS = 2 << HALVINGS
+"""In how many parts the way is then, by which places are written down."""
+
 WINDOW = 2
 """Pixels to all sides among which those are counted that see the same thing."""
 
@@ -93,19 +96,21 @@ class Crossings(NamedTuple):
     width
         In parts of the width of lines, from 0, for none, to 1, (2, height, width).
     place
-        How far from the pixel, from 0 to 1, (2, height, width); of no meaning where none is.
+        How far from the pixel, in parts of `STEPS`, (2, height, width); of no meaning without line.
     share
-        How much of what is under the line it hides, which fog makes less, likewise.
+        How much of what is under the line it hides, likewise; None where there is no fog.
     """
 
     width: NDArray[np.float32]
-    place: NDArray[np.float32]
-    share: NDArray[np.float32]
+    place: NDArray[np.uint8]
+    share: Any
 
 
-def new_crossings(height: int, width: int) -> Crossings:
+def new_crossings(height: int, width: int, *, has_fog: bool) -> Crossings:
     """Return room for crossings, of no certain content."""
-    return Crossings(*(np.empty((2, height, width), np.float32) for _ in range(3)))
+    size = 2, height, width
+    share = np.empty(size, np.float32) if has_fog else None
+    return Crossings(np.empty(size, np.float32), np.empty(size, np.uint8), share)
 
 
 @kernel
@@ -211,9 +216,9 @@ def _find_crossing(
     near, far = min(before, after), max(before, after)
     one, two = seen.primitive[row, column], seen.primitive[below, beside]
     share = 1.0 if has_crease else fullness * _width(pen, one, two, near, far)
-    crossings.place[axis, row, column] = place
+    crossings.place[axis, row, column] = np.uint8(STEPS * place)
     crossings.width[axis, row, column] = share
-    crossings.share[axis, row, column] = _left_by(fog, near)
+    _veil(fog, near, row, column, axis, crossings.share)
 
 
 @device
@@ -419,6 +424,15 @@ def _leans_to_first(
 
 
 @device
-def _left_by(fog: FogFrame | None, distance: float) -> float:
-    """Return how much fog leaves of a line."""
-    return 1.0 if fog is None else 1.0 - fog_share(fog, distance)
+def _veil(
+    fog: FogFrame | None,
+    distance: float,
+    row: int,
+    column: int,
+    axis: int,
+    share: Any,  # noqa: ANN401
+) -> None:
+    """Write how much fog leaves of a line."""
+    # Arguments that are None are known to the compiler, which drops what depends on that alone.
+    if fog is not None:
+        share[axis, row, column] = 1.0 - fog_share(fog, distance)
