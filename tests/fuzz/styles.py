@@ -8,6 +8,7 @@ import numpy as np
 
 import vtray
 from fuzz import bounces, looks, truth
+from vtray.image.exposure import develop
 
 Scene = dict[str, Any]
 Random = np.random.Generator
@@ -33,6 +34,7 @@ def attempt(random: python_random.Random, folder: Path) -> None:
         "integrator": str(numbers.choice(["direct", "direct", "direct", "whitted", "path"])),
         "samples": int(numbers.choice([1, 2, 4])),
         "edge_samples": int(numbers.choice([1, 1, 6])),
+        "background": str(numbers.choice(["black", "white", "teal", "transparent"])),
         "tolerance": 1e6,
     }
     if how["integrator"] != "direct":
@@ -42,7 +44,11 @@ def attempt(random: python_random.Random, folder: Path) -> None:
     if numbers.random() < bounces.PADDED:
         scene = looks.padded(numbers, scene)
     bounces.keep(scene, how, folder)
-    fault = bounces.fault_of(scene, how, folder) or _fault_of_samples(scene, how, folder)
+    fault = (
+        bounces.fault_of(scene, how, folder)
+        or _fault_of_samples(scene, how, folder)
+        or _fault_of_pixels(scene, how, folder)
+    )
     if fault is not None:
         raise AssertionError(fault)
 
@@ -65,6 +71,19 @@ def _fault_of_samples(scene: Scene, how: Scene, folder: Path) -> str | None:
         if not np.allclose(one, other, rtol=1e-12, atol=0, equal_nan=True):
             return f"{name} of pixels without samples is another in a picture with some"
     return None
+
+
+def _fault_of_pixels(scene: Scene, how: Scene, folder: Path) -> str | None:
+    """Return whether pixels that are made at once are not those that are made step by step."""
+    try:
+        image = bounces.taken(scene, folder, truth.FEW, how)
+    except vtray.VtrayError:
+        return None
+    background, alpha = image.settings.background, image.alpha
+    given = image.with_sky, image.white, background, lambda: alpha, 1, 8, image.overlays
+    if (image.pixels == develop(*given)).all():
+        return None
+    return "pixels are others than step by step"
 
 
 def _crowd(random: Random) -> Scene:
