@@ -129,7 +129,8 @@ def draw_all_ways() -> None:
     for column in range(8):
         vtray.trace_pixel(scene, column, 3)
     scene.objects[0] = scene.objects[0].replace(opacity=1.0)
-    vtray.render(scene, clip=(1, 1, 1), cap=True, outline=True, eye_dome=True, fog=True)
+    lines = vtray.Outline(normals=True)
+    vtray.render(scene, clip=(1, 1, 1), cap=True, outline=lines, eye_dome=True, fog=True)
 
 
 def follow_all_ways() -> None:

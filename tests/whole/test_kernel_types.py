@@ -125,8 +125,11 @@ def test_scenes_with_few_spheres_need_what_the_first_needed(used: Callable[..., 
     render(BALL, lights=0, projection="orthographic")
     render(FLOOR, size=(1, 1), exposure=2.0)
     assert used() == ONE_RAY
-    render(FLOOR, size=(1, 1), background="transparent", exposure=2.0)  # traces what is covered
-    assert used(2) == ONE_RAY
+    for background in ("transparent", "white"):
+        image = render(FLOOR, size=(1, 1), background=background, exposure=2.0)
+    assert used() == ONE_RAY | {"_composite"}
+    image.ids  # noqa: B018 - traces
+    assert used(2) == ONE_RAY | {"_composite"}
 
 
 def test_scenes_with_a_hierarchy_need_one_more_set(used: Callable[..., set[str]]) -> None:
