@@ -12,7 +12,13 @@ LEAST_POWER = -308
 """Power of ten below which no number is written."""
 
 LONGEST = 7
-"""How many digits a number has at most that is written out."""
+"""How many digits a number has at most that is written out, if fewer tell it from others."""
+
+MOST = 17
+"""With so many, doubles cannot be told from each other."""
+
+SHORTEST = 6
+"""So many digits numbers may always have."""
 
 
 def round_marks(low: float, high: float, most: int) -> list[tuple[float, str]]:
@@ -33,11 +39,10 @@ def round_marks(low: float, high: float, most: int) -> list[tuple[float, str]]:
     values = [(start + k) * step for k in range(int(end - start) + 1)]
     digits = max(0, -step.adjusted())
     whole = max((abs(value).adjusted() for value in values), default=0)
-    written_out = digits < LONGEST and whole < LONGEST
-    return [
-        (float(v), _signed(f"{v:.{digits}f}") if written_out else number_text(float(v)))
-        for v in values
-    ]
+    needed = whole - step.adjusted() + 1  # digits by which they differ
+    if (digits < LONGEST and whole < LONGEST) or LONGEST < needed < MOST:
+        return [(float(v), _signed(f"{v:.{digits}f}")) for v in values]
+    return [(float(v), number_text(float(v), max(needed, SHORTEST))) for v in values]
 
 
 def spread_marks(
@@ -73,9 +78,9 @@ def spread_marks(
     return [(value, number_text(value)) for value in sorted(found)]
 
 
-def number_text(value: float) -> str:
-    """Return a number as people read it, with at most six digits."""
-    return _signed(f"{value:g}")
+def number_text(value: float, digits: int = SHORTEST) -> str:
+    """Return a number as people read it, with at most so many digits."""
+    return _signed(f"{value:.{digits}g}")
 
 
 def _signed(text: str) -> str:

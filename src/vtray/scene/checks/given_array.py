@@ -3,6 +3,8 @@
 import sys
 from typing import Any
 
+from vtray.base.errors import SceneError
+
 COORDINATES = ("x", "y", "z")
 RED_GREEN_BLUE = ("r", "g", "b")
 
@@ -15,6 +17,13 @@ def is_masked(given: object) -> bool:
     import numpy as np
 
     return bool(np.ma.is_masked(given))
+
+
+def check_unmasked(given: object, place: str) -> None:
+    """Raise SceneError if an array has masked numbers."""
+    if is_masked(given):
+        words = f"expected a value for each particle, got {show_array(given)}"
+        raise SceneError(f"{place}: {words}{remedy_for(given, ())}")
 
 
 def show_array(given: Any) -> str:  # noqa: ANN401

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.given_array import (
+    check_unmasked,
     fields_of,
-    is_masked,
     positions_in,
-    remedy_for,
     show_array,
 )
 from vtray.scene.particles.column_names import name_columns
@@ -156,9 +155,7 @@ def _columns_of(table: Any, names: Iterable[Any]) -> "dict[str, Array]":  # noqa
     import numpy as np
 
     for name in names:
-        if is_masked(table[name]):
-            got = f"got {show_array(table[name])}{remedy_for(table[name], ())}"
-            raise SceneError(f"column {str(name)!r}: expected a value for each particle, {got}")
+        check_unmasked(table[name], f"column {str(name)!r}")
     return {str(name): np.asarray(table[name]) for name in names}
 
 
@@ -193,8 +190,10 @@ def as_particles(given: Any) -> Particles:  # noqa: ANN401
     if fields_of(given):
         return from_columns(_columns_of(given, fields_of(given)))
     if hasattr(given, "columns") and hasattr(given, "shape"):
-        return from_columns(_columns_of(given, given.columns))
+        # Those of pyarrow have their names apart.
+        return from_columns(_columns_of(given, getattr(given, "column_names", given.columns)))
     places = positions_in(given)
+    check_unmasked(places, "positions")
     try:
         positions = np.asarray(places)
     except ValueError:

@@ -6,7 +6,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
-from vtray.scene.checks.given_array import show_array
+from vtray.scene.checks.given_array import check_unmasked, show_array
+from vtray.scene.particles.column_names import canonical
 from vtray.scene.particles.expression import mask
 from vtray.scene.particles.object_column import without_objects
 
@@ -84,12 +85,15 @@ class Particles:
         """Check and convert the arrays."""
         import numpy as np
 
+        check_unmasked(self.positions, "Particles.positions")
         positions = np.asarray(self.positions)
         if positions.dtype not in (np.float32, np.float64):
             positions = _array(positions, "positions", np.float64)
         if positions.ndim != 2 or positions.shape[1] != 3:
             raise SceneError(f"Particles.positions: must have shape (n, 3), got {positions.shape}")
         _check_finite(positions, "positions")
+        for name, values in self.columns.items():
+            check_unmasked(values, f"Particles.columns[{str(name)!r}]")
         columns = {
             str(name): without_objects(np.asarray(values)) for name, values in self.columns.items()
         }
@@ -140,6 +144,8 @@ class Particles:
             raise SceneError(f"expected the name of a column, got {show_array(given)}; {words}")
         if name in self.columns:
             return self.columns[name]
+        if canonical(name) in self.columns and name not in POSITION:
+            return self.columns[canonical(name)]  # as a file may call it
         if name in POSITION:
             column: NDArray[Any] = self.positions[:, POSITION.index(name)]
             return column
@@ -189,6 +195,7 @@ class Particles:
 
         if isinstance(which, str):
             return np.flatnonzero(mask(self, which))
+        check_unmasked(which, "select")
         given, count = np.asarray(which), len(self)
         if given.dtype == np.bool_ and given.shape == (count,):
             return np.flatnonzero(given)

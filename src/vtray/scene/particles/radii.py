@@ -6,8 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
+from vtray.scene.checks.given_array import check_unmasked
 from vtray.scene.checks.scene_words import nearest, show
 from vtray.scene.particles import elements
+from vtray.scene.particles.column_names import canonical
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -55,6 +57,8 @@ def radii_of(particles: "Particles", radii: Radii, place: str) -> Floats | float
             remedy = "there is no column element; give a number, an array, or the name of a column"
             raise SceneError(f"{place}: {radii} radii are those of elements, and {remedy}")
         return elements.radii_of(particles["element"], radii)
+    if isinstance(radii, str) and canonical(radii) in particles.columns:
+        radii = radii if radii in particles.columns else canonical(radii)
     if isinstance(radii, str) and radii not in particles.columns:
         known = [*elements.RADII, *particles.columns]
         close = nearest(radii, known, cutoff=0.6)
@@ -62,6 +66,7 @@ def radii_of(particles: "Particles", radii: Radii, place: str) -> Floats | float
         words = f"expected {', '.join(elements.RADII)}, a number, or a column, got {show(radii)}"
         raise SceneError(f"{place}: {words}{hint}")
     given = particles[radii] if isinstance(radii, str) else radii
+    check_unmasked(given, place)
     try:
         found = np.asarray(given, np.float64)
     except (TypeError, ValueError):

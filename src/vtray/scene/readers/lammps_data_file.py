@@ -47,6 +47,11 @@ _BY_WIDTH = {5: "atomic", 8: "atomic", 7: "full", 10: "full"}
 
 _INTEGERS = ("id", "mol", "type", "ellipsoid")
 
+_IMAGES = ("ix", "iy", "iz")
+"""What the columns behind those of a style are: the images in which the atoms are."""
+
+_INTEGER = re.compile("[-+]?[0-9]+")
+
 _COUNT = re.compile(r"\s*([0-9]{1,18})\s+([a-z ]+?)\s*")
 
 _BOUNDS = re.compile(r"\s*(\S+)\s+(\S+)\s+([xyz])lo\s+[xyz]hi\s*")
@@ -255,12 +260,21 @@ def _atoms_of(lines: Lines, count: int, style: str) -> "dict[str, Array]":
         remedy = f"expected, as in 'Atoms # full', one of {known}"
         raise SceneError(f"line {lines.number - 1}: {problem}; {remedy}")
     names = _STYLES[name].split()
-    kind_of = dict.fromkeys(names, "R") | dict.fromkeys(_INTEGERS, "I")
+    kind_of = dict.fromkeys(names, "R") | dict.fromkeys((*_INTEGERS, *_IMAGES), "I")
     entries = dict(zip(names, first, strict=False))
     if re.match("[A-Za-z]", entries.get("type", "")):
         kind_of["type"] = "S"  # called by their labels
-    kinds = "".join(kind_of[name] for name in names)
-    columns = dict(zip(names, read_rows(lines, count, kinds, more=True), strict=True))
+    has_images = len(first) == len(names) + 3 and all(map(_INTEGER.fullmatch, first[-3:]))
+    columns = {}
+    for wanted in ([*names, *_IMAGES], names) if has_images else (names,):
+        kinds = "".join(kind_of[name] for name in wanted)
+        try:
+            columns = dict(zip(wanted, read_rows(lines, count, kinds, more=True), strict=True))
+            break
+        except SceneError:
+            if wanted is names:
+                raise
+            lines.go(place)  # some rows say no images
     positions = np.stack([columns[name] for name in "xyz"], axis=1)
     check_places(positions, range(lines.number - count + 1, lines.number + 1))
     return columns

@@ -30,6 +30,13 @@ _PLACES = (("x", "y", "z"), ("xu", "yu", "zu"), ("xs", "ys", "zs"), ("xsu", "ysu
 """What columns of places are called: as they are or unwrapped, then both as shares of the box."""
 
 
+_UNWRAPPED = (1, 3)
+"""Which of these are where particles would be if they had never been wrapped."""
+
+_IMAGES = {"ix", "iy", "iz"}
+"""Columns that say how many cells away a particle is from where it stands."""
+
+
 class _Head(NamedTuple):
     """What stands before the rows of a frame.
 
@@ -58,7 +65,8 @@ def read(given: Given) -> Particles:
     """Read a frame of a dump.
 
     The columns have the names of the dump; ``vx vy vz`` and ``fx fy fz`` become ``velocity`` and
-    ``force``. Elements are only those that the dump names.
+    ``force``. Elements are only those that the dump names. Where places are unwrapped (``xu``,
+    ``xsu``), the columns ``ix iy iz`` are 0: nothing is left to unwrap.
 
     Raises
     ------
@@ -188,6 +196,8 @@ def _places_of(
         if not all(name in columns for name in names):
             continue
         places: Array = np.stack([columns.pop(name) for name in names], axis=1)
+        if number in _UNWRAPPED:
+            columns |= {name: np.zeros(len(places), np.int64) for name in _IMAGES & columns.keys()}
         if number < 2:
             break
         if cell is None:

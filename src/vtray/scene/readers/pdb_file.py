@@ -47,10 +47,13 @@ class _Model(NamedTuple):
         Those of atoms.
     numbers
         Where each stands in the file, from 1.
+    cell
+        The edges of the cell, if there is one.
     """
 
     atoms: list[bytes]
     numbers: list[int]
+    cell: "Cell | None"
 
 
 def read(given: Given) -> Particles:
@@ -79,16 +82,16 @@ def read(given: Given) -> Particles:
 def steps(given: Given) -> Steps:
     """Give what reads each model, one after the other."""
     check_room(given.file, _TIMES)
-    models, cell, conects = _models_of(given.file.read())
+    models, conects = _models_of(given.file.read())
     for number, model in enumerate(models):
-        yield partial(_read_model, model, cell, conects, number)
+        yield partial(_read_model, model, conects, number)
 
 
-def _read_model(model: _Model, cell: "Cell | None", conects: list[bytes], number: int) -> Particles:
+def _read_model(model: _Model, conects: list[bytes], number: int) -> Particles:
     """Return what the lines of a model say."""
     import numpy as np
 
-    atoms, numbers = model
+    atoms, numbers, cell = model
     lines = np.array([line[:_WIDTH].ljust(_WIDTH) for line in atoms], f"S{_WIDTH}")
     table = lines.view("S1").reshape(len(atoms), _WIDTH)
     places = [_numbers(table, start, start + 8, numbers, "xyz"[i]) for i, start in _PLACES]
@@ -141,25 +144,25 @@ _PLACES = ((0, 30), (1, 38), (2, 46))
 """Where x, y and z begin in a line."""
 
 
-def _models_of(content: bytes) -> "tuple[list[_Model], Cell | None, list[bytes]]":
-    """Return the models of a file, its cell, and its lines of bonds."""
+def _models_of(content: bytes) -> "tuple[list[_Model], list[bytes]]":
+    """Return the models of a file, each with the cell that was named last, and lines of bonds."""
     conects: list[bytes] = []
     models: list[_Model] = []
     cell = None
-    now = _Model([], [])
+    now = _Model([], [], None)
     for number, line in enumerate(content.splitlines(), 1):
         if line.startswith(_ATOM):
             now.atoms.append(line)
             now.numbers.append(number)
         elif line.startswith((b"END", b"MODEL")):
             if now.atoms:
-                models.append(now)
-            now = _Model([], [])
+                models.append(now._replace(cell=cell))
+            now = _Model([], [], None)
         elif line.startswith(b"CRYST1"):
             cell = _cell_of(line.decode("latin-1"), number) if _is_whole(line) else None
         elif line.startswith(b"CONECT"):
             conects.append(line)
-    return [*models, now] if now.atoms else models, cell, conects
+    return [*models, now._replace(cell=cell)] if now.atoms else models, conects
 
 
 def _bonds_of(conects: list[bytes], table: "Array") -> "Array | None":
@@ -203,10 +206,12 @@ def _cell_of(line: str, number: int) -> "Cell | None":
         found = [float(line[i:j]) for i, j in pairwise(starts)]
     except ValueError:
         found = [0.0]
-    if len(found) == 6 and found[:3] == [1, 1, 1]:  # what files without a crystal have
+    # What files without a crystal have.
+    if len(found) == 6 and found[:3] in ([1.0, 1.0, 1.0], [0.0, 0.0, 0.0]):
         return None
-    a, b, c, alpha, beta, gamma = found if len(found) == 6 else [0.0] * 6
-    if not (min(a, b, c) > 0 and all(0 < angle < 180 for angle in (alpha, beta, gamma))):
+    a, b, c, alpha, beta, gamma = found if len(found) == 6 else [-1.0] * 6
+    # Along an edge of no length, nothing repeats.
+    if not (min(a, b, c) >= 0 and all(0 < angle < 180 for angle in (alpha, beta, gamma))):
         raise SceneError(f"line {number}: expected three lengths and three angles of a cell")
     x = cosine(beta)
     y = (cosine(alpha) - x * cosine(gamma)) / sine(gamma)

@@ -104,7 +104,7 @@ def check_places(positions: "Array", lines: Sequence[int]) -> None:
 def _columns(block: bytes, count: int, kinds: str, more: bool, first: int) -> "list[Array]":
     """Return the columns of a block of lines, of which `first` is the number of the first."""
     width = len(kinds)
-    text = block if block.endswith(b"\n") or not block else block + b"\n"
+    text = block + b"\n" if count else b""  # the last may be empty
     entries = text.replace(b"\n", b" \0 ").split()
     marks = entries[width :: width + 1]
     if len(entries) != count * (width + 1) or marks != [_MARK] * count:
@@ -120,7 +120,7 @@ def _checked_entries(block: bytes, kinds: str, more: bool, first: int) -> list[b
     """Return the entries line by line, each with a mark at its end; raise if there are too few."""
     entries: list[bytes] = []
     width = len(kinds)
-    for number, line in enumerate(block.removesuffix(b"\n").split(b"\n"), first):
+    for number, line in enumerate(block.split(b"\n"), first):
         found = line.split()
         if len(found) < width or (len(found) > width and not more):
             shown = short(text_of(line, number).strip())

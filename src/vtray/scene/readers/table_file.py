@@ -30,6 +30,9 @@ _SEPARATORS = ",;\t"
 CELLS = {"cell", "box", "lattice"}
 """What the three vectors of a cell, or its three lengths, are called in .npz files."""
 
+PERIODIC = {"periodic", "pbc"}
+"""What three truths are called that say along which edges of the cell all repeats, likewise."""
+
 _MISSING = {"", "na", "n/a", "nan", "null", "none", "<na>", "-nan"}
 """What .csv files have in the place of a number that is missing, in any case."""
 
@@ -156,7 +159,7 @@ def _read_npz(given: Given) -> "dict[str, Array]":
 
 
 def _taken_out(arrays: "dict[str, Array]") -> dict[str, Any]:
-    """Take out of arrays what is known of the whole frame: its cell and its time.
+    """Take out of arrays what is known of the whole frame: its cell, what repeats, and its time.
 
     What else has such a name, as a second cell, stays, and is taken for a column.
     """
@@ -167,6 +170,10 @@ def _taken_out(arrays: "dict[str, Array]") -> dict[str, Any]:
         is_cell = name.lower() in CELLS and array.shape in {(3,), (3, 3)}
         if is_cell and "cell" not in found:
             found["cell"] = np.diag(array) if array.ndim == 1 else array
+            found.setdefault("periodic", None)  # along all its edges
+            del arrays[name]
+        elif name.lower() in PERIODIC and array.shape == (3,) and array.dtype == np.bool_:
+            found["periodic"] = tuple(array.tolist())
             del arrays[name]
         elif name.lower() == "time" and array.shape == () and array.dtype.kind in "biuf":
             found["time"] = float(arrays.pop(name))

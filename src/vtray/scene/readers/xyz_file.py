@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     Array = NDArray[Any]
     Cell = NDArray[np.float64]
 
-_PAIR = re.compile(r"""([\w.-]+)\s*=\s*("[^"]*"|'[^']*'|\{[^}]*\}|\[[^\]]*\]|[^\s,;]+)""")
+_LIST = r"\[(?:[^\[\]]|\[[^\[\]]*\])*\]"
+_PAIR = re.compile(rf"""([\w.-]+)\s*=\s*("[^"]*"|'[^']*'|\{{[^}}]*\}}|{_LIST}|[^\s,;]+)""")
 """A key of a comment, and its value."""
 
 _PLAIN = "species:S:1:pos:R:3"
@@ -174,7 +175,8 @@ def _numbers(text: str, counts: tuple[int, ...], key: str, line: int) -> "Cell":
     import numpy as np
 
     try:
-        found = np.array([float(entry) for entry in re.split(r"[\s,]+", text.strip(" ,"))])
+        entries = re.split(r"[\s,\[\]]+", text.strip(" ,[]"))
+        found = np.array([float(entry) for entry in entries])
     except ValueError:
         found = np.empty(0)
     if len(found) not in counts:

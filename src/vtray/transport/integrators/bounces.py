@@ -51,7 +51,7 @@ from vtray.transport.far_light import far_light
 from vtray.transport.film import Rows
 from vtray.transport.glass_around import leave_glass
 from vtray.transport.integrators.glossy_light import light_met
-from vtray.transport.integrators.lamps import nearest_lamp
+from vtray.transport.integrators.lamps import lamp_beyond
 from vtray.transport.lights.light import Lights, lamp_light
 from vtray.transport.materials.absorption import transmitted
 from vtray.transport.materials.look import (
@@ -251,7 +251,7 @@ def follow_rays(
             hit, cast = nearest_hit(world, ray, work.stack), cast + 1
             lamp, distance = NOTHING, hit.distance
             if sees_lights:
-                lamp, distance = nearest_lamp(ray, distance, lights.mirrored)
+                lamp, distance = lamp_beyond(ray, distance, lights.mirrored)
             if within != EMPTY:
                 seen = times(seen, transmitted(three_numbers(looks, within, 1), distance))
             _gather_met(

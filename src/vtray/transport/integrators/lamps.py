@@ -124,3 +124,13 @@ def nearest_lamp(ray: Ray, distance: float, lamps: VisibleLamps | None) -> tuple
             if at < distance + (error_bound if found == NOTHING else 0.0):
                 found, distance = lamps.row[k], at
     return found, distance
+
+
+@device
+def lamp_beyond(ray: Ray, distance: float, lamps: VisibleLamps | None) -> tuple[int, float]:
+    """Return the lamp that a ray from a surface meets, as `nearest_lamp` does for the camera's.
+
+    Lamps behind the image plane count: their light falls on what is before it.
+    """
+    everywhere = Ray(ray.origin, ray.direction, math.inf, 0.0, ray.error_scale, ray.error_bound)
+    return nearest_lamp(everywhere, distance, lamps)

@@ -2,8 +2,9 @@
 
 The middle rays say which pixels see different things. Between two of these, a few rays more halve
 again and again the way from middle to middle on which one thing ends and the other begins. These
-rays are only asked where they meet the two things that are known, for which nothing is searched. So
-lines are as smooth as if all pixels had hundreds of rays, and cost little.
+rays are only asked where they meet the two things that are known, for which nothing is searched,
+unless there are bodies that let light through. So lines are as smooth as if all pixels had hundreds
+of rays, and cost little.
 """
 
 import math
@@ -13,13 +14,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
-from vtray.geometry.packets.packet import NO_PRIMITIVE, split_met
-from vtray.geometry.queries import NOTHING, Hit, nearer_of
+from vtray.geometry.packets.packet import (
+    DISTANCE,
+    MET,
+    NO_PRIMITIVE,
+    PRIMITIVE,
+    Packet,
+    integers,
+    join_met,
+    split_met,
+    store_ray,
+)
+from vtray.geometry.packets.workspace import Workspace
+from vtray.geometry.queries import NOTHING, Hit, nearer_of, nearest_hit
 from vtray.geometry.ray import Ray
 from vtray.geometry.vector import Vec, dot
 from vtray.geometry.world import World
-from vtray.transport.camera_rays import camera_ray
+from vtray.transport.camera_rays import camera_ray, sheaf_of
 from vtray.transport.fog import FogFrame, fog_share
+from vtray.transport.integrators.layered import choose_surfaces
 from vtray.transport.interaction import interact
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -142,6 +155,8 @@ def find_crossings(
     bottom: int,
     crossings: Crossings,
     marks: NDArray[np.bool_],
+    packet: Packet | None,
+    work: Workspace | None,
 ) -> None:
     """Find where lines cross the ways that begin at the pixels of a tile.
 
@@ -159,6 +174,8 @@ def find_crossings(
         Out: those of the tile.
     marks
         Scratch memory of this thread, one for each pixel of a row of the tile.
+    packet, work
+        Likewise, for what is seen of faded bodies; None where there are none.
     """
     height, width = seen.primitive.shape
     for row in range(top, bottom):
@@ -168,9 +185,13 @@ def find_crossings(
             if not marks[column - left]:
                 continue
             if column + 1 < width:
-                _find_crossing(scene, fog, seen, seen.normal, pen, row, column, 0, crossings)
+                _find_crossing(
+                    scene, fog, seen, seen.normal, pen, row, column, 0, crossings, packet, work
+                )
             if row + 1 < height:
-                _find_crossing(scene, fog, seen, seen.normal, pen, row, column, 1, crossings)
+                _find_crossing(
+                    scene, fog, seen, seen.normal, pen, row, column, 1, crossings, packet, work
+                )
 
 
 @device
@@ -205,6 +226,8 @@ def _find_crossing(
     column: int,
     axis: int,
     crossings: Crossings,
+    packet: Packet | None,
+    work: Workspace | None,
 ) -> None:
     """Find whether and where a line crosses the way from a pixel to that right of it or below."""
     below, beside = row + axis, column + 1 - axis
@@ -212,7 +235,7 @@ def _find_crossing(
     has_crease = _is_crease(seen, normal, pen, row, column, below, beside)
     if not (fullness > 0.0 or has_crease):
         return
-    place, before, after = _halve(scene, seen, normal, row, column, axis)
+    place, before, after = _halve(scene, seen, normal, row, column, axis, packet, work)
     near, far = min(before, after), max(before, after)
     one, two = seen.primitive[row, column], seen.primitive[below, beside]
     share = 1.0 if has_crease else fullness * _width(pen, one, two, near, far)
@@ -278,10 +301,14 @@ def _fullness(primitive: NDArray[np.int32], row: int, column: int) -> float:
     """Return how wide a line around what a pixel sees may be, from 0 to 1."""
     height, width = primitive.shape
     own, count = primitive[row, column], 0
-    for y in range(max(row - WINDOW, 0), min(row + WINDOW + 1, height)):
-        for x in range(max(column - WINDOW, 0), min(column + WINDOW + 1, width)):
+    top, bottom = max(row - WINDOW, 0), min(row + WINDOW + 1, height)
+    left, right = max(column - WINDOW, 0), min(column + WINDOW + 1, width)
+    for y in range(top, bottom):
+        for x in range(left, right):
             count += 1 if primitive[y, x] == own else 0
-    return min(max((count - FEW) / (MANY - FEW), 0.0), 1.0)
+    # As many beside the picture as there are in it.
+    share: float = (2 * WINDOW + 1) * (2 * WINDOW + 1) / ((bottom - top) * (right - left))
+    return min(max((share * count - FEW) / (MANY - FEW), 0.0), 1.0)
 
 
 @device
@@ -330,6 +357,8 @@ def _halve(
     row: int,
     column: int,
     axis: int,
+    packet: Packet | None,
+    work: Workspace | None,
 ) -> tuple[float, float, float]:
     """Return where a line crosses the way between two pixels, and the distances on both sides."""
     below, beside = row + axis, column + 1 - axis
@@ -338,7 +367,7 @@ def _halve(
     place, step = 0.5, 0.25
     for _ in range(HALVINGS):
         ray = camera_ray(scene.camera, column + (1 - axis) * place, row + axis * place)
-        hit = _nearer_of_both(scene.world, ray, seen, row, column, below, beside)
+        hit = _met_by(scene, ray, seen, row, column, below, beside, packet, work)
         is_first = _is_first(
             scene.world, ray, hit, seen, normal, is_nearer, row, column, below, beside
         )
@@ -350,6 +379,39 @@ def _halve(
         elif hit.primitive != NOTHING:
             after = hit.distance
     return place, before, after
+
+
+@device
+def _met_by(
+    scene: SceneArrays,
+    ray: Ray,
+    seen: Seen,
+    row: int,
+    column: int,
+    below: int,
+    beside: int,
+    packet: Packet | None,
+    work: Workspace | None,
+) -> Hit:
+    """Return what a ray between two pixels meets: of what both see, or of all in its way."""
+    # Arguments that are None are known to the compiler, which drops what depends on that alone.
+    if packet is not None:  # noqa: SIM102
+        if work is not None:
+            return _first_surface(scene, ray, packet, work)
+    return _nearer_of_both(scene.world, ray, seen, row, column, below, beside)
+
+
+@device
+def _first_surface(scene: SceneArrays, ray: Ray, packet: Packet, work: Workspace) -> Hit:
+    """Return the first surface that a ray meets which is opaque enough."""
+    world, numbers, sheaf = scene.world, integers(packet), sheaf_of(scene.camera)
+    hit = nearest_hit(world, ray, work.stack)
+    store_ray(packet, 0, ray)
+    packet[DISTANCE] = hit.distance
+    numbers[PRIMITIVE], numbers[MET] = hit.primitive, join_met(hit.group, hit.slot)
+    choose_surfaces(packet, 1, sheaf, world, world.faded, work)
+    group, slot = split_met(numbers[MET])
+    return Hit(packet[DISTANCE], hit.power_at, numbers[PRIMITIVE], group, slot)
 
 
 @device

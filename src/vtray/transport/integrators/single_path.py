@@ -48,7 +48,7 @@ from vtray.transport.integrators.glossy_light import (
     ray_to_lamp,
     ray_to_point,
 )
-from vtray.transport.integrators.lamps import nearest_lamp
+from vtray.transport.integrators.lamps import lamp_beyond, nearest_lamp
 from vtray.transport.integrators.path import (
     MIRRORED,
     SCATTERED,
@@ -432,7 +432,7 @@ def follow_ray(scene: SceneArrays, looks: Looks, packet: Packet, work: Workspace
     hit = nearest_hit(scene.world, waiting.ray, work.stack)
     lamp, distance = NOTHING, hit.distance
     if waiting.sees_lights:
-        lamp, distance = nearest_lamp(waiting.ray, distance, lights.mirrored)
+        lamp, distance = lamp_beyond(waiting.ray, distance, lights.mirrored)
     passes = (1.0, 1.0, 1.0)
     if waiting.within != EMPTY:
         passes = transmitted(three_numbers(looks, waiting.within, 1), distance)
