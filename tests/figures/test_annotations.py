@@ -205,6 +205,9 @@ def test_captions(time: Any, frame: Any, text: str) -> None:
         (0, 1e7, 3, ["0", "5e+06", "1e+07"]),
         (99.99, 100.01, 3, ["99.99", "100.00", "100.01"]),
         (2, 2, 5, ["2"]),
+        (101325000, 101325059, 3, ["101325000", "101325020", "101325040"]),
+        (1, 1 + 5e-9, 3, ["1.000000000", "1.000000002", "1.000000004"]),
+        (1e300, 1.0000001e300, 3, ["1e+300", "1.00000005e+300", "1.0000001e+300"]),
         (0.1, 0.7, 4, ["0.2", "0.4", "0.6"]),
     ],
 )
@@ -213,7 +216,7 @@ def test_round_marks(low: float, high: float, most: int, texts: list[str]) -> No
     assert len(marks) <= most
     for value, text in marks:
         assert low <= value <= high
-        assert float(text.replace("−", "-")) == pytest.approx(value, rel=1e-6)
+        assert float(text.replace("−", "-")) == pytest.approx(value, rel=1e-12)
     assert [text for _, text in marks] == texts
 
 

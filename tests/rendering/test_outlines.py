@@ -110,6 +110,28 @@ def test_what_is_as_small_as_pixels_has_none() -> None:
     assert not lines_of(found).any()
 
 
+def test_lines_are_as_wide_at_the_sides_of_the_picture() -> None:
+    drawn = lines_of(world(cylinder((-9, 0.03, 5), (9, 0.03, 5), 1.2)))
+    assert (drawn.max(axis=0) == drawn.max()).all()
+    narrow = lines_of(world(cylinder((-9, 0.03, 5), (9, 0.03, 5), 1.2), size=[2, SIZE]))
+    assert (narrow.max(axis=0) == drawn.max()).all()
+
+
+@pytest.mark.skipif(JIT, reason="its kernels take half a minute to compile")
+def test_lines_around_bodies_from_within() -> None:
+    scene = vtray.Scene(lights=[vtray.Light((0, 0, 0), 1)])
+    centers = [(0, 0, 0), (0.2, 0.9, 0.1), (0.7, 0.2, 0.9)]
+    scene.add_spheres(centers, [1.5, 1.5, 1.4], color="skyblue", opacity=0.8)
+    scene.camera = vtray.Camera.look_at(
+        (0, 0.2, 0), target=(2, 0.5, 0.6), up=(0, 0, 1), fov_degrees=90, size=(36, 24)
+    )
+    # The body has no inner walls, and its far side no jumps.
+    assert not lines_of(scene, {"borders": "none"}).any()
+    plain = lines_of(scene, {"borders": "particles"})
+    foggy = lines_of(scene, {"borders": "particles"}, fog=(1.2, 2.5))
+    assert 0.2 * plain.sum() < foggy.sum() < 0.7 * plain.sum()
+
+
 def test_fog_hides_lines_too() -> None:
     found = world(sphere((0, 0, 5), 0.8))
     plain = lines_of(found)

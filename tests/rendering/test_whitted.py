@@ -184,3 +184,24 @@ def test_mirrors_show_skies() -> None:
     beside = vtray.render(scene, **known).pixels
     assert np.abs(through.astype(int) - beside).max() <= 1
     assert len(np.unique(beside)) > 9
+
+
+@pytest.mark.parametrize("lamp", ["ball", "panel"])
+def test_mirrors_show_lamps_behind_the_camera(lamp: str) -> None:
+    scene = vtray.Scene()
+    scene.add_plane((0, 0, 0), normal=(0, 0, 1), material="mirror")
+    if lamp == "ball":
+        scene.add_light(vtray.SphereLight((0, 0, 20), 1, radiance=0.7))
+    else:
+        scene.add_rectangle_light((0, 0, 20), [(1, 0, 0), (0, -1, 0)], radiance=0.7)
+    for height in (10, 50):
+        scene.camera = vtray.Camera.look_at(
+            (0.002 * height, 0, height),
+            target=(0, 0, 0),
+            up=(0, 1, 0),
+            fov_degrees=0.01,
+            size=(2, 2),
+        )
+        image = vtray.render(scene, integrator="whitted", exposure=1)
+        np.testing.assert_allclose(image.linear, 0.7 * 255, rtol=1e-12)
+        assert vtray.trace_pixel(image, 0, 0).light == tuple(image.linear[0, 0])

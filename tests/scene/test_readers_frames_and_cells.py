@@ -136,6 +136,17 @@ def test_columns_by_what_files_call_them() -> None:
     assert len(vtray.Scene().add_particles(table, color="charge").spheres) == 2
 
 
+def test_columns_of_names_of_colours(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text("x,y,z,color\n0,0,0,red\n1,0,0,#00ff00\n2,0,0,red\n")
+    drawn = vtray.Scene().add_particles(vtray.read(path))
+    assert drawn.spheres.color.tolist() == [[255, 0, 0], [0, 255, 0], [255, 0, 0]]
+    assert not drawn.legend
+    path.write_text("x,y,z,color\n0,0,0,red\n1,0,0,bright\n")
+    names = [name for name, _ in vtray.Scene().add_particles(vtray.read(path)).legend]
+    assert names == ["bright", "red"]
+
+
 def test_what_is_masked_is_not_drawn() -> None:
     places, masked = np.arange(9.0).reshape(3, 3), np.ma.masked_array([1.0, 50, 3], [0, 1, 0])
     rows = np.ma.masked_array(places, mask=[[0] * 3, [1] * 3, [0] * 3])

@@ -14,8 +14,8 @@ LEAST_POWER = -308
 LONGEST = 7
 """How many digits a number has at most that is written out, if fewer tell it from others."""
 
-MOST = 17
-"""With so many, doubles cannot be told from each other."""
+MOST = 16
+"""With more, doubles cannot be told from each other."""
 
 SHORTEST = 6
 """So many digits numbers may always have."""
@@ -40,7 +40,8 @@ def round_marks(low: float, high: float, most: int) -> list[tuple[float, str]]:
     digits = max(0, -step.adjusted())
     whole = max((abs(value).adjusted() for value in values), default=0)
     needed = whole - step.adjusted() + 1  # digits by which they differ
-    if (digits < LONGEST and whole < LONGEST) or LONGEST < needed < MOST:
+    is_short = digits < LONGEST and whole < LONGEST
+    if is_short or (needed > LONGEST and max(whole, 0) + digits < MOST):
         return [(float(v), _signed(f"{v:.{digits}f}")) for v in values]
     return [(float(v), number_text(float(v), max(needed, SHORTEST))) for v in values]
 

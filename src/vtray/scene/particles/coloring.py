@@ -169,6 +169,8 @@ def _of_column(
     """Return the colours of what a column holds."""
     if name == "color" and values.ndim == 2:
         return _of_values(values, len(values), rows, scaled)
+    if name == "color" and _are_colors(values):
+        return _of_values(values, len(values), rows, scaled)
     if values.ndim == 2:
         values = _lengths(values, name)
     is_text = values.dtype.kind in "OUST"
@@ -181,6 +183,18 @@ def _of_column(
         words = f"column {show(name)} holds names, which no colour map is for"
         raise SceneError(f"color: {words}; leave cmap and clim out")
     return _of_values(values, len(values), rows, scaled)
+
+
+def _are_colors(values: NDArray[Any]) -> bool:
+    """Tell whether values are all names of colours."""
+    if values.ndim != 1 or values.dtype.kind not in "OUST":
+        return False
+    try:
+        for name in set(values.tolist()):
+            to_rgb(name, "")
+    except SceneError:
+        return False
+    return len(values) > 0
 
 
 def _of_categories(values: NDArray[Any], rows: Integers, known: Sequence[Any] | None) -> Coloring:
