@@ -346,6 +346,7 @@ class Image(Rendered):
         )
         return AnnotatedPicture(annotated_pixels(self, wanted, fontsize), self)
 
+    @explain_unknown
     def figure(
         self,
         *,

@@ -138,7 +138,8 @@ def relit(scene: Scene, intensities: Sequence[float]) -> Scene:
     lights = scene.lights
     count = len(intensities) if hasattr(intensities, "__len__") else repr(intensities)
     if count != len(lights):
-        words = f"{len(lights)} numbers, one for each light"
+        numbers = "a list of one number" if len(lights) == 1 else f"{len(lights)} numbers"
+        words = f"{numbers}, one for each light"
         message = f"relight: intensities: expected {words}, got {count}"
         raise SceneError(message)
     changed = []

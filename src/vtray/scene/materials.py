@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 from msgspec import Meta
 
 from vtray.scene.checks.checked import Frozen
-from vtray.scene.checks.limits import FieldError, NonNegative, YesOrNo
+from vtray.scene.checks.limits import Absorption, FieldError, NonNegative, YesOrNo
 from vtray.scene.metals import MetalName
 from vtray.scene.patterns import ImagePattern, Pattern
 from vtray.scene.pictures.pattern_image import PatternImage
@@ -74,7 +74,7 @@ class Glass(Patterned, frozen=True, gc=False, tag_field="type", tag="glass"):
     """
 
     ior: Index = 1.5
-    absorption: tuple[NonNegative, NonNegative, NonNegative] = (0.0, 0.0, 0.0)
+    absorption: Absorption = (0.0, 0.0, 0.0)
     roughness: Share = 0.0
     thin: YesOrNo = False
 

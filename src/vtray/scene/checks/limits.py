@@ -28,6 +28,10 @@ Size = Annotated[
 ]
 SizePair = Annotated[tuple[Size, Size], Meta(description="an array of two integers > 0")]
 PositivePair = Annotated[tuple[Positive, Positive], Meta(description="an array of two numbers > 0")]
+Absorption = Annotated[
+    tuple[NonNegative, NonNegative, NonNegative],
+    Meta(description="three numbers ≥ 0, of red, green and blue"),
+]
 YesOrNo = Annotated[bool, Meta(description="true or false")]
 Projection = Literal["perspective", "orthographic", "panorama"]
 FlatProjection = Literal["perspective", "orthographic"]
