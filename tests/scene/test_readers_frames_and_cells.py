@@ -1,5 +1,6 @@
 """What files say of cells and images, frame by frame."""
 
+import os
 from pathlib import Path
 
 import ase.io
@@ -121,6 +122,22 @@ def test_images_of_data_files(tmp_path: Path) -> None:
     path.write_text(DATA.format(count=3))
     with pytest.raises(SceneError, match="line 13: expected 5 entries, got 0"):
         vtray.read(path, format="lammps-data")
+
+
+def test_frames_of_a_pipe_are_not_counted() -> None:
+    for frames, words in ((None, "frames of a pipe cannot be counted"), ([1], "")):
+        reading, writing = os.pipe()
+        os.write(writing, b"1\n\nC 0 0 0\n1\n\nC 1 0 0\n")
+        os.close(writing)
+        found = vtray.read_frames(f"/dev/fd/{reading}", frames, format="xyz")
+        try:
+            if words:
+                with pytest.raises(SceneError, match=words):
+                    next(found)
+            else:
+                assert next(found).positions.tolist() == [[1, 0, 0]]
+        finally:
+            os.close(reading)
 
 
 def test_columns_by_what_files_call_them() -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from vtray.base.errors import SceneError, why_unreadable
-from vtray.base.input_file import open_input
+from vtray.base.input_file import is_given, open_input
 from vtray.base.memory import available_memory, readable
 from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.unknown_names import explain_unknown
@@ -165,6 +165,9 @@ def numbers_of(
     """Return the numbers of frames of a file, from 0; the arguments are those of `read_frames`."""
 
     def count() -> int:
+        if is_given(path) and not os.path.isfile(path):
+            problem = "frames of a pipe cannot be counted, as it is read once"
+            raise SceneError(f"{problem}; expected a file, or numbers of frames such as 0")
         with _opened(path, format, columns, trajectory) as (module, given):
             return sum(1 for _ in _steps(module, given))
 
