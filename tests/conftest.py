@@ -50,12 +50,13 @@ def pytest_configure(config: pytest.Config) -> None:
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Let those tests be among the last that look at what others have left.
 
-    Of two workers, each begins with a half of all; who is done takes from the end of the other's.
+    Of two workers, each begins with a half of all; the second, which is done sooner, then takes
+    from the end of the first one's.
     """
     last = [item for item in items if item.get_closest_marker("last")]
     others = [item for item in items if not item.get_closest_marker("last")]
     workers = getattr(config, "workerinput", {}).get("workercount")
-    place = len(others) // 2 if workers == 2 else len(others)
+    place = len(others) // 2 - len(last) if workers == 2 else len(others)
     items[:] = [*others[:place], *last, *others[place:]]
 
 
