@@ -118,7 +118,7 @@ def composite(
         _composite(light, exposure, drawn, cover, behind, top, bottom, bytes_)
         if is_transparent:
             with_alpha[top:bottom, :, :3] = pixels[top:bottom]
-            share = _with_lines(cover[top:bottom], drawn.lines[top:bottom])
+            share = with_lines(cover[top:bottom], drawn.lines[top:bottom])
             with_alpha[top:bottom, :, 3] = np.rint(255.0 * share.clip(0.0, 1.0))
 
     run_tasks(range(0, height, TILE), lambda: develop_rows, threads)
@@ -136,7 +136,7 @@ def warm_up(settings: RenderSettings) -> None:
     composite(np.zeros((1, 0, 3)), 0.0, "transparent", lambda: np.zeros((1, 0)), drawn)
 
 
-def _with_lines(cover: NDArray[np.float64], lines: NDArray[np.float32]) -> NDArray[np.float64]:
+def with_lines(cover: NDArray[np.float64], lines: NDArray[np.float32]) -> NDArray[np.float64]:
     """Return how much of each pixel is covered, by lines too, if there are any."""
     return 1.0 - (1.0 - cover) * (1.0 - lines.astype(np.float64)) if lines.size > 0 else cover
 
@@ -179,15 +179,26 @@ def _composite(
 
 
 @device
+def _share_of(light: float, exposure: Exposure) -> float:
+    """Return light as a number of which white is 255, but for rounding."""
+    unit, again = exposure.unit, exposure.again
+    most = exposure.white * unit * again if exposure.white > 0.0 else math.inf
+    return (255.0 * (light * unit * again)) / most
+
+
+@device
+def _is_white(light: float, exposure: Exposure) -> bool:
+    """Tell whether light is white: for one in seven, 255 * white / white is just below 255."""
+    return light == exposure.white > 0.0
+
+
+@device
 def _expose_alone(
     linear: NDArray[np.float64], exposure: Exposure, bytes_: NDArray[np.uint8]
 ) -> None:
     """Expose the channels of a row as if nothing were drawn on them, and all were covered, (n,)."""
-    white, unit, again = exposure.white, exposure.unit, exposure.again
-    most = white * unit * again if white > 0.0 else math.inf
     for k in range(linear.size):
-        share = (255.0 * (linear[k] * unit * again)) / most
-        share = 255.0 if linear[k] == white > 0.0 else share
+        share = 255.0 if _is_white(linear[k], exposure) else _share_of(linear[k], exposure)
         bytes_[k] = np.uint8(math.floor(min(max(share, 0.0), 255.0)))
 
 
@@ -202,8 +213,6 @@ def _expose_with(
     bytes_: NDArray[np.uint8],
 ) -> None:
     """Expose a pixel of a row with what is drawn onto it, and what is behind it."""
-    white, unit, again = exposure.white, exposure.unit, exposure.again
-    most = white * unit * again if white > 0.0 else math.inf
     whole = part.covered if behind.is_transparent else 1.0
     color = behind.red, behind.green, behind.blue
     first, second, third = linear[3 * column], linear[3 * column + 1], linear[3 * column + 2]
@@ -214,9 +223,8 @@ def _expose_with(
         return
     for k in range(3):
         light = linear[3 * column + k] * part.shade * (1.0 - part.line)
-        share = (255.0 * (light * unit * again)) / most
-        share = share / whole if whole > 0.0 else 0.0
-        share = 255.0 if light == white > 0.0 else share
+        share = _share_of(light, exposure) / whole if whole > 0.0 else 0.0
+        share = 255.0 if _is_white(light, exposure) else share
         if whole > 0.0:
             share += (part.fog / whole) * drawn.fog_color[k]
             share += (part.line / whole) * drawn.line_color[k]

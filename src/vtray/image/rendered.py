@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import RenderError
 from vtray.figures.brightness_scale import SHADES, BrightnessScale
-from vtray.image.compositing import Drawn, composite, has_background
+from vtray.image.compositing import Drawn, composite, has_background, with_lines
 from vtray.image.exposure import Overlay, check_brightness, develop
 from vtray.image.orders import Orders, unknown_orders
 from vtray.image.surfaces import Surfaces
@@ -308,9 +308,7 @@ class Rendered:
         what they are drawn on.
         """
         covered = self._covered
-        if self._lines is not None:
-            covered = 1.0 - (1.0 - covered) * self._seen_beside_lines
-        return covered
+        return covered if self._lines is None else with_lines(covered, self._lines)
 
     @property
     def _covered(self) -> Floats:

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import pinned
 from vtray.base.pool import run_tasks
 from vtray.base.tiles import TILE, Tile, split_into_tiles
-from vtray.geometry.packets.packet import Packet, new_packet
-from vtray.geometry.packets.workspace import Workspace, new_workspace
+from vtray.geometry.packets.packet import new_packet
+from vtray.geometry.packets.workspace import new_workspace
 from vtray.image.strokes import draw_strokes
 from vtray.rendering.numbering import number_objects
 from vtray.rendering.pack import Packed
@@ -20,6 +20,7 @@ from vtray.scene.style import Outline
 from vtray.transport.integrators.outlines import (
     STEPS,
     Pen,
+    Scratch,
     Seen,
     find_crossings,
     find_normals,
@@ -74,12 +75,12 @@ def draw_outlines(
 
     def new_worker() -> Callable[[Tile], None]:
         marks = pinned(np.zeros(TILE, np.bool_))
-        scratch: tuple[Packet | None, Workspace | None] = (None, None)
-        if packed.arrays.world.faded is not None:
-            scratch = pinned(new_packet()), pinned(new_workspace(packed.arrays.world))
+        scratch, world = None, packed.arrays.world
+        if world.faded is not None:
+            scratch = pinned(Scratch(new_packet(), new_workspace(world)))
 
         def find(tile: Tile) -> None:
-            find_crossings(arrays, fog, pixels, pen, *tile, found, marks, *scratch)
+            find_crossings(arrays, fog, pixels, pen, *tile, found, marks, scratch)
 
         return find
 

@@ -11,6 +11,7 @@ from vtray.base.exact_math import hypotenuse
 from vtray.base.memory import lack_of_memory
 from vtray.scene.checks.scene_words import show
 from vtray.scene.particles.bonds import Bonds
+from vtray.scene.particles.column_names import IMAGES
 from vtray.scene.particles.lattice import columns_of, lattice_from, lattice_of
 
 if TYPE_CHECKING:
@@ -21,9 +22,6 @@ Integers = NDArray[np.int64]
 
 THIN = 0.0035
 """Radius of a cell's edges, in parts of the longest one that is drawn."""
-
-IMAGES = (("ix", "iy", "iz"),)
-"""Names of columns that say how many cells away a particle is from where it stands."""
 
 ROUNDED = 2.0**-40
 """What is before a face of the cell by less than this part of an edge is on it but for rounding."""
@@ -78,9 +76,8 @@ def unwrapped(particles: "Particles", bonds: Bonds | None) -> tuple[Floats, Inte
     lattice = lattice_of(particles)
     if lattice is None:
         raise SceneError("unwrap: there is no cell that repeats")
-    names = next((names for names in IMAGES if set(names) <= set(particles.columns)), None)
-    if names is not None:
-        moves = -np.stack([particles[name] for name in names], axis=1).astype(np.int64)
+    if all(name in particles.columns for name in IMAGES):
+        moves = -np.stack([particles[name] for name in IMAGES], axis=1).astype(np.int64)
     elif bonds is not None and len(bonds):
         moves = -_ahead(bonds, len(particles))
     else:

@@ -14,7 +14,7 @@ from vtray.scene.checks.scene_words import either, nearest, quoted, show
 from vtray.scene.colors.color_arrays import color_arrays
 from vtray.scene.colors.color_scale import ColorScale
 from vtray.scene.colors.names import Rgb, to_rgb
-from vtray.scene.particles.column_names import canonical
+from vtray.scene.particles.column_names import column_called
 from vtray.scene.particles.elements import SCHEMES, SYMBOLS, atomic_numbers, colors_of
 from vtray.scene.particles.expression import values_of
 from vtray.scene.particles.particles import POSITION
@@ -120,10 +120,9 @@ def color_particles(
     if isinstance(color, str):
         if color == "element" and color in particles.columns and cmap is None:
             return _of_elements(particles["element"][rows], colors)
-        if canonical(color) in particles.columns and color not in particles.columns:
-            color = canonical(color)  # as a file may call it
-        if color in particles.columns or color in POSITION:
-            return _of_column(color, particles[color], rows, scaled, categories)
+        called = column_called(color, particles.columns)
+        if called in particles.columns or color in POSITION:
+            return _of_column(called, particles[called], rows, scaled, categories)
         if _is_expression(color):
             values = values_of(particles, color, "color")
             return _of_column(color, values, rows, scaled, categories)

@@ -38,9 +38,18 @@ VECTORS = {
 """Columns that are one vector where all three are there."""
 
 
+IMAGES = ("ix", "iy", "iz")
+"""Columns that say how many cells away a particle is from where it stands."""
+
+
 def canonical(name: str) -> str:
     """Return what a column is called here; its own name if that is not known."""
     return _CANONICAL.get(name.strip().lower().replace(" ", "_"), name)
+
+
+def column_called(name: str, columns: "Mapping[str, Array]") -> str:
+    """Return the name of the column that is meant: as it is called here, or as a file calls it."""
+    return name if name in columns else canonical(name)
 
 
 def name_columns(columns: "Mapping[str, Array]") -> "dict[str, Array]":

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.given_array import check_unmasked, show_array
-from vtray.scene.particles.column_names import canonical
+from vtray.scene.particles.column_names import column_called
 from vtray.scene.particles.expression import mask
 from vtray.scene.particles.object_column import without_objects
 
@@ -142,10 +142,9 @@ class Particles:
         if not isinstance(given, str):
             words = 'rows are chosen by select="index < 5" as they are drawn'
             raise SceneError(f"expected the name of a column, got {show_array(given)}; {words}")
-        if name in self.columns:
-            return self.columns[name]
-        if canonical(name) in self.columns and name not in POSITION:
-            return self.columns[canonical(name)]  # as a file may call it
+        called = column_called(name, self.columns)
+        if called in self.columns:
+            return self.columns[called]
         if name in POSITION:
             column: NDArray[Any] = self.positions[:, POSITION.index(name)]
             return column

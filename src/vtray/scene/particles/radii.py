@@ -9,7 +9,7 @@ from vtray.base.errors import SceneError
 from vtray.scene.checks.given_array import check_unmasked
 from vtray.scene.checks.scene_words import nearest, show
 from vtray.scene.particles import elements
-from vtray.scene.particles.column_names import canonical
+from vtray.scene.particles.column_names import column_called
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -57,9 +57,7 @@ def radii_of(particles: "Particles", radii: Radii, place: str) -> Floats | float
             remedy = "there is no column element; give a number, an array, or the name of a column"
             raise SceneError(f"{place}: {radii} radii are those of elements, and {remedy}")
         return elements.radii_of(particles["element"], radii)
-    if isinstance(radii, str) and canonical(radii) in particles.columns:
-        radii = radii if radii in particles.columns else canonical(radii)
-    if isinstance(radii, str) and radii not in particles.columns:
+    if isinstance(radii, str) and column_called(radii, particles.columns) not in particles.columns:
         known = [*elements.RADII, *particles.columns]
         close = nearest(radii, known, cutoff=0.6)
         hint = f"; did you mean {close}?" if close else ""

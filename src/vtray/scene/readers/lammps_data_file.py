@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
-from vtray.scene.particles.column_names import name_columns
+from vtray.scene.particles.column_names import IMAGES, name_columns
 from vtray.scene.particles.elements import are_symbols
 from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.frames import frame_number
@@ -46,9 +46,6 @@ _BY_WIDTH = {5: "atomic", 8: "atomic", 7: "full", 10: "full"}
 """The style where none is named, by the number of columns."""
 
 _INTEGERS = ("id", "mol", "type", "ellipsoid")
-
-_IMAGES = ("ix", "iy", "iz")
-"""What the columns behind those of a style are: the images in which the atoms are."""
 
 _INTEGER = re.compile("[-+]?[0-9]+")
 
@@ -260,21 +257,23 @@ def _atoms_of(lines: Lines, count: int, style: str) -> "dict[str, Array]":
         remedy = f"expected, as in 'Atoms # full', one of {known}"
         raise SceneError(f"line {lines.number - 1}: {problem}; {remedy}")
     names = _STYLES[name].split()
-    kind_of = dict.fromkeys(names, "R") | dict.fromkeys((*_INTEGERS, *_IMAGES), "I")
+    kind_of = dict.fromkeys(names, "R") | dict.fromkeys((*_INTEGERS, *IMAGES), "I")
     entries = dict(zip(names, first, strict=False))
     if re.match("[A-Za-z]", entries.get("type", "")):
         kind_of["type"] = "S"  # called by their labels
     has_images = len(first) == len(names) + 3 and all(map(_INTEGER.fullmatch, first[-3:]))
-    columns = {}
-    for wanted in ([*names, *_IMAGES], names) if has_images else (names,):
-        kinds = "".join(kind_of[name] for name in wanted)
-        try:
-            columns = dict(zip(wanted, read_rows(lines, count, kinds, more=True), strict=True))
-            break
-        except SceneError:
-            if wanted is names:
-                raise
-            lines.go(place)  # some rows say no images
+
+    def rows_of(names: list[str]) -> "dict[str, Array]":
+        kinds = "".join(kind_of[name] for name in names)
+        return dict(zip(names, read_rows(lines, count, kinds, more=True), strict=True))
+
+    try:
+        columns = rows_of([*names, *IMAGES] if has_images else names)
+    except SceneError:
+        if not has_images:
+            raise
+        lines.go(place)
+        columns = rows_of(names)  # some rows say no images
     positions = np.stack([columns[name] for name in "xyz"], axis=1)
     check_places(positions, range(lines.number - count + 1, lines.number + 1))
     return columns

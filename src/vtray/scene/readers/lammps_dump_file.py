@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
-from vtray.scene.particles.column_names import name_columns
+from vtray.scene.particles.column_names import IMAGES, name_columns
 from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.frames import Steps, find_frame, steps_of
 from vtray.scene.readers.lines import Lines
@@ -24,17 +24,10 @@ if TYPE_CHECKING:
     Array = NDArray[Any]
     Cell = NDArray[np.float64]
 
-_INTEGERS = ("id", "type", "mol", "proc", "ix", "iy", "iz")
+_INTEGERS = ("id", "type", "mol", "proc", *IMAGES)
 
 _PLACES = (("x", "y", "z"), ("xu", "yu", "zu"), ("xs", "ys", "zs"), ("xsu", "ysu", "zsu"))
 """What columns of places are called: as they are or unwrapped, then both as shares of the box."""
-
-
-_UNWRAPPED = (1, 3)
-"""Which of these are where particles would be if they had never been wrapped."""
-
-_IMAGES = {"ix", "iy", "iz"}
-"""Columns that say how many cells away a particle is from where it stands."""
 
 
 class _Head(NamedTuple):
@@ -196,8 +189,8 @@ def _places_of(
         if not all(name in columns for name in names):
             continue
         places: Array = np.stack([columns.pop(name) for name in names], axis=1)
-        if number in _UNWRAPPED:
-            columns |= {name: np.zeros(len(places), np.int64) for name in _IMAGES & columns.keys()}
+        if names[0].endswith("u"):
+            columns |= {name: np.zeros_like(columns[name]) for name in IMAGES if name in columns}
         if number < 2:
             break
         if cell is None:

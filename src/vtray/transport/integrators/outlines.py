@@ -80,6 +80,13 @@ class Pen(NamedTuple):
     growth: float
 
 
+class Scratch(NamedTuple):
+    """Scratch memory of a thread."""
+
+    packet: Packet
+    work: Workspace
+
+
 class Seen(NamedTuple):
     """What the middle rays of all pixels see.
 
@@ -155,8 +162,7 @@ def find_crossings(
     bottom: int,
     crossings: Crossings,
     marks: NDArray[np.bool_],
-    packet: Packet | None,
-    work: Workspace | None,
+    scratch: Scratch | None,
 ) -> None:
     """Find where lines cross the ways that begin at the pixels of a tile.
 
@@ -174,7 +180,7 @@ def find_crossings(
         Out: those of the tile.
     marks
         Scratch memory of this thread, one for each pixel of a row of the tile.
-    packet, work
+    scratch
         Likewise, for what is seen of faded bodies; None where there are none.
     """
     height, width = seen.primitive.shape
@@ -186,11 +192,11 @@ def find_crossings(
                 continue
             if column + 1 < width:
                 _find_crossing(
-                    scene, fog, seen, seen.normal, pen, row, column, 0, crossings, packet, work
+                    scene, fog, seen, seen.normal, pen, row, column, 0, crossings, scratch
                 )
             if row + 1 < height:
                 _find_crossing(
-                    scene, fog, seen, seen.normal, pen, row, column, 1, crossings, packet, work
+                    scene, fog, seen, seen.normal, pen, row, column, 1, crossings, scratch
                 )
 
 
@@ -226,8 +232,7 @@ def _find_crossing(
     column: int,
     axis: int,
     crossings: Crossings,
-    packet: Packet | None,
-    work: Workspace | None,
+    scratch: Scratch | None,
 ) -> None:
     """Find whether and where a line crosses the way from a pixel to that right of it or below."""
     below, beside = row + axis, column + 1 - axis
@@ -235,7 +240,7 @@ def _find_crossing(
     has_crease = _is_crease(seen, normal, pen, row, column, below, beside)
     if not (fullness > 0.0 or has_crease):
         return
-    place, before, after = _halve(scene, seen, normal, row, column, axis, packet, work)
+    place, before, after = _halve(scene, seen, normal, row, column, axis, scratch)
     near, far = min(before, after), max(before, after)
     one, two = seen.primitive[row, column], seen.primitive[below, beside]
     share = 1.0 if has_crease else fullness * _width(pen, one, two, near, far)
@@ -357,8 +362,7 @@ def _halve(
     row: int,
     column: int,
     axis: int,
-    packet: Packet | None,
-    work: Workspace | None,
+    scratch: Scratch | None,
 ) -> tuple[float, float, float]:
     """Return where a line crosses the way between two pixels, and the distances on both sides."""
     below, beside = row + axis, column + 1 - axis
@@ -367,7 +371,7 @@ def _halve(
     place, step = 0.5, 0.25
     for _ in range(HALVINGS):
         ray = camera_ray(scene.camera, column + (1 - axis) * place, row + axis * place)
-        hit = _met_by(scene, ray, seen, row, column, below, beside, packet, work)
+        hit = _met_by(scene, ray, seen, row, column, below, beside, scratch)
         is_first = _is_first(
             scene.world, ray, hit, seen, normal, is_nearer, row, column, below, beside
         )
@@ -390,14 +394,12 @@ def _met_by(
     column: int,
     below: int,
     beside: int,
-    packet: Packet | None,
-    work: Workspace | None,
+    scratch: Scratch | None,
 ) -> Hit:
     """Return what a ray between two pixels meets: of what both see, or of all in its way."""
-    # Arguments that are None are known to the compiler, which drops what depends on that alone.
-    if packet is not None:  # noqa: SIM102
-        if work is not None:
-            return _first_surface(scene, ray, packet, work)
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if scratch is not None:
+        return _first_surface(scene, ray, scratch.packet, scratch.work)
     return _nearer_of_both(scene.world, ray, seen, row, column, below, beside)
 
 
