@@ -427,6 +427,42 @@ def test_csv(tmp_path: Path) -> None:
     assert swapped.positions.tolist() == [[2, 1, 3], [5, 4, 6]]
 
 
+COMMENTED = {
+    "# made by me\n# with 'quotes\" and, commas\nx,y,z\n1,2,3\n": [],
+    "# made by me\n\nx;y;z\n1;2;3\n": [],
+    "# t = 3 ps\n# x,y,z\n1,2,3\n": [],
+    "#element,x,y,z\nH,1,2,3\n": ["element"],
+    "#element,x,y,z\n#1,1,2,3\n": None,
+    "# by me\n1,2,3\n": None,
+    "\r\nx\ty\tz\r\n1\t2\t3\r\n": [],
+    "x,y,z,color\n1,2,3,#ff0000\n": ["color"],
+    "color,x,y,z\n#ff0000,1,2,3\n": ["color"],
+}
+
+
+@pytest.mark.parametrize(("text", "columns"), COMMENTED.items())
+def test_csv_with_comments(text: str, columns: list[str] | None, tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text(text, newline="")
+    if columns is None:
+        with pytest.raises(SceneError, match="expected the names of the columns"):
+            vtray.read(path)
+        return
+    found = vtray.read(path)
+    assert found.positions.tolist() == [[1, 2, 3]]
+    assert list(found.columns) == columns
+
+
+def test_csv_with_comments_says_the_line(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text("# one\n# two\nx,y,z\n1,2,3\n1,2\n")
+    with pytest.raises(SceneError, match="a.csv: line 5: expected 3 entries, got 2$"):
+        vtray.read(path)
+    path.write_text("# one\n# two\nx,y,z\n1,2,3\n1,a,3\n")
+    with pytest.raises(SceneError, match="a.csv: line 5: column 'y': expected numbers"):
+        vtray.read(path)
+
+
 @pytest.mark.parametrize("name", ["cell", "box", "Lattice"])
 @pytest.mark.parametrize("cell", [[4.0, 5.0, 6.0], [[4, 0, 0], [1, 5, 0], [0, 0, 6.0]]])
 def test_npz_with_a_cell_and_a_time(name: str, cell: list[object], tmp_path: Path) -> None:

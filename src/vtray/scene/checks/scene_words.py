@@ -18,7 +18,7 @@ _UNIONS = (types.UnionType, typing.Union)
 _SHOWN_ITEMS = 4
 _SHOWN_DEPTH = 2
 
-_SYNONYMS = {"intensity": "radiance"}
+_SYNONYMS = {"intensity": "radiance", "radiance": "intensity"}
 """Words that do not look like those that are meant."""
 
 SHOWN_UNKNOWN = 20

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 _SEPARATORS = ",;\t"
 
+_COMMENT = "#"
+
 CELLS = {"cell", "box", "lattice"}
 """What the three vectors of a cell, or its three lengths, are called in .npz files."""
 
@@ -55,7 +57,7 @@ def read(given: Given) -> Particles:
     """
     frame_number(given.frame, 1)
     if given.format == "csv":
-        text = _read_text(given)
+        text = _without_comments(_read_text(given))
         return from_columns(_csv_columns(text), given.columns, partial(_in_line, text))
     columns = {"npz": _read_npz, "parquet": _read_parquet}[given.format](given)
     of_frame = _taken_out(columns) if given.format == "npz" else {}
@@ -70,17 +72,31 @@ def _read_text(given: Given) -> str:
         raise SceneError(f"byte {error.start}: not UTF-8; expected text") from None
 
 
+def _without_comments(text: str) -> str:
+    """Return a text whose comments before all else are empty lines.
+
+    The last of them stays if it names the columns, as those of NumPy do: where numbers follow.
+    """
+    count, last, rest = 0, "", text
+    while rest.startswith(_COMMENT):
+        last, _, rest = rest.partition("\n")
+        count += 1
+    named, first = (next(_csv_lines(line.partition("\n")[0]), []) for line in (last, rest))
+    has_numbers = any(_column([entry]).dtype.kind in "if" for entry in first)
+    names = last.lstrip(_COMMENT) if has_numbers and len(named) == len(first) else ""
+    return "\n" * (count - 1) + names + "\n" + rest if count else text
+
+
 def _csv_columns(text: str) -> "dict[str, Array]":
     """Return columns between commas, semicolons or tabs, named in the first line."""
-    head = text.partition("\n")[0]
-    entries = head.count(_separator(text)) + 1
+    entries = _first_line(text).count(_separator(text)) + 1
     lack = lack_of_memory(_BYTES * entries * text.count("\n"))
     if lack:
         raise SceneError(f"reading it needs about {lack}")
     lines = _csv_lines(text)
     try:
-        names = [name.strip() for name in next(lines, [])]
-        _check_names(names)
+        names = [name.strip() for name in next(filter(None, lines), [])]
+        _check_names(names, lines.line_num or 1)
         rows = []
         for row in lines:
             if len(row) != len(names) and row:
@@ -96,7 +112,12 @@ def _csv_columns(text: str) -> "dict[str, Array]":
 
 def _separator(text: str) -> str:
     """Return what is between the entries of a text."""
-    return max(_SEPARATORS, key=text.partition("\n")[0].count)
+    return max(_SEPARATORS, key=_first_line(text).count)
+
+
+def _first_line(text: str) -> str:
+    """Return the first line of a text that is not empty."""
+    return text.lstrip("\r\n").partition("\n")[0]
 
 
 def _csv_lines(text: str) -> Any:  # noqa: ANN401
@@ -112,15 +133,15 @@ def _in_line(text: str, row: int, name: str) -> str:
     return f"line {next(islice(rows, row + 1, None))}: column {name!r}"
 
 
-def _check_names(names: list[str]) -> None:
-    """Raise SceneError if the first line does not name the columns."""
+def _check_names(names: list[str], line: int) -> None:
+    """Raise SceneError if a line does not name the columns."""
     are_numbers = bool(names) and all(_column([name]).dtype.kind in "if" for name in names)
     if not any(names) or are_numbers:
         shown = short(",".join(names)) or "nothing"
-        raise SceneError(f"line 1: expected the names of the columns, got {shown}")
+        raise SceneError(f"line {line}: expected the names of the columns, got {shown}")
     twice = next((name for i, name in enumerate(names) if name in names[:i]), None)
     if twice is not None:
-        raise SceneError(f"line 1: expected each column once, got {short(twice)!r} twice")
+        raise SceneError(f"line {line}: expected each column once, got {short(twice)!r} twice")
 
 
 def _column(entries: list[str]) -> "Array":
