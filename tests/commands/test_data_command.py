@@ -146,10 +146,14 @@ def test_particles_that_are_lost_in_their_cell(tmp_path: Path) -> None:
 
 def test_nothing_but_a_cell(water: Path) -> None:
     none = ["--select", "charge > 9", "--legend", "--boundary", "--bonds"]
-    scene = scene_of(water, *none)
+    words = "water.xyz: --select: none of the 3 particles; the cell alone is shown"
+    with pytest.warns(UserWarning, match=words):
+        scene = scene_of(water, *none)
     assert [len(item) for item in scene.objects] == [0, 0, 12, 8]
     options = parse([*none, str(water), "picture.png"])
-    assert annotations_of(options, load_data(options)[1])["legend"] is None
+    with pytest.warns(UserWarning, match=words):
+        marks = load_data(options)[1]
+    assert annotations_of(options, marks)["legend"] is None
     empty = water.with_name("empty.xyz")
     empty.write_text('0\nLattice="6 0 0 0 6 0 0 0 6"\n')
     scene = scene_of(empty, "--style", "points", "--legend")

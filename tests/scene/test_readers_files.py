@@ -434,6 +434,7 @@ COMMENTED = {
     "#element,x,y,z\nH,1,2,3\n": ["element"],
     "#element,x,y,z\n#1,1,2,3\n": None,
     "# by me\n1,2,3\n": None,
+    '#,"never closed\nx,y,z\n1,2,3\n': [],
     "\r\nx\ty\tz\r\n1\t2\t3\r\n": [],
     "x,y,z,color\n1,2,3,#ff0000\n": ["color"],
     "color,x,y,z\n#ff0000,1,2,3\n": ["color"],

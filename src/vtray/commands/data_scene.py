@@ -58,6 +58,9 @@ def shown_data(
     """
     scene, drawn, marks = draw_data(options, particles)
     if not _is_empty(drawn):
+        if len(particles) and not len(drawn.indices):
+            words = f"--select: none of the {len(particles)} particles; the cell alone is shown"
+            warnings.warn(f"{options.scene}: {words}", stacklevel=2)
         _warn_if_lost(options, drawn)
         return scene, marks
     if len(particles):

@@ -3,6 +3,7 @@
 import functools
 import logging
 import math
+import warnings
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -163,6 +164,9 @@ def scale_of(
     spread: Literal["linear", "log"] = "log" if norm == "log" else "linear"
     if clim is None:
         finite = values[np.isfinite(values)]
+        if norm == "log" and finite.size and finite.max() <= 0.0:
+            words = "no value is above 0, as logarithms need; all get nan_color"
+            warnings.warn(f"{place}norm: {words}", stacklevel=2)
         finite = finite[finite > 0.0] if norm == "log" else finite
         usual = (1.0, 10.0) if norm == "log" else (0.0, 1.0)
         low, high = (float(finite.min()), float(finite.max())) if finite.size else usual

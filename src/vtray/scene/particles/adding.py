@@ -155,7 +155,7 @@ class AddingParticles:
             Whether particles outside the cell are brought into it.
         unwrap
             Whether molecules that the border cuts are made whole, by their bonds, or by the columns
-            ix, iy and iz where they are there.
+            ix, iy and iz, or image, where they are there.
         camera
             The camera of the picture, for points alone; by default that of the scene.
 

@@ -11,7 +11,7 @@ from vtray.base.exact_math import hypotenuse
 from vtray.base.memory import lack_of_memory
 from vtray.scene.checks.scene_words import show
 from vtray.scene.particles.bonds import Bonds
-from vtray.scene.particles.column_names import IMAGES
+from vtray.scene.particles.column_names import IMAGE, IMAGES
 from vtray.scene.particles.lattice import columns_of, lattice_from, lattice_of
 
 if TYPE_CHECKING:
@@ -63,10 +63,10 @@ def wrapped(particles: "Particles") -> tuple[Floats, Integers]:
 def unwrapped(particles: "Particles", bonds: Bonds | None) -> tuple[Floats, Integers]:
     """Return particles where their molecules are whole, and by how many edges each moved back.
 
-    Columns that count the cells a particle has come through, ``ix``, ``iy`` and ``iz``, are used
-    where they are there: then each stands where it would be if it had never been wrapped. Without
-    them, bonds are followed from the particle with the least index of each molecule. In what is
-    bound without end, such as a crystal, some bonds go on crossing the border.
+    Columns that count the cells a particle has come through, ``ix``, ``iy`` and ``iz``, or
+    ``image``, are used where they are there: then each stands where it would be if it had never
+    been wrapped. Without them, bonds are followed from the particle with the least index of each
+    molecule. In what is bound without end, such as a crystal, some bonds go on crossing the border.
 
     Raises
     ------
@@ -76,14 +76,26 @@ def unwrapped(particles: "Particles", bonds: Bonds | None) -> tuple[Floats, Inte
     lattice = lattice_of(particles)
     if lattice is None:
         raise SceneError("unwrap: there is no cell that repeats")
-    if all(name in particles.columns for name in IMAGES):
-        moves = -np.stack([particles[name] for name in IMAGES], axis=1).astype(np.int64)
+    images = _images_of(particles)
+    if images is not None:
+        moves = -images
     elif bonds is not None and len(bonds):
         moves = -_ahead(bonds, len(particles))
     else:
-        raise SceneError("unwrap: needs bonds, or the columns ix, iy and iz")
+        raise SceneError("unwrap: needs bonds, or the columns ix, iy and iz, or image")
     columns = lattice.moved(columns_of(particles.positions), [-moves[:, k] for k in range(3)])
     return np.stack(columns, axis=1), moves
+
+
+def _images_of(particles: "Particles") -> Integers | None:
+    """Return how many cells each particle has come through, (n, 3), None if that is not known."""
+    columns = particles.columns
+    if all(name in columns for name in IMAGES):
+        return np.stack([columns[name] for name in IMAGES], axis=1).astype(np.int64)
+    whole = columns.get(IMAGE)
+    if whole is not None and whole.dtype.kind in "iu" and whole.shape == (len(particles), 3):
+        return whole.astype(np.int64)
+    return None
 
 
 def molecules(bonds: Bonds, count: int) -> Integers:

@@ -176,11 +176,12 @@ def _of_column(
     few = values.dtype.kind in "iub" and (
         name == TYPE or categories is not None or len(np.unique(values)) <= len(PALETTE)
     )
-    if scaled["cmap"] is None and scaled["clim"] is None and (is_text or few):
+    asked = [argument for argument in ("cmap", "clim", "norm") if scaled[argument] is not None]
+    if not asked and (is_text or few):
         return _of_categories(values, rows, categories)
     if is_text:
         words = f"column {show(name)} holds names, which no colour map is for"
-        raise SceneError(f"color: {words}; leave cmap and clim out")
+        raise SceneError(f"color: {words}; leave {' and '.join(asked)} out")
     return _of_values(values, len(values), rows, scaled)
 
 

@@ -14,6 +14,7 @@ _CALLED = {
     "type": ("types", "particle_type", "atom_types"),
     "name": ("names",),
     "radius": ("radii",),
+    "diameter": ("diameters",),
     "color": ("colors", "colour", "colours", "rgb"),
     "velocity": ("velocities", "velo", "vel"),
     "force": ("forces", "frc"),
@@ -41,6 +42,9 @@ VECTORS = {
 IMAGES = ("ix", "iy", "iz")
 """Columns that say how many cells away a particle is from where it stands."""
 
+IMAGE = "image"
+"""One column of three that says the same."""
+
 
 def canonical(name: str) -> str:
     """Return what a column is called here; its own name if that is not known."""
@@ -55,7 +59,8 @@ def column_called(name: str, columns: "Mapping[str, Array]") -> str:
 def name_columns(columns: "Mapping[str, Array]") -> "dict[str, Array]":
     """Give columns their names.
 
-    Three that are one vector are joined, and atomic numbers become elements. Names that are no
+    Three that are one vector are joined, and atomic numbers become elements. Where there is no
+    radius, half of a diameter is one. Names that are no
     symbols of elements are a ``type``. Where two columns would have one name, the second keeps
     its own.
     """
@@ -64,8 +69,11 @@ def name_columns(columns: "Mapping[str, Array]") -> "dict[str, Array]":
     from vtray.scene.particles.elements import symbols_of, symbols_or_none
 
     named: dict[str, Array] = {}
+    has_radius = any(canonical(name) == "radius" for name in columns)
     for name, values in join_vectors(columns).items():
         new, found = canonical(name), values
+        if new == "diameter" and not has_radius and values.dtype.kind in "iuf":
+            named["radius"] = values / 2
         if name.lower() in _NUMBERS and values.dtype.kind in "iu" and values.ndim == 1:
             new, found = "element", symbols_of(values)
         elif new == "element":

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
+from vtray.scene.particles.column_names import column_called
 
 if TYPE_CHECKING:
     import numpy as np
@@ -73,8 +74,8 @@ def mask(particles: Table, expression: str, name: str = "select") -> "Mask":
     and ``force[0]`` are the first component of a vector. It may have numbers, names in quotes,
     ``in ('O', 'H')``, comparisons (also ``0 < z < 3``), ``and``, ``or``, ``not`` (or ``&``, ``|``
     and ``~``), ``+ - * / // % **``, and the functions ``abs``, ``sqrt``, ``norm`` (length of a
-    vector), ``min``, ``max`` and ``mean`` (of all particles). ``column('c_pe')`` is a column of any
-    name.
+    vector), ``min``, ``max`` and ``mean`` (of all particles, but for NaN). ``column('c_pe')`` is a
+    column of any name.
 
     Parameters
     ----------
@@ -228,6 +229,8 @@ class _Steps:
         values = np.atleast_1d(found)
         if not len(values):
             raise self._wrong(node, f"{name}() of no particles")
+        if not np.isnan(values).all():
+            values = values[~np.isnan(values)]
         # Exact, whatever the order in which a machine would add.
         return math.fsum(values) / len(values) if name == "mean" else getattr(values, name)()
 
@@ -300,8 +303,9 @@ class _Steps:
         import numpy as np
 
         particles = self._particles
-        if name in particles.columns:
-            found = particles.columns[name]
+        called = column_called(name, particles.columns)
+        if called in particles.columns:
+            found = particles.columns[called]
             return found if found.dtype.kind in "biufU" else found.astype(np.str_)
         if name in ("x", "y", "z"):
             return particles.positions[:, "xyz".index(name)]

@@ -121,6 +121,9 @@ def from_mdanalysis(group: Any) -> Particles:  # noqa: ANN401
         problem = "expected a Universe or an AtomGroup of MDAnalysis"
         raise SceneError(f"from_mdanalysis: {problem}, got {show_array(group)}")
     universe, atoms = group.universe, group.atoms
+    if not hasattr(universe, "trajectory"):
+        remedy = 'load them first, as in universe.load_new("run.xtc")'
+        raise SceneError(f"from_mdanalysis: the Universe has no places; {remedy}")
     now = universe.trajectory.ts
     columns: dict[str, Array] = {}
     for attribute, name in _ATTRIBUTES.items():

@@ -35,12 +35,16 @@ class MadeOf(NamedTuple):
     copies
         At which of several places stands what each object repeats, (n,), or each of its two ends,
         (n, 2); None where it is told by their order.
+    joined
+        Which particles bonds join of which only halves are shown, (n, 2); None where `indices`
+        tells it.
     """
 
     particles: "Particles"
     indices: Integers
     kind: str
     copies: Integers | None = None
+    joined: Integers | None = None
 
     def particle(self, index: int, half: int) -> int:
         """Return the particle of an object; of a cylinder, that at its start or, 1, its end."""

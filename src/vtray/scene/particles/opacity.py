@@ -55,7 +55,7 @@ def see_through(part: Part, opacity: Floats) -> Part:
     """
     source = made_of(part)
     assert source is not None  # noqa: S101 - they are made of particles
-    rows = opacity[source.indices]
+    rows = opacity[source.indices if source.joined is None else source.joined]
     each = rows if rows.ndim == 1 else rows.min(axis=1)
     found = float(each[0]) if len(each) and (each == each[0]).all() else each
     return remember(part.replace(opacity=found).with_scale(part.color_scale), source)

@@ -61,15 +61,13 @@ def sticks(
     half = (1.0 + _larger_by(way, radius, place[begin], place[end])) / 2 * way
     starts = np.concatenate([starts, near, far])
     ends = np.concatenate([ends, near + half, far - (way - half)])
-    indices = np.concatenate(
-        [
-            np.stack([one, two], axis=1),
-            np.stack([begin, begin], axis=1),
-            np.stack([end, end], axis=1),
-        ]
-    )
+    across_border = np.stack([begin, end], axis=1)
+    joined = np.concatenate([np.stack([one, two], axis=1), across_border, across_border])
+    indices = joined.copy()
+    halves = indices[len(one) :]
+    halves[: len(begin)], halves[len(begin) :] = begin[:, None], end[:, None]
     made = _colored(starts, ends, thick, colors, place[indices])
-    return remember(made, MadeOf(particles, indices, "bond"))
+    return remember(made, MadeOf(particles, indices, "bond", joined=joined))
 
 
 def whole_sticks(

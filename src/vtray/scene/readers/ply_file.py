@@ -18,11 +18,14 @@ from vtray.scene.readers.reader_table import Given
 _TIMES = 8
 """Bytes of memory for a byte of a file."""
 
+_COLORS = {"red", "green", "blue"}
+
 
 def read(given: Given) -> Particles:
     """Read the vertices of a PLY file, with their properties as columns.
 
-    ``red``, ``green`` and ``blue`` become ``color``, ``nx``, ``ny`` and ``nz`` ``normal``.
+    ``red``, ``green`` and ``blue`` become ``color``, of which colours of 16 bits lose the lower
+    eight; ``nx``, ``ny`` and ``nz`` become ``normal``.
 
     Raises
     ------
@@ -46,4 +49,7 @@ def read(given: Given) -> Particles:
             for name in vertices.dtype.names
             if vertices.dtype[name].kind != "O"
         }
+    for name in _COLORS & columns.keys():
+        if columns[name].dtype == np.uint16:
+            columns[name] = (columns[name] >> 8).astype(np.uint8)
     return from_columns(columns, given.columns)

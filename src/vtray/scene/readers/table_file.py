@@ -81,9 +81,11 @@ def _without_comments(text: str) -> str:
     while rest.startswith(_COMMENT):
         last, _, rest = rest.partition("\n")
         count += 1
-    named, first = (next(_csv_lines(line.partition("\n")[0]), []) for line in (last, rest))
+    separator = _separator(rest)
+    first = _first_line(rest).split(separator)
     has_numbers = any(_column([entry]).dtype.kind in "if" for entry in first)
-    names = last.lstrip(_COMMENT) if has_numbers and len(named) == len(first) else ""
+    is_named = has_numbers and last.count(separator) == len(first) - 1
+    names = last.lstrip(_COMMENT) if is_named else ""
     return "\n" * (count - 1) + names + "\n" + rest if count else text
 
 
@@ -93,19 +95,21 @@ def _csv_columns(text: str) -> "dict[str, Array]":
     lack = lack_of_memory(_BYTES * entries * text.count("\n"))
     if lack:
         raise SceneError(f"reading it needs about {lack}")
-    lines = _csv_lines(text)
+    lines, begin = _csv_lines(text), 1
     try:
         names = [name.strip() for name in next(filter(None, lines), [])]
         _check_names(names, lines.line_num or 1)
-        rows = []
+        rows, begin = [], lines.line_num + 1
         for row in lines:
             if len(row) != len(names) and row:
                 words = f"expected {len(names)} entries, got {len(row)}"
-                raise SceneError(f"line {lines.line_num}: {words}")
+                raise SceneError(f"line {begin}: {words}")
             if row:
                 rows.append(row)
+            begin = lines.line_num + 1
     except csv.Error as error:
-        raise SceneError(f"line {lines.line_num}: {error}") from None
+        words = "a quote has no end" if lines.line_num > begin else str(error)
+        raise SceneError(f"line {begin}: {words}") from None
     parts = zip(*rows, strict=True) if rows else ([] for _ in names)
     return {name: _column(list(part)) for name, part in zip(names, parts, strict=True)}
 
@@ -123,7 +127,7 @@ def _first_line(text: str) -> str:
 def _csv_lines(text: str) -> Any:  # noqa: ANN401
     """Return a reader of the lines of a text, entry by entry."""
     file = io.StringIO(text, newline="")
-    return csv.reader(file, delimiter=_separator(text), skipinitialspace=True)
+    return csv.reader(file, delimiter=_separator(text), skipinitialspace=True, strict=True)
 
 
 def _in_line(text: str, row: int, name: str) -> str:
@@ -176,11 +180,14 @@ def _read_npz(given: Given) -> "dict[str, Array]":
 
     names = ["position"] if given.path.lower().endswith(".npy") else _names_of(given)
     arrays, _ = read_arrays(Path(given.path), names, alone="position", check=check)
+    records = arrays.get("position")
+    if records is not None and records.dtype.names:
+        return {name: records[name] for name in records.dtype.names}
     return arrays
 
 
 def _taken_out(arrays: "dict[str, Array]") -> dict[str, Any]:
-    """Take out of arrays what is known of the whole frame: its cell, what repeats, and its time.
+    """Take out of arrays what is known of the whole frame: its cell, what repeats, bonds, time.
 
     What else has such a name, as a second cell, stays, and is taken for a column.
     """
@@ -193,9 +200,13 @@ def _taken_out(arrays: "dict[str, Array]") -> dict[str, Any]:
             found["cell"] = np.diag(array) if array.ndim == 1 else array
             found.setdefault("periodic", None)  # along all its edges
             del arrays[name]
-        elif name.lower() in PERIODIC and array.shape == (3,) and array.dtype == np.bool_:
-            found["periodic"] = tuple(array.tolist())
+        elif name.lower() in PERIODIC and array.shape == (3,) and set(array.tolist()) <= {0, 1}:
+            found["periodic"] = tuple(map(bool, array.tolist()))
             del arrays[name]
+        elif name.lower() == "origin" and array.shape == (3,) and array.dtype.kind in "iuf":
+            found["origin"] = arrays.pop(name)
+        elif name.lower() == "bonds" and array.ndim == 2 and array.shape[1] == 2:
+            found["bonds"] = arrays.pop(name)
         elif name.lower() == "time" and array.shape == () and array.dtype.kind in "biuf":
             found["time"] = float(arrays.pop(name))
     return found
