@@ -44,6 +44,18 @@ def test_value_of_a_bar_stands_after_an_equals_sign() -> None:
     ]
 
 
+def test_a_word_beside_two_files_is_the_value_of_a_bar() -> None:
+    files = ["a.json", "b.png"]
+    assert with_values(["--scale-bar", "nm", *files]) == ["--scale-bar=nm", *files]
+    assert with_values(["--scale-bar", *files]) == ["--scale-bar=", *files]
+    assert with_values([*files, "--color-bar", "eV"]) == [*files, "--color-bar=eV"]
+    assert with_values(["--scale-bar", "--color-bar", "eV", *files])[:2] == [
+        "--scale-bar=",
+        "--color-bar=eV",
+    ]
+    assert with_values(["--scale-bar", "scene", "b.png"]) == ["--scale-bar=", "scene", "b.png"]
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

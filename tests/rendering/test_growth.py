@@ -276,3 +276,10 @@ def test_interrupt_shows_what_there_is(seconds: float) -> None:
 def test_seconds_that_are_none(seconds: object) -> None:
     with pytest.raises(ValueError, match="^update_seconds: expected a number ≥ 0, got "):
         vtray.render(balls(), on_update=print, update_seconds=seconds)
+
+
+def test_what_cannot_be_called() -> None:
+    with pytest.raises(
+        ValueError, match="^on_update: expected a function that takes an image, got 5"
+    ):
+        vtray.render(balls(), on_update=5)  # type: ignore[arg-type]

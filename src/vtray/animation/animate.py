@@ -5,6 +5,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from vtray.animation.annotating import check_annotate
 from vtray.animation.cluster import check_client
 from vtray.animation.film import Film, Progress
 from vtray.animation.moving import (
@@ -146,7 +147,7 @@ def animate(
     settings = {name: options.pop(name) for name in PICTURE if options.get(name) is not None}
     parts = {name: settings.pop(name) for name in STYLE if is_moving(settings.get(name))}
     reading = {name: options.pop(name) for name in READING if name in options}
-    look = Look(settings, dict(annotate or {}), bits, tuple(aov), threads)
+    look = Look(settings, check_annotate(annotate), bits, tuple(aov), threads)
     film = _film(path, fps, look, resume, client, progress, warn)
     ways = {name: way_of_part(name, part) for name, part in parts.items()}
     last = last_of(camera=camera, opacity=opacity, **parts)
@@ -238,7 +239,7 @@ def turntable(
         raise TypeError(message)
     settings = {name: value for name, value in settings.items() if value is not None}
     parts = {name: settings.pop(name) for name in STYLE if is_moving(settings.get(name))}
-    look = Look(settings, dict(annotate or {}), bits, tuple(aov), threads)
+    look = Look(settings, check_annotate(annotate), bits, tuple(aov), threads)
     film = _film(path, fps, look, resume, client, progress, warn)
     ways = {name: way_of_part(name, part) for name, part in parts.items()}
     if opacity is not None:

@@ -1,6 +1,7 @@
 """What is painted on each picture of a movie: the same, but for the frame and its time."""
 
 from collections.abc import Mapping
+from string import Formatter
 from typing import Any
 
 from vtray.base.errors import OutputError
@@ -35,27 +36,50 @@ def annotated(
     known = {"frame": frame, "time": time}
     for name, value in known.items():
         if found.get(name) is True:
-            found[name] = _known(name, value)
+            found[name] = _known(name, name, value)
     for name in VARYING:
         if isinstance(found.get(name), str) and "{" in found[name]:
             found[name] = _formatted(name, found[name], known)
     return found
 
 
+def check_annotate(given: object) -> dict[str, Any]:
+    """Return what is painted on all pictures; raise OutputError if it cannot be."""
+    if given is None:
+        return {}
+    from vtray.figures.annotations import Annotations
+    from vtray.scene.checks.scene_words import show
+    from vtray.scene.checks.unknown_names import unknown_argument
+
+    if not isinstance(given, Mapping):
+        raise OutputError(f"annotate: expected keywords of Image.annotated, got {show(given)}")
+    known = [*Annotations.__dataclass_fields__, "fontsize"]
+    for name in given:
+        if name not in known:
+            raise OutputError(f"annotate: {unknown_argument('Image.annotated', name, known)}")
+    return dict(given)
+
+
 def _formatted(name: str, text: str, known: Mapping[str, Any]) -> str:
     """Return a text with what is known put in."""
-    for key, value in known.items():
-        if f"{{{key}" in text:
-            _known(key, value)
+    words = "expected {frame} and {time} alone in braces, such as {time:.1f} ps"
+    wrong = OutputError(f"{name}: {words}, got {text}")
+    try:
+        asked = [key for _, key, _, _ in Formatter().parse(text) if key is not None]
+    except ValueError:
+        raise wrong from None
+    for key in asked:
+        if key not in known:
+            raise wrong
+        _known(name, key, known[key])
     try:
         return text.format(**known)
     except (KeyError, IndexError, ValueError, AttributeError, TypeError):
-        words = "expected {frame} and {time} alone in braces, such as {time:.1f} ps"
-        raise OutputError(f"{name}: {words}, got {text}") from None
+        raise wrong from None
 
 
-def _known(name: str, value: Any) -> Any:  # noqa: ANN401
+def _known(name: str, key: str, value: Any) -> Any:  # noqa: ANN401
     """Return the frame or the time; raise OutputError if it is not known."""
     if value is None:
-        raise OutputError(f"{name}: the data do not say the {name} of a picture; leave it out")
+        raise OutputError(f"{name}: the data do not say the {key} of a picture; leave it out")
     return value

@@ -26,20 +26,22 @@ class MovieFormat(NamedTuple):
         Writes a movie: called with a file, its pictures, and how many there are in a second.
     alpha
         Whether a pixel may be transparent.
-    fps
-        The most pictures in a second that it can tell apart, or that programs show.
+    slowest, fastest
+        How many pictures in a second it can hold at least, and how many at the most it can tell
+        apart, or programs show.
     """
 
     write: Write
     alpha: bool
-    fps: float
+    slowest: float
+    fastest: float
 
 
 MOVIES: Mapping[str, MovieFormat] = MappingProxyType(
     {
-        ".mp4": MovieFormat(write_mp4, alpha=False, fps=1000),
-        ".gif": MovieFormat(write_gif, alpha=False, fps=50),
-        ".webp": MovieFormat(write_webp, alpha=True, fps=1000),
+        ".mp4": MovieFormat(write_mp4, alpha=False, slowest=0.001, fastest=1000),
+        ".gif": MovieFormat(write_gif, alpha=False, slowest=0.002, fastest=50),
+        ".webp": MovieFormat(write_webp, alpha=True, slowest=0.0001, fastest=1000),
     }
 )
 """The formats of movies by the endings of files."""
@@ -134,9 +136,11 @@ class Output:
                 f"{self.path}: {what}: movies have 8 bits and colours alone; expected {EXPECTED}"
             )
             raise OutputError(message)
-        if fps > self.format.fps:
-            most = self.format.fps
-            message = f"{self.path}: fps: expected at most {most:g} for this format, got {fps:g}"
+        if not self.format.slowest <= fps <= self.format.fastest:
+            limit = f"at most {self.format.fastest:g}"
+            if fps < self.format.slowest:
+                limit = f"at least {self.format.slowest:g}"
+            message = f"{self.path}: fps: expected {limit} for this format, got {fps:g}"
             raise OutputError(message)
         if self.path.suffix.lower() == ".mp4":
             find_ffmpeg(self.path)

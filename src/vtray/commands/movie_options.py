@@ -32,7 +32,7 @@ def are_used(arguments: Sequence[str]) -> bool:
 
 def add_movie_options(parser: Parser) -> None:
     """Add the options to a parser."""
-    group = parser.add_argument_group("movies: .mp4, .gif, .webp, or frames/%%04d.png")
+    group = parser.add_argument_group("movies: .mp4, .gif, .webp, or frames/%04d.png")
     group.add_argument(
         "--frames",
         metavar="A:B:STEP",

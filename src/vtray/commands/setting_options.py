@@ -69,7 +69,7 @@ def with_parts(arguments: Sequence[str], settings: type[msgspec.Struct]) -> list
     found: list[str] = []
     for k, argument in enumerate(arguments):
         name = names.get(found[-1][:-1]) if found and found[-1].endswith("=") else None
-        if name and k < end and (_can_be(settings, name, argument) or _is_extra(arguments, k)):
+        if name and k < end and (_can_be(settings, name, argument) or is_extra(arguments, k)):
             found[-1] += argument
         else:
             found.append(f"{argument}=" if argument in names and k < end else argument)
@@ -87,11 +87,11 @@ def _can_be(settings: type[msgspec.Struct], name: str, argument: str) -> bool:
     return True
 
 
-def _is_extra(arguments: Sequence[str], k: int) -> bool:
+def is_extra(arguments: Sequence[str], k: int) -> bool:
     """Tell whether an argument is a word that is no file, beside others for SCENE and OUTPUT."""
     word = arguments[k]
     others = [text for text in (*arguments[:k], *arguments[k + 1 :]) if not text.startswith("-")]
-    return bool(re.fullmatch("[A-Za-z]+", word)) and len(others) > 1 and not Path(word).exists()
+    return bool(re.fullmatch("[A-Za-z,]+", word)) and len(others) > 1 and not Path(word).exists()
 
 
 def _flag(name: str) -> str:

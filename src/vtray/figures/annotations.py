@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vtray.figures.brightness_scale import BrightnessScale
 from vtray.figures.caption import frame_caption
-from vtray.figures.color_bar import bar_labels, color_scales
+from vtray.figures.color_bar import bar_labels, color_scales, is_asked_for
 from vtray.figures.legend import Entry, legend_entries
 from vtray.figures.point_labels import Label, shown_labels
 from vtray.figures.scale_bar import ScaleBar, scale_bar
@@ -82,7 +82,7 @@ def find_marks(image: Subject, wanted: Annotations, *, flat: bool = False) -> Ma
         message = f"title: expected a text or None, got {title!r}"
         raise FigureError(message)
     caption = frame_caption(wanted.time, wanted.frame)
-    brightness = image.brightness_scales if wanted.colorbar and not flat else []
+    brightness = image.brightness_scales if is_asked_for(wanted.colorbar) and not flat else []
     return marks_beside(image.scene.objects, wanted, brightness)._replace(
         title=title or "",
         caption=caption,
@@ -111,6 +111,10 @@ def marks_beside(
     FigureError
         One of them is not right.
     """
-    scales = [*color_scales(objects), *dict.fromkeys(brightness)] if wanted.colorbar else []
+    scales = (
+        [*color_scales(objects), *dict.fromkeys(brightness)]
+        if is_asked_for(wanted.colorbar)
+        else []
+    )
     entries = [] if wanted.legend is None else legend_entries(wanted.legend)
     return Marks("", "", entries, scales, bar_labels(wanted.colorbar, scales), None, [], [])

@@ -44,6 +44,11 @@ def color_scales(objects: Sequence[Object]) -> list[Any]:
     return scales
 
 
+def is_asked_for(colorbar: object) -> bool:
+    """Tell whether colour bars are asked for, rightly or not."""
+    return not isinstance(colorbar, (bool, np.bool_)) or bool(colorbar)
+
+
 def bar_labels(colorbar: bool | str | Sequence[str], scales: Sequence[Any]) -> list[str]:
     """Return the text beside the colour bar of each scale.
 

@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 
     from vtray.figures.shown_figure import ShownFigure
 
+LARGEST = 10_000
+"""What no size of a figure, in any unit, is larger than."""
+
 LEAST_WIDTH = 300
 """Pictures narrower than this are shown with each pixel as a square of pixels."""
 
@@ -109,7 +112,7 @@ def usual_dpi(width: int) -> float:
 
 
 def check_number(name: str, value: float, least: float | None = None) -> float:
-    """Return a number that must be at least `least`, or above 0.
+    """Return a number that must be at least `least`, or above 0, and no more than `LARGEST`.
 
     Raises
     ------
@@ -120,6 +123,9 @@ def check_number(name: str, value: float, least: float | None = None) -> float:
     if not (number and math.isfinite(value) and (value > 0 if least is None else value >= least)):
         wanted = "> 0" if least is None else f"≥ {least:g}"
         message = f"{name}: expected a number {wanted}, or None, got {value!r}"
+        raise FigureError(message)
+    if value > LARGEST:
+        message = f"{name}: expected at most {LARGEST}, got {value!r}"
         raise FigureError(message)
     return float(value)
 

@@ -235,7 +235,7 @@ def render(
     """
     threads = _count("threads", threads if threads is not None else available_cores())
     tile = _count("tile", tile)
-    _check_seconds(update_seconds)
+    _check_update(on_update, update_seconds)
     if lock is not None:
         locked_white(lock, exposure, stops)
     given, scene = scene, with_camera(scene, size)
@@ -415,8 +415,11 @@ def _step_of(progress: Progress | None, step: str) -> StepProgress | None:
     return None if progress is None else partial(progress, step)
 
 
-def _check_seconds(value: float) -> None:
-    """Raise ValueError if an argument that must be a number of at least 0 is none."""
+def _check_update(on_update: object, value: float) -> None:
+    """Raise ValueError if nothing can be called, or not every so many seconds."""
+    if on_update is not None and not callable(on_update):
+        message = f"on_update: expected a function that takes an image, got {on_update!r}"
+        raise ValueError(message)
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not value >= 0:
         message = f"update_seconds: expected a number ≥ 0, got {value!r}"
         raise ValueError(message)
