@@ -50,7 +50,7 @@ from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.default_camera import with_camera
 from vtray.scene.default_light import lights_of, lit_objects, settings_of
 from vtray.scene.files.scene_file import Warn
-from vtray.scene.light_types import AnyLight, strength_of
+from vtray.scene.light_types import AnyLight, gives_light, strength_of
 from vtray.scene.scene import Camera, Scene
 from vtray.scene.settings import RenderSettings, overridden
 
@@ -340,17 +340,15 @@ def _problems(scene: Scene, settings: RenderSettings, *, keep_lights: bool) -> t
 
 def _darkness(scene: Scene, *, keep_lights: bool) -> str:
     """Say why all that is seen is black, if that is known before; "" if it is not."""
-    if (
-        not lit_objects(scene)
-        or any(strength_of(light) > 0 for light in scene.lights)
-        or shines(scene)
-    ):
+    if not lit_objects(scene) or any(map(gives_light, scene.lights)) or shines(scene):
         return ""
     if not scene.lights:
         remedy = "add one by scene.add_light, or some of vtray.lights; in a file, under that key"
         return f"lights: there are none, so all that is seen is black; {remedy}"
     if keep_lights:  # to be relit with other intensities
         return ""
+    if any(strength_of(light) > 0 for light in scene.lights):
+        return "lights: all are black, or have a radiance and no size, so all that is seen is black"
     return "lights: all have the intensity 0, so all that is seen is black; give one more than 0"
 
 

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from vtray.scene.vectors import Triple
 
 WHITE = Color(255, 255, 255)
+BLACK = Color(0, 0, 0)
 
 Sides = Annotated[tuple[Vector, Vector], Meta(description="two vectors")]
 
@@ -338,6 +339,12 @@ def brightest(light: AnyLight) -> float:
     """Return the strength of a light, of a picture that of its brightest channel."""
     image = light.image if isinstance(light, Sky) else None
     return strength_of(light) * (max(image.peak, 1.0) if image else 1.0)
+
+
+def gives_light(light: AnyLight) -> bool:
+    """Tell whether any light comes from a lamp, which for a radiance must have a size."""
+    is_nowhere = isinstance(light, SphereLight) and light.radius == 0 and light.radiance is not None
+    return brightest(light) > 0 and light.color != BLACK and not is_nowhere
 
 
 def falls_off(light: AnyLight) -> bool:
