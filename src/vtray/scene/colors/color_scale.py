@@ -1,7 +1,6 @@
 """From values to colours: colour maps by name, and the scale that was used."""
 
 import functools
-import logging
 import math
 import warnings
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
@@ -224,6 +223,8 @@ def _table_of_cmap(name: str, place: str) -> Bytes:
     except ImportError:
         problem = f"colour maps need the package cmap, or Matplotlib: {pip_install('cmap')}"
         raise SceneError(f"{place}: {problem}") from None
+    import logging
+
     logger = logging.getLogger("cmap")
     was_disabled, logger.disabled = logger.disabled, True  # it tells of names that are used twice
     try:

@@ -88,8 +88,9 @@ class AddingParticles:
             z; what is worked out of these, such as ``"velocity.x"`` or ``"norm(force)"``, as for
             `select`; or one colour or one number for each particle. Names, types and at most eight
             different integers get a colour each, of which people with any colour vision can tell
-            the first eight apart; numbers those of `cmap`, and vectors those of their lengths. By
-            default the columns ``color``, ``element`` or ``type``, whichever is there first.
+            the first eight apart; numbers those of `cmap`, and vectors those of their lengths. With
+            `cmap`, `clim` or `norm`, few integers are numbers, too. By default the columns
+            ``color``, ``element`` or ``type``, whichever is there first.
         colors
             Whose colours elements have.
         cmap
