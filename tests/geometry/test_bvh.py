@@ -160,11 +160,20 @@ def test_bits_of_one_sphere() -> None:
     built = check(np.array([[1.0, 2.0, 3.0]]), np.array([0.5]))
     assert built.tree_depth == 1
     assert built.largest == 3.0
-    assert built.frame == (0.25, (0.25, 0.5, 0.75))
+    assert built.frame == (1.0, (1.0, 2.0, 3.0))
     assert built.bvh.child[0] == ~(0 << COUNT_BITS | 1)
     assert (built.bvh.child[1:WIDTH] == EMPTY).all()
     assert_near = np.testing.assert_allclose
-    assert_near(built.bvh.sides[::WIDTH], [-0.125] * 3 + [0.125] * 3, rtol=2.0**-22)
+    assert_near(built.bvh.sides[::WIDTH], [-0.5] * 3 + [0.5] * 3, rtol=2.0**-22)
+
+
+def test_space_of_boxes_far_from_the_origin() -> None:
+    center = np.random.default_rng(3).uniform(-50, 50, (100, 3))
+    near, far = check(center, np.array([0.2])), check(center + 1e6, np.array([0.2]))
+    assert far.frame.scale == near.frame.scale == 2.0**-6
+    assert far.largest > 1e6
+    # No more than the digits of doubles allow: places are rounded, too.
+    assert check(center + 1e15, np.array([0.2])).frame.scale == 2.0**-26
 
 
 def test_spheres_at_one_point_or_without_size() -> None:

@@ -330,3 +330,20 @@ def test_half_shadows_of_a_million_spheres_take_no_time() -> None:
         begin = time.process_time()
         render(scene, samples=4, size=size)
         assert time.process_time() - begin < 4, "it takes 15 s where all are looked at"
+
+
+@compiled_only
+def test_what_only_some_searches_would_leave_out_decides_nothing() -> None:
+    # A ball that a patch does not reach, but bounds on its bundle do; which points are searched for
+    # together depends on the tiles.
+    generator = np.random.default_rng(0)
+    generator.uniform(-2, 2, (60, 3))
+    scene = vtray.Scene()
+    scene.add_spheres(generator.uniform(-2, 2, (60, 3)), 0.5)
+    scene.add_plane((0, 0, -2.5), (0, 0, 1))
+    scene.lights = [vtray.Light((3, -5, 6), 0.7), vtray.Sky(0.3)]
+    eye = {"up": (0, 0, 1), "size": (120, 90)}
+    scene.camera = vtray.Camera.look_at((0, -9, 3), (0, 0, 0), **eye)
+    image, other = (vtray.render(scene, samples=4, tile=tile) for tile in (64, 17))
+    np.testing.assert_array_equal(image.samples, other.samples)
+    np.testing.assert_array_equal(image.linear, other.linear)

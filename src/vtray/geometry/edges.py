@@ -12,7 +12,7 @@ from vtray.base.compiler.compiled import device, part
 from vtray.geometry.bundle import Bundle
 from vtray.geometry.dispatch import with_any
 from vtray.geometry.packets.beam import lower_limit, upper_limit
-from vtray.geometry.packets.cone import ASIDE, Cone, Touching, cone_beam, relation_to
+from vtray.geometry.packets.cone import ASIDE, Cone, cone_beam, relation_to
 from vtray.geometry.packets.stack import Stack, push_met
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.verbs import Shape, Verbs
@@ -87,16 +87,6 @@ def has_edge(world: World, view: LampView, stack: Stack) -> bool:
     for row in range(group_count(world)):
         found = _find_in_group(world, load_group(world, row), view, found, stack, 0)
     return _find_in_placed(world, world.places, view, found, stack) == EDGE
-
-
-@part
-def has_edge_among(world: World, view: LampView, touching: Touching, count: int) -> bool:
-    """Tell the same where nothing but so many shapes can touch the rays."""
-    found = NOTHING
-    for k in range(count):
-        group = load_group(world, touching.row[k])
-        found = max(found, _found_at(world, group, touching.slot[k], view))
-    return found == EDGE
 
 
 @device

@@ -36,6 +36,9 @@ CHUNK = 1 << 15
 SMALL = 1 << 14
 """Primitives, about, whose trees are built as one task: a cache holds them and their boxes."""
 
+FARTHEST = 24
+"""By so many bits, the middle of all primitives may be farther from the origin than they reach."""
+
 CROWD = 1 << 16
 """If there are more primitives in one cell, all threads divide it together."""
 
@@ -154,9 +157,12 @@ def _look_at_all(
 def _make_frame(extent: Extent) -> tuple[Frame, float]:
     """Return the space of the boxes, and the largest coordinate or half extent in world space."""
     largest = max(-min(extent.low), *extent.high, extent.half)
-    # The scale and its inverse must be ordinary doubles.
-    scale = math.ldexp(1.0, -max(math.frexp(largest)[1], -1000))
     low, high = np.array(extent.low), np.array(extent.high)
+    # Single precision is fine enough for boxes that are far from the world's origin, too.
+    width = max(float((0.5 * high - 0.5 * low).max()), extent.half)
+    exponent = max(math.frexp(width)[1], math.frexp(largest)[1] - FARTHEST)
+    # The scale and its inverse must be ordinary doubles.
+    scale = math.ldexp(1.0, -max(exponent, -1000))
     return Frame(scale, _vec(low * scale * 0.5 + high * scale * 0.5)), largest
 
 

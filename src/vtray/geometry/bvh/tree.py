@@ -45,7 +45,7 @@ STACK = (MAX_TREE_DEPTH + 32) * WIDTH
 
 
 class Frame(NamedTuple):
-    """The space of the boxes: ``world * scale - origin``, in which all coordinates are at most 4.
+    """The space of the boxes: ``world * scale - origin``, in which no coordinate of one is above 4.
 
     Attributes
     ----------

@@ -148,19 +148,6 @@ def find_among(cone: Cone, world: World, touching: Touching, count: int, own: To
 
 
 @device
-def are_balls(world: World, touching: Touching, count: int) -> bool:
-    """Tell whether so many shapes, if that is known, are spheres and planes alone.
-
-    The ball around another shape tells less of what touches a cone than boxes around it do.
-    """
-    for k in range(count):
-        kind = load_group(world, touching.row[k]).kind
-        if kind not in (SPHERE, PLANE):
-            return False
-    return count >= 0
-
-
-@device
 def _find_in_group(
     cone: Cone,
     world: World,

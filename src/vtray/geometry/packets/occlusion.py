@@ -29,7 +29,7 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.patch import is_open, note_plane, note_solid, widest_reach
 from vtray.geometry.packets.shaft import outside_shaft
 from vtray.geometry.packets.workspace import Workspace
-from vtray.geometry.ray import Segment
+from vtray.geometry.ray import CORNER, Segment
 from vtray.geometry.rounding import MARGIN, ROUNDING
 from vtray.geometry.shapes.plane import PlaneShape, end_side, hides_side, load_plane, plane_side
 from vtray.geometry.shapes.sphere import load_sphere
@@ -122,7 +122,7 @@ def widened_box(packet: Packet, hits: int, box: PointBox, is_wide: bool | None) 
     """Return a box of points widened by their patches, if these are asked for."""
     if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
         if is_wide:
-            most = widest_reach(packet, 0, hits, is_wide)
+            most = CORNER * widest_reach(packet, 0, hits, is_wide)
             return PointBox(box.center, add(box.half, (most, most, most)), box.error_scale)
     return box
 

@@ -5,6 +5,7 @@ there is settled where one shape is in the way of the whole bundle; where nothin
 it is lit; else it may be lit in part. The result does not depend on the order of shapes.
 """
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -32,11 +33,14 @@ from vtray.geometry.packets.packet import (
     load,
 )
 from vtray.geometry.shapes.plane import PlaneShape, plane_crossing
-from vtray.geometry.vector import Vec, scale
+from vtray.geometry.vector import Vec, dot, scale, sub
 
 OPEN, MIDDLE, DARK, UNEVEN_ALREADY = 0.0, 1.0, 2.0, 3.0
 """What is known in field ``SETTLED``: nothing; that all but the hit itself does not matter, as it
 faces away or nearly so; that no light arrives; that the pixel gets samples anyway."""
+
+TINY = 1e-300
+"""In place of 0, whose inverse must be a number."""
 
 NEAR_END = 1.0 - 2.0**-30
 """What is nearer to a light than the rest of this share of the way is not in the way."""
@@ -120,8 +124,30 @@ def note_solid(
         is_outside = is_outside_of(shape, load(packet, POINT, lane), load(packet, NORMAL, lane))
         near, far = crossing_of(shape, load_bundle(packet, lane, is_own))
         # Above its horizon, a solid is not in its own way.
-        hides_nothing = is_own & is_outside
+        hides_nothing = (is_own & is_outside) | _is_aside(packet, lane, shape.center, shape.radius)
         _note_lane(packet, lane, near, far, hides_nothing, packet[THICKEST + lane] > 0.0)
+
+
+@device
+def _is_aside(packet: Packet, lane: int, center: Vec, radius: float) -> bool:
+    """Tell whether a ball is beside all that is between a patch and a light.
+
+    That is the ball that the patch reaches, and all balls that are smaller as they are nearer to
+    the light. What searches leave out is beside these, and `Crossing` may say that it touches: what
+    is found would depend on which patches are searched for together.
+    """
+    way = sub(center, load(packet, POINT, lane))
+    length, reach = packet[AIM_LENGTH + lane], packet[REACH + lane]
+    aim, slope = load(packet, AIM, lane), reach / length
+    along = dot(way, aim)
+    beside = sub(way, scale(along, aim))
+    gap = math.sqrt(dot(beside, beside))
+    # The nearest of these balls: where it is seen from the centre square to the side of their cone.
+    nearest = along - gap * slope / math.sqrt(max(1.0 - slope * slope, TINY))
+    at = min(max(nearest, 0.0), length)
+    apart = math.sqrt(gap * gap + (at - along) * (at - along))
+    is_aside: bool = apart > radius + reach - slope * at
+    return is_aside
 
 
 @device

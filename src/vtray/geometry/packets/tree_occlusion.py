@@ -11,6 +11,7 @@ from vtray.geometry.packets.packet import ERROR_SCALE, POINT, Packet, load
 from vtray.geometry.packets.patch import is_open, widest_reach
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import Workspace
+from vtray.geometry.ray import CORNER
 from vtray.geometry.vector import add, lower, scale, sub, upper
 from vtray.geometry.world import (
     Group,
@@ -208,7 +209,7 @@ def _widened(packet: Packet, begin: int, end: int, box: Box, is_wide: bool | Non
     """Return a box of points widened by their patches, if these are asked for."""
     if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
         if is_wide:
-            most = widest_reach(packet, begin, end, is_wide)
+            most = CORNER * widest_reach(packet, begin, end, is_wide)
             reach = most, most, most
             return Box(sub(box.low, reach), add(box.high, reach), box.error_scale)
     return box

@@ -213,7 +213,8 @@ def _of_categories(values: NDArray[Any], rows: Integers, known: Sequence[Any] | 
     legend = [(_label(kind), named[kind]) for kind in in_order]
     if known is not None:
         listed = [(_label(kind), palette[k % len(palette)]) for k, kind in enumerate(known)]
-        legend = listed + [(name, color) for name, color in legend if name not in dict(listed)]
+        known_names = dict(listed)
+        legend = listed + [(name, color) for name, color in legend if name not in known_names]
     return Coloring(table[drawn], None, legend, kinds if known is None else known)
 
 

@@ -9,8 +9,8 @@ from vtray.base.compiler.compiled import device, part
 from vtray.geometry.bits import count_bits
 from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
 from vtray.geometry.packets.batch import APART, spot_of, start_of, take_near
-from vtray.geometry.packets.cone import CLOSED, MANY, are_balls, find_among, find_touching
-from vtray.geometry.packets.fan import FAN, Spot, set_start
+from vtray.geometry.packets.cone import CLOSED, MANY, find_among, find_touching
+from vtray.geometry.packets.fan import FAN, set_start
 from vtray.geometry.packets.packet import (
     BLOCK,
     COLOR,
@@ -18,7 +18,6 @@ from vtray.geometry.packets.packet import (
     LAMBERT,
     NOISE,
     NORMAL,
-    REACH,
     SHARE,
     SOURCE,
     UNEVEN,
@@ -36,7 +35,6 @@ from vtray.geometry.world import Faded
 from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
 from vtray.transport.lights.light import Powers, load_power, soft_worth
 from vtray.transport.lights.soft_light import (
-    SUN,
     Aim,
     SoftLights,
     aim_at,
@@ -98,9 +96,6 @@ class Casting(NamedTuple):
 ASKED, FAR_APART = 16, 4.0
 """Where each pixel has one ray, so many hits of a batch, which cast their fans one after the other,
 are asked together what is around them, and so many pixels are between them and the first."""
-
-WIDER = 1.0 + 2.0**-20
-"""More than rounding makes of the cone around the rays from a pixel."""
 
 
 class Seen(NamedTuple):
@@ -232,8 +227,8 @@ def _light_batch(
     batch, soft = work.batch, casting.soft
     first = Seen(aim_from(packet, batch.hit[0], soft, light), count == 1)
     active = _leave_above(packet, count, casting, first, light, is_wide, work)
-    touching = _find_around(packet, active, casting, first, light, is_wide, work)
-    active = _leave_even(packet, active, casting, first, light, is_wide, touching, work)
+    active = _leave_even(packet, active, casting, light, is_wide, work)
+    touching = _find_around(packet, active, casting, first, light, work)
     if count <= FAN // fans.rays:
         return _cast_together(packet, active, casting, fans, first, light, touching, work)
     cast = 0
@@ -252,35 +247,20 @@ def _find_around(
     casting: Casting,
     first: Seen,
     light: int,
-    is_wide: bool | None,
     work: Workspace,
 ) -> int:
     """Find the shapes that can stop the rays of the active hits of a batch, so many.
 
-    Return how many there are, or ``MANY`` if that is not known. Where it is asked if pixels look
-    the same everywhere, those count that can stop rays from any place in them.
+    Return how many there are, or ``MANY`` if that is not known.
     """
-    if count == 0 or not (is_cone(first.aim) and first.aim.spread < NARROW):
+    if count <= 1 or not (is_cone(first.aim) and first.aim.spread < NARROW):
         return MANY
-    spot, extent = spot_of(packet, work.batch, count), _widest_reach(packet, count, is_wide, work)
-    if count == 1 and extent == 0.0:
-        return MANY
-    around = Spot(spot.start, spot.extent + extent, spot.normal, spot.tilt, spot.sunk)
+    spot = spot_of(packet, work.batch, count)
     aim = aim_at(casting.soft, light, spot.start, spot.normal)
-    cone = cone_from(aim, around, casting.lit.forward)
+    cone = cone_from(aim, spot, casting.lit.forward)
     if not cone.cosine > 0.0:
         return MANY
     return find_touching(cone, casting.lit.world, work.touching, work.stack)
-
-
-@device
-def _widest_reach(packet: Packet, count: int, is_wide: bool | None, work: Workspace) -> float:
-    """Return how far the pixels of active hits reach at the most, 0 where that is not asked."""
-    widest, batch = 0.0, work.batch
-    if _is_asked(is_wide):
-        for k in range(count):
-            widest = max(widest, packet[REACH + batch.hit[batch.active[k]]])
-    return widest * WIDER
 
 
 @device
@@ -288,10 +268,8 @@ def _leave_even(
     packet: Packet,
     count: int,
     casting: Casting,
-    first: Seen,
     light: int,
     is_wide: bool | None,
-    touching: int,
     work: Workspace,
 ) -> int:
     """Leave those of so many hits active whose pixels look the same everywhere, if that is asked.
@@ -301,11 +279,9 @@ def _leave_even(
     if not _is_asked(is_wide):
         return count
     active, batch = 0, work.batch
-    is_known = first.aim.kind == SUN and are_balls(casting.lit.world, work.touching, touching)
-    known = touching if is_known else MANY
     for k in range(count):
         member = batch.active[k]
-        if not _is_uneven(packet, batch.hit[member], casting, light, is_wide, known, work):
+        if not _is_uneven(packet, batch.hit[member], casting, light, is_wide, work):
             batch.active[active] = member
             active += 1
     return active
@@ -375,7 +351,7 @@ def _leave_above(
             continue
         aim = aim_of(packet, hit, casting.soft, light, first)
         if is_below(aim, load(packet, NORMAL, hit)):
-            _is_uneven(packet, hit, casting, light, is_wide, MANY, work)
+            _is_uneven(packet, hit, casting, light, is_wide, work)
             _add_shares(packet, hit, casting, light, DARK)
         else:
             store_estimate(batch, member, no_estimate())
@@ -569,14 +545,13 @@ def _is_uneven(
     casting: Casting,
     light: int,
     is_wide: bool | None,
-    touching: int,
     work: Workspace,
 ) -> bool:
     """Tell whether the pixel of a hit gets samples for a light, if that is asked, and note it."""
     if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
         if is_wide:
             lit, soft = casting.lit, casting.soft
-            uneven = is_lit_unevenly(packet, hit, lit, soft, light, work, touching)
+            uneven = is_lit_unevenly(packet, hit, lit, soft, light, work)
             packet[UNEVEN + hit] = 1.0 if uneven else packet[UNEVEN + hit]
             return uneven
     return False

@@ -4,7 +4,7 @@ import math
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bundle import Bundle
-from vtray.geometry.edges import LampView, has_edge, has_edge_among
+from vtray.geometry.edges import LampView, has_edge
 from vtray.geometry.faded.dimming import is_tube_dimmed
 from vtray.geometry.packets.batch import start_of
 from vtray.geometry.packets.cone import Cone
@@ -40,12 +40,10 @@ def is_lit_unevenly(
     soft: SoftLights,
     light: int,
     work: Workspace,
-    touching: int,
 ) -> bool:
     """Tell whether a soft light may do something else around a hit than there.
 
-    That of wide ones changes slowly. Only the first ones of `work.touching`, so many, can be in its
-    way; all shapes, where that is below 0.
+    That of wide ones changes slowly.
     """
     point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
     start = start_of(packet, hit)
@@ -70,8 +68,6 @@ def is_lit_unevenly(
     if is_tube_dimmed(lit.world, start, axis, reach, tangent, length, work.stack):
         return True
     view = _view(packet, hit, start, lit.forward, axis, length, tangent)
-    if touching >= 0:
-        return has_edge_among(lit.world, view, work.touching, touching)
     return has_edge(lit.world, view, work.stack)
 
 
