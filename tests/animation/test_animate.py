@@ -208,6 +208,11 @@ ERRORS = [
         "argument 'tilte' is unknown; did you mean \"title\"",
     ),
     (
+        {"annotate": {"title": "{frame:999999999}"}},
+        OutputError,
+        "title: expected {frame} and {time} alone",
+    ),
+    (
         {"annotate": {"title": "{time.real}"}},
         OutputError,
         "title: expected {frame} and {time} alone",

@@ -100,6 +100,12 @@ WRONG = [
 ]
 
 
+def test_preview_on_standard_output(small: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert cli.run(["--preview", "-", str(small), str(small.with_name("a.png"))]) != 0
+    words = f"/dev/stdout: is no file whose content can be replaced; {REMEDY}"
+    assert capfd.readouterr().err == f"Error: {words}\n"
+
+
 @pytest.mark.parametrize(("preview", "message"), WRONG)
 def test_preview_that_cannot_be_written(
     preview: str,

@@ -147,3 +147,18 @@ def test_quotes_without_an_end(text: str, words: str, tmp_path: Path) -> None:
     with pytest.raises(SceneError) as raised:
         vtray.read(path)
     assert str(raised.value) == f"{path}: {words}"
+
+
+def test_bonds_that_are_far_too_long_are_told_at_once() -> None:
+    positions = np.random.default_rng(1).uniform(0, 8, (30, 3))
+    particles = Particles(positions, cell=np.diag([8.0, 8.0, 8.0]))
+    with pytest.raises(SceneError, match="there are more than 64 bonds for each particle"):
+        Scene().add_particles(particles, bonds=100.0)
+    assert len(Scene().add_particles(particles, bonds=3.0).bonds or ()) > 30
+
+
+def test_many_categories_that_are_known() -> None:
+    names = [f"residue {k}" for k in range(4000)]
+    particles = Particles(np.zeros((4000, 3)), {"name": np.array(names)})
+    drawn = Scene().add_particles(particles, color="name", categories=names)
+    assert [name for name, _ in drawn.legend] == names

@@ -1,10 +1,14 @@
 """What is painted on each picture of a movie: the same, but for the frame and its time."""
 
+import re
 from collections.abc import Mapping
 from string import Formatter
 from typing import Any
 
 from vtray.base.errors import OutputError
+
+_HUNDREDS = re.compile("[0-9]{3}")
+"""What would ask for texts of any length, where it is said how a number is written."""
 
 VARYING = ("title", "time")
 """Texts that may name the frame and its time."""
@@ -65,11 +69,11 @@ def _formatted(name: str, text: str, known: Mapping[str, Any]) -> str:
     words = "expected {frame} and {time} alone in braces, such as {time:.1f} ps"
     wrong = OutputError(f"{name}: {words}, got {text}")
     try:
-        asked = [key for _, key, _, _ in Formatter().parse(text) if key is not None]
+        asked = [(key, how) for _, key, how, _ in Formatter().parse(text) if key is not None]
     except ValueError:
         raise wrong from None
-    for key in asked:
-        if key not in known:
+    for key, how in asked:
+        if key not in known or _HUNDREDS.search(how or ""):
             raise wrong
         _known(name, key, known[key])
     try:

@@ -119,7 +119,7 @@ def _add_growing(parser: Parser) -> None:
     group.add_argument(
         "--preview",
         metavar="FILE",
-        type=Path,
+        type=_or_stream("/dev/stdout"),
         help="write the picture so far every few seconds, in the end the whole one",
     )
     group.add_argument(

@@ -116,6 +116,9 @@ class Image(Rendered):
     def relight(self, intensities: Sequence[float], *, lock: "Image | None" = None) -> "Image":
         """Return the picture with other intensities of its lights, exactly as a new render.
 
+        That is one with ``keep_lights=True`` as well: which pixels get samples depends on it where
+        lights are no points.
+
         Parameters
         ----------
         intensities
@@ -145,6 +148,8 @@ class Image(Rendered):
         lock: "Image | None" = None,
     ) -> "Image":
         """Return the picture with other colours of an object, exactly as a new render.
+
+        That is one with ``keep_lights=True`` as well, as for `relight`.
 
         Parameters
         ----------
@@ -207,8 +212,8 @@ class Image(Rendered):
     ) -> None:
         """Write the picture to a file, whole or not at all.
 
-        All formats but JPEG hold the pixels exactly. A file also says how the picture was made,
-        which `read_provenance` and ``vtray --replay`` read.
+        All formats but JPEG hold the pixels exactly, or the light before exposure. A file also
+        says how the picture was made, which `read_provenance` and ``vtray --replay`` read.
 
         Parameters
         ----------

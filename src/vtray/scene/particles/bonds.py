@@ -128,9 +128,11 @@ def find_bonds(
     pairs = [np.stack([one, two], axis=1) for one, two, _ in found]
     shifts = [np.zeros((len(one), 3), np.int64) for one, _, _ in found]
     if lattice is not None:
+        limit -= sum(map(len, pairs))
         for rows, shift in _images(points, lattice, longest):
             there = [column[rows] for column in points]
             for one, two in grid.pairs_with(lattice.moved(there, shift), reach[rows], reach, limit):
+                limit -= len(one)
                 pairs.append(np.stack([two, rows[one]], axis=1))
                 shifts.append(np.broadcast_to(np.array(shift, np.int64), (len(one), 3)))
     bonds = Bonds(np.concatenate(pairs), np.concatenate(shifts))
