@@ -100,10 +100,11 @@ def check(center: np.ndarray, radius: np.ndarray, threads: int = 1) -> Built:
     data = built.leaves.data.reshape(-1, 4)
     np.testing.assert_array_equal(data[:, :3], center[number])
     np.testing.assert_array_equal(data[:, 3], np.broadcast_to(radius, n)[number])
-    # The frame keeps everything near 1.
+    # The frame keeps everything near 1, but for a few.
     scale, origin = built.frame
     assert np.frexp(scale)[0] == 0.5
-    assert (np.abs(center.astype(float) * scale - np.array(origin)) <= 4).all()
+    is_near = (np.abs(center.astype(float) * scale - np.array(origin)) <= 4).all(axis=1)
+    assert np.count_nonzero(~is_near) <= (0 if n < bvh_build.FEWEST else bvh_build.MOST_BEYOND)
     return built
 
 

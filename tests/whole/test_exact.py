@@ -31,6 +31,7 @@ from vtray.base.compiler.object_code import (
     read_object_code,
 )
 from vtray.geometry.bvh import key_sort
+from vtray.rendering.hierarchy import accelerate
 from vtray.transport.integrators.direct import trace_tile
 
 SOURCES = Path(vtray.__file__).parent
@@ -95,6 +96,7 @@ def ways_to_use_kernels() -> Iterator[Callable[[], object]]:
     scene.add_cones(start, end, 0.05)
     yield partial(render_all_ways, scene)
     yield partial(share_rays, scene)
+    yield build_with_one_far_away
     yield draw_all_ways
     yield follow_all_ways
 
@@ -104,6 +106,13 @@ def share_rays(scene: vtray.Scene) -> None:
     scene.lights = [vtray.Sun((1, 2, -3 - k)) for k in range(150)]
     vtray.render(scene)
     vtray.trace_pixel(scene, 4, 3)
+
+
+def build_with_one_far_away() -> None:
+    """Use all kernels that look for what few others are near."""
+    scene = vtray.Scene()
+    scene.objects = [cloud("uniform", 300, 1), vtray.Sphere((1e9, 0, 0), 1, (0, 0, 0))]
+    accelerate(scene)
 
 
 def render_all_ways(scene: vtray.Scene) -> None:

@@ -18,6 +18,7 @@ from vtray.geometry.bvh.key_sort import Keys, sort_keys
 from vtray.geometry.bvh.morton import Grid, make_grid
 from vtray.geometry.bvh.nodes import (
     Extent,
+    count_beyond,
     find_extent,
     finish_subtrees,
     finish_top,
@@ -38,6 +39,18 @@ SMALL = 1 << 14
 
 FARTHEST = 24
 """By so many bits, the middle of all primitives may be farther from the origin than they reach."""
+
+COARSE = 10
+"""By so many bits, what few primitives reach is farther than nearly all: those are left beyond."""
+
+MOST_BEYOND = 32
+"""So many primitives may be beyond the space of the boxes. Every ray is asked about them."""
+
+FEWEST, RUN = 256, 8
+"""Of so many primitives on, some of which runs of eight are looked at, it is asked which are."""
+
+WIDER = 16.0
+"""How many times as far as eight of ten primitives nearly all of them reach."""
 
 CROWD = 1 << 16
 """If there are more primitives in one cell, all threads divide it together."""
@@ -88,7 +101,13 @@ def build(primitives: Primitives, threads: int, progress: Progress | None = None
         primitives.bound(*chunk, boxes)
 
     extent = _find_extent(everything, bound, threads)
-    frame, largest = _make_frame(extent)
+    largest = _largest_of(extent)
+    frame = _make_frame(extent, largest)
+    core = _core_of(everything, bound)
+    if core is not None and _is_apart(core, extent):
+        small = _make_frame(core, _largest_of(core))
+        if _count_beyond(everything, bound, small, threads) <= MOST_BEYOND:
+            extent, frame = core, small
     grid = _make_grid(extent, frame, max(primitives.count - 1, 1).bit_length())
     keys = sort_keys(_new_keys(everything, bound, frame, grid, threads), threads, grid.number_bits)
     order = Order(keys, grid)
@@ -123,6 +142,47 @@ def _find_extent(whole: Range, bound: Bound, threads: int) -> Extent:
     return Extent(_vec(low), _vec(high), max(extent.half for extent in extents))
 
 
+def _core_of(whole: Range, bound: Bound) -> Extent | None:
+    """Return an extent that holds nearly all of a range of primitives, None if that is not known.
+
+    It is told by some of them that are spread over the range, of which a tenth counts for nothing
+    on each side.
+    """
+    count = whole[1] - whole[0]
+    if count < FEWEST:
+        return None
+    runs = range(whole[0], whole[1] - RUN + 1, max((count - RUN) // (FEWEST // RUN - 1), 1))
+    some = [new_boxes(RUN) for _ in runs]
+    for begin, boxes in zip(runs, some, strict=True):
+        bound((begin, begin + RUN), boxes)
+    found = np.concatenate([boxes[:, :RUN] for boxes in some], axis=1)
+    found[3] = found[3:].max(axis=0)
+    tenth = found.shape[1] // 10
+    low, middle, high = np.sort(found[:4], axis=1)[:, [tenth, 5 * tenth, -tenth]].T
+    half = float(middle[3])
+    reach = WIDER * max(float((0.5 * high[:3] - 0.5 * low[:3]).max()), half)
+    with np.errstate(over="ignore"):
+        corners = _vec(middle[:3] - reach), _vec(middle[:3] + reach)
+    return Extent(*corners, half) if 0.0 < reach < math.inf else None
+
+
+def _is_apart(core: Extent, extent: Extent) -> bool:
+    """Tell whether an extent is so much larger than its core that boxes there would be coarse."""
+    (_, inner), (_, outer) = (math.frexp(_width_of(one)) for one in (core, extent))
+    return COARSE <= outer - inner <= 900  # or what is beyond could not be told from infinity
+
+
+def _count_beyond(whole: Range, bound: Bound, frame: Frame, threads: int) -> int:
+    """Return how many of a range of primitives reach beyond the space of a frame."""
+    place, counts = pinned(frame), []
+
+    def look(chunk: Range, boxes: Boxes) -> None:
+        counts.append(count_beyond(boxes, chunk[1] - chunk[0], place))
+
+    _look_at_all(whole, bound, look, threads)
+    return sum(counts)
+
+
 def _new_keys(whole: Range, bound: Bound, frame: Frame, grid: Grid, threads: int) -> Keys:
     """Return keys of a range of primitives, whose low bits count the primitives from 0."""
     order = Order(np.empty(whole[1] - whole[0], np.uint64), grid)
@@ -154,16 +214,25 @@ def _look_at_all(
     run_tasks(chunks, new_worker, threads)
 
 
-def _make_frame(extent: Extent) -> tuple[Frame, float]:
-    """Return the space of the boxes, and the largest coordinate or half extent in world space."""
-    largest = max(-min(extent.low), *extent.high, extent.half)
+def _largest_of(extent: Extent) -> float:
+    """Return the largest coordinate of a centre, or half extent."""
+    return max(-min(extent.low), *extent.high, extent.half)
+
+
+def _width_of(extent: Extent) -> float:
+    """Return how far from their middle centres are, or half of the largest extent."""
     low, high = np.array(extent.low), np.array(extent.high)
+    return max(float((0.5 * high - 0.5 * low).max()), extent.half)
+
+
+def _make_frame(extent: Extent, largest: float) -> Frame:
+    """Return the space of the boxes of an extent, and of the largest number in it."""
     # Single precision is fine enough for boxes that are far from the world's origin, too.
-    width = max(float((0.5 * high - 0.5 * low).max()), extent.half)
-    exponent = max(math.frexp(width)[1], math.frexp(largest)[1] - FARTHEST)
+    exponent = max(math.frexp(_width_of(extent))[1], math.frexp(largest)[1] - FARTHEST)
     # The scale and its inverse must be ordinary doubles.
     scale = math.ldexp(1.0, -max(exponent, -1000))
-    return Frame(scale, _vec(low * scale * 0.5 + high * scale * 0.5)), largest
+    low, high = np.array(extent.low), np.array(extent.high)
+    return Frame(scale, _vec(low * scale * 0.5 + high * scale * 0.5))
 
 
 def _make_grid(extent: Extent, frame: Frame, number_bits: int) -> Grid:

@@ -18,6 +18,13 @@ OUTSIDE = 1.0e7
 """The low sides of an empty box, and minus its high sides: much farther away than any box."""
 
 
+FRAME = 4.0
+"""How far what is in a box of its own reaches from the origin of the boxes' space at the most."""
+
+EVERYWHERE = 1e30
+"""How far a box reaches to all sides that holds anything beyond that: every ray meets it."""
+
+
 class Extent(NamedTuple):
     """The box around the centres of some boxes, and the largest of half their extents."""
 
@@ -203,6 +210,23 @@ def _largest_half(boxes: Boxes, k: int) -> float:
 
 
 @device
+def _reach_of(boxes: Boxes, k: int, place: Vec, frame: Frame) -> float:
+    """Return how far a box whose centre is at a place reaches in the space of a frame."""
+    middle = max(abs(place[0]), abs(place[1]), abs(place[2]))
+    reach: float = middle + _largest_half(boxes, k) * frame.scale
+    return reach
+
+
+@kernel
+def count_beyond(boxes: Boxes, count: int, frame: Frame) -> int:
+    """Return how many of the first boxes reach beyond what single precision is fine for."""
+    beyond = 0
+    for k in range(count):
+        beyond += 0 if _reach_of(boxes, k, box_place(boxes, k, frame), frame) <= FRAME else 1
+    return beyond
+
+
+@device
 def _leaf_box(boxes: Boxes, frame: Frame, order: Order, code: int) -> tuple[Vec, Vec]:
     """Return the box around the boxes of a leaf, wider than rounding could explain."""
     low = OUTSIDE, OUTSIDE, OUTSIDE
@@ -211,6 +235,8 @@ def _leaf_box(boxes: Boxes, frame: Frame, order: Order, code: int) -> tuple[Vec,
     for slot in range(begin, end):
         k = key_number(order.keys[slot], order.grid)
         place = box_place(boxes, k, frame)
+        if not _reach_of(boxes, k, place, frame) <= FRAME:
+            return (-EVERYWHERE, -EVERYWHERE, -EVERYWHERE), (EVERYWHERE, EVERYWHERE, EVERYWHERE)
         margin = MARGIN * (magnitude(place) + _largest_half(boxes, k) * frame.scale)
         half = (
             boxes[3, k] * frame.scale + margin,
