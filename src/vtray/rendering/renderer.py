@@ -348,7 +348,7 @@ def _darkness(scene: Scene, *, keep_lights: bool) -> str:
     if keep_lights:  # to be relit with other intensities
         return ""
     if any(strength_of(light) > 0 for light in scene.lights):
-        return "lights: all are black, or have a radiance and no size, so all that is seen is black"
+        return "lights: all are black, and so is all that is seen; give one another color"
     return "lights: all have the intensity 0, so all that is seen is black; give one more than 0"
 
 

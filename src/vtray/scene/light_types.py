@@ -342,9 +342,8 @@ def brightest(light: AnyLight) -> float:
 
 
 def gives_light(light: AnyLight) -> bool:
-    """Tell whether any light comes from a lamp, which for a radiance must have a size."""
-    is_nowhere = isinstance(light, SphereLight) and light.radius == 0 and light.radiance is not None
-    return brightest(light) > 0 and light.color != BLACK and not is_nowhere
+    """Tell whether a light has a strength and a colour."""
+    return brightest(light) > 0 and light.color != BLACK
 
 
 def falls_off(light: AnyLight) -> bool:

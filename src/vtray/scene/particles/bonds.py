@@ -32,6 +32,9 @@ MOST_BOXES = 2**20
 CANDIDATES = 2**17
 """How many pairs are looked at at once; their arrays stay in the cache."""
 
+FEW_BONDS = 100_000
+"""So many bonds there may be in any case."""
+
 MOST_BONDS = 64
 """Bonds for each particle, on average, above which lengths cannot be in the unit of the radii."""
 
@@ -128,7 +131,8 @@ def find_bonds(
     pairs = [np.stack([one, two], axis=1) for one, two, _ in found]
     shifts = [np.zeros((len(one), 3), np.int64) for one, _, _ in found]
     if lattice is not None:
-        limit -= sum(map(len, pairs))
+        # In a cell that is thinner than a bond, few particles may have many.
+        limit = max(limit, FEW_BONDS) - sum(map(len, pairs))
         for rows, shift in _images(points, lattice, longest):
             there = [column[rows] for column in points]
             for one, two in grid.pairs_with(lattice.moved(there, shift), reach[rows], reach, limit):
