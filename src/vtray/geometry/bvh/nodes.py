@@ -10,19 +10,23 @@ from vtray.base.compiler.compiled import device, kernel
 from vtray.geometry.bvh.morton import key_number, make_key
 from vtray.geometry.bvh.primitives import Boxes, Numbers
 from vtray.geometry.bvh.split import Order, Scratch, box_place, split_range
-from vtray.geometry.bvh.tree import EMPTY, LEAF, SIDES, WIDTH, Bvh, Frame, leaf_code, leaf_range
+from vtray.geometry.bvh.tree import (
+    EMPTY,
+    EVERYWHERE,
+    FRAME,
+    LEAF,
+    SIDES,
+    WIDTH,
+    Bvh,
+    Frame,
+    leaf_code,
+    leaf_range,
+)
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import Vec, add, lower, magnitude, sub, upper
 
 OUTSIDE = 1.0e7
 """The low sides of an empty box, and minus its high sides: much farther away than any box."""
-
-
-FRAME = 4.0
-"""How far what is in a box of its own reaches from the origin of the boxes' space at the most."""
-
-EVERYWHERE = 1e30
-"""How far a box reaches to all sides that holds anything beyond that: every ray meets it."""
 
 
 class Extent(NamedTuple):

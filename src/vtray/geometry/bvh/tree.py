@@ -40,12 +40,18 @@ EMPTY = -1
 MAX_TREE_DEPTH = 96
 """From this depth on, nodes are split into halves, which bounds the depth of all trees."""
 
+FRAME = 4.0
+"""No box reaches farther from the origin of its space, but for those that every ray meets."""
+
+EVERYWHERE = 1e30
+"""How far such a box reaches to all sides, which holds what is too far away for others."""
+
 STACK = (MAX_TREE_DEPTH + 32) * WIDTH
 """Nodes that can wait at the same time on a way through a tree."""
 
 
 class Frame(NamedTuple):
-    """The space of the boxes: ``world * scale - origin``, in which no coordinate of one is above 4.
+    """The space of the boxes: ``world * scale - origin``, in which they reach up to ``FRAME``.
 
     Attributes
     ----------

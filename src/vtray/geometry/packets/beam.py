@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.bvh.boxes import Bounds, boxes_met
-from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh
+from vtray.geometry.bvh.tree import FRAME, SIDES, WIDTH, Bvh
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import Vec, magnitude
 from vtray.geometry.world import ToBoxes
@@ -29,9 +29,6 @@ TINY = 1e-30
 
 NEVER = 3e38
 """A bound that nothing reaches, in single precision."""
-
-FRAME = 4.0
-"""No box reaches farther from the origin of its space."""
 
 SINGLE_ROUNDING = 2.0**-22
 """Bound on the error of a bound in single precision, relative to what is added up: four times the
