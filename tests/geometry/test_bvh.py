@@ -19,6 +19,8 @@ from vtray.geometry.bvh.tree import (
     COUNT_BITS,
     COUNT_MASK,
     EMPTY,
+    EVERYWHERE,
+    FRAME,
     LEAF,
     MAX_TREE_DEPTH,
     SIDES,
@@ -76,6 +78,10 @@ def check_leaf(built: Built, box: np.ndarray, slots: slice) -> None:
     low, high = (place - radius).min(axis=0), (place + radius).max(axis=0)
     assert (box[:3] <= (place - radius - 0.99 * margin).min(axis=0)).all()
     assert (box[3:] >= (place + radius + 0.99 * margin).max(axis=0)).all()
+    if (np.abs(place).max(axis=1) + radius[:, 0]).max() > FRAME:
+        assert (box[3:] == -box[:3]).all()
+        assert (box[3:] == np.float32(EVERYWHERE)).all()
+        return
     slack = 2 * margin.max() + 2.0**-21 * np.abs([low, high]).max(axis=0) + 2.0**-147
     assert (box[:3] >= low - slack).all()
     assert (box[3:] <= high + slack).all()

@@ -14,7 +14,7 @@ from vtray.geometry.bvh import build as bvh_build
 from vtray.geometry.bvh.build import Tree, build
 from vtray.geometry.bvh.join import join_trees
 from vtray.geometry.bvh.primitives import GivenBoxes
-from vtray.geometry.bvh.tree import EMPTY, WIDTH, Bvh, leaf_range
+from vtray.geometry.bvh.tree import EMPTY, EVERYWHERE, WIDTH, Bvh, leaf_range
 from vtray.geometry.rounding import MARGIN
 
 COUNT = 2000 if JIT else 60
@@ -73,7 +73,11 @@ def test_the_frame_holds_the_longest_side(axis: int) -> None:
 
 
 @pytest.mark.parametrize("crowd", [20, 10**9])
-def test_one_far_away_costs_no_quality(crowd: int, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("beyond", [-1, bvh_build.MOST_BEYOND])
+def test_one_far_away_costs_no_quality(
+    crowd: int, beyond: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(bvh_build, "MOST_BEYOND", beyond)
     monkeypatch.setattr(bvh_build, "SMALL", 16)
     monkeypatch.setattr(bvh_build, "CROWD", crowd)
     center = np.random.default_rng(5).uniform(size=(COUNT, 3))
@@ -83,6 +87,9 @@ def test_one_far_away_costs_no_quality(crowd: int, monkeypatch: pytest.MonkeyPat
     def size_of_leaves(center: np.ndarray) -> float:
         tree = build(GivenBoxes(center, center), 1)
         boxes = np.array([box for box, _ in leaves_below(tree.bvh, 0)], float)
+        is_everywhere = boxes[:, 3] == np.float32(EVERYWHERE)
+        assert is_everywhere.sum() <= 1
+        boxes = boxes[~is_everywhere]
         return float((boxes[:, 3:] - boxes[:, :3]).mean() / tree.frame.scale)
 
     alone = size_of_leaves(center)
@@ -132,6 +139,7 @@ def test_crowds_are_divided_by_all_threads(name: str, monkeypatch: pytest.Monkey
     center = np.ascontiguousarray(spheres.center, float)
     radius = np.broadcast_to(np.asarray(spheres.radius, float), COUNT)
     low, high = center - radius[:, None], center + radius[:, None]
+    monkeypatch.setattr(bvh_build, "MOST_BEYOND", -1)
     monkeypatch.setattr(bvh_build, "SMALL", 16)
     monkeypatch.setattr(bvh_build, "CHUNK", 100 if JIT else 11)
     whole = build(GivenBoxes(low, high), 1)
