@@ -1,11 +1,15 @@
 """What is painted on each picture of a movie: the same, but for the frame and its time."""
 
+import inspect
 import re
 from collections.abc import Mapping
 from string import Formatter
 from typing import Any
 
 from vtray.base.errors import OutputError
+from vtray.image.image import Image
+from vtray.scene.checks.scene_words import show
+from vtray.scene.checks.unknown_names import unknown_argument
 
 _HUNDREDS = re.compile("[0-9]{3}")
 """What would ask for texts of any length, where it is said how a number is written."""
@@ -51,13 +55,9 @@ def check_annotate(given: object) -> dict[str, Any]:
     """Return what is painted on all pictures; raise OutputError if it cannot be."""
     if given is None:
         return {}
-    from vtray.figures.annotations import Annotations
-    from vtray.scene.checks.scene_words import show
-    from vtray.scene.checks.unknown_names import unknown_argument
-
     if not isinstance(given, Mapping):
         raise OutputError(f"annotate: expected keywords of Image.annotated, got {show(given)}")
-    known = [*Annotations.__dataclass_fields__, "fontsize"]
+    _self, *known = inspect.signature(Image.annotated).parameters
     for name in given:
         if name not in known:
             raise OutputError(f"annotate: {unknown_argument('Image.annotated', name, known)}")

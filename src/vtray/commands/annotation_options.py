@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from vtray.base.errors import OutputError
 from vtray.commands.command import Parser
-from vtray.commands.setting_options import is_extra, wrong
+from vtray.commands.setting_options import with_values_of, wrong
 
 WITH_VALUE = ("--scale-bar", "--color-bar", "--boundary")
 """Options whose value follows an equals sign, so that a file after them is none; or is a word."""
@@ -51,15 +51,7 @@ def labels_of(options: argparse.Namespace) -> tuple[list[PointLabel], list[str]]
 
 def with_values(arguments: Sequence[str]) -> list[str]:
     """Return arguments in which each of `WITH_VALUE` has one, "" where none was given."""
-    end = arguments.index("--") if "--" in arguments else len(arguments)
-    found: list[str] = []
-    for k, argument in enumerate(arguments):
-        follows = k > 0 and k < end and arguments[k - 1] in WITH_VALUE
-        if follows and is_extra(arguments, k):
-            found[-1] += argument
-        else:
-            found.append(f"{argument}=" if argument in WITH_VALUE and k < end else argument)
-    return found
+    return with_values_of(arguments, WITH_VALUE)
 
 
 def add_annotations(parser: Parser) -> None:

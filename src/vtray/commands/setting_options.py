@@ -3,7 +3,7 @@
 import argparse
 import re
 import typing
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -65,14 +65,34 @@ def with_parts(arguments: Sequence[str], settings: type[msgspec.Struct]) -> list
         The definition of the parts.
     """
     names = {_flag(name): name for name, (_, option) in kinds_of(settings).items() if option.of}
+    return with_values_of(arguments, names, lambda flag, text: _can_be(settings, names[flag], text))
+
+
+def with_values_of(
+    arguments: Sequence[str],
+    flags: Collection[str],
+    can_be: Callable[[str, str], bool] = lambda _flag, _text: False,
+) -> list[str]:
+    """Return arguments in which each of some options has a value after a ``=``, "" for none.
+
+    Parameters
+    ----------
+    arguments
+        The arguments.
+    flags
+        The options.
+    can_be
+        Tells whether what follows an option can be its value. A word that is no file is it anyway.
+    """
     end = arguments.index("--") if "--" in arguments else len(arguments)
     found: list[str] = []
     for k, argument in enumerate(arguments):
-        name = names.get(found[-1][:-1]) if found and found[-1].endswith("=") else None
-        if name and k < end and (_can_be(settings, name, argument) or is_extra(arguments, k)):
+        flag = found[-1][:-1] if found and found[-1].endswith("=") else ""
+        follows = flag in flags and k < end
+        if follows and (can_be(flag, argument) or _is_extra(arguments, k)):
             found[-1] += argument
         else:
-            found.append(f"{argument}=" if argument in names and k < end else argument)
+            found.append(f"{argument}=" if argument in flags and k < end else argument)
     return found
 
 
@@ -87,7 +107,7 @@ def _can_be(settings: type[msgspec.Struct], name: str, argument: str) -> bool:
     return True
 
 
-def is_extra(arguments: Sequence[str], k: int) -> bool:
+def _is_extra(arguments: Sequence[str], k: int) -> bool:
     """Tell whether an argument is a word that is no file, beside others for SCENE and OUTPUT."""
     word = arguments[k]
     others = [text for text in (*arguments[:k], *arguments[k + 1 :]) if not text.startswith("-")]

@@ -343,7 +343,7 @@ def brightest(light: AnyLight) -> float:
 
 def gives_light(light: AnyLight) -> bool:
     """Tell whether a light has a strength and a colour."""
-    return brightest(light) > 0 and light.color != BLACK
+    return strength_of(light) > 0 and light.color != BLACK
 
 
 def falls_off(light: AnyLight) -> bool:

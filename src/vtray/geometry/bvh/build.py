@@ -43,6 +43,9 @@ FARTHEST = 24
 COARSE = 10
 """By so many bits, what few primitives reach is farther than nearly all: those are left beyond."""
 
+FINITE = 900
+"""By so many bits, what is beyond may be farther, and is still no infinity in the boxes' space."""
+
 MOST_BEYOND = 32
 """So many primitives may be beyond the space of the boxes. Every ray is asked about them."""
 
@@ -169,7 +172,7 @@ def _core_of(whole: Range, bound: Bound) -> Extent | None:
 def _is_apart(core: Extent, extent: Extent) -> bool:
     """Tell whether an extent is so much larger than its core that boxes there would be coarse."""
     (_, inner), (_, outer) = (math.frexp(_width_of(one)) for one in (core, extent))
-    return COARSE <= outer - inner <= 900  # or what is beyond could not be told from infinity
+    return COARSE <= outer - inner <= FINITE
 
 
 def _count_beyond(whole: Range, bound: Bound, frame: Frame, threads: int) -> int:

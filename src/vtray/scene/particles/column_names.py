@@ -60,9 +60,8 @@ def name_columns(columns: "Mapping[str, Array]") -> "dict[str, Array]":
     """Give columns their names.
 
     Three that are one vector are joined, and atomic numbers become elements. Where there is no
-    radius, half of a diameter is one. Names that are no
-    symbols of elements are a ``type``. Where two columns would have one name, the second keeps
-    its own.
+    radius, half of a diameter is one. Names that are no symbols of elements are a ``type``. Where
+    two columns would have one name, the second keeps its own.
     """
     import numpy as np
 

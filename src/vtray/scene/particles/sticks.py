@@ -48,8 +48,8 @@ def sticks(
         Those of the balls that are drawn, (k,) and (k, 3), or one for all.
     """
     crosses = (bonds.shifts != 0).any(axis=1)
-    one, two = bonds.pairs[~crosses].T
-    begin, end = bonds.pairs[crosses].T
+    whole, cut = bonds.pairs[~crosses], bonds.pairs[crosses]
+    (one, two), (begin, end) = whole.T, cut.T
     near, far = positions[begin], positions[end]
     across = far
     lattice = lattice_of(particles)
@@ -61,11 +61,8 @@ def sticks(
     half = (1.0 + _larger_by(way, radius, place[begin], place[end])) / 2 * way
     starts = np.concatenate([starts, near, far])
     ends = np.concatenate([ends, near + half, far - (way - half)])
-    across_border = np.stack([begin, end], axis=1)
-    joined = np.concatenate([np.stack([one, two], axis=1), across_border, across_border])
-    indices = joined.copy()
-    halves = indices[len(one) :]
-    halves[: len(begin)], halves[len(begin) :] = begin[:, None], end[:, None]
+    joined = np.concatenate([whole, cut, cut])
+    indices = np.concatenate([whole, cut[:, [0, 0]], cut[:, [1, 1]]])
     made = _colored(starts, ends, thick, colors, place[indices])
     return remember(made, MadeOf(particles, indices, "bond", joined=joined))
 

@@ -81,12 +81,14 @@ def _without_comments(text: str) -> str:
     while rest.startswith(_COMMENT):
         last, _, rest = rest.partition("\n")
         count += 1
+    if count == 0:
+        return text
     separator = _separator(rest)
     first = _first_line(rest).split(separator)
     has_numbers = any(_column([entry]).dtype.kind in "if" for entry in first)
     is_named = has_numbers and last.count(separator) == len(first) - 1
     names = last.lstrip(_COMMENT) if is_named else ""
-    return "\n" * (count - 1) + names + "\n" + rest if count else text
+    return "\n" * (count - 1) + names + "\n" + rest
 
 
 def _csv_columns(text: str) -> "dict[str, Array]":
@@ -121,7 +123,9 @@ def _separator(text: str) -> str:
 
 def _first_line(text: str) -> str:
     """Return the first line of a text that is not empty."""
-    return text.lstrip("\r\n").partition("\n")[0]
+    begun = text.lstrip("\r\n")
+    end = begun.find("\n")
+    return begun if end < 0 else begun[:end]  # what follows may be long, and is not copied
 
 
 def _csv_lines(text: str) -> Any:  # noqa: ANN401
