@@ -147,6 +147,16 @@ def test_folders_that_are_not_ours(ended: Path) -> None:
     vtray.animate(make, ended, frames=COUNT)
 
 
+def test_nothing_is_left_where_nothing_is_done(tmp_path: Path) -> None:
+    def failing_at_first(*_: object) -> None:
+        assert (tmp_path / ENDED / "movie.json").exists()
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        vtray.animate(make, tmp_path / "movie.gif", frames=COUNT, progress=failing_at_first)
+    assert contents(tmp_path) == {}
+
+
 def test_damaged_picture(ended: Path) -> None:
     (ended.parent / ENDED / "000002.png").write_bytes(b"")
     with pytest.raises(OutputError, match=r"000002.png: .*; remove it to go on"):

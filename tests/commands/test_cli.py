@@ -77,6 +77,16 @@ WRONG_USAGE = [
 ]
 
 
+def test_names_of_files_may_begin_with_a_dash(
+    small: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(small.parent)
+    small.rename("-x.json")
+    assert cli.run(["-q", "--", "-x.json", "-x.png"]) == 0
+    assert capfd.readouterr() == ("", "")
+    assert Path("-x.png").exists()
+
+
 @pytest.mark.parametrize(("arguments", "message"), WRONG_USAGE)
 def test_wrong_usage(
     arguments: list[str], message: str, small: Path, capfd: pytest.CaptureFixture[str]

@@ -203,6 +203,7 @@ def test_values_that_look_like_options() -> None:
         ),
         (["--frame", "1.5"], "argument --frame: expected an integer such as 0, or -1 for the last"),
         (["--boundary=1"], "argument --boundary: expected a part of the cell's edge, up to 0.5"),
+        (["--no-bonds", "--cutoff", "2"], "--no-bonds and --cutoff: expected one of them"),
         (["--replay", "a.png"], "--replay is for scene files, and DATA is none; "),
     ],
 )
@@ -261,6 +262,16 @@ def test_columns_are_listed(water: Path, capfd: pytest.CaptureFixture[str]) -> N
     assert "element     names: H, O" in lines
     assert "charge      float64, from -0.8 to 0.5" in lines
     assert lines[-1] == "cell c      0, 0, 6"
+
+
+def test_columns_of_some(water: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    arguments = [str(water), "--columns", "--select"]
+    assert cli.run([*arguments, "element == 'H'"]) == 0
+    lines = capfd.readouterr().out.splitlines()
+    assert lines[0] == "2 of 3 particles, frame 0"
+    assert "element     names: H" in lines
+    assert cli.run([*arguments, "element = 'H'"]) == 1
+    assert capfd.readouterr().err.startswith(f"Error: {water}: select \"element = 'H'\": at 9: ")
 
 
 @pytest.mark.parametrize(

@@ -231,6 +231,10 @@ def test_cell_is_drawn_where_there_is_one() -> None:
         ({"bonds": True, "bond_radius": 0}, "bond_radius: expected a number > 0, got 0"),
         ({"color": "chrage"}, "expected a colour or the name of a column, got 'chrage'; did you"),
         ({"color": "name", "cmap": "viridis"}, "holds names, which no colour map is for"),
+        ({"color": "red", "cmap": "viridis", "clim": (0, 1)}, "leave cmap and clim out"),
+        ({"color": "element", "norm": "log"}, "holds names, which no colour map is for"),
+        ({"stretch": "log"}, "stretch: is for points that shine; give emission, or leave it out"),
+        ({"peak": 2.0, "style": "points"}, "peak: is for points that shine; give emission"),
         ({"colors": "rasmol"}, 'colors: expected "jmol" or "cpk"'),
         ({"color": "charge", "norm": "sqrt"}, 'norm: expected "linear", "log" or "centered"'),
         ({"color": "charge", "norm": "log", "clim": (0, 1)}, "expected numbers above 0"),
@@ -254,6 +258,16 @@ def test_cell_is_drawn_where_there_is_one() -> None:
 def test_wrong_arguments(options: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=re.escape(message)):
         drawn(**options)
+
+
+def test_what_has_no_values_has_no_colour_map() -> None:
+    with pytest.raises(SceneError, match='clim: is for values; give color, such as color="x"'):
+        drawn(np.zeros((2, 3)), clim=(0, 1))
+
+
+def test_highlighting_nothing_is_warned_of() -> None:
+    with pytest.warns(UserWarning, match="none of the 3 particles that are drawn; all of them"):
+        drawn(highlight="element == 'Xe'")
 
 
 def test_logarithms_are_exact_enough() -> None:

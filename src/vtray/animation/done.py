@@ -91,7 +91,7 @@ class Done:
         try:
             self._look(resume=resume)
         except BaseException:
-            self.release()
+            self._held.release()
             raise
 
     def __len__(self) -> int:
@@ -101,8 +101,11 @@ class Done:
         return k < self.count or k in self._further
 
     def release(self) -> None:
-        """Let another run go on."""
+        """Let another run go on; where there is nothing yet, leave nothing behind."""
+        if not len(self) and self._is_alone():
+            self.output.record.unlink(missing_ok=True)
         self._held.release()
+        self._leave_folder()
 
     @property
     def white(self) -> float | None:
@@ -167,9 +170,6 @@ class Done:
                 self.output.name(k).unlink(missing_ok=True)
         self.output.record.unlink(missing_ok=True)
         self.release()
-        if part is not None:
-            with contextlib.suppress(OSError):  # something else is in it, which stays
-                self.output.folder.rmdir()
 
     def _hold(self) -> FileLock:
         """Make the folder, and hold it against other runs."""
@@ -185,6 +185,21 @@ class Done:
         except OSError as error:
             reason = (error.strerror or str(error)).lower()
             raise OutputError(f"{folder}: cannot be made: {reason}") from None
+
+    def _is_alone(self) -> bool:
+        """Tell whether the record is all there is; never beside pictures of other runs."""
+        if self.output.format is None:
+            return False
+        with contextlib.suppress(OSError):
+            kept = {path for path in self.output.folder.iterdir() if path.suffix != LOCK}
+            return kept == {self.output.record}
+        return False
+
+    def _leave_folder(self) -> None:
+        """Remove the folder of a movie, unless something is in it."""
+        if self.output.format is not None:
+            with contextlib.suppress(OSError):
+                self.output.folder.rmdir()
 
     def _look(self, *, resume: bool) -> None:
         """Look which pictures an earlier run has done."""

@@ -233,6 +233,8 @@ def check_kind(options: argparse.Namespace, *, is_data: bool) -> None:
         Whether the file is one of data.
     """
     used = given(options)
+    if used.get("bonds") is False and "cutoff" in used:
+        raise UsageError("--no-bonds and --cutoff: expected one of them")
     if not is_data and used:
         name = next(iter(used)).replace("_", "-")
         raise UsageError(f"--{name} is for files of data, and {options.scene} is a scene")

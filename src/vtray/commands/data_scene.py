@@ -215,7 +215,15 @@ def describe(options: argparse.Namespace) -> str:
     import numpy as np
 
     particles = read_particles(options)
-    lines = [f"{len(particles)} particles, frame {particles.frame}"]
+    count = f"{len(particles)}"
+    selected = data_options.given(options).get("select")
+    if selected is not None:
+        try:
+            particles = particles.select(selected)
+        except SceneError as error:
+            raise SceneError(f"{options.scene}: {error}") from None
+        count = f"{len(particles)} of {count}"
+    lines = [f"{count} particles, frame {particles.frame}"]
     wide = max(11, *map(len, particles.columns)) + 1 if particles.columns else 12
     for name in ("x", "y", "z", *particles.columns):
         values = particles[name]

@@ -65,7 +65,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     _add_reports(parser)
     # SCENE and OUTPUT may stand apart.
     joined = data_options.joined(with_values(with_parts(arguments, Style)))
-    options = parser.parse_intermixed_args(joined)
+    options = parser.parse_intermixed_args(_files_after_dashes(joined))
     options.columns = getattr(options, "columns", None)
     if options.output is None and options.pixel is None and not options.columns:
         parser.error("OUTPUT is missing")
@@ -73,6 +73,16 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         parser.error("--preview and --keep-partial are of no use with --pixel")
     options.lock = None  # no option, but a picture that is replayed may have been locked
     return options
+
+
+def _files_after_dashes(arguments: Sequence[str]) -> list[str]:
+    """Return arguments in which names of files that follow ``--`` do not look like options."""
+    if "--" not in arguments:
+        return list(arguments)
+    end = arguments.index("--")
+    names = arguments[end + 1 :]
+    # A single dash is still a stream.
+    return [*arguments[:end], *(f"./{name}" if name[:1] == "-" != name else name for name in names)]
 
 
 def _or_stream(stream: str) -> Callable[[str], Path]:

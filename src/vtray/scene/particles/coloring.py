@@ -113,12 +113,14 @@ def color_particles(
     if colors not in SCHEMES:
         raise SceneError(f"colors: expected {either(map(quoted, SCHEMES))}, got {show(colors)}")
     scaled = {"cmap": cmap, "clim": clim, "norm": norm, "nan_color": nan_color}
+    asked = _asked(scaled)
     if color is None:
-        color = next(
-            (name for name in ("color", "element", "type") if name in particles.columns), PLAIN
-        )
+        known = [name for name in ("color", "element", "type") if name in particles.columns]
+        if not known and asked:
+            raise SceneError(f"{asked[0]}: is for values; give color, such as color={quoted('x')}")
+        color = known[0] if known else PLAIN
     if isinstance(color, str):
-        if color == "element" and color in particles.columns and cmap is None:
+        if color == "element" and color in particles.columns and not asked:
             return _of_elements(particles["element"][rows], colors)
         called = column_called(color, particles.columns)
         if called in particles.columns or color in POSITION:
@@ -126,7 +128,11 @@ def color_particles(
         if _is_expression(color):
             values = values_of(particles, color, "color")
             return _of_column(color, values, rows, scaled, categories)
-        return Coloring(np.array(_one(color, particles), np.uint8))
+        one = np.array(_one(color, particles), np.uint8)
+        if asked:
+            words = f"{show(color)} is one colour, which no colour map is for"
+            raise SceneError(f"color: {words}; leave {' and '.join(asked)} out")
+        return Coloring(one)
     check_unmasked(color, "color")
     return _of_values(color, len(particles), rows, scaled)
 
@@ -176,13 +182,18 @@ def _of_column(
     few = values.dtype.kind in "iub" and (
         name == TYPE or categories is not None or len(np.unique(values)) <= len(PALETTE)
     )
-    asked = [argument for argument in ("cmap", "clim", "norm") if scaled[argument] is not None]
+    asked = _asked(scaled)
     if not asked and (is_text or few):
         return _of_categories(values, rows, categories)
     if is_text:
         words = f"column {show(name)} holds names, which no colour map is for"
         raise SceneError(f"color: {words}; leave {' and '.join(asked)} out")
     return _of_values(values, len(values), rows, scaled)
+
+
+def _asked(scaled: dict[str, Any]) -> list[str]:
+    """Return what is asked for of the colour map of values."""
+    return [argument for argument in ("cmap", "clim", "norm") if scaled[argument] is not None]
 
 
 def _are_colors(values: NDArray[Any]) -> bool:

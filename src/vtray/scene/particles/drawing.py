@@ -1,5 +1,6 @@
 """From particles to objects of a scene, step by step."""
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
@@ -30,7 +31,7 @@ from vtray.scene.particles.hydrogen_bonds import DASHES, criterion_of, find_hydr
 from vtray.scene.particles.made_of import MadeOf, remember, remember_ends, repeated, written_out
 from vtray.scene.particles.opacity import opacities, see_through
 from vtray.scene.particles.particles import Particles
-from vtray.scene.particles.shining import check_shining, shining
+from vtray.scene.particles.shining import check_dull, check_shining, shining
 from vtray.scene.particles.shown_bonds import Times, crossing, within_cell
 from vtray.scene.particles.styles import (
     COVERED,
@@ -227,6 +228,8 @@ def draw(
     if shines:
         asked = {"radii": radii, "bonds": bonds, "hydrogen_bonds": hydrogen_bonds}
         coloring = check_shining(style, coloring, {**asked, "boundary": boundary})
+    else:
+        check_dull(stretched)
     name = "points" if shines else style_of(style, particles, bonds)
     times = times_of(replicate)
     rows = np.flatnonzero(chosen(particles, select, "select"))
@@ -235,6 +238,9 @@ def draw(
     placed = _place(particles, name, rows, bonds, pairs, times, boundary, wrap=wrap, unwrap=unwrap)
     found = color_particles(particles, rows, **coloring)
     kept = None if highlight is None else chosen(particles, highlight, "highlight")
+    if kept is not None and len(rows) and not kept[rows].any():
+        words = f"none of the {len(rows)} particles that are drawn; all of them fade"
+        warnings.warn(f"highlight: {words}", stacklevel=4)
     if kept is not None and opacity is None:
         behind = background or ("black" if shines else "white")
         found = found._replace(colors=faded(found.colors, kept[rows], behind))

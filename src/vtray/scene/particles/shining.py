@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 PLACE = "add_particles: "
 
+UNSAID = {"stretch": "asinh", "softening": None, "peak": None}
+"""What is said of how light adds up where nothing is."""
+
 
 def check_shining(
     style: str | None, coloring: Mapping[str, Any], asked: Mapping[str, object]
@@ -47,6 +50,19 @@ def check_shining(
         words = "is for the column that color names, as that of emission says how bright points are"
         raise SceneError(f"cmap: {words}; give color, or leave it out")
     return {**coloring, "color": "white"}
+
+
+def check_dull(stretched: Mapping[str, Any]) -> None:
+    """Raise SceneError if it is said how light adds up of particles that give none.
+
+    Parameters
+    ----------
+    stretched
+        As for `shining`.
+    """
+    for name, value in stretched.items():
+        if value != UNSAID[name]:
+            raise SceneError(f"{name}: is for points that shine; give emission, or leave it out")
 
 
 def shining(
