@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 AHEAD, BACK = (0.0, 0.0, -1.0), (0.0, 1.0, 0.0)
 """Where `Camera.fit` looks unless it is told, and where from the front, with the z axis up."""
 
-ABOVE = 20.0
-"""How far above a floor the viewer is, in degrees."""
+ABOVE = 25.0
+"""How far above a floor the viewer is, in degrees: the horizon is not in the picture."""
 
 
 def with_camera(scene: "Scene", size: tuple[int, int] | None) -> "Scene":
