@@ -205,3 +205,45 @@ def test_mirrors_show_lamps_behind_the_camera(lamp: str) -> None:
         image = vtray.render(scene, integrator="whitted", exposure=1)
         np.testing.assert_allclose(image.linear, 0.7 * 255, rtol=1e-12)
         assert vtray.trace_pixel(image, 0, 0).light == tuple(image.linear[0, 0])
+
+
+ENDS = ((0, 0, 0.5), (0, 0, 1.5))
+
+
+@pytest.mark.parametrize("ends", [ENDS, ENDS[::-1]])
+@pytest.mark.parametrize("kind", ["cylinder", "cone"])
+def test_glass_between_flat_caps(kind: str, ends: Any) -> None:
+    """Light of 1 comes up through a column: a slab, whose light between its faces is a series."""
+    scene = vtray.Scene()
+    absorption = A([1.0, 0.5, 0.1])
+    glass = Glass(1.5, absorption=tuple(absorption))
+    scene.add_plane((0, 0, 0), normal=(0, 0, 1), material=Emissive(1))
+    if kind == "cylinder":
+        scene.add_cylinder(*ends, 0.5, material=glass)
+    else:
+        radii = (0.5, 0.4) if ends == ENDS else (0.4, 0.5)
+        scene.add_cone(*ends, *radii, material=glass)
+    scene.lights = []
+    scene.camera = vtray.Camera.orthographic((0, 0, 9), (0, 0, 0), 0.1, up=(0, 1, 0), size=(3, 3))
+    image = vtray.render(
+        scene, integrator="whitted", depth=20, exposure=1, filter="box", warn=lambda _: None
+    )
+    reflected, passed = 0.04, np.exp(-absorption)
+    light = (1 - reflected) ** 2 * passed / (1 - (reflected * passed) ** 2)
+    np.testing.assert_allclose(image.linear[1, 1] / 255, light, rtol=1e-5)
+
+
+@pytest.mark.parametrize("integrator", ["whitted", "path"])
+def test_ends_of_glass_may_be_swapped(integrator: str) -> None:
+    def taken(*ends: tuple[float, float, float]) -> vtray.Image:
+        scene = vtray.Scene()
+        scene.add_plane((0, 0, 0), normal=(0, 0, 1), color="red", material=Emissive(1))
+        scene.add_cylinder(*ends, 0.4, material=Glass(1.33, absorption=(0.2, 0, 0)))
+        scene.lights = []
+        scene.camera = vtray.Camera.fit(scene, view="iso", size=(16, 12))
+        return vtray.render(scene, integrator=integrator, depth=8, samples=2)
+
+    one, other = (0.2, -0.3, 0.4), (-0.3, 0.5, 1.6)
+    found, expected_ = taken(one, other), taken(other, one)
+    np.testing.assert_allclose(found.linear, expected_.linear, rtol=1e-9, atol=1e-9)
+    np.testing.assert_array_equal(found.albedo, expected_.albedo)

@@ -166,6 +166,29 @@ def sides_around(shape: Axial, radius: float, point: Vec, error_scale: float) ->
 
 
 @device
+def side_or_cap(shape: Axial, height: float, foot: Vec, is_side: bool) -> Vec:
+    """Return the point of the axis that a side is round, or the outward normal of the nearer cap.
+
+    Parameters
+    ----------
+    shape
+        The shape.
+    height
+        How far along the axis a point of it is.
+    foot
+        What is returned for the side.
+    is_side
+        Whether the point is on the side.
+    """
+    outward = scale(1.0 if height > 0.5 * shape.length else -1.0, shape.axis)
+    return (
+        foot[0] if is_side else outward[0],
+        foot[1] if is_side else outward[1],
+        foot[2] if is_side else outward[2],
+    )
+
+
+@device
 def at_least(rate: float, value: float) -> Span:
     """Return where so many times a distance are at least a value."""
     divisor = rate if rate != 0.0 else 1.0

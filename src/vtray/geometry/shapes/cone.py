@@ -24,6 +24,7 @@ from vtray.geometry.shapes.axis_line import (
     is_second_half,
     line_beside,
     move_along,
+    side_or_cap,
     sides_around,
 )
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
@@ -292,7 +293,7 @@ def cone_sides(cone: ConeShape, point: Vec, error_scale: float) -> Sides:
 
 @device
 def cone_pole(cone: ConeShape, point: Vec) -> tuple[Vec, bool]:
-    """Return the point of the axis that a point of the side is round, or the normal of its cap.
+    """Return the point of the axis that the side is round at a point, or the normal of its cap.
 
     The sphere around that point of the axis touches the side in a circle.
 
@@ -308,12 +309,7 @@ def cone_pole(cone: ConeShape, point: Vec) -> tuple[Vec, bool]:
     beyond = away * cone.sine / (cone.cosine if cone.cosine > 0.0 else 1.0)
     foot = add(cone.start, scale(line.height + beyond, cone.axis))
     is_round = from_side <= from_cap
-    axis = cone.axis
-    return (
-        foot[0] if is_round else axis[0],
-        foot[1] if is_round else axis[1],
-        foot[2] if is_round else axis[2],
-    ), is_round
+    return side_or_cap(cone, line.height, foot, is_round), is_round
 
 
 @device

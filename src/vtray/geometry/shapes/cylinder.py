@@ -31,6 +31,7 @@ from vtray.geometry.shapes.axis_line import (
     line_beside,
     move_along,
     passes_by,
+    side_or_cap,
     sides_around,
 )
 from vtray.geometry.shapes.columns import Columns, Place, to_kernels, world_point
@@ -226,7 +227,7 @@ def cylinder_sides(cylinder: CylinderShape, point: Vec, error_scale: float) -> S
 
 @device
 def cylinder_pole(cylinder: CylinderShape, point: Vec) -> tuple[Vec, bool]:
-    """Return the point of the axis that a point of the side is round, or the normal of its cap.
+    """Return the point of the axis that the side is round at a point, or the normal of its cap.
 
     Returns
     -------
@@ -238,12 +239,7 @@ def cylinder_pole(cylinder: CylinderShape, point: Vec) -> tuple[Vec, bool]:
     from_cap = min(abs(line.height), abs(cylinder.length - line.height))
     foot = add(cylinder.start, scale(line.height, cylinder.axis))
     is_round = from_side <= from_cap
-    axis = cylinder.axis
-    return (
-        foot[0] if is_round else axis[0],
-        foot[1] if is_round else axis[1],
-        foot[2] if is_round else axis[2],
-    ), is_round
+    return side_or_cap(cylinder, line.height, foot, is_round), is_round
 
 
 @device

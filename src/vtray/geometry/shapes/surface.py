@@ -13,8 +13,8 @@ class Surface(NamedTuple):
     Attributes
     ----------
     pole
-        The unit normal of a flat surface; of a round one the point that it is round, from which its
-        normal leads away.
+        The unit normal of a flat surface, which leads out of a solid; of a round one the point that
+        it is round, from which its normal leads away.
     is_round
         Which of the two it is.
     error_scale
