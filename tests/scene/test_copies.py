@@ -31,7 +31,6 @@ from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import check_spares_data
 from vtray.scene.copies import PARTS
 from vtray.scene.edits import recolored
-from vtray.scene.fingerprint import arrays_of as arrays_in
 from vtray.scene.fingerprint import scene_hash
 
 BALL = Sphere((0, 0, 5), 1)
@@ -254,7 +253,7 @@ def test_the_hash_tells_all_that_they_hold() -> None:
 
 def test_all_arrays_of_copies() -> None:
     spheres = Spheres(**columns(radius=2))
-    found = arrays_in(Copies([BALL, spheres], AT))
+    found = Copies([BALL, spheres], AT).arrays()
     assert np.shares_memory(found[0], AT)
     assert [array.shape for array in found[1:]] == [(COUNT, 3), (), (COUNT, 3), (COUNT,)]
     assert found[2] == 2

@@ -101,6 +101,14 @@ def test_any_change_is_another_scene() -> None:
     assert {len(text) for text in hashes} == {32}
 
 
+def test_the_same_numbers_of_something_else_are_another_scene() -> None:
+    share = np.linspace(0.1, 0.9, 50)
+    names: list[tuple[str, ...]] = [("opacity",), ("roughness",), ("metalness",), ()]
+    names += [("opacity", "roughness"), ("roughness", "metalness"), ("opacity", "metalness")]
+    found = {scene_hash(many(material="plastic", **dict.fromkeys(some, share))) for some in names}
+    assert len(found) == len(names)
+
+
 @given(count=st.integers(0, 300), place=st.integers(0, 299), bit=st.integers(0, 7))
 def test_any_bit_of_an_array_counts(count: int, place: int, bit: int) -> None:
     array = np.random.default_rng(count).integers(0, 256, count).astype(np.uint8)

@@ -1,10 +1,13 @@
 """What holds arrays that others may change: `Spheres` and their like, and `Copies` of these."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+import msgspec
 
 from vtray.scene.checks.checked import Checked, Frozen, bind
 from vtray.scene.checks.columns import Columns
+from vtray.scene.checks.limits import Byte
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -21,8 +24,19 @@ class _CheckedArrays(Checked):
         return cls.from_arrays(values, f"{cls.__name__}.")  # type: ignore[attr-defined]
 
 
+OF_COLORS = ("color_scale_",)
+"""What is remembered of the colours alone."""
+
+OF_ROWS = ("made_of_", "ends_")
+"""What is remembered of each row."""
+
+
 class ArrayHolder(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=True):
-    """What holds arrays, which may change, and may have been read from a file."""
+    """What holds arrays, which may change, and may have been read from a file.
+
+    Objects remember where they come from: the file, the values of their colours, the particles.
+    That is no part of what makes them equal, but goes with them into what is made of them.
+    """
 
     COLUMNS: ClassVar[Columns]
 
@@ -48,6 +62,36 @@ class ArrayHolder(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=
         """Return this object, which from now on remembers the file that it was read from."""
         self.__dict__["source_"] = source.absolute()  # the folder may be changed
         return self
+
+    def remembering(self, other: Self, changed: Iterable[str] = ()) -> Self:
+        """Return this object, which from now on remembers what another does, as far as it holds.
+
+        Parameters
+        ----------
+        other
+            What this object was made of.
+        changed
+            Which attributes may differ.
+        """
+        lost: set[str] = set() if len(self) == len(other) else set(OF_ROWS)
+        if any(name in self.COLUMNS and self.COLUMNS[name].kind is Byte for name in changed):
+            lost.update(OF_COLORS)
+        known = {name: what for name, what in other.__dict__.items() if name not in lost}
+        self.__dict__.update(known)
+        return self
+
+    def replace(self, **changes: Any) -> Self:  # noqa: ANN401
+        """Return the same with other values in place of some, as `Frozen.replace` does."""
+        return super().replace(**changes).remembering(self, changes)
+
+    __replace__ = replace
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _rebuild, (type(self), msgspec.structs.astuple(self), self.__dict__)
+
+    def __len__(self) -> int:
+        """Return how many rows there are."""
+        raise NotImplementedError
 
     def sources(self) -> "list[Path]":
         """Return the files that arrays were read from, those of objects within too."""
@@ -78,3 +122,12 @@ class ArrayHolder(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=
 
     def __ne__(self, other: object) -> bool:
         return NotImplemented if type(other) is not type(self) else not self == other
+
+
+def _rebuild(
+    kind: type[ArrayHolder], values: tuple[object, ...], known: dict[str, Any]
+) -> ArrayHolder:
+    """Make an object again after copying or pickling, with what it remembers."""
+    made: ArrayHolder = kind(*values)
+    made.__dict__.update(known)
+    return made

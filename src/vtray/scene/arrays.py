@@ -1,6 +1,7 @@
 """Many objects of one kind as arrays: what `Spheres` and their like have in common."""
 
 from collections.abc import Mapping
+from copy import copy
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import msgspec
@@ -156,15 +157,13 @@ class Arrays(ArrayHolder, frozen=True, eq=False, dict=True):
 
     def with_scale(self, scale: "ColorScale | None") -> Self:
         """Return the same objects, which remember how values became their colours."""
-        same: Self = make_unchecked(type(self), **msgspec.structs.asdict(self))
+        same: Self = copy(self)
         same.__dict__["color_scale_"] = scale
         return same
 
     def __copy__(self) -> Self:
-        return self.with_scale(self.color_scale)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (type(self), msgspec.structs.astuple(self), self.color_scale)
+        same: Self = make_unchecked(type(self), **msgspec.structs.asdict(self))
+        return same.remembering(self)
 
     def __len__(self) -> int:
         return len(getattr(self, self.__struct_fields__[0]))
@@ -239,12 +238,6 @@ def _check_varied(name: str, materials: tuple[Material, ...], place: str) -> Non
     if not any(can_vary(material, name) for material in materials):
         words = either(f'"{kind.__name__.lower()}"' for kind in VARIED[name])
         raise SceneError(f"{place}{name}: given for no material that it is of; expected {words}")
-
-
-def _rebuild(kind: type[Arrays], values: tuple[Any, ...], scale: "ColorScale | None") -> Arrays:
-    """Make objects again after copying or pickling."""
-    made: Arrays = kind(*values)
-    return made.with_scale(scale)
 
 
 def _show(value: Any) -> str:  # noqa: ANN401

@@ -126,10 +126,7 @@ lambert=1.0),), at=<float64 (2, 3)>)
 
     def __copy__(self) -> Self:
         same: Self = make_unchecked(type(self), objects=self.objects, at=self.at)
-        return same
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self.objects, self.at)
+        return same.remembering(self)
 
     def __len__(self) -> int:
         return len(self.at)

@@ -66,7 +66,8 @@ def _recolored(item: Any, colors: dict[str, Any], place: str, scale: dict[str, A
     """Return one object, or arrays, with other colours."""
     _check_end(colors["color_end"], [item], place)
     if isinstance(item, Arrays):
-        return item.colored(msgspec.structs.asdict(item), colors, place, **scale)
+        made = item.colored(msgspec.structs.asdict(item), colors, place, **scale)
+        return made.remembering(item, colors)
     found, _ = color_arrays({"color": colors["color"]}, 1, place, **scale)
     return item.replace(color=Color(*found["color"].reshape(3).tolist()))
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from vtray.base.pool import run_tasks
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import Arrays
+from vtray.scene.checks.limits import Byte
 from vtray.scene.copies import Copies
 from vtray.scene.materials import is_default, materials_of
 from vtray.scene.pictures.pattern_image import PatternImage
@@ -59,11 +60,6 @@ def _pieces_of(values: NDArray[Any]) -> Iterable[NDArray[Any]]:
     return [values[begin : begin + step] for begin in range(0, len(values), step)]
 
 
-def arrays_of(item: ArrayHolder) -> list[NDArray[Any]]:
-    """Return all arrays of an object, those of objects within too."""
-    return item.arrays()
-
-
 def scene_hash(scene: Scene, threads: int = THREADS) -> str:
     """Return a hash of all that a scene holds, as hexadecimal digits.
 
@@ -97,9 +93,19 @@ def _parts_of(objects: Iterable[object], threads: int) -> list[object]:
             own = hash_arrays([item.at], threads).hex()
             parts += [item.__struct_config__.tag, _parts_of(item.objects, threads), own]
         elif isinstance(item, ArrayHolder):
-            parts += [item.__struct_config__.tag, hash_arrays(arrays_of(item), threads).hex()]
+            parts += [item.__struct_config__.tag, hash_arrays(item.arrays(), threads).hex()]
+            parts += _names_of(item)
             if isinstance(item, Arrays) and not is_default(item.material):
                 parts += materials_of(item.material)
         else:
             parts.append(object_as_written(item) if hasattr(item, "opacity") else item)
     return parts
+
+
+def _names_of(item: ArrayHolder) -> list[str]:
+    """Return the names of those arrays of numbers that may be left out; colours have a dtype."""
+    return [
+        name
+        for name, column in item.COLUMNS.items()
+        if column.stand_in and column.kind is not Byte and getattr(item, name) is not None
+    ]

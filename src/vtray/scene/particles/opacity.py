@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
 from vtray.scene.cylinders import Cylinders
-from vtray.scene.particles.made_of import made_of, remember
+from vtray.scene.particles.made_of import made_of
 from vtray.scene.particles.particles import Particles
 from vtray.scene.spheres import Spheres
 
@@ -58,7 +58,7 @@ def see_through(part: Part, opacity: Floats) -> Part:
     rows = opacity[source.indices if source.joined is None else source.joined]
     each = rows if rows.ndim == 1 else rows.min(axis=1)
     found = float(each[0]) if len(each) and (each == each[0]).all() else each
-    return remember(part.replace(opacity=found).with_scale(part.color_scale), source)
+    return part.replace(opacity=found)
 
 
 def _shown(given: Any) -> str:  # noqa: ANN401

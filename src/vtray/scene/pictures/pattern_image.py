@@ -57,7 +57,7 @@ class PatternImage:
         return [self.source] if self.source else []
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self.pixels,)
+        return _rebuild, (self.pixels, self.source)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, PatternImage):
@@ -71,6 +71,13 @@ class PatternImage:
 
     def __repr__(self) -> str:
         return f"PatternImage(<{self.pixels.dtype} {self.pixels.shape}>)"
+
+
+def _rebuild(pixels: "Pixels", source: Path | None) -> PatternImage:
+    """Make a picture again after copying or pickling."""
+    made = PatternImage(pixels)
+    made.source = source
+    return made
 
 
 def pattern_image(given: object, place: str) -> PatternImage:

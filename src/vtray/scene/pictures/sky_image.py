@@ -62,8 +62,8 @@ class SkyImage(ArrayHolder, frozen=True, eq=False, dict=True):
     def __copy__(self) -> Self:
         return self
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self.pixels,)
+    def __len__(self) -> int:
+        return len(self.pixels)
 
     __hash__ = None  # type: ignore[assignment]  # arrays are compared
 
