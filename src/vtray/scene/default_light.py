@@ -72,7 +72,7 @@ def settings_of(
 ) -> RenderSettings:
     """Return the settings of a scene, with those that are given in place of some.
 
-    In default light, those that were neither set nor given are others. Its light is made for an
+    In default light, those that have their defaults and are not given are others. It is made for an
     exposure of 1, with which colours are what they were given as, and its rims for a bright
     background. Behind points that shine, the background is black. Edges are smooth, and soft light
     has as much grain as is not seen.
