@@ -78,10 +78,10 @@ def develop(
         (height, width, 4).
     """
     is_light = background in ("black", "sky")
-    if bits != 8:
+    if bits != 8 or not is_light:
         cover = np.ones(linear.shape[:2]) if is_light else alpha()
         exposed = put_on_background(linear, white, background, cover, 2**bits - 1, overlays)
-        return exposed.astype(np.uint16)
+        return exposed.astype(np.uint8 if bits == 8 else np.uint16)
     pixels = np.empty(linear.shape, np.uint8)
 
     def develop_rows(top: int) -> None:
@@ -90,8 +90,6 @@ def develop(
         _expose(light.reshape(light.size), float(white), bytes_.reshape(bytes_.size))
 
     run_tasks(range(0, len(linear), TILE), lambda: develop_rows, threads)
-    if not is_light:
-        return put_on_background(linear, white, background, alpha(), 255, overlays).astype(np.uint8)
     if overlays:
         covered = np.any([overlay.share > 0.0 for overlay in overlays], axis=0)
         # One column of pixels, as any picture.

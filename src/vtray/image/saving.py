@@ -27,6 +27,6 @@ def save_pixels(pixels: NDArray[Any], picture: Picture, path: Path) -> None:
 def _checked(picture: Picture, path: Path, bits: int | None, aov: Collection[str]) -> How:
     """Return how a picture is written, if that can be."""
     check_spares_data(path, [*picture.scene.objects, *images_of(picture.scene.lights)])
-    size = picture.linear.shape[:2]
-    how = check_format(path, bits, aov, picture.settings.background, size)
+    height, width = picture.linear.shape[:2]
+    how = check_format(path, bits, aov, picture.settings.background, (width, height))
     return how._replace(provenance=describe(picture, how).to_text())

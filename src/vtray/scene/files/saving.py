@@ -3,6 +3,7 @@
 import itertools
 import os
 from collections.abc import Callable, Container, Iterable, Iterator
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -38,6 +39,7 @@ def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
     """Write a valid scene as `Scene.save` does."""
     target = Path(path)
     arrays: dict[str, dict[str, object]] = {}
+    named_before = cache(partial(_arrays_of, target))
 
     def in_file(item: Any) -> Any:  # noqa: ANN401
         """Return what stands of an object in the scene file; keep the arrays for other files."""
@@ -47,7 +49,7 @@ def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
         if isinstance(item, Copies):
             shared["objects"] = [in_file(part) for part in item.objects]
         name = _unused_name(target, arrays)
-        _check_own(target, name, item.sources())
+        _check_own(target, name, item.sources(), named_before)
         entry, arrays[name] = _split(item, name, shared)
         return entry
 
@@ -57,7 +59,7 @@ def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
         """Return the name of the file of a picture; keep its pixels for it."""
         if id(image) not in images:
             name = images[id(image)] = _unused_name(target, arrays)
-            _check_own(target, name, image.sources())
+            _check_own(target, name, image.sources(), named_before)
             arrays[name] = {"image": image.pixels}
         return images[id(image)]
 
@@ -88,13 +90,15 @@ def _unused_name(scene: Path, used: Container[str]) -> str:
     return next(name for name in names if name not in used and name != scene.name)
 
 
-def _check_own(scene: Path, name: str, sources: Iterable[Path]) -> None:
+def _check_own(
+    scene: Path, name: str, sources: Iterable[Path], named_before: Callable[[], list[str]]
+) -> None:
     """Raise OutputError if a file in the place of a scene's arrays is not its own."""
     file = scene.with_name(name)
     if not file.exists():
         return
     is_own = any(source.exists() and file.samefile(source) for source in sources)
-    if not is_own and name not in _arrays_of(scene):
+    if not is_own and name not in named_before():
         remedy = "save the scene under another name, or delete that file first"
         raise OutputError(f"{file}: is there already and does not belong to {scene.name}; {remedy}")
 

@@ -28,6 +28,11 @@ def cross(a: Vec, b: Vec) -> Vec:
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
+def times(factor: float, vector: Vec) -> Vec:
+    """Return a vector so many times as long."""
+    return factor * vector[0], factor * vector[1], factor * vector[2]
+
+
 def along(start: Vec, distance: float, direction: Vec) -> Vec:
     """Return the point at a distance from another in a direction."""
     x, y, z = start

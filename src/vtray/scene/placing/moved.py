@@ -16,6 +16,7 @@ from vtray.scene.placing.directions import (
     camera_axes,
     cross,
     dot,
+    times,
     unit,
     view_axes,
 )
@@ -68,7 +69,7 @@ def orbiting(camera: HasView, degrees: object, elevation: object, about: object)
     rise = argument(call, "elevation", elevation, Real)
     target = _target(camera, about, call)
     forward = unit(camera.normal)
-    up = unit(camera.up) if camera.up is not None else _times(-1.0, axes_of(camera)[1])
+    up = unit(camera.up) if camera.up is not None else times(-1.0, axes_of(camera)[1])
     eye = along(_vec(camera.center), -camera.focus, forward)
     offset = (eye[0] - target[0], eye[1] - target[1], eye[2] - target[2])
     right = axes_of(camera)[0]
@@ -106,7 +107,7 @@ def side_by_side(
             raise SceneError(f"{call}: about: {words}, got {show(target)}")
         toward = unit(Direction(*way))
         center = Vector(*along(eye, camera.focus, toward))
-        up = Direction(*_times(-1.0, down))
+        up = Direction(*times(-1.0, down))
         found.append({"center": center, "normal": Direction(*toward), "up": up})
     return found[0], found[1]
 
@@ -183,10 +184,6 @@ def turned_about(vector: Vec, axis: Vec, degrees: float) -> Vec:
         c * vector[1] + s * beside[1] + rest * axis[1],
         c * vector[2] + s * beside[2] + rest * axis[2],
     )
-
-
-def _times(factor: float, vector: Vec) -> Vec:
-    return factor * vector[0], factor * vector[1], factor * vector[2]
 
 
 def _vec(point: Vector) -> Vec:

@@ -17,7 +17,7 @@ from vtray.base.exact_math import cosine, sine
 from vtray.scene.checks.limits import Real
 from vtray.scene.checks.scene_words import either, nearest, quoted, show
 from vtray.scene.placing.bounds import Balls, balls_of, box_of, from_middle
-from vtray.scene.placing.directions import Vec, cross, dot
+from vtray.scene.placing.directions import Vec, cross, dot, times
 
 Floats = NDArray[np.float64]
 
@@ -125,19 +125,19 @@ def _view_of_shape(parts: Sequence[Balls]) -> View:
     if least >= ALIKE * middle:
         short = _beside(SIDES, long)
     if dot(short, SIDES) < 0:
-        short = _times(-1.0, short)
+        short = times(-1.0, short)
     if middle >= ALIKE * most:
         is_level = abs(short[2]) > cosine(TILT)
         up = _beside((0.0, 1.0, 0.0) if is_level else (0.0, 0.0, 1.0), short)
     else:
         up = cross(short, long)
         if dot(up, UPS) < 0:
-            up = _times(-1.0, up)
+            up = times(-1.0, up)
     # What lies flat is seen from its lower side in the picture, so that this is nearer.
     tilt = -TILT if abs(short[2]) > abs(up[2]) else TILT
-    toward = _sum(_times(cosine(tilt), short), _times(sine(tilt), up))
-    upward = _sum(_times(cosine(tilt), up), _times(-sine(tilt), short))
-    return View(_times(-1.0, toward), upward)
+    toward = _sum(times(cosine(tilt), short), times(sine(tilt), up))
+    upward = _sum(times(cosine(tilt), up), times(-sine(tilt), short))
+    return View(times(-1.0, toward), upward)
 
 
 def moments(parts: Sequence[Balls]) -> Matrix:
@@ -228,12 +228,8 @@ def _turn(rows: Matrix, p: int, q: int, c: float, s: float) -> None:
 
 def _beside(vector: Vec, axis: Vec) -> Vec:
     """Return the unit vector of what of a vector is square to a unit axis."""
-    found = _sum(vector, _times(-dot(vector, axis), axis))
-    return _times(1.0 / math.sqrt(dot(found, found)), found)
-
-
-def _times(factor: float, vector: Vec) -> Vec:
-    return factor * vector[0], factor * vector[1], factor * vector[2]
+    found = _sum(vector, times(-dot(vector, axis), axis))
+    return times(1.0 / math.sqrt(dot(found, found)), found)
 
 
 def _sum(one: Vec, other: Vec) -> Vec:

@@ -150,7 +150,7 @@ def _box_of(head: _Head) -> "tuple[Cell | None, Cell, tuple[bool, bool, bool] | 
         rows = np.array([[float(entry) for entry in row.split()] for row in head.box[1:]])
     except ValueError:
         rows = np.empty((0, 0))
-    if words[:1] == ["abc"] or words[:1] == ["abc", "origin"]:
+    if words[:1] == ["abc"]:
         edges, corner, marks = rows[:, :3], rows[:, 3:].reshape(-1), words[2:]
     elif rows.shape in {(3, 2), (3, 3)}:
         edges, corner = _edges(rows)

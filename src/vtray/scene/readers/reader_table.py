@@ -6,13 +6,10 @@ What a file is, is told by the ending of its name, or by ``format=``, never by a
 import os
 from collections.abc import Mapping
 from fnmatch import fnmatchcase
-from typing import TYPE_CHECKING, BinaryIO, NamedTuple
+from typing import BinaryIO, NamedTuple
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
-
-if TYPE_CHECKING:
-    pass
 
 
 class Given(NamedTuple):
