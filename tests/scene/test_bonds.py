@@ -11,7 +11,7 @@ from conftest import once
 from vtray.base.errors import SceneError
 from vtray.scene.particles import bonds as module
 from vtray.scene.particles import elements
-from vtray.scene.particles.bonds import bonds_between, find_bonds
+from vtray.scene.particles.bonds import Bonds, bonds_between, find_bonds
 from vtray.scene.particles.particles import Particles
 
 CUBE = np.eye(3) * 8.0
@@ -136,3 +136,22 @@ def test_edges_too_long_or_short(length: float) -> None:
 def test_edges_in_one_plane() -> None:
     with pytest.raises(SceneError, match="its edges must not lie in one plane"):
         find_bonds(Particles([(0, 0, 0)], cell=[[1, 0, 0], [1, 1, 0], [2, 1, 0]]), cutoff=1)
+
+
+@pytest.mark.parametrize("axes", [[0], [1], [2], [0, 1, 2]])
+@pytest.mark.parametrize("far", [1e7, -1e12, 1e300])
+def test_particles_that_are_lost_cost_nothing(far: float, axes: list[int]) -> None:
+    places = np.random.default_rng(3).uniform(0, 45, (9000, 3))
+    known = pairs_of(find_bonds(Particles(places), cutoff=1.5))
+    lost = np.full((3, 3), 20.0)
+    lost[:, axes] = [[far], [far], [-2 * far]]
+    lost[1, 1] += 1.0
+    every = np.concatenate([places, lost])
+    expected = known if far == 1e300 and 1 in axes else known | {(9000, 9001)}
+    assert pairs_of(find_bonds(Particles(every), cutoff=1.5)) == expected
+    # Boxes as large as the way to them would hold all others.
+    assert module._Grid.build(every.T, 1.5).sides == [0.5, 1.5, 1.5]
+
+
+def pairs_of(bonds: Bonds) -> set[tuple[int, ...]]:
+    return set(map(tuple, bonds.pairs.tolist()))

@@ -29,6 +29,10 @@ SLICES = 3
 MOST_BOXES = 2**20
 """How many boxes the grid has at most along an axis, so that its numbers fit into 64 bits."""
 
+FEW_BEYOND = 1000
+"""Points at each end that may be beyond the grid, where it would be too wide: they count as on its
+border, so there must not be many."""
+
 CANDIDATES = 2**17
 """How many pairs are looked at at once; their arrays stay in the cache."""
 
@@ -262,8 +266,8 @@ class _Grid(NamedTuple):
         Which points these are.
     keys
         The numbers of their slices, ascending.
-    low
-        Where the grid begins.
+    low, high
+        Where the grid begins and ends. A few points may be beyond.
     sides
         The sides of its slices.
     counts
@@ -276,6 +280,7 @@ class _Grid(NamedTuple):
     order: Integers
     keys: Integers
     low: list[float]
+    high: list[float]
     sides: list[float]
     counts: tuple[int, int]
     longest: float
@@ -283,8 +288,9 @@ class _Grid(NamedTuple):
     @classmethod
     def build(cls, points: Sequence[Floats], longest: float) -> "_Grid":
         """Sort points."""
-        low = [float(column.min()) for column in points]
-        extents = [float(column.max()) - start for column, start in zip(points, low, strict=True)]
+        ends = [_ends(column, MOST_BOXES * longest) for column in points]
+        low, high = ([end[k] for end in ends] for k in range(2))
+        extents = [end - start for start, end in ends]
         sides = [max(longest, extent / MOST_BOXES) for extent in extents]
         sides = [max(sides[0] / SLICES, extents[0] / MOST_BOXES), *sides[1:]]
         across, down = (int(extent / side) + 1 for extent, side in zip(extents[:2], sides[:2]))  # noqa: B905
@@ -293,6 +299,7 @@ class _Grid(NamedTuple):
             np.zeros(0, np.int64),
             np.zeros(0, np.int64),
             low,
+            high,
             sides,
             (across + 4 * SLICES + 2, down + 4),
             longest,
@@ -305,9 +312,12 @@ class _Grid(NamedTuple):
 
     def _keys(self, points: Sequence[Floats]) -> Integers:
         """Return the numbers of the slices that points are in."""
+        # What is beyond counts as just outside: what is bound stays in boxes side by side.
         x, y, z = (
-            np.floor((column - start) / side).astype(np.int64)
-            for column, start, side in zip(points, self.low, self.sides, strict=True)
+            np.floor((column.clip(low - self.longest, high + self.longest) - low) / side).astype(
+                np.int64
+            )
+            for column, low, high, side in zip(points, self.low, self.high, self.sides, strict=True)
         )
         across, down = self.counts
         # Empty boxes before the first, so that steps to neighbours never lead to another row.
@@ -367,7 +377,8 @@ class _Grid(NamedTuple):
             distance = np.zeros(len(one))
             for theirs, own in zip(points, self.points, strict=True):
                 apart = theirs[one] - own[two]
-                apart *= apart
+                with np.errstate(over="ignore"):
+                    apart *= apart
                 distance += apart
             near = np.flatnonzero(distance <= square)
             one, two, distance = one[near], two[near], distance[near]
@@ -377,6 +388,17 @@ class _Grid(NamedTuple):
             if limit < 0:
                 raise _too_many()
             yield one[bound], two[bound]
+
+
+def _ends(column: Floats, most: float) -> tuple[float, float]:
+    """Return where coordinates begin and end, without a few where they would reach too far."""
+    low, high = float(column.min()), float(column.max())
+    if high - low > most:
+        few = min(len(column) // 8, FEW_BEYOND)
+        last = len(column) - 1 - few
+        ordered = np.partition(column, [few, last])
+        low, high = float(ordered[few]), float(ordered[last])
+    return low, high
 
 
 def _too_many() -> SceneError:
