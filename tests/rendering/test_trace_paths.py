@@ -315,9 +315,13 @@ def test_a_path_that_meets_nothing() -> None:
     assert "and the ray that goes on" not in " ".join(words_in(tree))
 
 
-def test_what_is_not_shown_is_not_told() -> None:
+@pytest.mark.parametrize("kind", ["balls", "plane"])
+def test_what_is_not_shown_is_not_told(kind: str) -> None:
     scene = mirror_and_floor()
-    scene.add_spheres([(0, 0, 2)], 0.5, opacity=0.5)
+    if kind == "balls":
+        scene.add_spheres([(0, 0, 2)], 0.5, opacity=0.5)
+    else:
+        scene.add_plane((0, 0, 9), normal=(0, 0, -1), opacity=0.5)
     scene.render = vtray.RenderSettings(integrator="path")
     with pytest.raises(vtray.RenderError, match='opacity: not between 0 and 1 with integrator="p'):
         vtray.trace_pixel(scene, 1, 1)

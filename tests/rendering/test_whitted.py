@@ -124,11 +124,12 @@ def test_rough_surfaces_are_shown_as_smooth_and_said_to_be() -> None:
     assert rough.linear.tobytes() == vtray.render(smooth, integrator="whitted").linear.tobytes()
 
 
-def test_what_does_not_go_together() -> None:
+@pytest.mark.parametrize("faded", [1, 3])
+def test_what_does_not_go_together(faded: int) -> None:
     scene = room(("mirror", "lambert", "lambert", "lambert"))
     with pytest.raises(vtray.RenderError, match="keep_lights: light over many surfaces"):
         vtray.render(scene, integrator="whitted", keep_lights=True)
-    scene.objects[1] = scene.objects[1].replace(opacity=0.5)
+    scene.objects[faded] = scene.objects[faded].replace(opacity=0.5)
     with pytest.raises(vtray.RenderError, match="opacity: not between 0 and 1"):
         vtray.render(scene, integrator="whitted")
 

@@ -1,6 +1,6 @@
 """Which faded shapes are one body: those of one object that are equally opaque."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from vtray.rendering.shape_kinds import Kind
 from vtray.scene.arrays import Arrays
+from vtray.scene.objects import Plane
 
 Numbers = NDArray[np.int32]
 
@@ -26,6 +27,13 @@ class FadedBodies(NamedTuple):
 
     of_sources: tuple[Numbers, ...]
     opacity: NDArray[np.float64]
+
+
+def has_faded(bodies: FadedBodies | None, objects: Iterable[object]) -> bool:
+    """Tell whether light passes in part through any of objects: planes are bodies of their own."""
+    return bodies is not None or any(
+        isinstance(item, Plane) and 0.0 < item.opacity < 1.0 for item in objects
+    )
 
 
 class BodyCount:

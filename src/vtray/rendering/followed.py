@@ -7,6 +7,7 @@ import numpy as np
 from vtray.base.errors import RenderError
 from vtray.image.exposure import BRIGHTEST
 from vtray.rendering.acceleration import Acceleration
+from vtray.rendering.bodies import has_faded
 from vtray.scene.copies import Copies
 from vtray.scene.materials import (
     Blend,
@@ -35,7 +36,9 @@ def simpler_looks(objects: Sequence[Object], settings: RenderSettings) -> str:
     return f"material: {which} {words}; give integrator={better[settings.integrator]}"
 
 
-def check_followed(kept: Acceleration, settings: RenderSettings, *, keep_lights: bool) -> None:
+def check_followed(
+    kept: Acceleration, objects: Sequence[Object], settings: RenderSettings, *, keep_lights: bool
+) -> None:
     """Raise RenderError if something is asked for that does not go with following mirrors."""
     if settings.integrator == "direct":
         return
@@ -45,7 +48,7 @@ def check_followed(kept: Acceleration, settings: RenderSettings, *, keep_lights:
             'give integrator="direct"'
         )
         raise RenderError(message)
-    if kept.bodies is not None:
+    if has_faded(kept.bodies, objects):
         message = (
             f'opacity: not between 0 and 1 with integrator="{settings.integrator}", which does not '
             'show what fades; give material="glass" instead, or integrator="direct"'

@@ -5,14 +5,14 @@ import numpy as np
 from vtray.base.capacity import MAX_NUMBERS
 from vtray.geometry.world import Bodies
 from vtray.rendering.acceleration import Acceleration
-from vtray.rendering.bodies import FadedBodies
+from vtray.rendering.bodies import FadedBodies, has_faded
 from vtray.rendering.joined import joined, rows_of
 from vtray.scene.scene import Plane
 
 
 def pack_bodies(kept: Acceleration, planes: list[Plane]) -> Bodies | None:
     """Return the bodies of all faded shapes; None if there are none. Each plane is its own."""
-    if kept.bodies is None and not any(0.0 < plane.opacity < 1.0 for plane in planes):
+    if not has_faded(kept.bodies, planes):
         return None
     none = np.zeros(1, np.int32)
     sources = len(kept.shapes) + len(kept.copied)

@@ -101,7 +101,7 @@ def trace_rays(
         fitted(scene.style, camera, lambda: ball_around(scene)) if image is None else image.style
     )
     kept = accelerate(scene, style=style)  # which the given scene may have already
-    check_followed(kept, settings, keep_lights=False)
+    check_followed(kept, scene.objects, settings, keep_lights=False)
     render = followed(scene.render, settings)
     scene = Scene(camera, lights_of(scene), list(scene.objects), render, style)
     packed, numbering = styled(pack(scene, kept), style), number_objects(scene.objects)

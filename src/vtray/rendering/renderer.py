@@ -250,7 +250,7 @@ def render(
     clock, loaded = Stopwatch(), loading_seconds()
     kept = accelerate(given, threads, _step_of(progress, "build"), style)
     loading = loading_seconds() - loaded
-    check_followed(kept, settings, keep_lights=keep_lights)
+    check_followed(kept, scene.objects, settings, keep_lights=keep_lights)
     _tell(warn, NOTHING_LEFT if is_nothing_left(kept) else "")
     clock.lap("build")
     packed = styled(pack(shown, kept), style)
