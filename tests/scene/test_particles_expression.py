@@ -101,6 +101,41 @@ def test_components_and_whole_columns() -> None:
     assert mask(PARTICLES, "norm(position) < 3").sum() > 0
 
 
+@pytest.mark.parametrize(
+    "expression",
+    [
+        "{} - 1000 > 0",
+        "{} * 2 > 200",
+        "{} ** 2 > 1000",
+        "-{} < 0",
+        "abs({}) - 1 > 0",
+        "{} + {} > 250",
+        "{} * 10000000000 > 3",
+        "{} - 18446744073709551615 <= 0",
+        "(((({} + 2) ** 16) ** 16) ** 16) * 0.0 != 0.0",
+        "-({} > 1) == -1",
+        "({} > 1) + ({} > 2) == 2",
+    ],
+)
+@pytest.mark.parametrize("kind", [np.uint8, np.int8, np.uint16, np.uint32, np.int64, np.uint64])
+def test_integers_do_not_wrap_around(expression: str, kind: type) -> None:
+    most = np.iinfo(kind).max
+    column = np.array([0, 1, 2, 3, 100, most - 1, most], kind)
+    particles = Particles(np.zeros((len(column), 3)), {"c": column})
+    expected = []
+    for entry in column.tolist():
+        try:
+            expected.append(eval(expression.format(entry, entry)))  # noqa: S307  ours
+        except OverflowError:  # Python's integers are not doubles beyond these
+            expected.append(True)
+    assert mask(particles, expression.format("c", "c")).tolist() == expected
+
+
+def test_roots_of_short_integers_are_doubles() -> None:
+    particles = Particles(np.zeros((2, 3)), {"c": np.array([2, 3], np.uint8)})
+    assert mask(particles, f"sqrt(c) == {math.sqrt(2)!r}").tolist() == [True, False]
+
+
 NUMBERS = st.recursive(
     st.sampled_from(["x", "y", "z", "type", "index", "2", "0.5"]),
     lambda inner: st.one_of(
@@ -174,6 +209,7 @@ def test_any_text_is_a_mask_or_one_line(text: str) -> None:
         ("norm(x) > 1", "at 1: norm() takes a vector, such as velocity"),
         ("column(x) > 1", "at 1: column() takes a name in quotes"),
         ("1j == x", "at 1: expected a number or a name in quotes, got 1j"),
+        ("z < 1" + "0" * 400, "at 5: expected a number below 1e308"),
         ("x > 0 and\ny > nothing", "at 15: no column 'nothing'; there are "),
     ],
 )

@@ -9,7 +9,7 @@ import math
 import operator
 import re
 from collections.abc import Callable, Mapping
-from functools import reduce
+from functools import partial, reduce
 from typing import TYPE_CHECKING, Any, Protocol
 
 from vtray.base.errors import SceneError
@@ -25,6 +25,12 @@ if TYPE_CHECKING:
 
 _LONGEST = 10_000
 """Characters of an expression, at the most."""
+
+_MOST_BITS = 1023
+"""Of an integer that a double surely reaches."""
+
+_MOST = 2**63 - 1
+"""The largest integer of 64 bits."""
 
 _COMPONENTS = {"x": 0, "y": 1, "z": 2, "r": 0, "g": 1, "b": 2}
 
@@ -166,6 +172,8 @@ class _Steps:
         return step(node)
 
     def _constant(self, node: ast.Constant) -> object:
+        if isinstance(node.value, int) and node.value.bit_length() > _MOST_BITS:
+            raise self._wrong(node, "expected a number below 1e308")
         if isinstance(node.value, (bool, int, float, str)):
             return node.value
         raise self._wrong(node, f"expected a number or a name in quotes, got {node.value!r}")
@@ -223,9 +231,9 @@ class _Steps:
             return np.sqrt(reduce(operator.add, [part * part for part in parts]))
         self._check_one(found, node.args[0])
         if name == "abs":
-            return np.abs(found)
+            return np.abs(_wide(found))
         if name == "sqrt":
-            return np.sqrt(found)
+            return np.sqrt(_wide(found))
         values = np.atleast_1d(found)
         if not len(values):
             raise self._wrong(node, f"{name}() of no particles")
@@ -277,7 +285,7 @@ class _Steps:
             return np.logical_not(self._truth(node.operand))
         found = self.value(node.operand)
         self._check_numbers(found, node.operand)
-        return -found if isinstance(node.op, ast.USub) else found
+        return _calculated(operator.mul, found, -1 if isinstance(node.op, ast.USub) else 1)
 
     def _binop(self, node: ast.BinOp) -> Any:  # noqa: ANN401
         logic = _LOGIC.get(type(node.op))
@@ -290,12 +298,12 @@ class _Steps:
             if not (isinstance(other, int) and 0 <= other <= 16):
                 raise self._wrong(node.right, "expected a whole power from 0 to 16")
             # Products round the same on every machine.
-            return reduce(operator.mul, [one] * other, 1)
+            return reduce(partial(_calculated, operator.mul), [one] * other, 1)
         arithmetic = _ARITHMETIC.get(type(node.op))
         if arithmetic is None:
             raise self._wrong(node, f"{self._source(node)!r} is not understood in an expression")
         try:
-            return arithmetic(one, other)
+            return _calculated(arithmetic, one, other)
         except (ArithmeticError, TypeError, ValueError) as error:
             raise self._wrong(node, f"{self._source(node)!r}: {error}") from None
 
@@ -371,6 +379,44 @@ def _is_truth(found: Any) -> bool:  # noqa: ANN401
     return isinstance(found, (bool, np.bool_)) or (
         getattr(found, "ndim", 0) == 1 and found.dtype == np.bool_
     )
+
+
+def _calculated(operation: Callable[[Any, Any], Any], one: Any, other: Any) -> Any:  # noqa: ANN401
+    """Return what an operation makes of two numbers, or of those of each particle.
+
+    Integers that 64 bits do not hold become doubles, rather than wrap around.
+    """
+    import numpy as np
+
+    one, other = _wide(one), _wide(other)
+    found = operation(one, other)
+    if _is_whole(one) and _is_whole(other):
+        rough = operation(one * 1.0, other * 1.0)
+        if np.any(np.abs(rough) >= 2.0**63):
+            return rough
+    return found
+
+
+def _wide(found: Any) -> Any:  # noqa: ANN401
+    """Return truths and integers as integers of 64 bits, or doubles where these do not hold them.
+
+    All other numbers stay as they are.
+    """
+    import numpy as np
+
+    if not _is_whole(found):
+        return found
+    # The least of 64 bits is left out, as there is no number of the opposite sign.
+    fits = np.all(np.asarray(found) <= _MOST) and np.all(np.asarray(found) >= -_MOST)
+    if isinstance(found, int):
+        return int(found) if fits else float(found)
+    return found.astype(np.int64 if fits else np.float64)
+
+
+def _is_whole(found: Any) -> bool:  # noqa: ANN401
+    """Tell whether a value is an integer or a truth, or has one for each particle."""
+    kind = found.dtype.kind if hasattr(found, "dtype") else ""
+    return isinstance(found, int) or kind in ("b", "i", "u")
 
 
 def _is_text(found: Any) -> bool:  # noqa: ANN401
