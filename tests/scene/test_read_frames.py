@@ -74,6 +74,13 @@ def test_frames_are_those_that_are_read(name: str, tmp_path: Path) -> None:
             assert particles.positions[0, 0] == particles.frame
 
 
+@pytest.mark.parametrize("wanted", [[0], [1, 0], [0, 0]])
+def test_what_follows_the_last_frame_is_not_read(wanted: list[int], tmp_path: Path) -> None:
+    path = tmp_path / "run.xyz"
+    path.write_text("1\n\nC 0 0 0\n" * (max(wanted) + 1) + "broken\n")
+    assert [found.frame for found in vtray.read_frames(path, wanted)] == wanted
+
+
 def test_topology_with_a_trajectory(tmp_path: Path) -> None:
     pytest.importorskip("MDAnalysis")
     top, places = tmp_path / "top.gro", tmp_path / "run.xyz"

@@ -142,16 +142,16 @@ def read_numbers(
     number = next(wanted, None)
     while number is not None:
         with _explained(name), _opened(path, format, columns, trajectory) as (module, given):
-            last = at = -1
+            at = -1
             for at, step in enumerate(_steps(module, given)):
-                if number is None or number <= last:
-                    break
                 if at == number:
                     yield _finished(step(), given, path)
-                    last, number = number, next(wanted, None)
+                    number = next(wanted, None)
+                    # What follows the last frame that is wanted is not looked at.
+                    if number is None or number <= at:
+                        break
             else:
-                if number is not None and number > last:
-                    raise no_such_frame(number, at + 1)
+                raise no_such_frame(number, at + 1)
 
 
 def numbers_of(
