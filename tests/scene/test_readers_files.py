@@ -464,6 +464,21 @@ def test_csv_with_comments_says_the_line(tmp_path: Path) -> None:
         vtray.read(path)
 
 
+UNDERSCORES = {
+    "a.csv": "x,y,z,label\n0,0,0,1_2\n0,0,0,1_3\n",
+    "a.xyz": "2\ntime=1_0\nC 0 0 0 1_2\nC 0 0 0 1_3\n",
+}
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.xyz"])
+def test_labels_with_underscores_are_no_numbers(name: str, tmp_path: Path) -> None:
+    path = tmp_path / name
+    path.write_text(UNDERSCORES[name])
+    found = vtray.read(path)
+    assert found["label" if name == "a.csv" else "column5"].tolist() == ["1_2", "1_3"]
+    assert found.time is None
+
+
 @pytest.mark.parametrize("name", ["cell", "box", "Lattice"])
 @pytest.mark.parametrize("cell", [[4.0, 5.0, 6.0], [[4, 0, 0], [1, 5, 0], [0, 0, 6.0]]])
 def test_npz_with_a_cell_and_a_time(name: str, cell: list[object], tmp_path: Path) -> None:
@@ -621,6 +636,8 @@ WRONG = [
     ("a.csv", "x,y,z\n1,2,\n", "line 2: column 'z': must be finite, got nan"),
     ("a.csv", "x,y,z\n\n1,2,3\n\n1,inf,3\n", "line 5: column 'y': must be finite, got inf"),
     ("a.csv", "x,Y,z\n1,2,3\n1,b,3\n", "line 3: column 'Y': expected numbers, got such as 'b'"),
+    ("a.csv", "x,y,z\n1,2,3\n1,2,1_2\n", "line 3: column 'z': expected numbers, got such as '1_2'"),
+    ("a.pdb", PDB.replace("  -1.500", "  -1_500"), "line 4: columns 31 to 38: x must be a number"),
     ("a.pdb", PDB.replace("  -1.500", "  -1.5x0"), "line 4: columns 31 to 38: x must be a number"),
     ("a.pdb", PDB.replace("  -1.500", "     nan"), "line 4: x must be finite, got nan"),
     ("a.dump", dump(one="0 1 inf"), "line 10: z must be finite, got inf"),
@@ -628,6 +645,12 @@ WRONG = [
     ("a.pdb", PDB.replace("110.00", "190.00"), "line 1: expected three lengths and three angles"),
     ("a.pdb", PDB.replace("80.00  90.00 110.00", "10.00  90.00 170.00"), "line 1: no cell has"),
     ("a.dump", dump(box="1 2\n3 x\n5 6"), "line 9: expected the bounds of the box, got '1 2 / 3 x"),
+    (
+        "a.dump",
+        dump(box="1 2\n3 1_0\n5 6"),
+        "line 9: expected the bounds of the box, got '1 2 / 3 1",
+    ),
+    ("a.dump", dump(one="0 1 1_0"), "line 10: entry 5 must be a number, got '1_0'"),
     ("a.dump", dump(places="a b c"), "line 9: expected the columns x y z, got 'id type a b c vx"),
     ("a.dump", dump(places="x y m"), "line 9: expected the columns x y z, got 'id type x y m vx"),
     ("a.dump", dump(one="0 1"), "line 10: expected 9 entries, got 8"),

@@ -8,6 +8,7 @@ from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.column_names import canonical, name_columns
 from vtray.scene.particles.object_column import without_objects
 from vtray.scene.particles.particles import POSITION, Particles
+from vtray.scene.particles.plain_numbers import number_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -114,7 +115,7 @@ def _check_lengths(parts: "list[Array]", names: list[str]) -> None:
 def _is_number(entry: object) -> bool:
     """Tell whether an entry of a column that holds others may be a number."""
     try:
-        float(str(entry))
+        number_of(str(entry))
     except ValueError:
         return False
     return True

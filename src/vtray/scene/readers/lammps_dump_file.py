@@ -6,12 +6,14 @@ https://docs.lammps.org/dump.html, https://docs.lammps.org/Howto_triclinic.html
 """
 
 import re
+from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.column_names import IMAGES, name_columns
 from vtray.scene.particles.particles import Particles
+from vtray.scene.particles.plain_numbers import number_of, numbers_of
 from vtray.scene.readers.frames import Steps, find_frame, steps_of
 from vtray.scene.readers.lines import Lines
 from vtray.scene.readers.reader_table import Given
@@ -80,8 +82,9 @@ def _read_frame(lines: Lines, number: int, head: _Head) -> Particles:
     place = lines.place()
     first = (lines.next() or "").split() if head.size else []
     lines.go(place)
+    known = dict.fromkeys(_INTEGERS, "I") | dict.fromkeys(chain(*_PLACES), "R")
     kinds = "".join(
-        "I" if name in _INTEGERS else kind_of(first[i]) if i < len(first) else "R"
+        known.get(name) or (kind_of(first[i]) if i < len(first) else "R")
         for i, name in enumerate(head.names)
     )
     columns = dict(zip(head.names, read_rows(lines, head.size, kinds), strict=True))
@@ -133,7 +136,7 @@ def _head_of(found: dict[str, str], box: list[str], names: list[str], line: int)
     if len(set(names)) < len(names):
         raise SceneError(f"line {line}: expected each column once, got {short(' '.join(names))!r}")
     try:
-        time = float(found["TIME"]) if "TIME" in found else None
+        time = number_of(found["TIME"]) if "TIME" in found else None
     except ValueError:
         time = None
     return _Head(int(count), names, time, box, line)
@@ -147,7 +150,7 @@ def _box_of(head: _Head) -> "tuple[Cell | None, Cell, tuple[bool, bool, bool] | 
         return None, np.zeros(3), None
     words = head.box[0].split()[2:]
     try:
-        rows = np.array([[float(entry) for entry in row.split()] for row in head.box[1:]])
+        rows = np.array([numbers_of(row.split()) for row in head.box[1:]])
     except ValueError:
         rows = np.empty((0, 0))
     if words[:1] == ["abc"]:

@@ -17,6 +17,7 @@ from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.elements import symbol_of
 from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.particles import Particles
+from vtray.scene.particles.plain_numbers import number_of, numbers_of
 from vtray.scene.readers.frames import Steps, frame_number
 from vtray.scene.readers.libraries import check_room
 from vtray.scene.readers.reader_table import Given
@@ -203,7 +204,7 @@ def _cell_of(line: str, number: int) -> "Cell | None":
 
     starts = (6, 15, 24, 33, 40, 47, 54)
     try:
-        found = [float(line[i:j]) for i, j in pairwise(starts)]
+        found = [number_of(line[i:j]) for i, j in pairwise(starts)]
     except ValueError:
         found = [0.0]
     # What files without a crystal have.
@@ -245,7 +246,7 @@ def _numbers(table: "Array", start: int, end: int, lines: list[int], name: str) 
     found = np.ascontiguousarray(table[:, start:end]).view(f"S{end - start}").ravel()
     listed = found.tolist()
     try:
-        return np.fromiter(map(float, listed), np.float64, len(listed))
+        return numbers_of(listed)
     except ValueError:
         for line, entry in zip(lines, listed, strict=True):
             if not re.fullmatch(rb"\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*", entry):
@@ -257,10 +258,8 @@ def _numbers(table: "Array", start: int, end: int, lines: list[int], name: str) 
 
 def _whole(texts: "Array") -> "Array":
     """Return texts as integers, or as they are if one is none."""
-    import numpy as np
-
     try:
-        return np.fromiter(map(int, texts.tolist()), np.int64, len(texts))
+        return numbers_of(texts.tolist(), int)
     except ValueError:
         return texts
 

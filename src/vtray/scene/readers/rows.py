@@ -12,6 +12,7 @@ from vtray.base.errors import SceneError
 from vtray.base.memory import lack_of_memory
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.few_names import texts_of
+from vtray.scene.particles.plain_numbers import number_of, numbers_of
 from vtray.scene.readers.lines import Lines, text_of
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ _TRUTH = {b"T": True, b"F": False, b"TRUE": True, b"FALSE": False, b"1": True, b
 def kind_of(entry: str) -> str:
     """Tell what an entry is: "R", a number, or "S", a name."""
     try:
-        float(entry)
+        number_of(entry)
     except ValueError:
         return "S"
     return "R"
@@ -134,17 +135,15 @@ def _convert(entries: list[bytes], kind: str) -> "Array":
     """Return a column of a kind; raise ValueError, KeyError or OverflowError if it is not."""
     import numpy as np
 
-    count = len(entries)
     if kind == "R":
         try:
-            return np.fromiter(map(float, entries), np.float64, count)
+            return numbers_of(entries)
         except ValueError:  # Fortran writes 1.0D-3
-            exponents = (entry.replace(b"D", b"E").replace(b"d", b"e") for entry in entries)
-            return np.fromiter(map(float, exponents), np.float64, count)
+            return numbers_of([e.replace(b"D", b"E").replace(b"d", b"e") for e in entries])
     if kind == "I":
-        return np.fromiter(map(int, entries), np.int64, count)
+        return numbers_of(entries, int)
     if kind == "L":
-        return np.fromiter((_TRUTH[entry.upper()] for entry in entries), np.bool_, count)
+        return np.fromiter((_TRUTH[entry.upper()] for entry in entries), np.bool_, len(entries))
     return texts_of(entries, bytes.decode)
 
 

@@ -16,6 +16,7 @@ from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.from_columns import from_columns
 from vtray.scene.particles.object_column import without_objects
 from vtray.scene.particles.particles import Particles
+from vtray.scene.particles.plain_numbers import numbers_of
 from vtray.scene.readers.frames import frame_number
 from vtray.scene.readers.libraries import check_room, told
 from vtray.scene.readers.reader_table import Given
@@ -156,9 +157,9 @@ def _column(entries: list[str]) -> "Array":
     """Return entries as integers, numbers (NaN where one is missing), truths, or text."""
     import numpy as np
 
-    for kind, parse in ((np.int64, int), (np.float64, float), (np.float64, _number_or_nan)):
+    for parse in (int, float, _number_or_nan):
         try:
-            return np.fromiter(map(parse, entries), kind, len(entries))
+            return numbers_of(entries, parse)
         except (ValueError, OverflowError):
             continue
     words = [entry.strip() for entry in entries]
