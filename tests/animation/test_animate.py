@@ -56,6 +56,14 @@ def test_what_pictures_are_made_of(tmp_path: Path) -> None:
     assert called == ["", "a", "bb"]  # once each
 
 
+def test_a_background_may_be_an_array(tmp_path: Path) -> None:
+    particles = vtray.Particles([(0, 0, 0)])
+    for name, background in (("a", np.array([1.0, 0.5, 0.0])), ("b", (1.0, 0.5, 0.0))):
+        path = tmp_path / name / "%d.png"
+        vtray.animate([particles], path, background=background, size=SIZE)
+    assert (pixels(tmp_path / "a")[0] == pixels(tmp_path / "b")[0]).all()
+
+
 def test_exposure_is_that_of_the_first(tmp_path: Path) -> None:
     def make(k: int) -> vtray.Scene:
         scene = ball()

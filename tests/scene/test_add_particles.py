@@ -152,6 +152,8 @@ def test_some_are_drawn_and_some_highlighted() -> None:
     assert drawn(select=[False, False, True], color="residue").legend[0][1] == (230, 159, 0)
     pale = drawn(highlight="x > 0", color="black", background=(100, 100, 100))
     assert pale.spheres.color.tolist() == [[80] * 3, [0] * 3, [80] * 3]
+    near = drawn(highlight="x > 0", color="black", background=np.array([1.0, 1.0, 1.0]))
+    assert near.spheres.color.tolist() == [[204] * 3, [0] * 3, [204] * 3]
 
 
 def test_categories_in_their_order() -> None:

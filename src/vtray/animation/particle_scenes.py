@@ -147,7 +147,8 @@ class Drawing:
         self._size = size or SIZE
         self._view = {name: given[name] for name in VIEW if name in given}
         self._drawn = {name: value for name, value in given.items() if name not in VIEW}
-        if background is not None and background not in ("transparent", "sky"):
+        is_word = isinstance(background, str) and background in ("transparent", "sky")
+        if background is not None and not is_word:
             self._drawn.setdefault("background", background)
 
     def draw(

@@ -242,7 +242,8 @@ def draw(
         words = f"none of the {len(rows)} particles that are drawn; all of them fade"
         warnings.warn(f"highlight: {words}", stacklevel=4)
     if kept is not None and opacity is None:
-        behind = background or ("black" if shines else "white")
+        usual = "black" if shines else "white"
+        behind = usual if background is None else background
         found = found._replace(colors=faded(found.colors, kept[rows], behind))
     seen_through = None if opacity is None else opacities(particles, opacity, kept)
     if shines:
