@@ -450,6 +450,38 @@ def test_scale_is_that_of_matplotlib(values: list[float], data: st.DataObject) -
         assert color in scale.table[sorted(near)].tolist()
 
 
+@pytest.mark.parametrize("values", [0.5, [0.5], [[0.25, 0.5], [NAN, 1.0]], np.zeros((2, 0, 3))])
+@pytest.mark.parametrize("norm", ["linear", "log"])
+def test_scale_takes_numbers_of_any_shape(values: Any, norm: Any) -> None:
+    scale = ColorScale("viridis", 0.1, 1, norm=norm)
+    colors = scale.colors(values)
+    assert colors.shape == (*np.shape(values), 3)
+    assert np.array_equal(colors.reshape(-1, 3), scale.colors(np.ravel(values)))
+
+
+@pytest.mark.parametrize("norm", ["foo", "centered", None, ["log"]])
+def test_scale_of_no_known_norm(norm: Any) -> None:
+    with pytest.raises(SceneError, match='^ColorScale: norm: expected "linear" or "log", got '):
+        ColorScale("viridis", 0, 1, norm=norm)
+
+
+@pytest.mark.parametrize(
+    ("call", "arguments"),
+    [
+        ("add_spheres", ([(0, 0, 0)], 1)),
+        ("add_cylinders", ([(0, 0, 0)], [(1, 0, 0)], 1)),
+        ("add_cones", ([(0, 0, 0)], [(1, 0, 0)], 1)),
+    ],
+)
+def test_maps_need_values(call: str, arguments: Any) -> None:
+    add = getattr(Scene(), call)
+    words = "with cmap: expected values that it turns into colours, one for each, got none"
+    for color in ({}, {"color": None}):
+        with pytest.raises(SceneError, match=f"^{call}: color: {words}$"):
+            add(*arguments, cmap="virids", **color)
+    assert add(*arguments, color=None) == add(*arguments) == add(*arguments, color="white")
+
+
 def test_scale_is_remembered() -> None:
     scene = Scene()
     spheres = scene.add_spheres(POINTS, 1, [1, NAN, 3, 7], cmap="magma", nan_color="w")

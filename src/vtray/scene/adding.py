@@ -1,8 +1,9 @@
 """Adds objects to a scene, with arguments in the ways that people write them."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from vtray.base.errors import SceneError
 from vtray.scene.checks.argument import argument
 from vtray.scene.checks.given_array import positions_in
 from vtray.scene.checks.unknown_names import explain_unknown
@@ -76,7 +77,7 @@ class Adding:
         self,
         positions: "ArrayLike",
         radius: "ArrayLike",
-        color: "AnyColor | ArrayLike | Sequence[AnyColor]" = "white",
+        color: "AnyColor | ArrayLike | Sequence[AnyColor] | None" = None,
         lambert: "ArrayLike" = 1.0,
         *,
         cmap: "ColorMap | None" = None,
@@ -102,9 +103,9 @@ class Adding:
         radius
             Radii in scene units, (n,), or one for all, ≥ 0.
         color
-            One colour for all, in any of the ways of `vtray.colors.to_rgb`; or one for each, as a
-            list of such or as numbers of shape (n, 3), integers from 0 to 255 or floats from 0 to
-            1; or, with `cmap`, n values.
+            One colour for all, in any of the ways of `vtray.colors.to_rgb`, white by default; or
+            one for each, as a list of such or as numbers of shape (n, 3), integers from 0 to 255 or
+            floats from 0 to 1; or, with `cmap`, n values.
         lambert
             Share of the light that the surfaces scatter, from 0 to 1, (n,), or one for all.
         cmap
@@ -149,7 +150,7 @@ class Adding:
                 "roughness": roughness,
                 "metalness": metalness,
             },
-            {"color": color},
+            {"color": _color_of(color, cmap, "add_spheres")},
             "add_spheres: ",
             {"center": "positions"},
             cmap=cmap,
@@ -206,7 +207,7 @@ class Adding:
         start: "ArrayLike",
         end: "ArrayLike",
         radius: "ArrayLike",
-        color: "AnyColor | ArrayLike | Sequence[AnyColor]" = "white",
+        color: "AnyColor | ArrayLike | Sequence[AnyColor] | None" = None,
         lambert: "ArrayLike" = 1.0,
         *,
         color_end: "AnyColor | ArrayLike | Sequence[AnyColor] | None" = None,
@@ -264,7 +265,7 @@ class Adding:
                 "roughness": roughness,
                 "metalness": metalness,
             },
-            {"color": color, "color_end": color_end},
+            {"color": _color_of(color, cmap, "add_cylinders"), "color_end": color_end},
             "add_cylinders: ",
             cmap=cmap,
             clim=clim,
@@ -324,7 +325,7 @@ class Adding:
         end: "ArrayLike",
         radius: "ArrayLike",
         radius_end: "ArrayLike" = 0.0,
-        color: "AnyColor | ArrayLike | Sequence[AnyColor]" = "white",
+        color: "AnyColor | ArrayLike | Sequence[AnyColor] | None" = None,
         lambert: "ArrayLike" = 1.0,
         *,
         color_end: "AnyColor | ArrayLike | Sequence[AnyColor] | None" = None,
@@ -378,7 +379,7 @@ class Adding:
                 "roughness": roughness,
                 "metalness": metalness,
             },
-            {"color": color, "color_end": color_end},
+            {"color": _color_of(color, cmap, "add_cones"), "color_end": color_end},
             "add_cones: ",
             cmap=cmap,
             clim=clim,
@@ -472,3 +473,11 @@ class Adding:
         plane = Plane(place, square, rgb, lambert, opacity, material)
         self.objects.append(plane)
         return plane
+
+
+def _color_of(color: Any, cmap: object, call: str) -> Any:  # noqa: ANN401
+    """Return the colours of many objects: white, where neither they nor a colour map are given."""
+    if color is None and cmap is not None:
+        words = "with cmap: expected values that it turns into colours, one for each"
+        raise SceneError(f"{call}: color: {words}, got none")
+    return "white" if color is None else color

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from vtray.scene.colors.names import AnyColor
 
 Bytes = NDArray[np.uint8]
+Spread = Literal["linear", "log"]
 Norm = Literal["linear", "log", "centered"]
 """How values are spread over a map: "centered" is linear, with 0 in the middle."""
 
@@ -56,7 +57,7 @@ class ColorScale:
     cmap: "ColorMap"
     low: float
     high: float
-    norm: Literal["linear", "log"]
+    norm: Spread
     nan_color: Rgb
 
     def __init__(
@@ -66,9 +67,10 @@ class ColorScale:
         high: float,
         nan_color: "AnyColor" = "gray",
         *,
-        norm: Literal["linear", "log"] = "linear",
+        norm: Spread = "linear",
         place: str = "ColorScale: ",
     ) -> None:
+        _check_norm(norm, Spread, place)
         _check_limits((low, high), f"{place}clim", norm)
         values = {
             "cmap": cmap,
@@ -126,7 +128,8 @@ class ColorScale:
         array
             uint8, of the shape of `values` with 3 appended.
         """
-        given, low, high = np.asarray(values, np.float64), self.low, self.high
+        whole, low, high = np.asarray(values, np.float64), self.low, self.high
+        given = whole.reshape(-1)
         if self.norm == "log":
             given, ends = logarithm(given), logarithm(np.array([low, high]))
             low, high = float(ends[0]), float(ends[1])
@@ -142,7 +145,7 @@ class ColorScale:
         colors = self.table[half.astype(np.intp)]
         if missing.any():
             colors[missing] = self.nan_color
-        return colors
+        return colors.reshape(*whole.shape, 3)
 
 
 def scale_of(
@@ -157,10 +160,9 @@ def scale_of(
 
     With the norm "log", that of what is above 0; with "centered", 0 is in the middle.
     """
-    if norm is not None and norm not in get_args(Norm):
-        words = either(map(quoted, get_args(Norm)))
-        raise SceneError(f"{place}norm: expected {words}, got {show(norm)}")
-    spread: Literal["linear", "log"] = "log" if norm == "log" else "linear"
+    if norm is not None:
+        _check_norm(norm, Norm, place)
+    spread: Spread = "log" if norm == "log" else "linear"
     if clim is None:
         finite = values[np.isfinite(values)]
         if norm == "log" and finite.size and finite.max() <= 0.0:
@@ -175,6 +177,13 @@ def scale_of(
         high = max(abs(low), abs(high))
         low = -high
     return ColorScale(cmap, low, high, nan_color, norm=spread, place=place)
+
+
+def _check_norm(norm: object, known: Any, place: str) -> None:  # noqa: ANN401
+    """Raise SceneError if a norm is none of those that are known."""
+    if not isinstance(norm, str) or norm not in get_args(known):
+        words = either(map(quoted, get_args(known)))
+        raise SceneError(f"{place}norm: expected {words}, got {show(norm)}")
 
 
 def _check_limits(clim: Any, place: str, norm: str) -> tuple[float, float]:  # noqa: ANN401
