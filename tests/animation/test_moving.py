@@ -11,7 +11,7 @@ from PIL import Image
 import vtray
 from conftest import once
 from vtray.animation.between_planes import between_clips, between_slices
-from vtray.animation.fading import between_opacities, faded
+from vtray.animation.fading import between_opacities, faded, opacity_of
 from vtray.animation.moving import way_of_opacity, way_of_part
 from vtray.base.errors import SceneError
 
@@ -99,6 +99,30 @@ def test_opacities_between_others() -> None:
     assert between_opacities((None, 0.5), (None, 1.0), 0.5) == (None, 0.75)
     assert way_of_opacity({1: 0.25, 3: 0.5})(0) == 0.25
     assert way_of_opacity(lambda k: k / 4)(3) == 0.75
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (
+            [[0.5, 1], 1],
+            r"opacity\[0\]: expected a number from 0 to 1, or one for each, got \[0.5,",
+        ),
+        ([0.5, "1"], r"opacity\[1\]: expected a number from 0 to 1, or one for each, got '1'"),
+        (np.zeros((2, 2)), r"opacity\[0\]: expected a number from 0 to 1, or one for each, got "),
+        ("half", "opacity: expected a number from 0 to 1, or one for each, got 'half'"),
+        ({0.5}, "opacity: expected a number from 0 to 1, or one for each, got {0.5}"),
+    ],
+)
+def test_wrong_opacities(given: Any, message: str) -> None:
+    with pytest.raises(SceneError, match=f"^{message}"):
+        opacity_of(given, "opacity")
+
+
+@pytest.mark.parametrize("given", [0.5, np.float32(0.5), np.array(0.5)])
+def test_one_opacity(given: Any) -> None:
+    assert opacity_of(given, "opacity") == 0.5
+    assert opacity_of(np.array([0, 0.5]), "opacity") == (0, 0.5)
 
 
 def test_what_fades_and_what_does_not() -> None:

@@ -32,12 +32,11 @@ def opacity_of(given: Any, place: str) -> Opacity:  # noqa: ANN401
     SceneError
         It is neither.
     """
-    if np.ndim(given) == 0:
-        return _number(given, place)
-    if not isinstance(given, (Sequence, np.ndarray)):
-        raise _wrong(given, place)
+    each = given.tolist() if isinstance(given, np.ndarray) else given
+    if not isinstance(each, Sequence) or isinstance(each, (str, bytes)):
+        return _number(each, place)
     return tuple(
-        None if one is None else _number(one, f"{place}[{k}]") for k, one in enumerate(given)
+        None if one is None else _number(one, f"{place}[{k}]") for k, one in enumerate(each)
     )
 
 
