@@ -200,3 +200,61 @@ def test_pickle_and_copies() -> None:
         assert copied.positions.dtype == np.float32
         assert (copied["force"] == made["force"]).all()
         assert (copied.frame, copied.time, copied.periodic) == (3, 0.5, (False,) * 3)
+
+
+ORIGIN = [(0.0, 0.0, 0.0)] * 3
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"bonds": [[0.7, 1.2]]}, "bonds[0]: expected indices from 0 to 2, got [0.7, 1.2]"),
+        ({"bonds": [[0, 1], [1, np.nan]]}, "bonds[1]: expected indices from 0 to 2, got [1.0, nan"),
+        ({"bonds": [[0, -1]]}, "bonds[0]: expected indices from 0 to 2, got [0, -1]"),
+        ({"bonds": [[0, 1, 2, 1]]}, "bonds: expected indices of shape (m, 2), got [[0, 1, 2, 1]]"),
+        ({"bonds": [[0, 1, 2]]}, "bonds: expected indices of shape (m, 2), got [[0, 1, 2]]"),
+        ({"bonds": [[0, 1], [2]]}, "bonds: expected indices of shape (m, 2), got [[0, 1], [2]]"),
+        ({"bonds": "file"}, "bonds: expected indices of shape (m, 2), got 'file'"),
+        ({"positions": [(0, 0, 0), (1, 1)]}, "positions: must be an array of numbers, got [(0, 0,"),
+        ({"positions": [(0, 0, 10**400)]}, "positions: must be an array of numbers, got [(0, 0, "),
+        ({"cell": [(1, 0, 0), (0, 1)]}, "cell: must be an array of numbers, got [(1, 0, 0), (0,"),
+        ({"cell": "cubic"}, "cell: must be an array of numbers, got 'cubic'"),
+        ({"periodic": [True, [False]]}, "periodic: expected three of True and False, one for each"),
+        (
+            {"columns": None},
+            'columns: must be arrays by their names, as in {"radius": radii}, got None',
+        ),
+        (
+            {"columns": {"a": [1, [2]]}},
+            "columns['a']: must have one row for each of 3 positions, got [1, [2]]",
+        ),
+    ],
+)
+def test_wrong_arrays_of_particles(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        vtray.Particles(**{"positions": ORIGIN, **given})
+    assert str(caught.value).startswith(f"Particles.{message}")
+    if "bonds" in given and given["bonds"] != "file":
+        with pytest.raises(SceneError) as caught:
+            vtray.Scene().add_particles(ORIGIN, bonds=given["bonds"])
+        assert str(caught.value).startswith(message)
+
+
+@pytest.mark.parametrize("bonds", [[], [[0.0, 1.0]], np.array([[0, 1]], np.uint64)])
+def test_bonds_are_integers(bonds: Any) -> None:
+    made = vtray.Particles(ORIGIN, bonds=bonds)
+    assert made.bonds is not None
+    assert (made.bonds.dtype, made.bonds.shape) == (np.int64, (len(bonds), 2))
+
+
+def test_names_of_columns_are_in_particles() -> None:
+    particles = vtray.Particles(ORIGIN, {"element": ["C", "O", "H"]})
+    asked = ["element", "symbol", "x", "velocity", "", 0, None]
+    there = [name in particles for name in asked]
+    assert there == [True, True, True, False, False, False, False]
+    for name, is_there in zip(asked, there, strict=True):
+        if is_there:
+            assert len(particles[name]) == 3
+    for many in (list, dict, iter):
+        with pytest.raises(TypeError, match="'Particles' object is not iterable"):
+            many(particles)

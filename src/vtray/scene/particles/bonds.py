@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vtray.base.errors import SceneError
 from vtray.scene.particles.elements import are_anions, are_metals
 from vtray.scene.particles.lattice import Lattice, columns_of, lattice_of
+from vtray.scene.particles.pairs import pairs_of
 from vtray.scene.particles.radii import radii_of
 
 if TYPE_CHECKING:
@@ -167,15 +168,7 @@ def bonds_between(particles: "Particles", pairs: Any) -> Bonds:  # noqa: ANN401
     SceneError
         They are no pairs of indices.
     """
-    try:
-        given = np.asarray(pairs, np.int64).reshape(-1, 2)
-    except (TypeError, ValueError):
-        raise SceneError(f"bonds: expected indices of shape (m, 2), got {pairs!r}") from None
-    wrong = np.flatnonzero(((given < 0) | (given >= len(particles))).any(axis=1))
-    if len(wrong):
-        first, last = int(wrong[0]), len(particles) - 1
-        words = f"expected indices from 0 to {last}, got {given[first].tolist()}"
-        raise SceneError(f"bonds[{first}]: {words}")
+    given = pairs_of(pairs, len(particles), "bonds")
     shifts = np.zeros((len(given), 3), np.int64)
     lattice = lattice_of(particles)
     if lattice is not None:

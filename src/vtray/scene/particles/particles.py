@@ -10,6 +10,7 @@ from vtray.scene.checks.given_array import check_unmasked, show_array
 from vtray.scene.particles.column_names import column_called
 from vtray.scene.particles.expression import mask
 from vtray.scene.particles.object_column import without_objects
+from vtray.scene.particles.pairs import pairs_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -86,27 +87,26 @@ class Particles:
         import numpy as np
 
         check_unmasked(self.positions, "Particles.positions")
-        positions = np.asarray(self.positions)
+        positions = _array(self.positions, "positions")
         if positions.dtype not in (np.float32, np.float64):
-            positions = _array(positions, "positions", np.float64)
+            positions = _array(self.positions, "positions", np.float64)
         if positions.ndim != 2 or positions.shape[1] != 3:
             raise SceneError(f"Particles.positions: must have shape (n, 3), got {positions.shape}")
         _check_finite(positions, "positions")
-        for name, values in self.columns.items():
-            check_unmasked(values, f"Particles.columns[{str(name)!r}]")
+        if not hasattr(self.columns, "items"):
+            words = 'must be arrays by their names, as in {"radius": radii}'
+            raise SceneError(f"Particles.columns: {words}, got {show_array(self.columns)}")
         columns = {
-            str(name): without_objects(np.asarray(values)) for name, values in self.columns.items()
+            str(name): _column(str(name), values, len(positions))
+            for name, values in self.columns.items()
         }
-        for name, values in columns.items():
-            _check_column(name, values, len(positions))
         bonds = self.bonds
         if bonds is not None:
-            bonds = _array(bonds, "bonds", np.int64).reshape(-1, 2)
-            _check_bonds(bonds, len(positions))
+            bonds = pairs_of(bonds, len(positions), "Particles.bonds")
         cell = self.cell
         if cell is not None:
-            edges = np.asarray(cell)
-            cell = _numbers_of(np.diag(edges) if edges.shape == (3,) else cell, "cell", (3, 3))
+            edges = _array(cell, "cell", np.float64)
+            cell = _numbers_of(np.diag(edges) if edges.shape == (3,) else edges, "cell", (3, 3))
         given = (cell is not None,) * 3 if self.periodic is None else self.periodic
         repeats = _three_of_bool(given)
         if cell is not None:
@@ -129,6 +129,15 @@ class Particles:
 
     def __len__(self) -> int:
         return len(self.positions)
+
+    # Neither names nor rows come one by one: `columns` has the former, `select` takes the latter.
+    __iter__ = None
+
+    def __contains__(self, name: object) -> bool:
+        """Tell whether there is a column of a name, as one asks for it in brackets."""
+        if not isinstance(name, str):
+            return False
+        return name in POSITION or column_called(name, self.columns) in self.columns
 
     def __getitem__(self, name: str) -> "NDArray[Any]":
         """Return a column, or one of x, y and z.
@@ -228,10 +237,7 @@ class Particles:
         >>> silica["element"].tolist()
         ['Si', 'O', 'O']
         """
-        import numpy as np
-
-        more = {name: np.asarray(values) for name, values in columns.items()}
-        return replace(self, columns={**self.columns, **more})
+        return replace(self, columns={**self.columns, **columns})  # type: ignore[dict-item]
 
     def __repr__(self) -> str:
         parts = [f"{len(self)} particles", *self.columns]
@@ -240,14 +246,15 @@ class Particles:
         return f"Particles({', '.join(parts)})"
 
 
-def _array(values: object, name: str, dtype: Any) -> "NDArray[Any]":  # noqa: ANN401
-    """Return numbers as an array of a dtype."""
+def _array(values: object, name: str, dtype: Any = None) -> "NDArray[Any]":  # noqa: ANN401
+    """Return numbers as an array, of a dtype if it is given."""
     import numpy as np
 
     try:
         return np.asarray(values, dtype)
-    except (TypeError, ValueError) as error:
-        raise SceneError(f"Particles.{name}: must be numbers: {error}") from error
+    except (TypeError, ValueError, OverflowError):  # rows of different length, too
+        words = f"must be an array of numbers, got {show_array(values)}"
+        raise SceneError(f"Particles.{name}: {words}") from None
 
 
 def _numbers_of(values: object, name: str, shape: tuple[int, ...]) -> "NDArray[np.float64]":
@@ -265,12 +272,13 @@ def _three_of_bool(given: object) -> "NDArray[np.bool_]":
     """Return for each edge of a cell whether it repeats, (3,)."""
     import numpy as np
 
-    found = np.asarray(given)
+    try:
+        found = np.asarray(given)
+    except ValueError:  # rows of different length
+        found = np.empty(0)
     if found.shape != (3,) or found.dtype.kind not in "biuf":
-        from vtray.scene.checks.scene_words import show
-
         words = "expected three of True and False, one for each edge"
-        raise SceneError(f"Particles.periodic: {words}, got {show(given)}")
+        raise SceneError(f"Particles.periodic: {words}, got {show_array(given)}")
     return found.astype(np.bool_)
 
 
@@ -285,23 +293,19 @@ def _check_finite(array: "NDArray[Any]", name: str) -> None:
         raise SceneError(f"Particles.{name}[{place}]: must be finite, got {value}")
 
 
-def _check_column(name: str, values: "NDArray[Any]", count: int) -> None:
-    """Raise SceneError if a column does not have one row for each particle."""
+def _column(name: str, given: object, count: int) -> "NDArray[Any]":
+    """Return a column; raise SceneError if it does not have one row for each particle."""
+    import numpy as np
+
+    place = f"Particles.columns[{name!r}]"
     if name in POSITION:
-        raise SceneError(f"Particles.columns[{name!r}]: x, y and z are those of the positions")
+        raise SceneError(f"{place}: x, y and z are those of the positions")
+    check_unmasked(given, place)
+    words = f"must have one row for each of {count} positions"
+    try:
+        values = without_objects(np.asarray(given))
+    except ValueError:  # rows of different length
+        raise SceneError(f"{place}: {words}, got {show_array(given)}") from None
     if values.ndim not in (1, 2) or len(values) != count:
-        raise SceneError(
-            f"Particles.columns[{name!r}]: must have one row for each of {count} positions, "
-            f"got shape {values.shape}"
-        )
-
-
-def _check_bonds(bonds: Integers, count: int) -> None:
-    """Raise SceneError if a bond is not one of two particles."""
-    wrong = ((bonds < 0) | (bonds >= count)).nonzero()[0]
-    if len(wrong):
-        first = int(wrong[0])
-        raise SceneError(
-            f"Particles.bonds[{first}]: must be indices from 0 to {count - 1}, "
-            f"got {bonds[first].tolist()}"
-        )
+        raise SceneError(f"{place}: {words}, got shape {values.shape}")
+    return values

@@ -1,0 +1,47 @@
+"""Pairs of particles: bonds that are known."""
+
+from typing import TYPE_CHECKING, Any
+
+from vtray.base.errors import SceneError
+from vtray.scene.checks.given_array import show_array
+from vtray.scene.particles.object_column import without_objects
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+def pairs_of(given: Any, count: int, place: str) -> "NDArray[np.int64]":  # noqa: ANN401
+    """Return pairs of indices as an array, (m, 2).
+
+    Parameters
+    ----------
+    given
+        The pairs; floats where they are whole.
+    count
+        How many particles there are.
+    place
+        What messages begin with.
+
+    Raises
+    ------
+    SceneError
+        They are no pairs, or one has no such index.
+    """
+    import numpy as np
+
+    try:
+        found = without_objects(np.asarray(given))
+    except ValueError:  # rows of different length
+        found = np.zeros(1)
+    is_right = found.ndim == 2 and found.shape[1] == 2 and found.dtype.kind in "iuf"
+    if not is_right and found.size:
+        raise SceneError(f"{place}: expected indices of shape (m, 2), got {show_array(given)}")
+    pairs = found.reshape(-1, 2)
+    is_index = (pairs >= 0) & (pairs < count) & (pairs == np.floor(pairs))  # NaN is none
+    wrong = np.flatnonzero(~is_index.all(axis=1))
+    if len(wrong):
+        first = int(wrong[0])
+        words = f"expected indices from 0 to {count - 1}, got {pairs[first].tolist()}"
+        raise SceneError(f"{place}[{first}]: {words}")
+    return pairs.astype(np.int64, copy=False)
