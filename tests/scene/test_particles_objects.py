@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import polars as pl
+import pyarrow as pa
 import pytest
 from ase.build import molecule
 
@@ -34,6 +35,14 @@ COLUMNS = dict(zip("xyz", np.array(POINTS).T.tolist(), strict=True))
         pd.DataFrame({**COLUMNS, "name": ["a", "b"]}),
         pl.DataFrame({**COLUMNS, "name": ["a", "b"]}),
         pd.DataFrame(COLUMNS).to_records(),
+        pd.DataFrame(COLUMNS).convert_dtypes(),
+        pd.DataFrame(COLUMNS).astype("Float64"),
+        pd.DataFrame(COLUMNS).astype("float64[pyarrow]"),
+        pd.DataFrame(COLUMNS).astype(object),
+        np.array(POINTS, object),
+        pa.FixedSizeListArray.from_arrays(np.ravel(POINTS), 3),
+        pl.Series(POINTS, dtype=pl.Array(pl.Float64, 3)),
+        pd.DataFrame({"position": [*np.array(POINTS)], "name": ["a", "b"]}),
         SimpleNamespace(positions=POINTS),
         SimpleNamespace(get_positions=lambda: POINTS),
     ],
@@ -42,9 +51,28 @@ COLUMNS = dict(zip("xyz", np.array(POINTS).T.tolist(), strict=True))
 def test_whatever_has_places(given: object) -> None:
     found = as_particles(given)
     assert found.positions.tolist() == [list(point) for point in POINTS]
-    if not isinstance(given, dict):
+    if not isinstance(given, dict) and "position" not in getattr(given, "columns", ()):
         scene = vtray.Scene()
         assert scene.add_spheres(given, 1).center.tolist() == found.positions.tolist()
+
+
+@pytest.mark.parametrize("dtype", ["Float64", "float64[pyarrow]", object])
+def test_numbers_that_are_missing_have_a_place(dtype: Any) -> None:
+    table = pd.DataFrame({**COLUMNS, "z": [0.0, None]}).astype(dtype)
+    with pytest.raises(SceneError, match=r"^add_spheres: positions\[1, 2\]: expected a finite num"):
+        vtray.Scene().add_spheres(table, 1)
+    with pytest.raises(SceneError, match=r"^column 'z'\[1\]: must be finite, got nan$"):
+        as_particles(table)
+    with pytest.raises(SceneError, match=r"^Particles.positions\[1, 2\]: must be finite, got nan$"):
+        vtray.Particles(table)
+
+
+def test_tables_that_are_yet_to_be_worked_out() -> None:
+    table = pl.LazyFrame(COLUMNS)
+    remedy = r"got <LazyFrame .*>; give what its collect\(\) returns$"
+    for take in (as_particles, vtray.Camera.fit, lambda table: vtray.Scene().add_spheres(table, 1)):
+        with pytest.raises(SceneError, match=remedy):
+            take(table)
 
 
 def test_fields_of_records_are_columns() -> None:

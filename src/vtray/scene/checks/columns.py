@@ -22,6 +22,7 @@ from vtray.scene.checks.given_array import (
     show_shape,
 )
 from vtray.scene.checks.limits import Byte, Fraction, MaterialNumber, NonNegative, Real
+from vtray.scene.checks.object_column import without_objects
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -160,6 +161,8 @@ def _to_array(found: Any, column: Column, place: str) -> AnyArray:  # noqa: ANN4
     only_dlpack = hasattr(given, "__dlpack__") and not hasattr(given, "__array__")
     try:
         array: AnyArray = np.from_dlpack(given) if only_dlpack else np.asarray(given)
+        if column.row:  # tables whose columns differ, or lack entries, are arrays of objects
+            array = without_objects(array)
     except (ValueError, TypeError, RuntimeError, OverflowError, BufferError) as error:
         got = f"{show_array(given)} ({short(str(error), 100)})"
     else:

@@ -56,6 +56,8 @@ def remedy_for(given: Any, columns: tuple[str, ...]) -> str:  # noqa: ANN401
     """
     if is_masked(given):
         return "; leave out what is masked, or give array.filled(...)"
+    if not hasattr(given, "__array__") and hasattr(given, "collect"):
+        return "; give what its collect() returns"
     if _columns(given):
         from vtray.scene.checks.scene_words import quoted
 
@@ -101,8 +103,9 @@ def fields_of(given: Any) -> tuple[str, ...]:  # noqa: ANN401
 
 def _columns(given: Any) -> list[str]:  # noqa: ANN401
     """Return the names of the columns of a data frame; none for what is no such."""
-    columns = getattr(given, "columns", None)
-    return list(map(str, columns)) if columns is not None and hasattr(given, "shape") else []
+    # Tables that are yet to be worked out have no shape, and warn where they are asked for names.
+    columns = getattr(given, "columns", None) if hasattr(given, "shape") else None
+    return list(map(str, columns)) if columns is not None else []
 
 
 def _table(given: Any) -> str:  # noqa: ANN401

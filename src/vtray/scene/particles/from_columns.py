@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
+from vtray.scene.checks.object_column import without_objects
 from vtray.scene.particles.column_names import canonical, name_columns
-from vtray.scene.particles.object_column import without_objects
 from vtray.scene.particles.particles import POSITION, Particles
 from vtray.scene.particles.plain_numbers import number_of
 

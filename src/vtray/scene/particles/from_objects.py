@@ -11,13 +11,14 @@ from vtray.scene.checks.given_array import (
     check_unmasked,
     fields_of,
     positions_in,
+    remedy_for,
     show_array,
 )
+from vtray.scene.checks.object_column import without_objects
 from vtray.scene.particles.column_names import name_columns
 from vtray.scene.particles.elements import are_symbols, symbol_of, symbols_of
 from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.from_columns import from_columns
-from vtray.scene.particles.object_column import without_objects
 from vtray.scene.particles.particles import Particles
 
 if TYPE_CHECKING:
@@ -192,19 +193,20 @@ def as_particles(given: Any) -> Particles:  # noqa: ANN401
         return from_columns(_columns_of(given, given))
     if fields_of(given):
         return from_columns(_columns_of(given, fields_of(given)))
-    if hasattr(given, "columns") and hasattr(given, "shape"):
+    if hasattr(given, "shape") and hasattr(given, "columns"):
         # Those of pyarrow have their names apart.
         return from_columns(_columns_of(given, getattr(given, "column_names", given.columns)))
     places = positions_in(given)
     check_unmasked(places, "positions")
     try:
-        positions = np.asarray(places)
+        positions = without_objects(np.asarray(places))
     except ValueError:
         positions = np.empty(0)
     if positions.ndim == 2 and positions.shape[1] == 3 and positions.dtype.kind in "biuf":
         return Particles(positions)
     problem = "expected vtray.Particles, an object of ASE, MDAnalysis or OVITO, a table with the"
-    raise SceneError(f"{problem} columns x, y and z, or an array (n, 3), got {show_array(given)}")
+    got = f"{show_array(given)}{remedy_for(places, ())}"
+    raise SceneError(f"{problem} columns x, y and z, or an array (n, 3), got {got}")
 
 
 def _from_ovito(data: Any) -> Particles:  # noqa: ANN401

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.given_array import show_array
-from vtray.scene.particles.object_column import without_objects
+from vtray.scene.checks.object_column import without_objects
 
 if TYPE_CHECKING:
     import numpy as np

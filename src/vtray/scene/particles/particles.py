@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.given_array import check_unmasked, show_array
+from vtray.scene.checks.object_column import without_objects
 from vtray.scene.particles.column_names import column_called
 from vtray.scene.particles.expression import mask
-from vtray.scene.particles.object_column import without_objects
 from vtray.scene.particles.pairs import pairs_of
 
 if TYPE_CHECKING:
@@ -251,7 +251,8 @@ def _array(values: object, name: str, dtype: Any = None) -> "NDArray[Any]":  # n
     import numpy as np
 
     try:
-        return np.asarray(values, dtype)
+        found = without_objects(np.asarray(values))
+        return found if dtype is None else found.astype(dtype, copy=False)
     except (TypeError, ValueError, OverflowError):  # rows of different length, too
         words = f"must be an array of numbers, got {show_array(values)}"
         raise SceneError(f"Particles.{name}: {words}") from None

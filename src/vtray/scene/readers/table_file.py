@@ -13,8 +13,8 @@ from vtray.base.extras import need
 from vtray.base.input_file import read_stream
 from vtray.base.memory import lack_of_memory
 from vtray.scene.checks.json_tree import short
+from vtray.scene.checks.object_column import without_objects
 from vtray.scene.particles.from_columns import from_columns
-from vtray.scene.particles.object_column import without_objects
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.plain_numbers import numbers_of
 from vtray.scene.readers.frames import frame_number
@@ -230,8 +230,6 @@ def _names_of(given: Given) -> list[str]:
 
 def _read_parquet(given: Given) -> "dict[str, Array]":
     """Read the columns of a Parquet file."""
-    import numpy as np
-
     parquet: Any = need("pyarrow.parquet", "tables", "reading Parquet files")
     check_room(given.file, 3)
     with told("pyarrow", "a Parquet file"):
@@ -241,7 +239,5 @@ def _read_parquet(given: Given) -> "dict[str, Array]":
             column = table[name]
             if hasattr(column.type, "value_type") and hasattr(column.type, "index_type"):
                 column = column.cast(column.type.value_type)  # categories as what they stand for
-            found = column.to_numpy()
-            is_list = found.dtype == object and len(found) and isinstance(found[0], np.ndarray)
-            columns[name] = np.stack(found) if is_list else found
+            columns[name] = column.to_numpy()
         return columns

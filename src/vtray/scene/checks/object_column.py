@@ -1,4 +1,4 @@
-"""Columns of Python's objects, which tables have where entries are missing, as numbers or names."""
+"""Arrays of Python's objects, which tables have where entries are missing, as numbers or names."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +15,8 @@ def without_objects(column: "Array") -> "Array":
     """Return a column of numbers or names for one of Python's objects; others as they are.
 
     What is missing, ``None`` or not a number, is NaN among numbers, and a name without letters
-    among names. What is true or false counts as 1 or 0 where some of it is missing.
+    among names. What is true or false counts as 1 or 0 where some of it is missing. Entries that
+    are arrays of one shape, such as Arrow's lists of three numbers, become rows.
 
     Parameters
     ----------
@@ -27,6 +28,9 @@ def without_objects(column: "Array") -> "Array":
     if column.dtype != object:
         return column
     entries = column.ravel().tolist()
+    shapes = {entry.shape if isinstance(entry, np.ndarray) else () for entry in entries}
+    if len(shapes) == 1 and () not in shapes:
+        return np.stack(entries).reshape(*column.shape, *shapes.pop())
     missing = [_is_missing(entry) for entry in entries]
     there = [entry for entry, gone in zip(entries, missing, strict=True) if not gone]
     if there and all(isinstance(entry, (bool, int, float, np.number, np.bool_)) for entry in there):
