@@ -278,8 +278,14 @@ def test_seconds_that_are_none(seconds: object) -> None:
         vtray.render(balls(), on_update=print, update_seconds=seconds)
 
 
-def test_what_cannot_be_called() -> None:
-    with pytest.raises(
-        ValueError, match="^on_update: expected a function that takes an image, got 5"
-    ):
-        vtray.render(balls(), on_update=5)  # type: ignore[arg-type]
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"on_update": 5}, "on_update: expected a function that takes an image, got 5"),
+        ({"progress": True}, "progress: expected a function that takes a step, and how much of "),
+        ({"warn": 3}, "warn: expected a function that takes a line of text, got 3"),
+    ],
+)
+def test_what_cannot_be_called(given: Any, message: str) -> None:
+    with pytest.raises(ValueError, match=f"^{message}"):
+        vtray.render(balls(), **given)

@@ -227,7 +227,8 @@ def render(
         picture, or `exposure` or `stops` is given too; or the background is the sky, and there is
         none.
     ValueError
-        `threads` or `tile` is not an integer of at least 1, or `update_seconds` no number ≥ 0.
+        `threads` or `tile` is not an integer of at least 1, `update_seconds` no number ≥ 0, or
+        `progress`, `on_update` or `warn` no function.
     ExtraError
         `denoise` is asked for, and its library is not installed.
     KeyboardInterrupt
@@ -235,7 +236,7 @@ def render(
     """
     threads = _count("threads", threads if threads is not None else available_cores())
     tile = _count("tile", tile)
-    _check_update(on_update, update_seconds)
+    _check_calls(progress, on_update, update_seconds, warn)
     if lock is not None:
         locked_white(lock, exposure, stops)
     given, scene = scene, with_camera(scene, size)
@@ -413,13 +414,18 @@ def _step_of(progress: Progress | None, step: str) -> StepProgress | None:
     return None if progress is None else partial(progress, step)
 
 
-def _check_update(on_update: object, value: float) -> None:
-    """Raise ValueError if nothing can be called, or not every so many seconds."""
-    if on_update is not None and not callable(on_update):
-        message = f"on_update: expected a function that takes an image, got {on_update!r}"
-        raise ValueError(message)
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not value >= 0:
-        message = f"update_seconds: expected a number ≥ 0, got {value!r}"
+def _check_calls(progress: object, on_update: object, seconds: float, warn: object) -> None:
+    """Raise ValueError if one is neither None nor can be called, or not every so many seconds."""
+    for name, given, takes in (
+        ("progress", progress, "a step, and how much of how much is done"),
+        ("on_update", on_update, "an image"),
+        ("warn", warn, "a line of text"),
+    ):
+        if given is not None and not callable(given):
+            message = f"{name}: expected a function that takes {takes}, got {given!r}"
+            raise ValueError(message)
+    if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not seconds >= 0:
+        message = f"update_seconds: expected a number ≥ 0, got {seconds!r}"
         raise ValueError(message)
 
 
