@@ -1,9 +1,10 @@
 """Arguments and attributes that there are not: none is taken and ignored; the remedy is told."""
 
 import copy
+import inspect
 import pickle
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
 
 import msgspec
 import pytest
@@ -98,3 +99,12 @@ def test_replace_checks() -> None:
     assert vtray.Sphere((0, 0, 0), 1).replace(center=(1, 2, 3)).center == vtray.Vector(1, 2, 3)
     with pytest.raises(vtray.SceneError, match="Light.intensity: expected a number ≥ 0, got -1"):
         LIGHT.replace(intensity=-1)
+
+
+@pytest.mark.parametrize("kind", [vtray.Scene, vtray.Light, vtray.Camera, vtray.Style, vtray.Sky])
+def test_type_checkers_are_told_what_a_call_makes(kind: type) -> None:
+    # Where a metaclass says something else, they look at no __init__.
+    call = inspect.signature(type(kind).__call__)
+    made = call.return_annotation
+    assert isinstance(made, TypeVar)
+    assert call.parameters["cls"].annotation == type[made]

@@ -1,6 +1,6 @@
 """From a scene to its picture: the steps in their order."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from functools import partial
 from typing import Any, Literal, Protocol
@@ -47,12 +47,13 @@ from vtray.rendering.starlight import Starlight, check_stars, has_stars
 from vtray.rendering.styled import styled
 from vtray.rendering.surfaces import Look
 from vtray.scene.checks.unknown_names import explain_unknown
+from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.default_camera import with_camera
 from vtray.scene.default_light import lights_of, lit_objects, settings_of
 from vtray.scene.files.scene_file import Warn
 from vtray.scene.light_types import AnyLight, gives_light, strength_of
 from vtray.scene.scene import Camera, Scene
-from vtray.scene.settings import RenderSettings, overridden
+from vtray.scene.settings import FilterName, IntegratorName, RenderSettings, overridden
 
 Progress = Callable[[str, int, int], None]
 
@@ -77,16 +78,16 @@ def render(
     progress: Progress | None = None,
     *,
     samples: int | None = None,
-    filter: str | None = None,  # noqa: A002 - as in the scene file
+    filter: FilterName | None = None,  # noqa: A002 - as in the scene file
     seed: int | None = None,
-    size: tuple[int, int] | None = None,
+    size: Sequence[int] | None = None,
     exposure: Literal["max", "auto"] | float | None = None,
     background: Any = None,  # noqa: ANN401
     tolerance: float | None = None,
     denoise: bool | None = None,
     stops: float | None = None,
-    tonemap: str | None = None,
-    integrator: str | None = None,
+    tonemap: ToneMapName | None = None,
+    integrator: IntegratorName | None = None,
     depth: int | None = None,
     firefly: Literal["off"] | float | None = None,
     edge_samples: int | None = None,

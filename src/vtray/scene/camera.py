@@ -1,5 +1,6 @@
 """The camera of a scene: its type, which is part of the scene file's definition, and its makers."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -79,8 +80,8 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
             center: "Vector | Triple",
             normal: "Direction | Vector | Triple",
             focus: float,
-            size: tuple[int, int],
-            resolution: tuple[float, float],
+            size: Sequence[int],
+            resolution: Sequence[float],
             up: "Direction | Vector | Triple | None" = None,
             projection: Projection = "perspective",
             lens: Lens | None = None,
@@ -103,7 +104,7 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         target: "Vector | Triple",
         up: "Direction | Vector | Triple" = (0, 1, 0),
         fov_degrees: float = 40.0,
-        size: tuple[int, int] = (800, 600),
+        size: Sequence[int] = (800, 600),
         *,
         lens: Lens | None = None,
     ) -> "Camera":
@@ -149,7 +150,7 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         target: "Vector | Triple",
         height: float,
         up: "Direction | Vector | Triple" = (0, 1, 0),
-        size: tuple[int, int] = (800, 600),
+        size: Sequence[int] = (800, 600),
         *,
         lens: Lens | None = None,
     ) -> "Camera":
@@ -185,7 +186,7 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         eye: "Vector | Triple",
         target: "Vector | Triple",
         up: "Direction | Vector | Triple" = (0, 1, 0),
-        size: tuple[int, int] = (1600, 800),
+        size: Sequence[int] = (1600, 800),
     ) -> "Camera":
         """Return a camera that sees all directions around a point.
 
@@ -221,7 +222,7 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         margin: float | tuple[float, float, float, float] = 0.05,
         projection: FlatProjection = "perspective",
         fov_degrees: float = 40.0,
-        size: tuple[int, int] = (800, 600),
+        size: Sequence[int] = (800, 600),
         *,
         view: str | tuple[float, float] | None = None,
         zoom: float = 1.0,
@@ -299,7 +300,7 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
             camera = camera.replace(**zoomed(camera, zoom, "Camera.fit: zoom"))
         return camera
 
-    def resized(self, size: tuple[int, int]) -> "Camera":
+    def resized(self, size: Sequence[int]) -> "Camera":
         """Return a camera with the same view at another size of the picture.
 
         The pixels get larger or smaller, in both directions by the same factor, so that the whole

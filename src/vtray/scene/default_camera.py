@@ -1,6 +1,7 @@
 """From where scenes are seen whose camera was never set."""
 
 import os
+from collections.abc import Sequence
 from copy import copy
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +23,7 @@ ABOVE = 25.0
 """How far above a floor the viewer is, in degrees: the horizon is not in the picture."""
 
 
-def with_camera(scene: "Scene", size: tuple[int, int] | None) -> "Scene":
+def with_camera(scene: "Scene", size: Sequence[int] | None) -> "Scene":
     """Return a scene, checked, with a camera: its own, or one that shows all that has an end.
 
     The camera shows the shape of the objects, as ``view="auto"`` of `Camera.fit` does. With a

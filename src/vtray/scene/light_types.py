@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias, TypeVar
 import msgspec
 from msgspec import Meta
 
-from vtray.scene.checks.checked import Checked, Frozen, bind
+from vtray.scene.checks.checked import Checked, Frozen
 from vtray.scene.checks.limits import AngularSize, FieldError, NonNegative, Reach, Real, YesOrNo
 from vtray.scene.pictures.sky_image import SkyImage, sky_image
 from vtray.scene.placing.directions import are_square, unit
@@ -212,12 +212,10 @@ class RectangleLight(Frozen, frozen=True, gc=False, tag_field="type", tag="recta
 class _CheckedSky(Checked):
     """Makes construction in code take a picture in all ways that `Sky` says."""
 
-    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
-        """Bind the arguments, check and convert them, and make the object."""
-        values = bind(cls, args, kwargs)
+    def _convert(cls, values: dict[str, Any]) -> None:  # noqa: N805
+        """Convert what is given."""
         if values.get("image") is not None:
             values["image"] = sky_image(values["image"], f"{cls.__name__}.image")
-        return super().__call__(**values)
 
 
 class Sky(Frozen, metaclass=_CheckedSky, frozen=True, gc=False, tag_field="type", tag="sky"):

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from msgspec import Meta
 
-from vtray.scene.checks.checked import Checked, Frozen, bind
+from vtray.scene.checks.checked import Checked, Frozen
 from vtray.scene.checks.limits import Positive, Real
 from vtray.scene.pictures.pattern_image import PatternImage, pattern_image
 from vtray.scene.vectors import Color, Direction
@@ -98,11 +98,9 @@ class Stripes(Frozen, frozen=True, gc=False, omit_defaults=True, tag_field="type
 class _CheckedImage(Checked):
     """Makes construction in code take a picture in all ways that `ImagePattern` says."""
 
-    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
-        """Bind the arguments, check and convert them, and make the object."""
-        values = bind(cls, args, kwargs)
+    def _convert(cls, values: dict[str, Any]) -> None:  # noqa: N805
+        """Convert what is given."""
         values["image"] = pattern_image(values["image"], f"{cls.__name__}.image")
-        return super().__call__(**values)
 
 
 class ImagePattern(

@@ -24,7 +24,7 @@ from typing import (
 import msgspec
 from msgspec import Meta
 
-from vtray.scene.checks.checked import Checked, Frozen, bind
+from vtray.scene.checks.checked import Checked, Frozen
 from vtray.scene.checks.limits import Positive, SizePair, alternatives
 from vtray.scene.colors.names import to_rgb
 from vtray.scene.colors.tone_map_names import ToneMapName
@@ -176,14 +176,12 @@ def _whole(value: object, kind: Any) -> Any:  # noqa: ANN401
 class _CheckedSettings(Checked):
     """Makes construction in code take a background in all ways to write a colour."""
 
-    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
-        """Bind the arguments, check and convert them, and make the object."""
-        values = bind(cls, args, kwargs)
+    def _convert(cls, values: dict[str, Any]) -> None:  # noqa: N805
+        """Convert what is given."""
         background: Any = values.get("background")
         is_kept = isinstance(background, str) and background in get_args(get_args(Background)[0])
         if background is not None and not is_kept:
             values["background"] = Color(*to_rgb(background, f"{cls.__name__}.background"))
-        return super().__call__(**values)
 
 
 class RenderSettings(
@@ -239,16 +237,16 @@ class RenderSettings(
         def __init__(
             self,
             samples: int = 1,
-            filter: str = "blackman-harris",  # noqa: A002
+            filter: FilterName = "blackman-harris",  # noqa: A002
             seed: int = 0,
-            size: tuple[int, int] | None = None,
+            size: Sequence[int] | None = None,
             exposure: Literal["max", "auto"] | float = "max",
             background: "str | Color | Sequence[float]" = "black",
             tolerance: float = 0.008,
             denoise: bool = False,
             stops: float = 0.0,
-            tonemap: str = "linear",
-            integrator: str = "direct",
+            tonemap: ToneMapName = "linear",
+            integrator: IntegratorName = "direct",
             depth: int = 8,
             firefly: Literal["off"] | float = "off",
             edge_samples: int = 1,

@@ -14,7 +14,7 @@ import msgspec
 from msgspec import Meta
 
 from vtray.base.errors import SceneError
-from vtray.scene.checks.checked import Checked, Frozen, bind
+from vtray.scene.checks.checked import Checked, Frozen
 from vtray.scene.checks.limits import FieldError, NonNegative, Positive, YesOrNo, alternatives
 from vtray.scene.clip import ClipPlane, Slice
 from vtray.scene.colors.names import to_rgb
@@ -39,13 +39,11 @@ _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 class _Colored(Checked):
     """Makes construction in code take a colour in all ways to write one."""
 
-    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
-        """Bind the arguments, check and convert them, and make the object."""
-        values = bind(cls, args, kwargs)
+    def _convert(cls, values: dict[str, Any]) -> None:  # noqa: N805
+        """Convert what is given."""
         color: Any = values.get("color")
         if color is not None:
             values["color"] = Color(*to_rgb(color, f"{cls.__name__}.color"))
-        return super().__call__(**values)
 
 
 class Outline(Frozen, metaclass=_Colored, frozen=True, omit_defaults=True, gc=False):
@@ -227,13 +225,11 @@ def _direction(normal: list[Any], place: str, words: str, given: Any) -> Directi
 class _CheckedStyle(Checked):
     """Makes construction in code take each part in all ways to write it."""
 
-    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
-        """Bind the arguments, check and convert them, and make the object."""
-        values = bind(cls, args, kwargs)
+    def _convert(cls, values: dict[str, Any]) -> None:  # noqa: N805
+        """Convert what is given."""
         kind: Any = cls
         for name, value in values.items():
             values[name] = taken(kind, name, value, f"{cls.__name__}.{name}")
-        return super().__call__(**values)
 
 
 class Style(Frozen, metaclass=_CheckedStyle, frozen=True, omit_defaults=True, gc=False):

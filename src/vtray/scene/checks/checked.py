@@ -4,7 +4,7 @@ import math
 import sys
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar
 
 import msgspec
 
@@ -13,6 +13,8 @@ from vtray.scene.checks.unknown_names import unknown_argument, unknown_attribute
 
 if TYPE_CHECKING:
     from inspect import Signature
+
+Made = TypeVar("Made")
 
 
 class Checked(msgspec.StructMeta):
@@ -42,9 +44,14 @@ class Checked(msgspec.StructMeta):
             ]
         )
 
-    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
+    def _convert(cls, values: dict[str, Any]) -> None:  # noqa: N805
+        """Convert what code may write in other ways, by the names of the arguments; here, none."""
+
+    # An object of the class that is called, so that type checkers ask its __init__.
+    def __call__(cls: type[Made], *args: object, **kwargs: object) -> Made:  # noqa: N805
         """Bind the arguments, check them, and make the object."""
         values = bind(cls, args, kwargs)
+        cls._convert(values)  # type: ignore[attr-defined]
         if all(map(_is_plain, values.values())):
             try:
                 return msgspec.convert(values, cls)
@@ -52,7 +59,8 @@ class Checked(msgspec.StructMeta):
                 pass  # the slow way also takes tuples and arrays, and names what is wrong
         from vtray.scene.checks.scene_check import construct
 
-        return construct(cls, values)  # type: ignore[arg-type]
+        made: Made = construct(cls, values)  # type: ignore[arg-type]
+        return made
 
 
 def _refuse(self: msgspec.Struct, name: str, value: object) -> NoReturn:  # noqa: ARG001
