@@ -6,6 +6,7 @@ import subprocess
 import sys
 import threading
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import OpenImageIO
@@ -233,6 +234,33 @@ def test_what_cannot_be(
         image.save(tmp_path / name, **options)
     assert any(part in str(error.value) for part in message.split("|"))
     assert list(tmp_path.iterdir()) == []
+
+
+NO_NAMES = [
+    (io.BytesIO(), "path: expected the name of a file, got an object of BytesIO"),
+    (None, "path: expected the name of a file, got an object of NoneType"),
+    ("", "path: expected the name of a file, got an empty one"),
+    ("a\ud800b.png", "a\\ud800b.png: no file name may hold the character '\\ud800'"),
+]
+
+
+@pytest.mark.parametrize(("path", "message"), NO_NAMES)
+def test_what_is_no_name_of_a_file(path: Any, message: str) -> None:
+    picture = hand_made(400, 300)
+    for write in (picture.save, picture.annotated(title="one").save, picture.scene.save):
+        with pytest.raises(vtray.OutputError) as error:
+            write(path)
+        assert str(error.value) == message
+    for read in (vtray.read, lambda path: next(vtray.read_frames(path))):
+        with pytest.raises(vtray.SceneError) as wrong:
+            read(path)
+        assert str(wrong.value) == message
+
+
+def test_names_may_be_bytes(tmp_path: Path) -> None:
+    path = tmp_path / "a.png"
+    hand_made().save(os.fsencode(path))  # type: ignore[arg-type]
+    assert path.read_bytes()[1:4] == b"PNG"
 
 
 def test_the_largest_that_can_be(tmp_path: Path) -> None:

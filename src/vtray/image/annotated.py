@@ -6,6 +6,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.base.errors import OutputError
+from vtray.base.file_name import file_name
 from vtray.image.formats.image_format import check_plain_format
 from vtray.image.formats.picture import Picture
 from vtray.image.formats.png_file import as_png
@@ -46,8 +48,9 @@ class AnnotatedPicture:
             The ending is another, the format cannot hold what is asked for, the file holds arrays
             that the scene was read from, or it cannot be written.
         """
-        check_plain_format(Path(path))
-        save_pixels(self.pixels, self._picture, Path(path))
+        target = Path(file_name(path, OutputError))
+        check_plain_format(target)
+        save_pixels(self.pixels, self._picture, target)
 
     def _repr_png_(self) -> bytes:
         """Return the picture as a PNG, by which notebooks show it."""

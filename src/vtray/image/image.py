@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.errors import RenderError
+from vtray.base.errors import OutputError, RenderError
+from vtray.base.file_name import file_name
 from vtray.image.formats.png_file import as_png
 from vtray.image.rendered import Rendered
 from vtray.image.saving import save_picture
@@ -234,7 +235,7 @@ class Image(Rendered):
             The ending is unknown, the format cannot hold what is asked for, the package for it is
             missing, the file holds arrays that the scene was read from, or it cannot be written.
         """
-        save_picture(self, Path(path), bits, aov)
+        save_picture(self, Path(file_name(path, OutputError)), bits, aov)
 
     def _repr_png_(self) -> bytes:
         """Return the picture as a PNG, by which notebooks show it."""

@@ -11,6 +11,7 @@ import msgspec
 
 from vtray.base.atomic_file import write_whole
 from vtray.base.errors import OutputError
+from vtray.base.file_name import file_name
 from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import Arrays
 from vtray.scene.checks.limits import Byte
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
 
 def save(scene: "Scene", path: str | os.PathLike[str]) -> None:
     """Write a valid scene as `Scene.save` does."""
-    target = Path(path)
+    target = Path(file_name(path, OutputError))
     arrays: dict[str, dict[str, object]] = {}
     named_before = cache(partial(_arrays_of, target))
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from vtray.base.errors import SceneError, why_unreadable
+from vtray.base.file_name import file_name
 from vtray.base.input_file import is_given, open_input
 from vtray.base.memory import available_memory, readable
 from vtray.scene.checks.json_tree import short
@@ -78,7 +79,7 @@ def read(
     >>> particles = vtray.read("water.xyz")  # doctest: +SKIP
     >>> last = vtray.read("run.xyz", frame=-1)  # doctest: +SKIP
     """
-    name = os.fsdecode(path)
+    name = file_name(path, SceneError)
     with _explained(name), _opened(path, format, columns, trajectory) as (module, given):
         found: Particles = module.read(given._replace(frame=_whole(frame)))
         return _finished(found, given, path)
@@ -138,7 +139,7 @@ def read_numbers(
 
     The other arguments, and what is given, are those of `read_frames`.
     """
-    name = os.fsdecode(path)
+    name = file_name(path, SceneError)
     number = next(wanted, None)
     while number is not None:
         with _explained(name), _opened(path, format, columns, trajectory) as (module, given):
@@ -171,7 +172,7 @@ def numbers_of(
         with _opened(path, format, columns, trajectory) as (module, given):
             return sum(1 for _ in _steps(module, given))
 
-    with _explained(os.fsdecode(path)):
+    with _explained(file_name(path, SceneError)):
         return which_frames(frames, count)
 
 
@@ -183,8 +184,9 @@ def is_slow(
     trajectory: "AnyPath | None" = None,
 ) -> bool:
     """Tell whether a frame is only passed over by reading it; the arguments are those of `read`."""
-    with _explained(os.fsdecode(path)):
-        _, reader = reader_of(os.fsdecode(path), format if trajectory is None else "mdanalysis")
+    name = file_name(path, SceneError)
+    with _explained(name):
+        _, reader = reader_of(name, format if trajectory is None else "mdanalysis")
     return reader.module in _SLOW
 
 
@@ -204,7 +206,7 @@ def _opened(
     trajectory: "AnyPath | None",
 ) -> "Iterator[tuple[Any, Given]]":
     """Give the module that reads a file, and what it is given, for its first frame."""
-    name = os.fsdecode(path)
+    name = file_name(path, SceneError)
     kind, reader = reader_of(name, format if trajectory is None else "mdanalysis")
     module = import_module(f"vtray.scene.readers.{reader.module}")
     second = None if trajectory is None else os.fsdecode(trajectory)
@@ -232,7 +234,7 @@ def _finished(found: Particles, given: Given, path: "AnyPath") -> Particles:
     _, reader = reader_of(given.path, given.format)
     if given.columns and reader.module not in _BY_NAME:
         found = _with_names(found, given.columns)
-    return replace(found, source=Path(os.fsdecode(path)))
+    return replace(found, source=Path(file_name(path, SceneError)))
 
 
 def _whole(frame: SupportsIndex) -> int:
