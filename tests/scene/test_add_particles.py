@@ -242,6 +242,7 @@ def test_cell_is_drawn_where_there_is_one() -> None:
         ({"color": "charge", "norm": "log", "clim": (0, 1)}, "expected numbers above 0"),
         ({"color": [1.0, 2.0]}, "add_particles: color"),
         ({"emission": "chrage"}, "emission: expected a number or the name of a column, got"),
+        ({"style": "points", "radii": 0.7}, "radii: points have none, as they are as large as pix"),
         ({"emission": 1.0, "style": "licorice"}, 'style: expected "points" with emission'),
         ({"emission": 1.0, "cmap": "magma"}, "cmap: is for the column that color names"),
         ({"emission": 1.0, "radii": 2.0}, "radii: points that shine have none; leave out"),

@@ -231,6 +231,9 @@ def draw(
     else:
         check_dull(stretched)
     name = "points" if shines else style_of(style, particles, bonds)
+    if name == "points" and radii is not None:
+        words = "points have none, as they are as large as pixels; give scale, or another style"
+        raise SceneError(f"radii: {words}")
     times = times_of(replicate)
     rows = np.flatnonzero(chosen(particles, select, "select"))
     wanted = criterion_of(hydrogen_bonds)
