@@ -139,6 +139,11 @@ def test_what_may_be_left_out() -> None:
             lambda: Scene().add_sky(gradient={"zenith": "redd"}),
             "add_sky: gradient: zenith: ",
         ),
+        (
+            lambda: Light((0, 0, 1), color="red"),  # type: ignore[arg-type]
+            "Light.color: expected Color or three numbers, got 'red'; a name becomes numbers by "
+            "vtray.colors.to_rgb('red')",
+        ),
         (lambda: Sky(color="red"), "Sky.color: expected Color or three numbers, got 'red'"),  # type: ignore[arg-type]
         (lambda: Ambient(-1), "Ambient.intensity: expected a number ≥ 0, got -1"),
         (lambda: Ambient(distance=0), "Ambient.distance: expected a number > 0, got 0"),

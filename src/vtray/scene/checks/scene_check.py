@@ -240,7 +240,9 @@ def _struct_from_code(found: Any, structs: tuple[Struct, ...], kind: Kind, place
         found = msgspec.structs.astuple(found)
     if isinstance(found, (list, tuple)) and len(found) == len(names) and _is_triple(structs):
         return construct(structs[0], dict(zip(names, found, strict=True)), place)
-    raise wrong(place, kind, show(found), in_code=True)
+    is_name = isinstance(found, str) and names == ("r", "g", "b")
+    remedy = f"; a name becomes numbers by vtray.colors.to_rgb({show(found)})" if is_name else ""
+    raise wrong(place, kind, f"{show(found)}{remedy}", in_code=True)
 
 
 def _is_triple(structs: tuple[Struct, ...]) -> bool:
