@@ -86,6 +86,16 @@ def test_each_kind_of_light_turns() -> None:
         turned(picture)
 
 
+def test_lights_that_stay_need_not_turn(tmp_path: Path) -> None:
+    scene = pair()
+    scene.lights = [vtray.Sky(image=np.ones((2, 4, 3)), up=(1, 0, 0))]
+    how = {"seconds": 0.2, "fps": 10, "size": (4, 3), "samples": 1}
+    vtray.turntable(scene, tmp_path / "a" / "%d.png", lights="still", **how)
+    assert len(pixels(tmp_path / "a")) == 2
+    with pytest.raises(SceneError, match="turntable: lights: a sky with a picture turns about"):
+        vtray.turntable(scene, tmp_path / "b" / "%d.png", **how)
+
+
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 def test_all_is_seen_from_all_sides(projection: str) -> None:
     generator = np.random.default_rng(3)

@@ -66,11 +66,16 @@ class TurnedShots:
         """Return what a picture is taken of."""
         turn = self.degrees * k / self.count
         middle = (self.about.x, self.about.y, self.about.z)
-        lights = [turned_light(light, turn, middle, self.axis) for light in scene.lights]
+        # Not all lights can be turned, which is no matter where they stay.
+        lights = (
+            [turned_light(light, turn, middle, self.axis) for light in scene.lights]
+            if self.turns_lights
+            else None
+        )
         return self.usual._replace(
             scene=scene,
             camera=self.camera.orbit(turn, about=self.about),
-            lights=lights if self.turns_lights else None,
+            lights=lights,
             opacity=opacity,
         )
 
