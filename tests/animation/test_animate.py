@@ -230,6 +230,16 @@ ERRORS = [
         OutputError,
         "title: the data do not say the time of a pict",
     ),
+    (
+        {"path": "made/%d.png", "bits": 16, "annotate": {"title": "x"}},
+        OutputError,
+        "made/0.png: annotations: expected 8 bits with them, got 16",
+    ),
+    (
+        {"path": "made/%d.npz", "aov": ["depth"], "annotate": {"title": "x"}},
+        OutputError,
+        "made/0.npz: this format is not for pixels alone; .png",
+    ),
     ({"bits": 16}, OutputError, "a.gif: bits 16: movies have 8 bits and colours alone"),
     ({"aov": ["depth"]}, OutputError, "a.gif: aov: movies have 8 bits and colours alone"),
     ({"background": "transparent"}, OutputError, "a.gif: background: this format cannot be trans"),
@@ -267,6 +277,7 @@ def test_errors(
     with pytest.raises(kind, match=message) as error:
         vtray.animate(given.pop("scenes"), given.pop("path"), **given)
     assert "\n" not in str(error.value)
+    assert not Path("made").exists()
 
 
 def test_pictures_of_one_size(tmp_path: Path) -> None:

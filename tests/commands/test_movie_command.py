@@ -135,6 +135,8 @@ ERRORS = [
     (["DATA", "a.gif", "--preview", "b.png"], "--preview is for pictures, and a.gif is a movie"),
     (["DATA", "a.gif", "--stats"], "--stats is for pictures, and a.gif is a movie"),
     (["DATA", "a.gif", "--bits", "16"], "a.gif: bits 16: movies have 8 bits and colours alone"),
+    (["DATA", "a.gif", "--bits", "16", "--axes"], "a.gif: bits 16: movies have 8 bits and colours"),
+    (["DATA", "m/%d.png", "--bits", "16", "--axes"], "m/0.png: annotations: expected 8 bits with"),
     (["DATA", "a.gif", "--alpha"], "a.gif: background: this format cannot be transparent; .webp "),
     (["DATA", "no/a.gif"], "no/a.gif: there is no folder "),
     (["DATA", "a.gif", "--color", "no"], "DATA: color: expected a colour or the name of a column"),

@@ -111,7 +111,7 @@ def animate(
         Called with ``"frames"``, how many pictures are done, and how many there are, 0 if that is
         not known. True shows a bar.
     bits, aov
-        What numbered pictures hold, as for `Image.save`.
+        What numbered pictures hold, as for `Image.save`; with `annotate`, 8 bits and nothing else.
     options
         Settings of the render and parts of the style, such as ``samples=16`` or ``fog=True``, as
         for `render`. `clip` and `slice` may also be functions of the number of the picture, or
@@ -304,7 +304,7 @@ def _film(
     check_picture(look.settings)
     output = Output(Path(path))
     rate = _number("fps", fps)
-    output.check(rate, look.bits, look.aov)
+    output.check(rate, look.bits, look.aov, is_annotated=bool(look.annotate))
     if client is not None:
         check_client(client)
     bar = _Bar() if progress is True else progress or None

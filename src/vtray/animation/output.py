@@ -12,7 +12,7 @@ from vtray.animation.mp4_file import find_ffmpeg, write_mp4
 from vtray.animation.webp_file import write_webp
 from vtray.base.atomic_file import check_writable
 from vtray.base.errors import OutputError
-from vtray.image.formats.image_format import check_format
+from vtray.image.formats.image_format import check_annotated_format, check_format
 
 Write = Callable[[Path, Feed, float], None]
 
@@ -114,7 +114,14 @@ class Output:
             )
         return self.folder / f"{k:06d}.png"
 
-    def check(self, fps: float, bits: int | None = None, aov: Collection[str] = ()) -> None:
+    def check(
+        self,
+        fps: float,
+        bits: int | None = None,
+        aov: Collection[str] = (),
+        *,
+        is_annotated: bool = False,
+    ) -> None:
         """Raise an error, before any work is done, if the movie cannot be written.
 
         Parameters
@@ -123,8 +130,12 @@ class Output:
             Pictures in a second.
         bits, aov
             What files of pictures hold, as for `vtray.Image.save`.
+        is_annotated
+            Whether something is painted on pictures.
         """
         if self.format is None:
+            if is_annotated:
+                check_annotated_format(self.name(0), bits)
             check_format(self.name(0), bits, aov)
             if not self.folder.is_dir():
                 self._make_folder()

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from vtray.base.errors import OutputError
 from vtray.commands.command import Parser
 from vtray.commands.setting_options import with_values_of, wrong
 
@@ -108,11 +107,6 @@ def annotations_of(
         The options.
     of_data
         What data add to these: their ``legend``, and ``labels``.
-
-    Raises
-    ------
-    OutputError
-        The file is not one for painted pixels.
     """
     given = {name: value_of(options, name) for name in KEYWORDS}
     found = {name: value for name, value in given.items() if value is not None}
@@ -120,13 +114,4 @@ def annotations_of(
         found["labels"] = labels_of(options)[0]
     for name, value in of_data.items():
         found[name] = [*found["labels"], *value] if name == "labels" else value
-    if found and options.pixel is None:
-        from vtray.image.formats.image_format import check_plain_format
-
-        check_plain_format(options.output)
-        if options.bits not in (None, 8):
-            message = (
-                f"{options.output}: annotations: expected 8 bits with them, got {options.bits}"
-            )
-            raise OutputError(message)
     return found

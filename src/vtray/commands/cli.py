@@ -113,11 +113,12 @@ def _compare(told: "Provenance", scene: "Scene", options: argparse.Namespace) ->
 def _check_output(options: argparse.Namespace) -> None:
     """Raise OutputError, before any work is done, if the output cannot be written."""
     from vtray.base.atomic_file import check_spares, check_writable
-    from vtray.image.formats.image_format import check_format
+    from vtray.image.formats.image_format import check_annotated_format, check_format
 
     scene, output = options.scene, options.output
     check_format(output, options.bits, options.aov or (), options.background)
-    annotations_of(options)
+    if annotations_of(options):
+        check_annotated_format(output, options.bits)
     check_writable(output)
     remedy = "choose another name for the image"
     check_spares(output, [scene], "is the scene file itself", remedy)

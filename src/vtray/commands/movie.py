@@ -53,15 +53,9 @@ def make_movie(
     """
     output = Output(options.output)
     fps = getattr(options, "fps", None) or FPS
-    output.check(fps, options.bits, options.aov or ())
-    painted = argparse.Namespace(**{**vars(options), "output": output.name(0)})
-    look = Look(
-        settings_of(options),
-        annotations_of(painted),
-        options.bits,
-        tuple(options.aov or ()),
-        options.threads,
-    )
+    aov, annotate = tuple(options.aov or ()), annotations_of(options)
+    output.check(fps, options.bits, aov, is_annotated=bool(annotate))
+    look = Look(settings_of(options), annotate, options.bits, aov, options.threads)
     film = Film(output, fps, look, bool(getattr(options, "resume", False)), on_warning=warn)
     progress: Any = None
     if not options.quiet and sys.stderr.isatty():

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import OutputError
 from vtray.base.file_name import file_name
-from vtray.image.formats.image_format import check_plain_format
+from vtray.image.formats.image_format import check_annotated_format
 from vtray.image.formats.picture import Picture
 from vtray.image.formats.png_file import as_png
 from vtray.image.saving import save_pixels
@@ -49,7 +49,7 @@ class AnnotatedPicture:
             that the scene was read from, or it cannot be written.
         """
         target = Path(file_name(path, OutputError))
-        check_plain_format(target)
+        check_annotated_format(target)
         save_pixels(self.pixels, self._picture, target)
 
     def _repr_png_(self) -> bytes:

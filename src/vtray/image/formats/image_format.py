@@ -152,6 +152,14 @@ def check_plain_format(path: Path) -> None:
         raise OutputError(message)
 
 
+def check_annotated_format(path: Path, bits: int | None = None) -> None:
+    """Raise OutputError if a file cannot hold a picture with annotations, which has 8 bits."""
+    check_plain_format(path)
+    if bits not in (None, 8):
+        message = f"{path}: annotations: expected 8 bits with them, got {bits}"
+        raise OutputError(message)
+
+
 def _check_aov(aov: Collection[str]) -> tuple[str, ...]:
     """Return the names of AOVs in their usual order, each once."""
     given = [aov] if isinstance(aov, str) else list(aov)
