@@ -245,6 +245,7 @@ ERRORS = [
     ({"background": "transparent"}, OutputError, "a.gif: background: this format cannot be trans"),
     ({"samples": 0}, SceneError, "samples: "),
     ({"color": "x"}, TypeError, r"animate\(\) argument 'color' is for particles, or unknown"),
+    ({"sampels": 3}, TypeError, "argument 'sampels' is unknown; did you mean \"samples\""),
     ({"trajectory": "x"}, SceneError, "trajectory: expected the name of a trajectory beside it"),
     ({"scenes": []}, SceneError, "frames: expected at least one picture, got none"),
     ({"scenes": iter([])}, SceneError, "scenes: expected at least one picture, got none"),
@@ -278,6 +279,17 @@ def test_errors(
         vtray.animate(given.pop("scenes"), given.pop("path"), **given)
     assert "\n" not in str(error.value)
     assert not Path("made").exists()
+
+
+def test_settings_that_are_none_are_not_given(tmp_path: Path) -> None:
+    how = {"size": (4, 3), "threads": 1}
+    none = {"samples": None, "clip": None, "fog": None}
+    vtray.animate([ball()], tmp_path / "a" / "%d.png", **how)
+    vtray.animate([ball()], tmp_path / "b" / "%d.png", **how, **none)
+    vtray.turntable(ball(), tmp_path / "c" / "%d.png", seconds=0.01, **how, **none)
+    (first,), (second,), (third,) = (pixels(tmp_path / name) for name in "abc")
+    assert (first == second).all()
+    assert (first == third).all()
 
 
 def test_pictures_of_one_size(tmp_path: Path) -> None:

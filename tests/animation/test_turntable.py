@@ -156,6 +156,8 @@ def test_cameras_go_around_what_is_upright() -> None:
         ({"degrees": np.inf}, SceneError, "degrees: expected a number, got "),
         ({"lights": "off"}, SceneError, "lights: expected 'turn' or 'still', got "),
         ({"sample": 4}, TypeError, r"turntable\(\) argument 'sample' is unknown"),
+        ({"sampels": 4}, TypeError, "argument 'sampels' is unknown; did you mean \"samples\""),
+        ({"degree": 4}, TypeError, "argument 'degree' is unknown; did you mean \"degrees\""),
         ({"scene": vtray.Scene()}, SceneError, "there are no spheres; expected at least one"),
     ],
 )

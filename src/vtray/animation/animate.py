@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Callable, Collection, Iterable, Mapping
+from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -27,7 +28,9 @@ from vtray.animation.stage import Look, Shot, Warn
 from vtray.base.errors import SceneError
 from vtray.scene.camera import Camera
 from vtray.scene.checks.scene_words import show
+from vtray.scene.checks.unknown_names import unknown_argument
 from vtray.scene.default_light import has_default_light
+from vtray.scene.particles.view import VIEW
 from vtray.scene.placing.bounds import balls_of, middle_of
 from vtray.scene.placing.directions import Vec, unit
 from vtray.scene.placing.moved import axes_of
@@ -144,8 +147,7 @@ def animate(
     >>> import vtray
     >>> vtray.animate("run.xyz", "run.mp4", frames="::5", bonds=True)  # doctest: +SKIP
     """
-    settings = {name: options.pop(name) for name in PICTURE if options.get(name) is not None}
-    parts = {name: settings.pop(name) for name in STYLE if is_moving(settings.get(name))}
+    settings, parts = _of_picture(options)
     reading = {name: options.pop(name) for name in READING if name in options}
     look = Look(settings, check_annotate(annotate), bits, tuple(aov), threads)
     film = _film(path, fps, look, resume, client, progress, warn)
@@ -160,8 +162,10 @@ def animate(
     if isinstance(first, Scene):
         if options:
             name = next(iter(options))
-            message = f"animate() argument {name!r} is for particles, or unknown"
-            raise TypeError(message)
+            if name in VIEW or name in signature(Scene.add_particles).parameters:
+                message = f"animate() argument {name!r} is for particles, or unknown"
+                raise TypeError(message)
+            raise _unknown(animate, name)
         make: Make = SceneShots(first, look)
     else:
         if opacity is not None and not is_moving(opacity):
@@ -233,13 +237,10 @@ def turntable(
     >>> import vtray
     >>> vtray.turntable(scene, "turn.mp4", seconds=6)  # doctest: +SKIP
     """
-    unknown = [name for name in settings if name not in PICTURE]
-    if unknown:
-        message = f"turntable() argument {unknown[0]!r} is unknown"
-        raise TypeError(message)
-    settings = {name: value for name, value in settings.items() if value is not None}
-    parts = {name: settings.pop(name) for name in STYLE if is_moving(settings.get(name))}
-    look = Look(settings, check_annotate(annotate), bits, tuple(aov), threads)
+    given, parts = _of_picture(settings)
+    if settings:
+        raise _unknown(turntable, next(iter(settings)))
+    look = Look(given, check_annotate(annotate), bits, tuple(aov), threads)
     film = _film(path, fps, look, resume, client, progress, warn)
     ways = {name: way_of_part(name, part) for name, part in parts.items()}
     if opacity is not None:
@@ -289,6 +290,20 @@ def run(film: Film, script: Script) -> None:
     finally:
         if isinstance(film.progress, _Bar):
             film.progress.close()
+
+
+def _of_picture(options: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Take from keywords what `render` takes, and of that what moves; None is as if not given."""
+    given = {name: options.pop(name) for name in PICTURE if name in options}
+    settings = {name: value for name, value in given.items() if value is not None}
+    parts = {name: settings.pop(name) for name in STYLE if is_moving(settings.get(name))}
+    return settings, parts
+
+
+def _unknown(function: Callable[..., Path], name: str) -> TypeError:
+    """Return the error for a keyword that a function does not know; it says what may be meant."""
+    *named, _others = signature(function).parameters
+    return TypeError(unknown_argument(function.__name__, name, [*named, *PICTURE]))
 
 
 def _film(
