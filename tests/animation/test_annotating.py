@@ -2,7 +2,7 @@
 
 import pytest
 
-from vtray.animation.annotating import annotated
+from vtray.animation.annotating import annotated, check_annotate
 from vtray.base.errors import OutputError
 
 
@@ -25,6 +25,16 @@ def test_texts_name_the_frame_and_its_time() -> None:
 def test_texts_that_are_not_understood(text: str) -> None:
     with pytest.raises(OutputError, match=r"title: expected \{frame\} and \{time\} alone in brac"):
         annotated({"title": text}, 7, 0.25, {})
+
+
+def test_what_can_be_gone_through_but_once_is_for_all_pictures() -> None:
+    labels = zip(["a", "b"], [(0, 0, 0), (1, 0, 0)], strict=True)
+    legend = (pair for pair in [("O", "red")])
+    found = check_annotate({"labels": labels, "legend": legend, "title": "x"})
+    for _ in range(2):
+        assert [text for text, _ in annotated(found, 0, 0.0, {})["labels"]] == ["a", "b"]
+    assert found["legend"] == [("O", "red")]
+    assert found["title"] == "x"
 
 
 def test_what_is_not_known() -> None:

@@ -2,7 +2,7 @@
 
 import inspect
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from string import Formatter
 from typing import Any
 
@@ -61,7 +61,10 @@ def check_annotate(given: object) -> dict[str, Any]:
     for name in given:
         if name not in known:
             raise OutputError(f"annotate: {unknown_argument('Image.annotated', name, known)}")
-    return dict(given)
+    # What can be gone through but once is for all pictures, and for another run to compare.
+    return {
+        name: [*value] if isinstance(value, Iterator) else value for name, value in given.items()
+    }
 
 
 def _formatted(name: str, text: str, known: Mapping[str, Any]) -> str:
