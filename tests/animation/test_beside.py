@@ -10,6 +10,7 @@ from PIL import Image
 import vtray
 from conftest import compiled_only
 from vtray.commands import cli
+from vtray.rendering.beside import MARGIN, fit_beside
 
 SIZE = (320, 200)
 
@@ -83,6 +84,23 @@ def test_movies_in_python(kind: str, tmp_path: Path) -> None:
     else:
         vtray.turntable(scene, there, seconds=0.2, fps=10, annotate=annotate, **options)
     assert all(map(stands_beside, pictures(there)))
+
+
+@pytest.mark.parametrize(
+    "marks",
+    [{"frame": 3}, {"frame": True}, {"time": 0}, {"time": True}, {"time": "2 ps"}, {"title": "x"}],
+)
+def test_texts_have_room_above(marks: dict[str, Any]) -> None:
+    seen = []
+    camera = vtray.Camera.look_at((0, -6, 0), (0, 0, 0), up=(0, 0, 1), size=(600, 400))
+
+    def fit(margin: Any) -> vtray.Camera:
+        seen.append(margin)
+        return camera
+
+    fit_beside(fit, [], marks)
+    left, top, right, bottom = seen[-1]
+    assert left == right == bottom == MARGIN < top < 0.3
 
 
 @compiled_only

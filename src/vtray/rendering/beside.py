@@ -7,6 +7,7 @@ import numpy as np
 
 from vtray.figures.annotations import Annotations
 from vtray.figures.brightness_scale import BrightnessScale
+from vtray.figures.caption import frame_caption
 from vtray.figures.painted.picture import MOST_BESIDE, share_above, share_below, share_beside
 from vtray.rendering.starlight import peak_of
 from vtray.scene.camera import Camera
@@ -16,8 +17,8 @@ from vtray.scene.stars import Stars
 MARKS = ("legend", "colorbar")
 """What stands beside what is shown, as keywords of `vtray.Image.annotated`."""
 
-TEXTS = ("title", "time")
-"""What stands above it."""
+SOME = 1000
+"""Stands for times and numbers of frames that are only known with each picture of a movie."""
 
 MOST_ABOVE = 0.3
 """The share of the height from which on texts, or a scale bar, stand on what is shown."""
@@ -49,7 +50,8 @@ def fit_beside(
     objects
         What is shown.
     annotate
-        What is painted on the picture, as keywords of `vtray.Image.annotated`.
+        What is painted on the picture, as keywords of `vtray.Image.annotated`; a time or a frame
+        may be True where it is that of each picture.
     size
         Width and height of the picture in pixels; by default those of the camera.
 
@@ -69,7 +71,11 @@ def fit_beside(
         )
         wanted = Annotations(**given)
         right = share_beside(objects, wanted, (width, height), brightness, fontsize)
-    title, caption = (str(annotate.get(name) or "") for name in TEXTS)
+    title = str(annotate.get("title") or "")
+    time, frame = (
+        SOME if annotate.get(name) is True else annotate.get(name) for name in ("time", "frame")
+    )
+    caption = frame_caption(time, frame)
     if title or caption:
         above = share_above(title, caption, (width, height), fontsize)
     if annotate.get("scalebar"):
