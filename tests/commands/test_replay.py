@@ -361,3 +361,12 @@ def test_stops_of_a_picture_that_is_locked(small: Path, capfd: pytest.CaptureFix
     assert cli.run(["--replay", str(picture), str(small), str(again), "--stops", "1"]) == 1
     words = "its exposure is that of another picture, with its stops; give --exposure too"
     assert words in capfd.readouterr().err
+
+
+def test_what_is_beside_a_picture_is_taken_over_where_it_can_be(small: Path) -> None:
+    picture, again, plain = (small.with_name(name) for name in ("a.npz", "b.npz", "b.png"))
+    assert cli.run([str(small), str(picture), "--aov", "depth"]) == 0
+    for output in (again, plain):
+        assert cli.run(["--replay", str(picture), str(small), str(output)]) == 0
+    assert vtray.read_provenance(again) == vtray.read_provenance(picture)
+    assert tuple(vtray.read_provenance(plain).aov) == ()

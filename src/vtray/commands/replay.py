@@ -41,10 +41,11 @@ def take_over(options: argparse.Namespace) -> Provenance:
         if getattr(options, name) is None and not decided:
             setattr(options, name, told.told(name))
     if options.output is not None:
-        # Another format than that of the picture may have other bits.
-        if options.bits is None and told.bits in find_format(options.output).bits:
+        # Another format than that of the picture may have other bits, and hold nothing beside it.
+        held = find_format(options.output)
+        if options.bits is None and told.bits in held.bits:
             options.bits = told.bits
-        if options.aov is None:
+        if options.aov is None and held.aov:
             options.aov = told.aov
     return told
 
