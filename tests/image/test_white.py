@@ -8,7 +8,7 @@ import pytest
 from examples import light, plane, scene, sphere
 
 import vtray
-from vtray.image.white import known_white, usual_brightness, white_of
+from vtray.image.white import Exposed, known_white, locked_white, usual_brightness, white_of
 from vtray.scene.settings import RenderSettings
 
 
@@ -128,3 +128,11 @@ def test_soft_light_is_as_exact_as_white_asks_for() -> None:
         for stops in (-4, 0, 4)
     }
     assert rays[-4] <= rays[0] < rays[4]
+
+
+def test_stops_are_told_beside_a_white_that_has_them() -> None:
+    assert locked_white(Exposed(7.0), stops=1) == 7.0
+    image = render(lock=Exposed(7.0), stops=1)
+    assert (image.white, image.settings.stops) == (7.0, 1)
+    with pytest.raises(vtray.RenderError, match="lock and exposure 'max': expected one of them"):
+        locked_white(Exposed(7.0), "max")

@@ -11,6 +11,7 @@ import msgspec
 from vtray.animation.annotating import annotated
 from vtray.animation.fading import Opacity, faded
 from vtray.image.image import Image
+from vtray.image.white import Exposed
 from vtray.rendering.fog import Ball, ball_around, fitted
 from vtray.rendering.renderer import render
 from vtray.rendering.starlight import peak_of
@@ -54,13 +55,6 @@ class Shot(NamedTuple):
     marks: Mapping[str, Any] | None = None
     opacity: Opacity | None = None
     style: Mapping[str, Any] = {}
-
-
-class Exposed(NamedTuple):
-    """What a picture is locked to: the light that becomes white, with all stops."""
-
-    white: float
-    has_stops: bool = True
 
 
 class Common(NamedTuple):

@@ -2,24 +2,14 @@
 
 import argparse
 from collections.abc import Iterator
-from typing import NamedTuple
 
 from vtray.base.errors import ProvenanceError
 from vtray.base.version import __version__
 from vtray.image.formats.image_format import find_format
 from vtray.image.provenance import Provenance, read_provenance
+from vtray.image.white import Exposed
 from vtray.scene.scene import Scene
 from vtray.scene.style import PICTURE
-
-
-class Exposed(NamedTuple):
-    """What a render can be locked to instead of a picture: the light that becomes white.
-
-    Stops are in it already; they are told beside it to stand in the new picture too.
-    """
-
-    white: float
-    has_stops: bool = True
 
 
 def take_over(options: argparse.Namespace) -> Provenance:

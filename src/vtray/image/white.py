@@ -2,6 +2,7 @@
 
 import math
 import reprlib
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,14 +15,22 @@ USUAL = (99, 100)
 """The share of the pixels with light that are no brighter than white, with an exposure "auto"."""
 
 
+class Exposed(NamedTuple):
+    """What a render can be locked to instead of a picture: the light that becomes white.
+
+    Stops are in it already; they may be told beside it to stand in the new picture too.
+    """
+
+    white: float
+
+
 def locked_white(lock: object, exposure: object = None, stops: object = None) -> float:
     """Return the white of the picture whose exposure another one shall have.
 
     Parameters
     ----------
     lock
-        The picture, or what has its `white`. Where it has `has_stops`, stops may be told beside
-        it, as they are in its white already.
+        The picture, or what has its `white`. Beside `Exposed`, stops may be told.
     exposure, stops
         What was asked for beside it.
 
@@ -30,7 +39,7 @@ def locked_white(lock: object, exposure: object = None, stops: object = None) ->
     RenderError
         It is no picture, or an exposure or stops were asked for too.
     """
-    told = None if getattr(lock, "has_stops", False) else stops
+    told = None if isinstance(lock, Exposed) else stops
     for name, given in (("exposure", exposure), ("stops", told)):
         if given is not None:
             words = f"lock and {name} {reprlib.repr(given)}"
