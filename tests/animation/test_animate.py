@@ -13,10 +13,12 @@ from PIL import Image
 import vtray
 from conftest import compiled_only
 from vtray.animation import output as outputs
+from vtray.animation.movie_names import ALONE
 from vtray.animation.particle_scenes import Drawing, ParticleScenes, looked_at
 from vtray.animation.sources import source_of
 from vtray.base.errors import OutputError, RenderError, SceneError
 from vtray.base.extras import ExtraError
+from vtray.image.formats.image_format import FORMATS
 
 SIZE = (12, 9)
 
@@ -348,6 +350,7 @@ def test_kinds_of_names() -> None:
     assert outputs.is_movie(Path("a.MP4"))
     assert outputs.is_movie(Path("%04d.tif"))
     assert not outputs.is_movie(Path("%04d/a.png"))
+    assert set(ALONE) == {*outputs.MOVIES} - {*FORMATS}
     assert outputs.Output(Path("f/a%03d.png")).name(7) == Path("f/a007.png")
 
 

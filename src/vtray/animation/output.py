@@ -1,6 +1,5 @@
 """Where a movie goes: a file, or numbered pictures; and where these are until it is whole."""
 
-import re
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from types import MappingProxyType
@@ -8,6 +7,7 @@ from typing import NamedTuple
 
 from vtray.animation.feed import Feed
 from vtray.animation.gif_file import write_gif
+from vtray.animation.movie_names import NUMBER, is_numbered
 from vtray.animation.mp4_file import find_ffmpeg, write_mp4
 from vtray.animation.webp_file import write_webp
 from vtray.base.atomic_file import check_writable
@@ -48,13 +48,6 @@ MOVIES: Mapping[str, MovieFormat] = MappingProxyType(
 
 EXPECTED = f"{', '.join(MOVIES)}, or numbered pictures such as frames/%04d.png"
 
-_NUMBER = re.compile(r"%(0[1-9])?d")
-
-
-def is_numbered(path: Path) -> bool:
-    """Tell whether a name is that of numbered pictures."""
-    return _NUMBER.search(path.name) is not None
-
 
 def is_movie(path: Path) -> bool:
     """Tell whether a name can be that of a movie, or of numbered pictures."""
@@ -89,12 +82,12 @@ class Output:
     def __init__(self, path: Path) -> None:
         self.path = path
         if is_numbered(path):
-            if "%" in _NUMBER.sub("", path.name, count=1):
+            if "%" in NUMBER.sub("", path.name, count=1):
                 message = f"{path}: expected one number such as %04d in the name, and no other %"
                 raise OutputError(message)
             self.format = None
             self.folder = path.parent
-            self.record = path.with_name(f".{_NUMBER.sub('', path.name)}.vtray-movie")
+            self.record = path.with_name(f".{NUMBER.sub('', path.name)}.vtray-movie")
             return
         self.format = MOVIES.get(path.suffix.lower())
         if self.format is None:
@@ -106,7 +99,7 @@ class Output:
     def name(self, k: int) -> Path:
         """Return the file of a picture, by its number from 0."""
         if self.format is None:
-            found = _NUMBER.search(self.path.name)
+            found = NUMBER.search(self.path.name)
             assert found is not None  # noqa: S101 - that is how it is known to be numbered
             return (
                 self.folder

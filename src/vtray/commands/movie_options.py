@@ -2,10 +2,10 @@
 
 import argparse
 import math
-import re
 from collections.abc import Sequence
 from pathlib import Path
 
+from vtray.animation.movie_names import ALONE, is_numbered
 from vtray.base.errors import SceneError, UsageError
 from vtray.commands.command import Parser
 from vtray.commands.setting_options import wrong
@@ -14,11 +14,6 @@ FLAGS = ("--frames", "--fps", "--turntable", "--resume", "--dask")
 
 FPS = 30.0
 """Pictures in a second, unless they are given."""
-
-_ENDINGS = (".mp4", ".gif")
-"""Of files that can be nothing but movies."""
-
-_NUMBERED = re.compile(r"%(0[1-9])?d")
 
 _PICTURES_ALONE = ("pixel", "preview", "keep_partial", "replay", "stats")
 """Options that are of no use for movies."""
@@ -73,8 +68,8 @@ def makes_movie(options: argparse.Namespace, is_data: bool) -> bool:
         if used:
             raise UsageError(f"{used[0]} is for movies; expected one as OUTPUT")
         return False
-    is_numbered = _NUMBERED.search(output.name) is not None
-    if not (used or output.suffix.lower() in _ENDINGS or (is_numbered and is_data)):
+    is_alone = output.suffix.lower() in ALONE
+    if not (used or is_alone or (is_data and is_numbered(output))):
         return False
     for name in _PICTURES_ALONE:
         if getattr(options, name, None):
