@@ -348,7 +348,7 @@ def test_terminal_shows_progress(
     small: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("sys.stderr.isatty", lambda: True)
-    monkeypatch.setattr("vtray.commands.progress.DELAY_SECONDS", -1.0)
+    monkeypatch.setattr("vtray.base.progress.DELAY_SECONDS", -1.0)
     assert cli.run([str(small), str(small.with_name("a.png"))]) == 0
     reading, bar = capsys.readouterr().err.replace(COMPILING, "").split("\n")[:2]
     assert reading == f"vtray: reading {small} ..."
@@ -362,7 +362,7 @@ def test_terminal_shows_compiling_when_there_is_any(
     small: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("sys.stderr.isatty", lambda: True)
-    monkeypatch.setattr("vtray.commands.progress.DELAY_SECONDS", 1e9)
+    monkeypatch.setattr("vtray.base.progress.DELAY_SECONDS", 1e9)
     render = [str(small), str(small.with_name("a.png"))]
     assert cli.run(render) == 0
     capsys.readouterr()

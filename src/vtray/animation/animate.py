@@ -1,7 +1,8 @@
 """Movies: `vtray.animate` and `vtray.turntable`."""
 
 import os
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -26,6 +27,7 @@ from vtray.animation.shots import SceneShots, TurnedShots, camera_around
 from vtray.animation.sources import READING, first_of, source_of
 from vtray.animation.stage import Look, Shot, Warn
 from vtray.base.errors import SceneError
+from vtray.base.progress import ProgressBar
 from vtray.scene.camera import Camera
 from vtray.scene.checks.scene_words import show
 from vtray.scene.checks.unknown_names import unknown_argument
@@ -150,7 +152,7 @@ def animate(
     settings, parts = _of_picture(options)
     reading = {name: options.pop(name) for name in READING if name in options}
     look = Look(settings, check_annotate(annotate), bits, tuple(aov), threads)
-    film = _film(path, fps, look, resume, client, progress, warn)
+    film = _film(path, fps, look, resume, client, warn)
     ways = {name: way_of_part(name, part) for name, part in parts.items()}
     last = last_of(camera=camera, opacity=opacity, **parts)
     is_file = isinstance(scenes, (str, os.PathLike))
@@ -176,7 +178,8 @@ def animate(
         ways["opacity"] = way_of_opacity(opacity)
     if camera is not None:
         ways["camera"] = way_of_cameras(camera, lambda: _pivot(make(first, 0, None).scene))
-    run(film, Script(source, first, make, Moving(ways)))
+    with _shown(film, progress):
+        run(film, Script(source, first, make, Moving(ways)))
     return film.output.path
 
 
@@ -241,12 +244,13 @@ def turntable(
     if settings:
         raise _unknown(turntable, next(iter(settings)))
     look = Look(given, check_annotate(annotate), bits, tuple(aov), threads)
-    film = _film(path, fps, look, resume, client, progress, warn)
+    film = _film(path, fps, look, resume, client, warn)
     ways = {name: way_of_part(name, part) for name, part in parts.items()}
     if opacity is not None:
         ways["opacity"] = way_of_opacity(opacity)
     camera, about = camera_around(scene, look)
-    go_around(film, scene, camera, about, seconds, degrees, lights, moving=Moving(ways))
+    with _shown(film, progress):
+        go_around(film, scene, camera, about, seconds, degrees, lights, moving=Moving(ways))
     return film.output.path
 
 
@@ -287,9 +291,20 @@ def run(film: Film, script: Script) -> None:
         if film.done is not None and film.done.how_to_go_on():
             error.add_note(film.done.how_to_go_on())
         raise
+
+
+@contextmanager
+def _shown(film: Film, progress: Progress | bool | None) -> Iterator[None]:
+    """Tell within how far a movie is, to a function or by a bar, as `animate` is asked to."""
+    if progress is not True:
+        film.progress = progress or None
+        yield
+        return
+    film.progress = bar = ProgressBar("frame", stays=True)
+    try:
+        yield
     finally:
-        if isinstance(film.progress, _Bar):
-            film.progress.close()
+        bar.close()
 
 
 def _of_picture(options: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -312,7 +327,6 @@ def _film(
     look: Look,
     resume: bool,
     client: "Client | None",
-    progress: Progress | bool | None,
     warn: Warn | None,
 ) -> Film:
     """Return how a movie is made, checked as far as can be without a scene."""
@@ -322,8 +336,7 @@ def _film(
     output.check(rate, look.bits, look.aov, is_annotated=bool(look.annotate))
     if client is not None:
         check_client(client)
-    bar = _Bar() if progress is True else progress or None
-    return Film(output, rate, look, resume, bar, warn or _warn, client)
+    return Film(output, rate, look, resume, on_warning=warn or _warn, client=client)
 
 
 def _pivot(scene: Scene) -> Vec:
@@ -344,25 +357,6 @@ def _number(name: str, value: object, *, positive: bool = True) -> float:
             return number
     words = "a number > 0" if positive else "a number"
     raise SceneError(f"{name}: expected {words}, got {show(value)}")
-
-
-class _Bar:
-    """A progress bar on stderr."""
-
-    def __init__(self) -> None:
-        self._bar: Any = None
-
-    def __call__(self, step: str, done: int, total: int) -> None:
-        if self._bar is None:
-            from tqdm import tqdm
-
-            self._bar = tqdm(desc=step, total=total or None, initial=done, unit="frame")
-        self._bar.update(done - self._bar.n)
-
-    def close(self) -> None:
-        """Leave it as it is."""
-        if self._bar is not None:
-            self._bar.close()
 
 
 def _warn(message: str) -> None:

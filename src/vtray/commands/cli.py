@@ -191,7 +191,7 @@ def _load(options: argparse.Namespace) -> "Scene":
 
     announced: Any = contextlib.nullcontext
     if not options.quiet and sys.stderr.isatty():
-        from vtray.commands.progress import announced
+        from vtray.base.progress import announced
     try:
         with announced(printable(f"vtray: reading {options.scene} ...")):
             return load(options.scene, warn=warn)
@@ -227,7 +227,7 @@ def _render(scene: "Scene", options: argparse.Namespace, growing: Growing) -> "I
         before_compiling(None)
         return render(scene, options.threads, warn=warn, **growing.arguments(None), **settings)
 
-    from vtray.commands.progress import ProgressBar
+    from vtray.base.progress import ProgressBar
 
     before_compiling(_announce_compiling)
     progress = ProgressBar()

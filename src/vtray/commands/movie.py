@@ -59,7 +59,7 @@ def make_movie(
     film = Film(output, fps, look, bool(getattr(options, "resume", False)), on_warning=warn)
     progress: Any = None
     if not options.quiet and sys.stderr.isatty():
-        from vtray.commands.progress import ProgressBar
+        from vtray.base.progress import ProgressBar
 
         film.progress = progress = ProgressBar("frame")
 

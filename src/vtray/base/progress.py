@@ -1,4 +1,4 @@
-"""The progress bar of the command line."""
+"""Progress that is shown on stderr."""
 
 import contextlib
 import sys
@@ -19,33 +19,43 @@ class ProgressBar:
     ----------
     unit
         What is counted.
+    stays
+        Whether it is there at once, and stays when all is done.
     """
 
-    def __init__(self, unit: str = "task") -> None:
-        self._unit = unit
+    def __init__(self, unit: str = "task", *, stays: bool = False) -> None:
+        self._unit, self._stays = unit, stays
         self._start = time.perf_counter()
         self._step = ""
         self._bar: Any = None
 
     def __call__(self, step: str, done: int, total: int) -> None:
-        """Show the progress, once the render has taken long enough."""
+        """Show the progress, once the render has taken long enough; a total of 0 is not known."""
         if step != self._step:
             self.close()
             self._step = step
-        if self._bar is None and time.perf_counter() - self._start > DELAY_SECONDS:
+        if self._bar is None and (self._stays or self._took_long()):
             from tqdm import tqdm
 
             self._bar = tqdm(
-                desc=step, total=total, initial=done, unit=self._unit, file=sys.stderr, leave=False
+                desc=step,
+                total=total or None,
+                initial=done,
+                unit=self._unit,
+                file=sys.stderr,
+                leave=self._stays,
             )
         if self._bar is not None:
             self._bar.update(done - self._bar.n)
 
     def close(self) -> None:
-        """Take the bar away."""
+        """Take the bar away, or leave it as it is if it stays."""
         if self._bar is not None:
             self._bar.close()
             self._bar = None
+
+    def _took_long(self) -> bool:
+        return time.perf_counter() - self._start > DELAY_SECONDS
 
 
 @contextmanager
