@@ -18,6 +18,7 @@ import vtray
 from conftest import compiled_only
 from vtray.base.errors import OutputError
 from vtray.commands import cli, growing
+from vtray.commands.options import parse
 from vtray.image.formats import image_file
 from vtray.rendering import growth
 
@@ -141,6 +142,44 @@ def test_preview_that_is_a_part_of_the_scene(
     assert cli.run(["scene.json", "a.png", "--preview", "scene.npz"]) == 1
     assert "scene.npz: holds arrays of the scene itself" in capfd.readouterr().err
     assert Path("scene.npz").read_bytes() == before
+    np.savez("sky.npz", image=np.ones((2, 4, 3), np.float32))
+    before = Path("sky.npz").read_bytes()
+    document = json.loads(Path("scene.json").read_text())
+    document["lights"] = [{"type": "sky", "image": "sky.npz"}]
+    Path("scene.json").write_text(json.dumps(document))
+    assert cli.run(["scene.json", "a.png", "--preview", "sky.npz"]) == 1
+    assert "sky.npz: holds arrays of the scene itself" in capfd.readouterr().err
+    assert Path("sky.npz").read_bytes() == before
+
+
+def test_preview_is_in_the_end_what_is_saved(small: Path) -> None:
+    output, preview = small.with_name("a.png"), small.with_name("p.png")
+    arguments = ["--title", "A", "--size", "48x36", "--preview", str(preview)]
+    assert cli.run([*arguments, str(small), str(output)]) == 0
+    assert preview.read_bytes() == output.read_bytes()
+    plain = vtray.render(vtray.load(small), size=(48, 36)).pixels
+    with PillowImage.open(preview) as shown:
+        assert (np.asarray(shown) != plain).any()
+
+
+def test_preview_that_cannot_be_painted_on(small: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    arguments = ["--title", "A", str(small), str(small.with_name("a.png"))]
+    assert cli.run([*arguments, "--preview", str(small.with_name("p.npz"))]) == 1
+    assert "p.npz: this format is not for pixels alone; .png, " in capfd.readouterr().err
+    assert names(small.parent) == ["scene.json"]
+
+
+def test_what_is_kept_has_annotations(small: Path) -> None:
+    output = small.with_name("a.png")
+    options = parse(["--keep-partial", "-q", str(small), str(output)])
+    image = vtray.render(vtray.load(small), size=(48, 36))
+    image.partial = 0.5
+    ended = pytest.raises(KeyboardInterrupt)
+    with ended, growing.Growing(options, {"title": "A"}, print) as context:
+        context.arguments(None)["on_update"](image)
+        raise KeyboardInterrupt
+    with PillowImage.open(output) as shown:
+        np.testing.assert_array_equal(np.asarray(shown), image.annotated(title="A").pixels)
 
 
 def test_no_picture_of_which_to_show_a_part(small: Path, capfd: pytest.CaptureFixture[str]) -> None:

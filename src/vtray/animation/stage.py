@@ -10,6 +10,7 @@ import msgspec
 
 from vtray.animation.annotating import annotated
 from vtray.animation.fading import Opacity, faded
+from vtray.image.finished import save_finished
 from vtray.image.image import Image
 from vtray.image.white import Exposed
 from vtray.rendering.fog import Ball, ball_around, fitted
@@ -101,10 +102,7 @@ class Look:
     def save(self, image: Image, shot: Shot, path: Path) -> None:
         """Write a picture, and what is painted on it, to a file."""
         keywords = annotated(self.annotate, shot.frame, shot.time, shot.marks or {})
-        if keywords:
-            image.annotated(**keywords).save(path)
-        else:
-            image.save(path, bits=self.bits, aov=self.aov)
+        save_finished(image, path, keywords, self.bits, self.aov)
 
 
 class Stage:

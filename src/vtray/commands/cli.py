@@ -61,7 +61,8 @@ def _run(options: argparse.Namespace) -> int:
     if told is not None:
         _compare(told, scene, options)
     clock.lap("read")
-    with Growing(options, lambda problem: _warn(problem, options)) as growing:
+    annotate = annotations_of(options, of_data)
+    with Growing(options, annotate, lambda problem: _warn(problem, options)) as growing:
         image = _render(scene, options, growing)
     clock.lap("render")
     if options.pixel is not None:
@@ -69,11 +70,6 @@ def _run(options: argparse.Namespace) -> int:
 
         print_result(explain_pixel(scene, image, *options.pixel))
     else:
-        annotations = annotations_of(options, of_data)
-        if annotations:
-            image.annotated(**annotations).save(options.output)
-        else:
-            image.save(options.output, bits=options.bits, aov=options.aov or ())
         growing.finish(image)
     clock.lap("write")
     if options.stats:

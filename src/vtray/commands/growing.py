@@ -3,12 +3,13 @@
 import argparse
 import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 from vtray.base.errors import OutputError, VtrayError, printable
 from vtray.base.signals import Postponed, end_by
+from vtray.commands.annotation_options import annotations_of
 from vtray.commands.command import print_note
 
 if TYPE_CHECKING:
@@ -24,13 +25,15 @@ Progress = Callable[[str, int, int], None]
 def check_preview(options: argparse.Namespace) -> None:
     """Raise OutputError, before any work is done, if the preview cannot be written."""
     from vtray.base.atomic_file import check_replaceable, check_spares, check_writable
-    from vtray.image.formats.image_format import check_format
+    from vtray.image.formats.image_format import check_annotated_format, check_format
 
     preview = options.preview
     if preview is None:
         return
     remedy = "choose another name for the preview"
     check_format(preview, background=options.background)
+    if annotations_of(options):
+        check_annotated_format(preview)
     check_replaceable(preview, remedy)
     check_writable(preview)
     inputs = [path for path in (options.scene, options.replay) if path is not None]
@@ -46,9 +49,10 @@ def check_preview_of(scene: "Scene", options: argparse.Namespace) -> None:
     """Raise an error if the preview is a part of the scene, or cannot hold the picture."""
     from vtray.image.formats.image_format import check_format
     from vtray.scene.arrays import check_spares_data
+    from vtray.scene.light_types import images_of
 
     if options.preview is not None:
-        check_spares_data(options.preview, scene.objects)
+        check_spares_data(options.preview, [*scene.objects, *images_of(scene.lights)])
         background = options.background or scene.render.background
         size = options.size or scene.render.size or scene.camera.size
         check_format(options.preview, background=background, size=size)
@@ -64,12 +68,19 @@ class Growing:
     ----------
     options
         The options.
+    annotate
+        What is painted on the picture once it is finished, as keywords of `vtray.Image.annotated`.
     warn
         Called with a line where a preview cannot be written, once: the picture goes on.
     """
 
-    def __init__(self, options: argparse.Namespace, warn: Callable[[str], object]) -> None:
-        self._options = options
+    def __init__(
+        self,
+        options: argparse.Namespace,
+        annotate: Mapping[str, Any],
+        warn: Callable[[str], object],
+    ) -> None:
+        self._options, self._annotate = options, annotate
         self._warn: Callable[[str], object] | None = warn
         self._signal = Postponed()
         self._is_tracing = False
@@ -106,9 +117,10 @@ class Growing:
             self._end_if_told()
 
     def finish(self, image: "Image") -> None:
-        """Let the preview show the whole picture, which is saved by now."""
+        """Save the whole picture, and let the preview show it."""
+        self._save(image)
         if self._options.preview is not None:
-            self._write_preview(image)
+            self._write_preview(image, self._annotate)
         self._end_if_told()
 
     def _watch(self, progress: Progress | None) -> Progress:
@@ -129,12 +141,21 @@ class Growing:
         """Show and keep a part of the picture."""
         self._last = image
         if self._options.preview is not None:
-            self._write_preview(image)
+            self._write_preview(image, {})  # to paint on it may take as long as to trace it
 
-    def _write_preview(self, image: "Image") -> None:
+    def _save(self, image: "Image") -> None:
+        """Write a picture, whole or not, as the options say."""
+        from vtray.image.finished import save_finished
+
+        options = self._options
+        save_finished(image, options.output, self._annotate, options.bits, options.aov or ())
+
+    def _write_preview(self, image: "Image", annotate: Mapping[str, Any]) -> None:
         """Write the preview, or say once why that is not possible."""
+        from vtray.image.finished import save_finished
+
         try:
-            image.save(self._options.preview)
+            save_finished(image, self._options.preview, annotate)
         except VtrayError as error:
             if self._warn is not None:
                 self._warn(f"the preview is left out: {error}")
@@ -146,7 +167,7 @@ class Growing:
         note = "was interrupted before there was anything to keep"
         if image is not None and image.partial is not None:
             try:
-                image.save(output, bits=self._options.bits, aov=self._options.aov or ())
+                self._save(image)
             except VtrayError as error:
                 print_note(f"Error: {error}")
                 return
