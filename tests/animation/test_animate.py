@@ -294,6 +294,25 @@ def test_settings_that_are_none_are_not_given(tmp_path: Path) -> None:
     assert (first == third).all()
 
 
+def test_numbers_of_numpy(tmp_path: Path) -> None:
+    how: dict[str, Any] = {"size": (4, 3), "threads": 1}
+    keys = {np.int64(0): ball().camera, np.int64(2): ball().camera.orbit(10, about=(0, 0, 0))}
+    three = np.int64(3)
+    vtray.animate(ball(), tmp_path / "a" / "%d.png", frames=three, fps=np.int64(30), **how)
+    vtray.animate(ball(), tmp_path / "b" / "%d.png", camera=keys, **how)
+    vtray.animate(lambda k: ball(float(k)), tmp_path / "c" / "%d.png", frames=three, **how)
+    vtray.turntable(ball(), tmp_path / "d" / "%d.png", seconds=three, fps=np.float32(1), **how)
+    assert [len(pixels(tmp_path / name)) for name in "abcd"] == [3, 3, 3, 3]
+
+
+def test_numbers_of_an_array_are_those_of_frames() -> None:
+    for frames in ([0, 10, 20], np.arange(0, 30, 10), range(0, 30, 10)):
+        source = source_of(ball, frames)
+        found = [source.number(k) for k in range(3)]
+        assert (found, {*map(type, found)}) == ([0, 10, 20], {int})
+    assert source_of(ball, [0.5, 1.5]).number(1) == 1
+
+
 def test_pictures_of_one_size(tmp_path: Path) -> None:
     other = ball()
     other.camera = other.camera.resized((6, 9))

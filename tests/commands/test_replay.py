@@ -70,9 +70,11 @@ def test_all_settings_reach_the_render(small: Path, asked: list[dict]) -> None:
     ]
     assert cli.run([str(small), str(small.with_name("a.png")), "--alpha"]) == 0
     assert asked[1] == {"background": "transparent"}
-    for exposure, value in [("max", "max"), ("2", 2.0), (".5", 0.5), ("1e-3", 0.001)]:
+    for exposure, value in [("max", "max"), ("2", 2.0), (".5", 0.5), ("1e-3", 0.001), ("+2", 2.0)]:
         assert cli.run([str(small), str(small.with_name("a.png")), "--exposure", exposure]) == 0
         assert asked[-1] == {"exposure": value}
+    assert cli.run([str(small), str(small.with_name("a.png")), "--stops", "+1"]) == 0
+    assert asked[-1] == {"stops": 1.0}
 
 
 COLOR = 'a name such as "orange", or digits such as "#e0e8ff"'

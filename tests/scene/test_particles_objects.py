@@ -111,6 +111,15 @@ def test_atoms_are_spheres() -> None:
     assert as_particles(water)["element"].tolist() == ["O", "H", "H"]
 
 
+@pytest.mark.parametrize(
+    ("time", "found"), [(3, 3.0), (np.float32(3), 3.0), (np.int64(3), 3.0), ("3 ps", None)]
+)
+def test_time_of_atoms(time: object, found: float | None) -> None:
+    water = molecule("H2O")
+    water.info["time"] = time
+    assert vtray.from_ase(water).time == found
+
+
 @pytest.mark.parametrize("given", [None, 7, "a.xyz", [1, 2, 3], [(1, 2)], pd.DataFrame({"a": [1]})])
 def test_what_has_no_places(given: object) -> None:
     with pytest.raises(SceneError, match="^expected "):

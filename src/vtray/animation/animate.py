@@ -1,5 +1,6 @@
 """Movies: `vtray.animate` and `vtray.turntable`."""
 
+import math
 import os
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -27,6 +28,7 @@ from vtray.animation.shots import SceneShots, TurnedShots, camera_around
 from vtray.animation.sources import READING, first_of, source_of
 from vtray.animation.stage import Look, Shot, Warn
 from vtray.base.errors import SceneError
+from vtray.base.number import number_of
 from vtray.base.progress import ProgressBar
 from vtray.scene.camera import Camera
 from vtray.scene.checks.scene_words import show
@@ -350,11 +352,9 @@ def _pivot(scene: Scene) -> Vec:
 
 def _number(name: str, value: object, *, positive: bool = True) -> float:
     """Return an argument that must be a finite number, > 0 unless said otherwise."""
-    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if is_number:
-        number = float(value)  # type: ignore[arg-type]
-        if abs(number) < float("inf") and (number > 0 or not positive):
-            return number
+    number = number_of(value)
+    if math.isfinite(number) and (number > 0 or not positive):
+        return number
     words = "a number > 0" if positive else "a number"
     raise SceneError(f"{name}: expected {words}, got {show(value)}")
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from vtray.animation.keyframes import BEFORE, ApartError, straight
 from vtray.base.errors import SceneError
+from vtray.base.number import number_of
 from vtray.scene.checks.scene_words import show
 from vtray.scene.copies import Copies
 from vtray.scene.objects import Object
@@ -102,10 +103,10 @@ def _each(opacity: Opacity, count: int) -> tuple[float | None, ...]:
 
 def _number(given: Any, place: str) -> float:  # noqa: ANN401
     """Return an opacity."""
-    is_number = isinstance(given, (int, float, np.number)) and not isinstance(given, bool)
-    if not is_number or not 0.0 <= given <= 1.0:
+    number = number_of(given)
+    if not 0.0 <= number <= 1.0:
         raise _wrong(given, place)
-    return float(given)
+    return number
 
 
 def _wrong(given: object, place: str) -> SceneError:

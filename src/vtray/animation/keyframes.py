@@ -12,6 +12,7 @@ from itertools import pairwise
 from typing import Generic, TypeVar
 
 from vtray.base.errors import SceneError
+from vtray.base.number import is_integer, number_of
 from vtray.scene.checks.scene_words import show
 
 Value = TypeVar("Value")
@@ -79,10 +80,9 @@ def numbers_of(name: str, values: Mapping[float, object]) -> list[float]:
     if not values:
         raise SceneError(f"{name}: expected {what} by the numbers of pictures, got none")
     for number in values:
-        is_number = isinstance(number, (int, float)) and not isinstance(number, bool)
-        if not is_number or not 0 <= number < math.inf:
+        if not 0 <= number_of(number) < math.inf:
             raise SceneError(f"{name}: expected numbers of pictures from 0, got {show(number)}")
-    return sorted(values)
+    return sorted(int(n) if is_integer(n) else number_of(n) for n in values)
 
 
 def part_way(

@@ -9,6 +9,7 @@ from typing import Any
 from vtray.animation.spool import Spool
 from vtray.animation.stored import Stored
 from vtray.base.errors import SceneError
+from vtray.base.number import is_integer
 from vtray.scene.checks.json_tree import short
 from vtray.scene.readers.read import is_slow, numbers_of, read_frames
 from vtray.scene.readers.which_frames import which_frames
@@ -48,7 +49,7 @@ class Source:
 
     def number(self, k: int) -> int:
         """Return what is the number of a picture where it comes from."""
-        return k if self.numbers is None else self.numbers[k]
+        return k if self.numbers is None else int(self.numbers[k])
 
 
 def source_of(
@@ -119,8 +120,8 @@ def _of_file(path: str, frames: Any, reading: Mapping[str, Any]) -> Source:  # n
 
 def _of_function(make: Callable[[int], Any], frames: Any) -> Source:  # noqa: ANN401
     """Return what a function makes of numbers."""
-    if isinstance(frames, int) and not isinstance(frames, bool):
-        frames = range(frames)
+    if is_integer(frames):
+        frames = range(int(frames))
     if not isinstance(frames, Iterable) or isinstance(frames, (str, Mapping)):
         words = "expected how many pictures a function makes, or what to call it with"
         raise SceneError(f"frames: {words}, such as range(100), got {short(repr(frames))}")
@@ -131,7 +132,7 @@ def _listed(make: Callable[[int], Any], numbers: Sequence[int]) -> Source:
     """Return what can be had for any number."""
     if not len(numbers):
         raise SceneError("frames: expected at least one picture, got none")
-    whole = all(isinstance(number, int) for number in numbers)
+    whole = all(map(is_integer, numbers))
     return Source(
         len(numbers),
         lambda k: (make(numbers[i]) for i in range(k, len(numbers))),
@@ -144,8 +145,8 @@ def _count_of(frames: Any, usual: int | None) -> int:  # noqa: ANN401
     """Return how many pictures of a single scene there are."""
     if frames is None and usual is not None:
         return usual
-    if isinstance(frames, int) and not isinstance(frames, bool) and frames > 0:
-        return frames
+    if is_integer(frames) and int(frames) > 0:
+        return int(frames)
     words = "expected how many pictures of the scene there are, such as 100"
     raise SceneError(f"frames: {words}, got {short(repr(frames))}")
 

@@ -7,8 +7,10 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
+from vtray.base.number import number_in
 from vtray.commands.command import Parser
-from vtray.commands.setting_options import with_values_of, wrong
+from vtray.commands.setting_options import with_values_of
+from vtray.commands.values import wrong
 
 WITH_VALUE = ("--scale-bar", "--color-bar", "--boundary")
 """Options whose value follows an equals sign, so that a file after them is none; or is a word."""
@@ -32,10 +34,7 @@ def _label(text: str) -> PointLabel | str:
     found = _POINT.fullmatch(text)
     if found is None:
         return text
-    try:
-        x, y, z = map(float, found.groups()[:3])
-    except ValueError:
-        x = y = z = math.nan
+    x, y, z = (number_in(part.strip()) for part in found.groups()[:3])
     if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
         raise wrong("x,y,z:TEXT such as 0,0,1.5:top, or the name of a column", text)
     return PointLabel(found[4], (x, y, z))

@@ -6,19 +6,18 @@ They are only made where one of them is used, or help is asked for: a scene file
 import argparse
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from vtray.base.errors import UsageError
+from vtray.base.number import number_in
 from vtray.commands.annotation_options import labels_of
 from vtray.commands.command import Parser
-from vtray.commands.setting_options import wrong
+from vtray.commands.values import between, pair_in, positive, wrong
 
 STRETCHES = ("linear", "asinh", "log")
 STYLES = ("spacefill", "ball-and-stick", "licorice", "points")
 VIEWS = ("x", "-x", "y", "-y", "z", "-z", "top", "bottom", "front", "back", "left", "right", "iso")
-
-_NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 
 
 def _integer(text: str) -> int:
@@ -27,27 +26,11 @@ def _integer(text: str) -> int:
     return int(text)
 
 
-def _positive(text: str) -> float:
-    return _between(0.0, math.inf, "a number > 0")(text)
-
-
-def _between(least: float, most: float, words: str) -> Callable[[str], float]:
-    """Return what makes a number of an argument, above 0 and between two limits, as words say."""
-
-    def number(text: str) -> float:
-        value = float(text) if re.fullmatch(_NUMBER, text) else 0.0
-        if not (least <= value <= most and 0.0 < value < math.inf):
-            raise wrong(words, text)
-        return value
-
-    return number
-
-
 def _limits(text: str) -> tuple[float, float]:
-    parts = text.split(",")
-    if len(parts) != 2 or not all(re.fullmatch(_NUMBER, part) for part in parts):
+    pair = pair_in(text)
+    if pair is None:
         raise wrong("two numbers such as -1,1", text)
-    return float(parts[0]), float(parts[1])
+    return pair
 
 
 def _times(text: str) -> tuple[int, ...]:
@@ -58,20 +41,21 @@ def _times(text: str) -> tuple[int, ...]:
 
 def _boundary(text: str) -> bool | float:
     """Return the value of ``--boundary``, of which "" stands for none."""
-    return _between(0.0, 0.5, "a part of the cell's edge, up to 0.5")(text) if text else True
+    return between(0.0, 0.5, "a part of the cell's edge, up to 0.5")(text) if text else True
 
 
 def _radii(text: str) -> str | float:
-    return float(text) if re.fullmatch(_NUMBER, text) else text
+    value = number_in(text)
+    return text if math.isnan(value) else value
 
 
 def _view(text: str) -> str | tuple[float, float]:
     if text in VIEWS:
         return text
-    parts = text.split(",")
-    if len(parts) != 2 or not all(re.fullmatch(_NUMBER, part) for part in parts):
+    pair = pair_in(text)
+    if pair is None:
         raise wrong(f"{', '.join(VIEWS)}, or degrees such as 30,20", text)
-    return float(parts[0]), float(parts[1])
+    return pair
 
 
 YES_OR_NO: dict[str, Any] = {"action": argparse.BooleanOptionalAction, "default": None}
@@ -106,14 +90,14 @@ HOW: dict[str, dict[str, Any]] = {
     },
     "scale": {
         "metavar": "NUMBER",
-        "type": _between(1e-20, 1e20, "a number from 1e-20 to 1e20"),
+        "type": between(1e-20, 1e20, "a number from 1e-20 to 1e20"),
         "help": "multiply all radii by it",
     },
     "bonds": {
         **YES_OR_NO,
         "help": "bonds by covalent radii, of types those that the file names, or none",
     },
-    "cutoff": {"metavar": "LENGTH", "type": _positive, "help": "bonds of that length or shorter"},
+    "cutoff": {"metavar": "LENGTH", "type": positive, "help": "bonds of that length or shorter"},
     "hydrogen-bonds": {**FLAG, "help": "hydrogen bonds as dashes"},
     "cell": {**YES_OR_NO, "help": "the edges of the cell, or not"},
     "color": {"metavar": "COLUMN", "help": "colours by a column, or one colour for all"},
@@ -141,12 +125,12 @@ HOW: dict[str, dict[str, Any]] = {
     },
     "softening": {
         "metavar": "NUMBER",
-        "type": _between(1e-9, 1e9, "a number from 1e-9 to 1e9"),
+        "type": between(1e-9, 1e9, "a number from 1e-9 to 1e9"),
         "help": "from which part of the brightest on it counts by its logarithm",
     },
     "peak": {
         "metavar": "NUMBER",
-        "type": _positive,
+        "type": positive,
         "help": "the light of a pixel that is as bright as can be",
     },
     "highlight": {"metavar": "EXPR", "help": "let the colours of all others fade"},
@@ -167,7 +151,7 @@ VIEW: dict[str, dict[str, Any]] = {
     },
     "zoom": {
         "metavar": "NUMBER",
-        "type": _between(1e-9, 1e9, "a number from 1e-9 to 1e9"),
+        "type": between(1e-9, 1e9, "a number from 1e-9 to 1e9"),
         "help": "show everything larger by that",
     },
     "orthographic": {**FLAG, "help": "without perspective"},

@@ -11,13 +11,14 @@ Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 202
 """
 
 import argparse
-import contextlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from vtray.base.number import number_in
 from vtray.commands.command import FAILURE, SUCCESS, Parser, print_result, run_command
+from vtray.commands.values import wrong
 from vtray.figures import comparison
 from vtray.figures.comparison import check_same_size, read_picture
 from vtray.figures.flip import flip_error
@@ -160,11 +161,10 @@ def _parse(arguments: Sequence[str]) -> argparse.Namespace:
 
 def _threshold(text: str) -> float:
     """Return the value of ``--threshold``."""
-    with contextlib.suppress(ValueError):
-        if 0 <= float(text) <= 1:
-            return float(text)
-    message = f"expected a number from 0 to 1, got {text}"
-    raise argparse.ArgumentTypeError(message)
+    value = number_in(text)
+    if not 0.0 <= value <= 1.0:
+        raise wrong("a number from 0 to 1", text)
+    return value
 
 
 def _run(options: argparse.Namespace) -> int:

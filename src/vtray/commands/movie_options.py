@@ -1,14 +1,13 @@
 """The options of movies; made, as those of data, only where one of them is used."""
 
 import argparse
-import math
 from collections.abc import Sequence
 from pathlib import Path
 
 from vtray.animation.movie_names import ALONE, is_numbered
 from vtray.base.errors import SceneError, UsageError
 from vtray.commands.command import Parser
-from vtray.commands.setting_options import wrong
+from vtray.commands.values import positive
 
 FLAGS = ("--frames", "--fps", "--turntable", "--resume", "--dask")
 
@@ -37,11 +36,11 @@ def add_movie_options(parser: Parser) -> None:
     group.add_argument(
         "--turntable",
         metavar="SECONDS",
-        type=_positive,
+        type=positive,
         help="a movie for which the camera goes around once, in so many seconds",
     )
     group.add_argument(
-        "--fps", metavar="N", type=_positive, help=f"pictures in a second ({FPS:g} unless given)"
+        "--fps", metavar="N", type=positive, help=f"pictures in a second ({FPS:g} unless given)"
     )
     group.add_argument("--resume", action="store_true", help="go on where an earlier run has ended")
     group.add_argument(
@@ -91,17 +90,6 @@ def _check_what(options: argparse.Namespace, is_data: bool) -> None:
         raise UsageError(f"{options.output}: {words}")
     if turns is None and getattr(options, "frame", None) is not None:
         raise UsageError(f"--frame is for pictures, and {options.output} is a movie; use --frames")
-
-
-def _positive(text: str) -> float:
-    """Return the value of an option that is a number > 0."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0.0 < value < math.inf:
-        raise wrong("a number > 0", text)
-    return value
 
 
 def _frames(text: str) -> str:

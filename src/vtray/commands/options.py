@@ -9,7 +9,8 @@ from typing import Any
 from vtray.commands import data_options, movie_options
 from vtray.commands.annotation_options import add_annotations, with_values
 from vtray.commands.command import Parser
-from vtray.commands.setting_options import add_settings, with_parts, wrong
+from vtray.commands.setting_options import add_settings, with_parts
+from vtray.commands.values import wrong
 from vtray.image.aovs import AOVS
 from vtray.scene.settings import RenderSettings
 from vtray.scene.style import PICTURE, Style

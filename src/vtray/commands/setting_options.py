@@ -1,6 +1,7 @@
 """The settings of a render as options of a command, made from their definition."""
 
 import argparse
+import math
 import re
 import typing
 from collections.abc import Callable, Collection, Sequence
@@ -10,14 +11,15 @@ from typing import Any, Literal
 import msgspec
 
 from vtray.base.errors import SceneError
+from vtray.base.number import number_in
+from vtray.commands.values import wrong
 from vtray.scene.checks.limits import alternatives, limits_alone
 from vtray.scene.colors.names import to_rgb
 from vtray.scene.settings import kinds_of
 from vtray.scene.style import taken
 from vtray.scene.vectors import Color
 
-_INTEGER = r"-?[0-9]{1,20}"
-_NUMBER = r"-?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+_INTEGER = r"[+-]?[0-9]{1,20}"
 
 
 def add_settings(group: argparse._ArgumentGroup, settings: type[msgspec.Struct]) -> None:
@@ -98,7 +100,8 @@ def with_values_of(
 
 def _can_be(settings: type[msgspec.Struct], name: str, argument: str) -> bool:
     """Tell whether an argument can be the value of a part, right or wrong."""
-    if re.fullmatch(rf"[+-]?[0-9.]+|{_NUMBER}|[+-]?[.0-9][^/]*,[^/]*", argument):
+    looks_so = re.fullmatch(r"[+-]?[0-9.]+|[+-]?[.0-9][^/]*,[^/]*", argument)
+    if looks_so or not math.isnan(number_in(argument)):
         return True
     try:
         taken(settings, name, argument, name)
@@ -128,11 +131,6 @@ def _reader_of_part(settings: type[msgspec.Struct], name: str) -> Callable[[str]
             raise argparse.ArgumentTypeError(str(error).partition(": ")[2]) from None
 
     return read
-
-
-def wrong(expected: str, text: str) -> argparse.ArgumentTypeError:
-    """Return the error for the value of an option, to be raised."""
-    return argparse.ArgumentTypeError(f"expected {expected}, got {text}")
 
 
 def _reader(kind: Any, words: str) -> Callable[[str], Any]:  # noqa: ANN401
@@ -171,7 +169,7 @@ def _read(text: str, kind: Any) -> Any:  # noqa: ANN401
                 return tuple(map(_read, pieces, sides))
     if int in parts:
         return int(text) if re.fullmatch(_INTEGER, text) else text
-    if float in parts and re.fullmatch(_NUMBER, text):
-        value = float(text)
-        return value if abs(value) != float("inf") else text
+    value = number_in(text)
+    if float in parts and not math.isnan(value):
+        return value if math.isfinite(value) else text
     return Color(*to_rgb(text, "")) if Color in parts else text

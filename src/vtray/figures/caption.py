@@ -2,8 +2,7 @@
 
 import math
 
-import numpy as np
-
+from vtray.base.number import is_integer, number_of
 from vtray.figures.sheet import FigureError
 
 
@@ -24,14 +23,14 @@ def frame_caption(time: str | float | None, frame: int | None) -> str:
     """
     parts = []
     if time is not None:
-        number = isinstance(time, (int, float, np.number)) and not isinstance(time, bool)
-        text = f"{time:g}" if number and math.isfinite(float(time)) else time
+        number = number_of(time)
+        text = f"{number:g}" if math.isfinite(number) else time
         if not isinstance(text, str) or not text.strip():
             message = f'time: expected a number or a text such as "12.5 ps", got {time!r}'
             raise FigureError(message)
         parts.append(f"t = {text}")
     if frame is not None:
-        if not isinstance(frame, (int, np.integer)) or isinstance(frame, bool):
+        if not is_integer(frame):
             message = f"frame: expected an integer or None, got {frame!r}"
             raise FigureError(message)
         parts.append(f"frame {frame}")

@@ -4,10 +4,10 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import VtrayError
+from vtray.base.number import number_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -119,15 +119,15 @@ def check_number(name: str, value: float, least: float | None = None) -> float:
     FigureError
         It is not.
     """
-    number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
-    if not (number and math.isfinite(value) and (value > 0 if least is None else value >= least)):
+    number = number_of(value)
+    if not (math.isfinite(number) and (number > 0 if least is None else number >= least)):
         wanted = "> 0" if least is None else f"≥ {least:g}"
         message = f"{name}: expected a number {wanted}, or None, got {value!r}"
         raise FigureError(message)
-    if value > LARGEST:
+    if number > LARGEST:
         message = f"{name}: expected at most {LARGEST}, got {value!r}"
         raise FigureError(message)
-    return float(value)
+    return number
 
 
 def check_dpi(dpi: float) -> float:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import RenderError
 from vtray.base.exact_math import power_of_2
+from vtray.base.number import is_number, number_of
 from vtray.scene.settings import RenderSettings
 
 USUAL = (99, 100)
@@ -45,8 +46,8 @@ def locked_white(lock: object, exposure: object = None, stops: object = None) ->
             words = f"lock and {name} {reprlib.repr(given)}"
             raise RenderError(f"{words}: expected one of them; leave out the other")
     white = getattr(lock, "white", None)
-    if isinstance(white, (int, float)):
-        return float(white)
+    if is_number(white):
+        return number_of(white)
     message = f"lock: expected a picture that was rendered, or None, got {reprlib.repr(lock)}"
     raise RenderError(message)
 

@@ -5,8 +5,6 @@ from contextlib import nullcontext
 from functools import partial
 from typing import Any, Literal, Protocol
 
-import numpy as np
-
 from vtray.base.compiler.compiled import loading_seconds
 from vtray.base.memory import (
     BYTES_PER_PIXEL_AND_MORE,
@@ -15,6 +13,7 @@ from vtray.base.memory import (
     BYTES_PER_PIXEL_STARRY,
     check_memory,
 )
+from vtray.base.number import is_integer, number_of
 from vtray.base.pool import Progress as StepProgress
 from vtray.base.pool import available_cores
 from vtray.base.stopwatch import Stopwatch
@@ -425,14 +424,14 @@ def _check_calls(progress: object, on_update: object, seconds: float, warn: obje
         if given is not None and not callable(given):
             message = f"{name}: expected a function that takes {takes}, got {given!r}"
             raise ValueError(message)
-    if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not seconds >= 0:
+    if not number_of(seconds) >= 0:
         message = f"update_seconds: expected a number ≥ 0, got {seconds!r}"
         raise ValueError(message)
 
 
 def _count(name: str, value: int) -> int:
     """Return an argument that must be an integer of at least 1."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 1:
+    if not is_integer(value) or value < 1:
         message = f"{name}: expected an integer ≥ 1, got {value!r}"
         raise ValueError(message)
     return int(value)

@@ -6,7 +6,7 @@ checks and the words of their errors, the JSON Schema, the options of the comman
 of how they were made, and what `vtray.render` takes.
 """
 
-import re
+import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -14,6 +14,7 @@ import msgspec
 from msgspec import Meta
 
 from vtray.base.errors import SceneError
+from vtray.base.number import number_in
 from vtray.scene.checks.checked import Checked, Frozen
 from vtray.scene.checks.limits import FieldError, NonNegative, Positive, YesOrNo, alternatives
 from vtray.scene.clip import ClipPlane, Slice
@@ -32,8 +33,6 @@ Borders = Literal["objects", "particles", "none"]
 ON = ("", "on", "auto")
 OFF = ("off", "none")
 """What a command line, and code too, may write for true and false."""
-
-_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 
 
 class _Colored(Checked):
@@ -399,9 +398,10 @@ def _parts(given: Any, place: str, numbers: int, words: str) -> list[Any]:  # no
 def _number(part: Any, place: str, words: str, given: Any) -> Any:  # noqa: ANN401
     """Return a number as such, of a text too."""
     if isinstance(part, str):
-        if not _NUMBER.fullmatch(part):
+        value = number_in(part)
+        if math.isnan(value):
             raise _wrong(given, place, words)
-        return float(part)
+        return value
     return part
 
 

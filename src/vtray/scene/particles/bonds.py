@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
+from vtray.base.number import number_of
 from vtray.scene.particles.elements import are_anions, are_metals
 from vtray.scene.particles.lattice import Lattice, columns_of, lattice_of
 from vtray.scene.particles.pairs import pairs_of
@@ -183,10 +184,9 @@ def _reach(particles: "Particles", factor: object, radii: "Radii", cutoff: objec
     """Return for each particle its part of how long a bond may be, (n,)."""
     given = factor if cutoff is None else cutoff
     name = "factor" if cutoff is None else "cutoff"
-    is_number = isinstance(given, (int, float, np.number)) and not isinstance(given, bool)
-    if not is_number or not 0.0 < float(given) < np.inf:  # type: ignore[arg-type]
+    value = number_of(given)
+    if not 0.0 < value < np.inf:
         raise SceneError(f"find_bonds: {name}: expected a number > 0, got {given!r}")
-    value = float(given)  # type: ignore[arg-type]
     if cutoff is not None:
         return np.full(len(particles), 0.5 * value)
     found = radii_of(particles, radii, "find_bonds: radii")

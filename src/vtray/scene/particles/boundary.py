@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
+from vtray.base.number import number_of
 from vtray.scene.checks.scene_words import show
 from vtray.scene.particles.lattice import columns_of, lattice_of
 
@@ -57,11 +58,11 @@ def tolerance_of(given: Any) -> float | None:  # noqa: ANN401
         return None
     if given is True:
         return TOLERANCE
-    is_number = isinstance(given, (int, float, np.number))
-    if not is_number or not 0.0 < float(given) <= MOST:
+    number = number_of(given)
+    if not 0.0 < number <= MOST:
         words = f"a part of the cell's edge above 0, and at most {MOST:g}"
         raise SceneError(f"boundary: expected True, False, or {words}, got {show(given)}")
-    return float(given)
+    return number
 
 
 def images_on_boundary(

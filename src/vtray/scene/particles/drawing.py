@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
+from vtray.base.number import is_number, number_of
 from vtray.scene.checks.given_array import check_unmasked
 from vtray.scene.checks.scene_words import show
 from vtray.scene.copies import Copies
@@ -430,8 +431,8 @@ def _bonds_of(particles: Particles, bonds: Any) -> Bonds:  # noqa: ANN401
         if particles.bonds is None:
             raise SceneError('bonds: "file" are those that are known, and there are none')
         return bonds_between(particles, particles.bonds)
-    if isinstance(bonds, (int, float, np.number)):
-        return find_bonds(particles, cutoff=float(bonds))
+    if is_number(bonds):
+        return find_bonds(particles, cutoff=number_of(bonds))
     return bonds_between(particles, bonds)
 
 
@@ -488,7 +489,7 @@ def _number(
     words: str = "a number > 0",
 ) -> float:
     """Return a number > 0 between two limits, as words say."""
-    is_number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
-    if not is_number or not 0.0 < float(value) < np.inf or not least <= float(value) <= most:
+    number = number_of(value)
+    if not (0.0 < number < np.inf and least <= number <= most):
         raise SceneError(f"{name}: expected {words}, got {show(value)}")
-    return float(value)
+    return number

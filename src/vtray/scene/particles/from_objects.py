@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
+from vtray.base.number import is_number, number_of
 from vtray.scene.checks.given_array import (
     check_unmasked,
     fields_of,
@@ -283,4 +284,4 @@ def _bonds_within(universe: Any, chosen: "Array") -> "Array | None":  # noqa: AN
 
 def _time(value: object) -> float | None:
     """Return a time, if it is a number."""
-    return float(value) if isinstance(value, (int, float)) else None
+    return number_of(value) if is_number(value) else None

@@ -1,0 +1,41 @@
+"""Numbers that are given: by code, as those of Python or of NumPy, or as texts.
+
+What is none becomes NaN, which no comparison holds for: ``0 < number_of(given) < inf`` is a whole
+check.
+"""
+
+import math
+import re
+from numbers import Integral, Real
+from typing import TypeGuard
+
+_TEXT = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?")
+
+
+def is_number(given: object) -> TypeGuard[float]:
+    """Tell whether something is a real number, of any type but those of True and False."""
+    return isinstance(given, Real) and not isinstance(given, bool)
+
+
+def number_of(given: object) -> float:
+    """Return a number as a float; NaN for what is none. What is beyond a double is infinite."""
+    if not is_number(given):
+        return math.nan
+    try:
+        return float(given)
+    except OverflowError:
+        return math.inf if given > 0 else -math.inf
+
+
+def is_integer(given: object) -> TypeGuard[int]:
+    """Tell whether something is an integer, of any type but those of True and False."""
+    return isinstance(given, Integral) and not isinstance(given, bool)
+
+
+def number_in(text: str) -> float:
+    """Return the number that a text says, such as ``"+2"`` or ``"1.5e-3"``; NaN if it says none.
+
+    Unlike Python, it takes neither ``"nan"`` and ``"inf"`` nor underscores, spaces, and digits of
+    other scripts.
+    """
+    return float(text) if _TEXT.fullmatch(text) else math.nan
