@@ -54,6 +54,14 @@ def test_a_word_beside_two_files_is_the_value_of_a_bar() -> None:
         "--color-bar=eV",
     ]
     assert with_values(["--scale-bar", "scene", "b.png"]) == ["--scale-bar=", "scene", "b.png"]
+    assert with_values(["--scale-bar", "Å", *files]) == ["--scale-bar=Å", *files]
+
+
+def test_an_equals_sign_after_a_space_belongs_to_the_option() -> None:
+    assert with_values(["--scale-bar", "=Å", "ar.png"]) == ["--scale-bar=Å", "ar.png"]
+    assert with_values(["--color-bar", "=T (K)", "a", "b"]) == ["--color-bar=T (K)", "a", "b"]
+    assert with_values(["a", "b", "--scale-bar", "="]) == ["a", "b", "--scale-bar="]
+    assert with_values(["--", "--scale-bar", "=nm"]) == ["--", "--scale-bar", "=nm"]
 
 
 @pytest.mark.parametrize(

@@ -84,14 +84,17 @@ def with_values_of(
     flags
         The options.
     can_be
-        Tells whether what follows an option can be its value. A word that is no file is it anyway.
+        Tells whether what follows an option can be its value. A word that is no file is it anyway,
+        and so is what begins with a ``=``, as if no space stood before it.
     """
     end = arguments.index("--") if "--" in arguments else len(arguments)
     found: list[str] = []
     for k, argument in enumerate(arguments):
         flag = found[-1][:-1] if found and found[-1].endswith("=") else ""
         follows = flag in flags and k < end
-        if follows and (can_be(flag, argument) or _is_extra(arguments, k)):
+        if follows and argument.startswith("="):
+            found[-1] += argument[1:]
+        elif follows and (can_be(flag, argument) or _is_extra(arguments, k)):
             found[-1] += argument
         else:
             found.append(f"{argument}=" if argument in flags and k < end else argument)
@@ -114,7 +117,8 @@ def _is_extra(arguments: Sequence[str], k: int) -> bool:
     """Tell whether an argument is a word that is no file, beside others for SCENE and OUTPUT."""
     word = arguments[k]
     others = [text for text in (*arguments[:k], *arguments[k + 1 :]) if not text.startswith("-")]
-    return bool(re.fullmatch("[A-Za-z,]+", word)) and len(others) > 1 and not Path(word).exists()
+    is_word = word.replace(",", "").isalpha()  # Å and µm are words, too
+    return is_word and len(others) > 1 and not Path(word).exists()
 
 
 def _flag(name: str) -> str:
