@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.figures.oklab import oklab_to_linear, oklab_to_srgb, srgb_to_oklab
+from vtray.figures.seen_objects import objects_seen
 from vtray.figures.subject import Floats, Pixels, Subject
 from vtray.scene.arrays import Arrays
 from vtray.scene.colors.color_light import light_of_numbers
-from vtray.scene.copies import Copies
 from vtray.scene.objects import Object
 from vtray.scene.vectors import Color
 
@@ -86,29 +86,15 @@ def _own_colors(
 ) -> Pixels:
     """Return the colours of the surfaces with these ids, (n, 2), and halves, (n,), as (n, 3)."""
     colors = np.zeros((len(ids), 3), np.uint8)
-    places, counts = np.unique(ids[:, 0], return_counts=True)
-    of_each = np.split(np.argsort(ids[:, 0], kind="stable"), np.cumsum(counts)[:-1])
-    for place, mine in zip(places.tolist(), of_each, strict=True):
-        item = objects[place]
-        if isinstance(item, Copies):
-            colors[mine] = _own_colors(item.objects, _ids_within(item, ids[mine, 1]), halves[mine])
-        elif isinstance(item, Arrays):
-            colors[mine] = _rows(item.given_for("color"), ids[mine, 1])
+    for item, mine, index, _ in objects_seen(objects, ids):
+        if isinstance(item, Arrays):
+            colors[mine] = _rows(item.given_for("color"), index)
             if "color_end" in item.COLUMNS:
-                ends = mine[halves[mine] == 1]
-                colors[ends] = _rows(item.given_for("color_end"), ids[ends, 1])
+                at_end = halves[mine] == 1
+                colors[mine[at_end]] = _rows(item.given_for("color_end"), index[at_end])
         else:
             colors[mine] = (item.color.r, item.color.g, item.color.b)
     return colors
-
-
-def _ids_within(item: Copies, index: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Return, as `Copies.locate`, what indices lead to: places and those in arrays, (n, 2)."""
-    counts = [len(one) if isinstance(one, Arrays) else 1 for one in item.objects]
-    first = np.cumsum(counts) - counts
-    # Of objects that begin at the same, only the last has any.
-    place = np.searchsorted(first, index, side="right") - 1
-    return np.stack([place, index - first[place]], axis=1).astype(np.int32)
 
 
 def _rows(colors: Pixels, index: NDArray[np.int32]) -> Pixels:

@@ -1,18 +1,21 @@
 """Scale bars: lengths that read well, and how long they are in a picture."""
 
 import math
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from decimal import Decimal
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.figures.projection import project
+from vtray.figures.seen_objects import objects_seen
 from vtray.figures.sheet import FigureError
 from vtray.figures.subject import Subject
-from vtray.scene.scene import Camera, Plane
+from vtray.scene.scene import Camera, Plane, Scene, Sphere, Spheres
+from vtray.scene.stars import Stars
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -21,6 +24,9 @@ Floats = NDArray[np.float64]
 
 SHARE = 0.25
 """The share of the picture's width that a scale bar takes at most."""
+
+ENOUGH = 2**18
+"""So many points that shine, spread evenly over all, tell their median."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +77,9 @@ def scale_bar(image: Subject, scalebar: object, at: "ArrayLike | None") -> Scale
     if depth is None and (not everywhere or "{distance}" in pattern):
         depth = _median_depth(image)
         if depth is None:
+            if scalebar is not True:  # which is usual in figures, empty ones too
+                words = "nothing is seen whose distance it could be right at, so it is left out"
+                warnings.warn(f"scalebar: {words}; give a point as at", stacklevel=2)
             return None
     pixel = pixel_width(camera, depth or 0.0)
     length = round_length(SHARE * camera.size[0] * pixel)
@@ -85,16 +94,62 @@ def scale_bar(image: Subject, scalebar: object, at: "ArrayLike | None") -> Scale
 def _median_depth(image: Subject) -> float | None:
     """Return the median distance of what is seen, along the view; None if nothing is.
 
-    Planes, which have no end, only count where there is nothing else.
+    Planes, which have no end, only count where there is nothing else, and points that shine, which
+    no pixel is that of, where no surface is seen.
     """
     places = image.ids[..., 0]
     planes = [k for k, item in enumerate(image.scene.objects) if isinstance(item, Plane)]
     seen = (places >= 0) & ~np.isin(places, planes)
     if not seen.any():
         seen = places >= 0
-    if not seen.any():
-        return None
-    return float(np.median(depth_along_view(image.scene.camera, image.depth)[seen]))
+    depths = _seen_depths(image, seen) if seen.any() else _depths_of_stars(image.scene)
+    return float(np.median(depths)) if len(depths) else None
+
+
+def _seen_depths(image: Subject, seen: NDArray[np.bool_]) -> Floats:
+    """Return how far from the eye along z' what some pixels show is, (n,).
+
+    That of a ball is where its centre is, and there it is as wide as its diameter. Other surfaces
+    are where they are seen, and so are balls that are like a floor, with a centre that is not in
+    the picture.
+    """
+    camera = image.scene.camera
+    depths = depth_along_view(camera, image.depth)[seen]
+    copies = image.copies[seen]
+    for item, pixels, rows, among in objects_seen(image.scene.objects, image.ids[seen]):
+        if isinstance(item, (Sphere, Spheres)):
+            centers = _centers(item)[rows]
+            if among is not None:
+                centers = centers + among.at[copies[pixels]]
+            found, shown = _places_in(camera, centers)
+            depths[pixels] = np.where(shown, found, depths[pixels])
+    return depths
+
+
+def _depths_of_stars(scene: Scene) -> Floats:
+    """Return how far from the eye along z' points that shine are, if they are in the picture."""
+    found = [np.zeros(0)]
+    for item in scene.objects:
+        if isinstance(item, Stars):
+            depths, shown = _places_in(scene.camera, item.center[:: -(-len(item) // ENOUGH) or 1])
+            found.append(depths[shown])
+    return np.concatenate(found)
+
+
+def _centers(item: Sphere | Spheres) -> NDArray[Any]:
+    """Return the centres of balls, (n, 3)."""
+    if isinstance(item, Spheres):
+        return item.center
+    return np.array([[item.center.x, item.center.y, item.center.z]])
+
+
+def _places_in(camera: Camera, points: NDArray[Any]) -> tuple[Floats, NDArray[np.bool_]]:
+    """Return how far from the eye along z' points are, and which are in the picture, (n,)."""
+    column, row, depth = project(camera, points)
+    width, height = camera.size
+    # No comparison holds for a point behind the eye, whose place is not a number.
+    across, down = abs(column - width / 2) <= width / 2, abs(row - height / 2) <= height / 2
+    return depth, across & down
 
 
 def _depth_of(image: Subject, at: "ArrayLike | None") -> float | None:
