@@ -256,7 +256,32 @@ def test_long_legends_leave_room_for_what_is_shown() -> None:
     assert 0.2 < share_beside([], wide, (1024, 1024)) < 0.4
     # Where letters would be tiny, a legend stands on what is shown.
     assert share_beside([], legend, (240, 240)) > 0.6
-    assert share_beside([], wide, (1024, 1024), fontsize=40) > 0.6
+    assert share_beside([], wide, (1024, 1024), fontsize=80) > 0.6
+
+
+def test_long_names_of_a_legend_are_broken() -> None:
+    image = plain(360, 300)
+    names = {"a": "red", "a rather long name of a phase": "gold"}
+    (block, left, _), *_ = arranged(find_marks(image, Annotations(legend=names)), 11, 360, 300)
+    assert [entry.name for entry in block.columns[0]] == ["a", "a rather long\nname of a phase"]
+    assert left > 0.6 * 360
+    assert 0.2 < share_beside([], Annotations(legend=names), (360, 300)) < 0.4
+    rows, columns = np.nonzero(changed(image, legend=names))
+    assert columns.min() > 0.6 * 360
+    assert rows.max() - rows.min() > 3 * 11
+    # Even in letters that somebody chose.
+    assert 0.2 < share_beside([], Annotations(legend=names), (1024, 900), fontsize=30) < 0.4
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_legends_on_what_is_shown_have_paper(dark: bool) -> None:
+    image = noise(240, 240)
+    image.pixels[...] = image.pixels // 2 + 128 * (not dark)
+    names = {f"kind {k}": "red" for k in range(40)}
+    painted = annotated_pixels(image, Annotations(legend=names))
+    (block, left, top), *_ = arranged(find_marks(image, Annotations(legend=names)), 11, 240, 240)
+    paper = painted[top + block.height // 2 :, left - 2 : left, :][:20]
+    assert (paper < 70).all() if dark else (paper > 200).all()
 
 
 def test_long_titles_are_broken_beside_the_legend() -> None:

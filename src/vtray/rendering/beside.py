@@ -8,7 +8,8 @@ import numpy as np
 from vtray.figures.annotations import Annotations
 from vtray.figures.brightness_scale import BrightnessScale
 from vtray.figures.caption import frame_caption
-from vtray.figures.painted.picture import MOST_BESIDE, share_above, share_below, share_beside
+from vtray.figures.painted.layout import MOST_BESIDE
+from vtray.figures.painted.picture import share_above, share_below, share_beside
 from vtray.rendering.starlight import peak_of
 from vtray.scene.camera import Camera
 from vtray.scene.objects import Object

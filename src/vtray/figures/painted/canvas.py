@@ -78,6 +78,13 @@ class Canvas:
         wider = letters.cover(text, left, baseline, self.halo)
         self.shapes([letters.cover(text, left, baseline)], [wider], ink.color, ink)
 
+    def paper(self, left: int, top: int, width: int, height: int) -> None:
+        """Paint what sets a rectangle off from the picture, a little larger than it, as a halo."""
+        ink, around = self.ink(left, top, width, height), 3 * self.halo
+        sides = (height + 2 * around, width + 2 * around)
+        cover = Cover(left - around, top - around, np.full(sides, 255, np.uint8))
+        self.blend(cover, ink.halo, HALO)
+
     def rectangle(self, left: int, top: int, width: int, height: int, color: Rgb | Pixels) -> None:
         """Paint a rectangle of whole pixels; one colour, or those of its pixels."""
         if width > 0 and height > 0:

@@ -4,6 +4,7 @@ Title and caption stand at the top left, the triad at the bottom left, the scale
 right; above that, from the top, the legend and then colour bars.
 """
 
+import math
 from itertools import combinations
 from typing import NamedTuple
 
@@ -19,6 +20,9 @@ from vtray.figures.painted.words import Words
 
 MARGIN = 0.9
 """From the edge of the picture, and at least between marks, in sizes of the font."""
+
+MOST_BESIDE = 0.4
+"""The share of the width from which on a legend stands on what is shown, so that it stays large."""
 
 TITLE, SMALL = 1.2, 0.8
 """The sizes of a title and of remarks, in those of the font."""
@@ -95,7 +99,8 @@ def arranged(marks: Marks, em: int, width: int, height: int) -> list[Placed] | N
         right.add_above(PaintedScaleBar(marks.scale_bar, plain, small))
     if marks.legend:
         bars = round(len(marks.scales) * (LEAST + 3) * em)
-        right.add_below(PaintedLegend(marks.legend, plain, right.left_over - bars))
+        room = math.ceil(MOST_BESIDE * width) - 2 * margin - 1
+        right.add_below(PaintedLegend(marks.legend, plain, right.left_over - bars, room))
     for k, (scale, label) in enumerate(zip(marks.scales, marks.bar_labels, strict=True)):
         others = len(marks.scales) - k
         room = (right.left_over - (others - 1) * margin) // others

@@ -8,7 +8,7 @@ import numpy as np
 from vtray.figures.annotations import Annotations, Marks, find_marks, marks_beside
 from vtray.figures.brightness_scale import LABEL, BrightnessScale
 from vtray.figures.painted.canvas import Canvas
-from vtray.figures.painted.layout import MARGIN, Placed, arranged
+from vtray.figures.painted.layout import MARGIN, MOST_BESIDE, Placed, arranged
 from vtray.figures.painted.legend import PaintedLegend
 from vtray.figures.painted.letters import check_letters, letters
 from vtray.figures.painted.words import Words
@@ -32,9 +32,6 @@ BAR = 2.8
 """The height of a scale bar with its length and the remark below it, about, in sizes of letters."""
 
 NO_MARKS = Marks("", "", [], [], [], None, [], [])
-
-MOST_BESIDE = 0.4
-"""The share of the width from which on a legend stands on what is shown, so that it stays large."""
 
 SMALLER = 0.5
 """How small letters may become for a long legend to take less than that, in their usual size."""
@@ -100,8 +97,12 @@ def _largest(
 
 def _leaves_room(placed: list[Placed], em: int, width: int) -> bool:
     """Tell whether what is shown has room beside a legend."""
-    legends = (one for one in placed if isinstance(one.block, PaintedLegend))
-    return all(_share_of(one, em, width) < MOST_BESIDE for one in legends)
+    return not any(_is_on_shown(one, em, width) for one in placed)
+
+
+def _is_on_shown(one: Placed, em: int, width: int) -> bool:
+    """Tell whether a mark is a legend for which there is no room beside what is shown."""
+    return isinstance(one.block, PaintedLegend) and _share_of(one, em, width) >= MOST_BESIDE
 
 
 def share_beside(
@@ -247,10 +248,16 @@ def free_labels(labels: list[Label], em: int, width: int, height: int) -> list[P
 
 
 def _painted(pixels: Pixels, marks: Marks, placed: list[Placed], em: int) -> Pixels:
-    """Return pixels with labels painted on them, and then all else."""
+    """Return pixels with labels painted on them, and then all else.
+
+    A legend that stands on what is shown has paper behind it, so that its names can be read.
+    """
     canvas = Canvas(pixels, em)
     for words, left, top in free_labels(marks.labels, em, canvas.width, canvas.height):
         words.paint(canvas, left, top)
-    for block, left, top in placed:
+    for one in placed:
+        block, left, top = one
+        if _is_on_shown(one, em, canvas.width):
+            canvas.paper(left, top, block.width, block.height)
         block.paint(canvas, left, top)
     return canvas.pixels
