@@ -158,6 +158,25 @@ def test_arrow_at_the_viewer_is_a_dot_with_its_name_beside() -> None:
     assert x < 0 < y, "lower left, as x points right and y up"
 
 
+@pytest.mark.parametrize("name", ["y", "[010]"])
+@pytest.mark.parametrize("tilt", [1e-3, 0.05, 0.2, 0.5, 1.0])
+@pytest.mark.parametrize("view", [(0, 1, 0), (0.3, 1, 0.02), (0.02, 1, -0.3), (0, -1, 0)])
+def test_names_of_axes_keep_apart(view: Any, tilt: float, name: str) -> None:
+    # Seen along an axis but for a tilt: it points where another does, or nearly.
+    eye = 9 * np.array(view) + 9 * tilt * np.array([-1, 0, 0])
+    seen = vtray.Camera.orthographic(tuple(eye), (0, 0, 0), 4.0, up=(1, 0, 0), size=SIZE)
+    arms = triad(seen, {"x": (1, 0, 0), name: (0, 1, 0), "z": (0, 0, 1)})
+    places = np.array(name_places(arms))
+    for k, arm in enumerate(arms):
+        half = np.array([0.3 * len(arm.name), 0.37])
+        for j, other in enumerate(arms):
+            if j != k:
+                wide = half + np.array([0.3 * len(other.name), 0.37])
+                assert (abs(places[k] - places[j]) > wide).any()
+                on_arrow = np.linspace(0, 1, 50)[:, None] * [other.across, other.down] * ARM
+                assert (abs(places[k] - on_arrow) > half).any(axis=1).all()
+
+
 def test_legend_of_names_and_pairs() -> None:
     given = {"O": "red", "H": (255, 255, 255), "C": (0.5, 0.5, 0.5)}
     entries = legend_entries(given)

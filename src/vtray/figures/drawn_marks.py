@@ -15,7 +15,7 @@ from matplotlib.transforms import Affine2D, ScaledTranslation, Transform
 from vtray.figures.ink import HALO, Ink, Pixels, Rgb, ink_on
 from vtray.figures.point_labels import Label
 from vtray.figures.sheet import INCH
-from vtray.figures.triad import Arm, arrow, extent, name_places
+from vtray.figures.triad import CAPITAL, LETTER, Arm, arrow, extent, name_places
 
 MARGIN = 0.9
 """From the corner of the picture to the triad, in sizes of the font."""
@@ -68,8 +68,7 @@ def draw_triad(ax: Axes, pixels: Pixels, arms: list[Arm]) -> list[Artist]:
     height, width = pixels.shape[:2]
     ink = _ink_at(pixels, AROUND * width, height - AROUND * height)
     em = float(rcParams["font.size"])
-    # About as wide as letters are; names of axes have one or two.
-    low, high = extent(arms, [0.6 * len(arm.name) for arm in arms], 0.75)
+    low, high = extent(arms, [LETTER * len(arm.name) for arm in arms], CAPITAL)
     origin = em * np.array([MARGIN - low[0], MARGIN + high[1]])
     inches: Any = ax.figure.dpi_scale_trans
     axes: Any = ax.transAxes

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Rgb = tuple[int, int, int]
+Point = tuple[float, float]
 
 WORLD: "Mapping[str, ArrayLike]" = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
@@ -103,6 +104,18 @@ OCTAGON = (
 BESIDE = 0.62
 """From the tip of an arrow to the middle of its name."""
 
+LETTER, CAPITAL = 0.6, 0.75
+"""About how wide and how high letters are."""
+
+APART = 0.12
+"""So much room between a name and all arrows and other names is enough."""
+
+ALONG = tuple(ARM * k / 8 for k in range(9))
+"""Where arrows are looked at."""
+
+TURNS = ((1.0, 0.0), (0.7, 0.7), (0.7, -0.7), (0.0, 1.0), (0.0, -1.0), (-0.7, 0.7), (-0.7, -0.7))
+"""Where a name stands by its tip: beyond it or, turned by eighths, ever more beside it."""
+
 
 def arrow(arm: Arm) -> list[Floats]:
     """Return the convex polygons of an arrow, from where it starts, x right and y down, (n, 2)."""
@@ -120,18 +133,44 @@ def arrow(arm: Arm) -> list[Floats]:
     return [np.array(shaft), np.array([neck - half, along * length, neck + half])]
 
 
-def name_places(arms: list[Arm]) -> list[tuple[float, float]]:
-    """Return the middles of the names of arrows, from where these start, x right and y down."""
+def name_places(arms: list[Arm]) -> list[Point]:
+    """Return the middles of the names of arrows, from where these start, x right and y down.
+
+    A name stands beyond the tip of its arrow or, if another arrow or name is in its way, beside it;
+    a long one farther away. Names of shorter arrows give way to those of longer ones.
+    """
     away = -sum(arm.across for arm in arms), -sum(arm.down for arm in arms)
-    places = []
-    for arm in arms:
-        shown = hypotenuse(arm.across, arm.down)
+    lengths = [hypotenuse(arm.across, arm.down) for arm in arms]
+    # Names, and points of arrows, which have no letters.
+    taken = [((part * arm.across, part * arm.down), "") for arm in arms for part in ALONG]
+    places: dict[int, Point] = {}
+    for k in sorted(range(len(arms)), key=lambda k: -lengths[k]):
+        arm = arms[k]
         # That of one at the viewer stands where no other points.
-        across, down = (arm.across, arm.down) if shown > 0.05 else away
+        across, down = (arm.across, arm.down) if lengths[k] > 0.05 else away
         length = hypotenuse(across, down) or 1.0
-        reach = ARM * shown + BESIDE
-        places.append((reach * across / length, reach * down / length))
-    return places
+        x, y = ARM * arm.across, ARM * arm.down
+        turned = [
+            (
+                x + reach * (across * c - down * s) / length,
+                y + reach * (across * s + down * c) / length,
+            )
+            for reach in (BESIDE, BESIDE + LETTER * (len(arm.name) - 1) / 2)
+            for c, s in TURNS
+        ]
+        gaps = [_gap(place, arm.name, taken) for place in turned]
+        places[k] = turned[gaps.index(max(gaps))]
+        taken.append((places[k], arm.name))
+    return [places[k] for k in range(len(arms))]
+
+
+def _gap(place: Point, name: str, taken: list[tuple[Point, str]]) -> float:
+    """Return how much room is between a name and what is taken, `APART` at the most."""
+    gaps = [APART]
+    for (x, y), other in taken:
+        across = abs(place[0] - x) - LETTER * (len(name) + len(other)) / 2
+        gaps.append(max(across, abs(place[1] - y) - CAPITAL * (1 + bool(other)) / 2))
+    return min(gaps)
 
 
 def extent(arms: list[Arm], widths: list[float], height: float) -> tuple[Floats, Floats]:
