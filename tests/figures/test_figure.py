@@ -205,6 +205,7 @@ def test_each_scale_has_a_bar(image: vtray.Image) -> None:
     labels = [axes.get_ylabel() for axes in figure.axes[1:]]
     assert labels == ["energy", "charge", "constant"]
     assert [text.get_text() for text in figure.axes[3].get_yticklabels()] == ["2"]
+    assert (figure.axes[3].images[0].get_array() == table("magma")[128]).all()
     assert len(image.figure(colorbar=False).axes) == 1
     assert len(image.figure(colorbar=True).axes) == 2
 

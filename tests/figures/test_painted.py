@@ -177,6 +177,16 @@ def test_colour_bar_has_the_colours_of_its_scale() -> None:
     assert top < ticks[0] < ticks[-1] < top + block.height
 
 
+def test_bar_of_one_value_has_the_colour_in_the_middle() -> None:
+    image = plain(300, 200)
+    image.scene.objects.clear()
+    spheres = image.scene.add_spheres(np.zeros((2, 3)), radius=0, color=[3.0, 3.0], cmap="viridis")
+    (scale,) = find_marks(image, Annotations(colorbar=True)).scales
+    shown = annotated_pixels(image, Annotations(colorbar=True))
+    assert spheres.color.tolist() == [scale.table[128].tolist()] * 2
+    assert (shown == scale.table[128]).all(axis=2).sum() > 300
+
+
 def test_legend_has_balls_of_its_colours_beside_names() -> None:
     image = plain(300, 300)
     names = {f"Type {k}": (250, 10 * k, 0) for k in range(20)}

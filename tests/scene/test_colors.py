@@ -422,7 +422,11 @@ def test_values_through_a_map() -> None:
     assert limits == [table[0], table[255], table[0], table[255]]
     assert colors_of([False, True, False, True], cmap="viridis")[:2] == [table[0], table[255]]
     assert colors_of([0, 1, None, 0.5], cmap="viridis", nan_color=(1, 2, 3)) == expected
-    assert colors_of([3, 3, 3, 3], cmap="viridis") == [table[0]] * 4
+    assert colors_of([3, 3, 3, 3], cmap="viridis") == [table[128]] * 4
+    logarithms = ColorScale("viridis", 3, 3, norm="log")
+    assert logarithms.colors([1, 3, 9]).tolist() == [table[0], table[128], table[255]]
+    same = colors_of([2, 3, 4, NAN], cmap="viridis", clim=(3, 3))
+    assert same == [table[0], table[128], table[255], [128] * 3]
     assert colors_of([NAN] * 4, cmap="viridis") == [[128] * 3] * 4
     assert colors_of([0, 1, 2, 3], cmap="viridis_r")[0] == table[255]
     # Three values are values, and not a colour, if there is a map.
@@ -439,8 +443,10 @@ def test_scale_is_that_of_matplotlib(values: list[float], data: st.DataObject) -
         if math.isnan(value):
             assert color == [255, 0, 0]
             continue
-        if value <= low or low == high:
-            index = 0 if value <= low else 255
+        if value == low == high:
+            index = 128
+        elif value <= low:
+            index = 0
         elif value >= high:
             index = 255
         else:

@@ -139,7 +139,7 @@ class ColorBar:
         elif scale.norm == "log" and scale.low < scale.high:
             low, high = math.log10(low), math.log10(high)
         if scale.low == scale.high:
-            table = table[:1]
+            table = scale.colors([scale.low])
         shades = SHADES if flat else 1
         colors = np.repeat(table[:, None], shades, axis=1)
         if flat:

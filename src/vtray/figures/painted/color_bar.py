@@ -81,6 +81,6 @@ class PaintedColorBar:
         """Return the colours of so many rows, the highest value first, (count, 3)."""
         table = self.scale.table
         if self.scale.low == self.scale.high:
-            return np.repeat(table[:1], count, axis=0)
+            return np.repeat(self.scale.colors([self.scale.low]), count, axis=0)
         rows = ((np.arange(count) + 0.5) / count * len(table)).astype(np.intp)
         return table[rows[::-1]]

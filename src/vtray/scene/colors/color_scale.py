@@ -30,8 +30,9 @@ Norm = Literal["linear", "log", "centered"]
 class ColorScale:
     """How values become colours: as a colour bar shows it.
 
-    A value from `low` to `high` gets the colour of the map at its place between them, one below
-    `low` the first colour, one above `high` the last, and NaN `nan_color`. Scales do not change.
+    A value from `low` to `high` gets the colour of the map at its place between them, that in the
+    middle if they are equal, one below `low` the first colour, one above `high` the last, and NaN
+    `nan_color`. Scales do not change.
 
     Attributes
     ----------
@@ -138,6 +139,8 @@ class ColorScale:
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
             half -= low * 0.5
             half /= high * 0.5 - low * 0.5
+            if low == high:
+                half[given == low] = 0.5
             half *= len(self.table)
             missing = np.isnan(given)
             # What is not above 0, NaN too, gets the first colour.
