@@ -11,6 +11,8 @@ from examples import light, plane, scene, sphere
 import vtray
 from conftest import compiled_only, once
 from vtray.rendering.fog import ball_around, fitted
+from vtray.scene.placing.bounds import balls_of
+from vtray.scene.placing.depths import depths_of
 from vtray.scene.style import Style
 
 SIZE = [16, 12]
@@ -107,17 +109,83 @@ def test_light_and_colours_change_as_in_a_new_render(fog: object, samples: int) 
 
 
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
-def test_fitted_to_the_ball_around_the_scene(projection: str) -> None:
+def test_fitted_to_the_nearest_and_the_farthest_point(projection: str) -> None:
     found = world(sphere((0, 0, 4), 1), sphere((0, 0, 10), 2), projection=projection)
-    image = vtray.render(found, fog=True)
-    # The middle of the centres is (0, 0, 7); the farthest point from there is at 12.
-    fog = image.style.fog
-    assert (fog.start, fog.end) == pytest.approx((17 - 5, 17 + 5))
+    fog = vtray.render(found, fog=True).style.fog
+    assert (fog.start, fog.end) == pytest.approx((13, 22))
     half = vtray.render(found, fog={"start": 3}).style.fog
     assert (half.start, half.end) == (3, pytest.approx(22))
-    turned = found.camera.orbit(70, about=found)
-    again = fitted(Style(fog=True), turned, lambda: ball_around(found)).fog
-    assert (again.start, again.end) == pytest.approx((fog.start, fog.end))
+    # What is flat has all of the fog, and not the middle of that of a ball around it.
+    flat = world(sphere((-6, 0, 4), 1), sphere((6, 0, 4), 1), projection=projection)
+    fog = vtray.render(flat, fog=True).style.fog
+    away = 14 if projection == "orthographic" else math.hypot(14, 6)
+    assert (fog.start, fog.end) == pytest.approx((away - 1, away + 1))
+
+
+@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
+def test_the_ball_around_a_scene_stays_as_a_camera_turns(projection: str) -> None:
+    found = world(sphere((0, 0, 4), 1), sphere((0, 0, 10), 2), projection=projection)
+    # The middle of the centres is (0, 0, 7); the farthest point from there is at 12.
+    for camera in (found.camera, found.camera.orbit(70, about=found)):
+        fog = fitted(Style(fog=True), camera, lambda: ball_around(found)).fog
+        assert (fog.start, fog.end) == pytest.approx((17 - 5, 17 + 5))
+
+
+def points_of(found: vtray.Scene) -> np.ndarray:
+    """Return many points of the balls and discs that a scene is the hull of."""
+    generator = np.random.default_rng(3)
+    points = []
+    for balls in balls_of(found, "test"):
+        radii = np.broadcast_to(balls.radius, len(balls.center))
+        for k, (center, radius) in enumerate(zip(balls.center, radii, strict=True)):
+            way = generator.normal(size=(4000, 3))
+            if balls.toward is not None:
+                normal = balls.toward[k] - center
+                normal = normal / np.linalg.norm(normal)
+                way -= (way @ normal)[:, None] * normal
+            way *= radius / np.linalg.norm(way, axis=1)[:, None]
+            part = 1.0 if balls.toward is None else generator.random((4000, 1)) ** 0.5
+            places = np.zeros((1, 3)) if balls.at is None else balls.at
+            points += [center + part * way + at for at in places]
+    return np.concatenate(points)
+
+
+@pytest.mark.parametrize("kind", ["balls", "rods", "copies"])
+@pytest.mark.parametrize("projection", ["perspective", "orthographic", "panorama"])
+def test_depths_are_those_of_all_points(projection: str, kind: str) -> None:
+    generator = np.random.default_rng(1)
+    places = generator.normal(size=(9, 3))
+    found = vtray.Scene()
+    if kind == "balls":
+        found.add_spheres(places, generator.uniform(0.1, 0.5, 9))
+        found.add_sphere((0, 1, 0), 0.7)
+    elif kind == "rods":
+        found.add_cylinders(places, places + generator.normal(size=(9, 3)), 0.4)
+        found.add_cone((0, 2, 0), (0, 2, 0.1), 3.0, 0.0)
+    else:
+        found.objects.append(vtray.Copies(vtray.Sphere((1, 2, 3), 0.3), at=places))
+    eye = np.array([3.0, -5.0, 4.0])
+    if projection == "panorama":
+        camera = vtray.Camera.panorama(eye=tuple(eye), target=(0, 0, 0), up=(0, 0, 1))
+    elif projection == "orthographic":
+        camera = vtray.Camera.orthographic(tuple(eye), (0, 0, 0), 8.0, (0, 0, 1))
+    else:
+        camera = vtray.Camera.look_at(tuple(eye), (0, 0, 0), (0, 0, 1), 40.0)
+    way = points_of(found) - eye
+    forward = -eye / np.linalg.norm(eye)
+    distance = way @ forward if projection == "orthographic" else np.linalg.norm(way, axis=1)
+    near, far = depths_of(camera, balls_of(found, "test"))
+    assert near <= distance.min() + 1e-9
+    assert far >= distance.max() - 1e-9
+    assert (near, far) == pytest.approx((distance.min(), distance.max()), abs=0.03)
+
+
+def test_a_copy_is_as_far_as_the_ball_around_it() -> None:
+    found = vtray.Scene()
+    parts = [vtray.Sphere((0, 0, 0), 1), vtray.Sphere((4, 0, 0), 1)]
+    found.objects.append(vtray.Copies(parts, at=[(0, 0, 20), (0, 0, 30)]))
+    camera = vtray.Camera.orthographic((0, 0, 0), (0, 0, 1), 8.0)
+    assert depths_of(camera, balls_of(found, "test")) == pytest.approx((17, 33))
 
 
 def test_nothing_to_fit_it_to() -> None:

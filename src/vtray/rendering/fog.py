@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -10,7 +10,8 @@ from vtray.base.errors import SceneError
 from vtray.rendering.pack import Packed
 from vtray.scene.camera import Camera
 from vtray.scene.placing.bounding_sphere import bounding_sphere
-from vtray.scene.placing.bounds import balls_of
+from vtray.scene.placing.bounds import Balls, balls_of
+from vtray.scene.placing.depths import depths_of
 from vtray.scene.placing.directions import Vec, unit
 from vtray.scene.scene import Scene
 from vtray.scene.style import Fog, Style
@@ -20,36 +21,66 @@ LARGEST = 2.0**900
 """Lengths in units of the arrays that are as good as any longer one."""
 
 
+class Around(Protocol):
+    """What is in the fog, as far as its distances go."""
+
+    def depths(self, camera: Camera) -> tuple[float, float]:
+        """Return the distances of its nearest and its farthest point from a camera."""
+
+
 class Ball(NamedTuple):
-    """A ball in world space."""
+    """A ball in world space: it is as far away however a camera is turned or goes around it."""
 
     middle: Vec
     radius: float
 
+    def depths(self, camera: Camera) -> tuple[float, float]:
+        """Return the distances of its nearest and its farthest point from a camera."""
+        away = _distance(camera, self.middle)
+        return away - self.radius, away + self.radius
+
+
+class Shapes(NamedTuple):
+    """The bounded shapes of a scene, as `Balls`."""
+
+    parts: list[Balls]
+
+    def depths(self, camera: Camera) -> tuple[float, float]:
+        """Return the distances of the nearest and the farthest point of all from a camera."""
+        return depths_of(camera, self.parts)
+
 
 def ball_around(scene: Scene) -> Ball | None:
     """Return the ball around all bounded objects of a scene; None if there are none."""
-    try:
-        middle, radius = bounding_sphere(*balls_of(scene, "fog"))
-    except SceneError:
+    shapes = shapes_of(scene)
+    if shapes is None:
         return None
+    middle, radius = bounding_sphere(*shapes.parts)
     x, y, z = map(float, middle)
     return Ball((x, y, z), radius)
 
 
-def fitted(style: Style, camera: Camera, around: Callable[[], Ball | None]) -> Style:
+def shapes_of(scene: Scene) -> Shapes | None:
+    """Return the bounded objects of a scene; None if there are none."""
+    try:
+        return Shapes(balls_of(scene, "fog"))
+    except SceneError:
+        return None
+
+
+def fitted(style: Style, camera: Camera, around: Callable[[], Around | None]) -> Style:
     """Return a style whose fog has both its distances.
 
-    What is not given is that of the ball around all bounded objects: from the nearest of its points
-    to the farthest. It depends neither on which of them are seen nor on how the camera turns, and
-    stays when the camera goes around them; so frames of a movie do not flicker.
+    What is not given is that of the bounded objects, whichever of them are seen: from the nearest
+    of their points to the farthest or, in a movie, those of the ball around them all, which stay
+    when the camera goes around it; so frames do not flicker.
 
     Parameters
     ----------
     style, camera
         The style, and the camera.
     around
-        Gives that ball; only called where it is needed.
+        Gives the objects or the ball; only called where it is needed.
 
     Raises
     ------
@@ -59,13 +90,13 @@ def fitted(style: Style, camera: Camera, around: Callable[[], Ball | None]) -> S
     fog = style.fog
     if not isinstance(fog, Fog) or not (fog.start is None or fog.end is None):
         return style
-    ball = around()
-    if ball is None:
+    found = around()
+    if found is None:
         words = "there is nothing that it could be fitted to, as planes have no edge"
         raise SceneError(f"fog: {words}; give its two distances")
-    away = _distance(camera, ball.middle)
-    start = max(away - ball.radius, 0.0) if fog.start is None else fog.start
-    end = away + ball.radius if fog.end is None else fog.end
+    nearest, farthest = found.depths(camera)
+    start = max(nearest, 0.0) if fog.start is None else fog.start
+    end = farthest if fog.end is None else fog.end
     if not end > start:
         words = f"expected a start before its end, got {start:g} and {end:g}, fitted to the scene"
         raise SceneError(f"fog: {words}; give both")

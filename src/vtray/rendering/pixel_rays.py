@@ -13,7 +13,7 @@ from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, scale
 from vtray.image.picking import whole
 from vtray.image.white import known_white
-from vtray.rendering.fog import ball_around, fitted
+from vtray.rendering.fog import fitted, shapes_of
 from vtray.rendering.followed import check_followed, followed
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.numbering import number_objects
@@ -97,9 +97,7 @@ def trace_rays(
         message = f"{caller}: expected 0,0 to {width - 1},{height - 1}, got {column},{row}"
         raise RenderError(message)
     settings = settings_of(scene) if image is None else image.settings
-    style = (
-        fitted(scene.style, camera, lambda: ball_around(scene)) if image is None else image.style
-    )
+    style = fitted(scene.style, camera, lambda: shapes_of(scene)) if image is None else image.style
     kept = accelerate(scene, style=style)  # which the given scene may have already
     check_followed(kept, scene.objects, settings, keep_lights=False)
     render = followed(scene.render, settings)

@@ -27,7 +27,7 @@ from vtray.rendering.clipping import is_nothing_left
 from vtray.rendering.darkroom import Darkroom
 from vtray.rendering.denoising import Denoising
 from vtray.rendering.drawing import Drawing
-from vtray.rendering.fog import ball_around, fitted
+from vtray.rendering.fog import fitted, shapes_of
 from vtray.rendering.followed import (
     check_followed,
     check_radiances,
@@ -243,7 +243,7 @@ def render(
     lights = lights_of(scene)
     settings, style = settings_of(scene, locals()), overridden(scene.style, locals())
     shown = _shown(scene, lights, settings)
-    style = fitted(style, shown.camera, lambda: ball_around(shown))
+    style = fitted(style, shown.camera, lambda: shapes_of(shown))
     if settings.denoise:
         load_library()  # before any work is done
     _tell(warn, *_problems(shown, settings, keep_lights=keep_lights))

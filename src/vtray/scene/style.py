@@ -88,10 +88,10 @@ class Fog(Frozen, metaclass=_Colored, frozen=True, omit_defaults=True, gc=False)
     ----------
     start : float, optional
         The distance at which it begins, ≥ 0, as `Image.depth` gives distances; by default that of
-        the nearest point of the ball around the scene's bounded objects.
+        the nearest point of the scene's bounded objects or, in movies, of the ball around them.
     end : float, optional
         The distance from which on nothing but fog is seen, more than `start`; by default that of
-        the farthest point of the same ball.
+        the farthest point of the same.
     color : Color, optional
         Its colour, that of the picture's numbers; by default things fade into the background.
     """
