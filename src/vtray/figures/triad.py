@@ -107,7 +107,7 @@ BESIDE = 0.62
 LETTER, CAPITAL = 0.6, 0.75
 """About how wide and how high letters are."""
 
-APART = 0.12
+APART = 0.1
 """So much room between a name and all arrows and other names is enough."""
 
 ALONG = tuple(ARM * k / 8 for k in range(9))
