@@ -15,7 +15,13 @@ from PIL import Image as PillowImage
 import vtray
 from conftest import JIT, once
 from vtray.figures.oklab import srgb_to_oklab
-from vtray.figures.scale_bar import depth_along_view, length_text, pixel_width, round_length
+from vtray.figures.scale_bar import (
+    depth_along_view,
+    length_text,
+    pixel_width,
+    round_length,
+    with_unit,
+)
 from vtray.figures.sheet import FigureError, picture_zoom
 
 matplotlib = pytest.importorskip("matplotlib", reason="needs the extra vtray[figure]")
@@ -345,6 +351,26 @@ def test_round_lengths(limit: float, length: float) -> None:
 def test_lengths_in_words() -> None:
     texts = [length_text(length) for length in (0.5, 20.0, 5e-9, 2e8, 0.001, 10000.0)]
     assert texts == ["0.5", "20", "5e-09", "2e+08", "0.001", "10000"]
+
+
+@pytest.mark.parametrize(
+    ("length", "unit", "text"),
+    [
+        (2e-9, "m", "2 nm"),
+        (5e-10, "m", "0.5 nm"),
+        (2e-7, "m", "0.2 µm"),
+        (0.05, "m", "50 mm"),
+        (0.5, "m", "0.5 m"),
+        (2000.0, "m", "2000 m"),
+        (2e-17, "m", "0.02 fm"),
+        (1.2345e-8, "m", "12.3 nm"),
+        (2e-9, "nm", "2e-09 nm"),
+        (0.02, "Å", "0.02 Å"),
+        (2e-9, "", "2e-09"),
+    ],
+)
+def test_lengths_with_units(length: float, unit: str, text: str) -> None:
+    assert with_unit(length, unit) == text
 
 
 BAD = [

@@ -28,6 +28,9 @@ SHARE = 0.25
 ENOUGH = 2**18
 """So many points that shine, spread evenly over all, tell their median."""
 
+PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"))
+"""The prefixes of SI for less than a metre."""
+
 
 @dataclass(frozen=True)
 class ScaleBar:
@@ -69,8 +72,8 @@ def scale_bar(image: Subject, scalebar: object, at: "ArrayLike | None") -> Scale
         message = "scalebar: lengths differ from place to place in a panorama; leave it out"
         raise FigureError(message)
     own = isinstance(scalebar, str) and "{length}" in scalebar
-    unit = "" if own or scalebar is True else f" {scalebar}"
-    pattern = str(scalebar) if own else f"{{length}}{unit}"
+    unit = "" if own or scalebar is True else str(scalebar)
+    pattern = str(scalebar) if own else "{length}"
     if not own and camera.resolution[0] != camera.resolution[1]:
         pattern += " (horizontally)"
     everywhere = is_orthographic(camera)
@@ -83,11 +86,11 @@ def scale_bar(image: Subject, scalebar: object, at: "ArrayLike | None") -> Scale
             return None
     pixel = pixel_width(camera, depth or 0.0)
     length = round_length(SHARE * camera.size[0] * pixel)
-    text, note = pattern.replace("{length}", length_text(length)), ""
+    text, note = pattern.replace("{length}", with_unit(length, unit)), ""
     if depth is not None:
         text = text.replace("{distance}", f"{depth:.4g}")
         if not (own or everywhere):
-            note = f"at a distance of {length_text(float(f'{depth:.3g}'))}{unit}"
+            note = f"at a distance of {with_unit(depth, unit)}"
     return ScaleBar(length, length / pixel, text, note)
 
 
@@ -183,6 +186,14 @@ def round_length(limit: float) -> float:
 def length_text(length: float) -> str:
     """Return a length as people read it: 0.5, 20, 2e-9."""
     return f"{Decimal(repr(length)).normalize():f}" if 1e-4 < length < 1e6 else f"{length:g}"
+
+
+def with_unit(length: float, unit: str) -> str:
+    """Return a length of three digits with its unit, "" for none; few metres as nm, µm or mm."""
+    scale, prefix = 1.0, ""
+    if unit == "m":
+        scale, prefix = next((row for row in PREFIXES if 10.0 * length >= row[0]), PREFIXES[-1])
+    return f"{length_text(float(f'{length / scale:.3g}'))} {prefix}{unit}".rstrip()
 
 
 def is_orthographic(camera: Camera) -> bool:
