@@ -193,7 +193,8 @@ def with_unit(length: float, unit: str) -> str:
     scale, prefix = 1.0, ""
     if unit == "m":
         scale, prefix = next((row for row in PREFIXES if 10.0 * length >= row[0]), PREFIXES[-1])
-    return f"{length_text(float(f'{length / scale:.3g}'))} {prefix}{unit}".rstrip()
+    number = length_text(float(f"{length / scale:.3g}"))
+    return f"{number} {prefix}{unit}" if unit else number
 
 
 def is_orthographic(camera: Camera) -> bool:
