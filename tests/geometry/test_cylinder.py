@@ -265,7 +265,7 @@ def test_without_length_or_radius_it_is_nothing(
         ((0, -1, 7), (0, 0, 7), True, True),
         ((0, -1, 6), (0, 0, 6), True, False),
         ((0, -1, 6 + 1e-15), (0, 0, 6), True, False),  # no farther than rounding explains
-        ((0.5, 0.5, 4), (0, 0, 1), False, False),
+        ((0.5, 0.5, 4), (0, 0, -1), False, False),
         ((0.5, 0.5, 8 + 1e-15), (0, 0, 1), False, True),
         ((1 + 1e-15, 0, 4.001), (0, 0, 4.001), True, False),  # near an edge
     ],

@@ -7,7 +7,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-def number_of(text: str) -> float:
+def parsed(text: str) -> float:
     """Return the number that a text is.
 
     Raises
@@ -15,11 +15,11 @@ def number_of(text: str) -> float:
     ValueError
         It is none.
     """
-    found: float = numbers_of([text]).item()
+    found: float = parsed_all([text]).item()
     return found
 
 
-def numbers_of(
+def parsed_all(
     entries: Sequence[str] | Sequence[bytes], parse: Callable[[Any], float] = float
 ) -> "NDArray[Any]":
     """Return the numbers that entries are, (n,): int64 where they are parsed by `int`, or float64.

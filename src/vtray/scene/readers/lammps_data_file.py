@@ -15,7 +15,7 @@ from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.column_names import IMAGES, name_columns
 from vtray.scene.particles.elements import are_symbols
 from vtray.scene.particles.particles import Particles
-from vtray.scene.particles.plain_numbers import number_of
+from vtray.scene.particles.plain_numbers import parsed
 from vtray.scene.readers.frames import frame_number
 from vtray.scene.readers.lines import Lines
 from vtray.scene.readers.reader_table import Given
@@ -293,7 +293,7 @@ def _places(ids: "Array", rows: dict[int, int], title: str) -> "Array":
 def _numbers(texts: tuple[str, ...], line: int) -> list[float]:
     """Return texts as numbers."""
     try:
-        return [number_of(text) for text in texts]
+        return [parsed(text) for text in texts]
     except ValueError:
         shown = short(" ".join(texts))
         raise SceneError(f"line {line}: expected numbers, got {shown!r}") from None

@@ -13,7 +13,7 @@ from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.column_names import IMAGES, name_columns
 from vtray.scene.particles.particles import Particles
-from vtray.scene.particles.plain_numbers import number_of, numbers_of
+from vtray.scene.particles.plain_numbers import parsed, parsed_all
 from vtray.scene.readers.frames import Steps, find_frame, steps_of
 from vtray.scene.readers.lines import Lines
 from vtray.scene.readers.reader_table import Given
@@ -136,7 +136,7 @@ def _head_of(found: dict[str, str], box: list[str], names: list[str], line: int)
     if len(set(names)) < len(names):
         raise SceneError(f"line {line}: expected each column once, got {short(' '.join(names))!r}")
     try:
-        time = number_of(found["TIME"]) if "TIME" in found else None
+        time = parsed(found["TIME"]) if "TIME" in found else None
     except ValueError:
         time = None
     return _Head(int(count), names, time, box, line)
@@ -150,7 +150,7 @@ def _box_of(head: _Head) -> "tuple[Cell | None, Cell, tuple[bool, bool, bool] | 
         return None, np.zeros(3), None
     words = head.box[0].split()[2:]
     try:
-        rows = np.array([numbers_of(row.split()) for row in head.box[1:]])
+        rows = np.array([parsed_all(row.split()) for row in head.box[1:]])
     except ValueError:
         rows = np.empty((0, 0))
     if words[:1] == ["abc"]:

@@ -17,7 +17,7 @@ from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.elements import symbol_of
 from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.particles import Particles
-from vtray.scene.particles.plain_numbers import number_of, numbers_of
+from vtray.scene.particles.plain_numbers import parsed, parsed_all
 from vtray.scene.readers.frames import Steps, frame_number
 from vtray.scene.readers.libraries import check_room
 from vtray.scene.readers.reader_table import Given
@@ -204,7 +204,7 @@ def _cell_of(line: str, number: int) -> "Cell | None":
 
     starts = (6, 15, 24, 33, 40, 47, 54)
     try:
-        found = [number_of(line[i:j]) for i, j in pairwise(starts)]
+        found = [parsed(line[i:j]) for i, j in pairwise(starts)]
     except ValueError:
         found = [0.0]
     # What files without a crystal have.
@@ -246,7 +246,7 @@ def _numbers(table: "Array", start: int, end: int, lines: list[int], name: str) 
     found = np.ascontiguousarray(table[:, start:end]).view(f"S{end - start}").ravel()
     listed = found.tolist()
     try:
-        return numbers_of(listed)
+        return parsed_all(listed)
     except ValueError:
         for line, entry in zip(lines, listed, strict=True):
             if not re.fullmatch(rb"\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*", entry):
@@ -259,7 +259,7 @@ def _numbers(table: "Array", start: int, end: int, lines: list[int], name: str) 
 def _whole(texts: "Array") -> "Array":
     """Return texts as integers, or as they are if one is none."""
     try:
-        return numbers_of(texts.tolist(), int)
+        return parsed_all(texts.tolist(), int)
     except ValueError:
         return texts
 

@@ -12,7 +12,7 @@ from vtray.base.errors import SceneError
 from vtray.base.memory import lack_of_memory
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.few_names import texts_of
-from vtray.scene.particles.plain_numbers import number_of, numbers_of
+from vtray.scene.particles.plain_numbers import parsed, parsed_all
 from vtray.scene.readers.lines import Lines, text_of
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ _TRUTH = {b"T": True, b"F": False, b"TRUE": True, b"FALSE": False, b"1": True, b
 def kind_of(entry: str) -> str:
     """Tell what an entry is: "R", a number, or "S", a name."""
     try:
-        number_of(entry)
+        parsed(entry)
     except ValueError:
         return "S"
     return "R"
@@ -137,11 +137,11 @@ def _convert(entries: list[bytes], kind: str) -> "Array":
 
     if kind == "R":
         try:
-            return numbers_of(entries)
+            return parsed_all(entries)
         except ValueError:  # Fortran writes 1.0D-3
-            return numbers_of([e.replace(b"D", b"E").replace(b"d", b"e") for e in entries])
+            return parsed_all([e.replace(b"D", b"E").replace(b"d", b"e") for e in entries])
     if kind == "I":
-        return numbers_of(entries, int)
+        return parsed_all(entries, int)
     if kind == "L":
         return np.fromiter((_TRUTH[entry.upper()] for entry in entries), np.bool_, len(entries))
     return texts_of(entries, bytes.decode)

@@ -16,7 +16,7 @@ from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.object_column import without_objects
 from vtray.scene.particles.from_columns import from_columns
 from vtray.scene.particles.particles import Particles
-from vtray.scene.particles.plain_numbers import numbers_of
+from vtray.scene.particles.plain_numbers import parsed_all
 from vtray.scene.readers.frames import frame_number
 from vtray.scene.readers.libraries import check_room, told
 from vtray.scene.readers.reader_table import Given
@@ -159,7 +159,7 @@ def _column(entries: list[str]) -> "Array":
 
     for parse in (int, float, _number_or_nan):
         try:
-            return numbers_of(entries, parse)
+            return parsed_all(entries, parse)
         except (ValueError, OverflowError):
             continue
     words = [entry.strip() for entry in entries]

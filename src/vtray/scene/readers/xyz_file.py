@@ -12,7 +12,7 @@ from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.column_names import canonical, name_columns
 from vtray.scene.particles.particles import Particles
-from vtray.scene.particles.plain_numbers import number_of, numbers_of
+from vtray.scene.particles.plain_numbers import parsed, parsed_all
 from vtray.scene.readers.frames import Steps, find_frame, steps_of
 from vtray.scene.readers.lines import Lines
 from vtray.scene.readers.reader_table import Given
@@ -177,7 +177,7 @@ def _numbers(text: str, counts: tuple[int, ...], key: str, line: int) -> "Cell":
 
     try:
         entries = re.split(r"[\s,\[\]]+", text.strip(" ,[]"))
-        found = numbers_of(entries)
+        found = parsed_all(entries)
     except ValueError:
         found = np.empty(0)
     if len(found) not in counts:
@@ -201,6 +201,6 @@ def _periodic_of(said: dict[str, str], line: int) -> tuple[bool, bool, bool]:
 def _number(text: str | None) -> float | None:
     """Return a number of the comment; None if it is none, as comments may say anything."""
     try:
-        return number_of(text) if text is not None else None
+        return parsed(text) if text is not None else None
     except ValueError:
         return None
