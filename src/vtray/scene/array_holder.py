@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import msgspec
 
-from vtray.scene.checks.checked import Checked, Frozen, bind
+from vtray.scene.checks.checked import Checked, Frozen, Made, bind
 from vtray.scene.checks.columns import Columns
 from vtray.scene.checks.limits import Byte
 
@@ -18,10 +18,11 @@ if TYPE_CHECKING:
 class _CheckedArrays(Checked):
     """Makes construction in code check and convert arrays."""
 
-    def __call__(cls, *args: object, **kwargs: object) -> Any:  # noqa: ANN401, N805
+    def __call__(cls: type[Made], *args: object, **kwargs: object) -> Made:  # noqa: N805
         """Bind the arguments, check and convert them, and make the object."""
         values = bind(cls, args, kwargs)
-        return cls.from_arrays(values, f"{cls.__name__}.")  # type: ignore[attr-defined]
+        made: Made = cls.from_arrays(values, f"{cls.__name__}.")  # type: ignore[attr-defined]
+        return made
 
 
 OF_COLORS = ("color_scale_",)
