@@ -262,8 +262,9 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
             the right, in front and above), or an axis that points to the viewer, "x", "-x", "y",
             "-y", "z" or "-z"; or azimuth and elevation of the viewer in degrees, the angle from x
             towards y, and that above the plane of both. "auto" shows the shape: it looks along the
-            shortest of the principal axes of all centres, from 20 degrees above it, with the
-            longest horizontal. `up` is then that of the view unless it is given.
+            shortest of the principal axes of all centres, from 20 degrees above it, or below where
+            that is more upright than what points up, with the longest horizontal. `up` is then
+            that of the view unless it is given.
         zoom
             How many times as large as that, about the middle of the picture, from 1e-9 to 1e9.
         lens
