@@ -9,7 +9,7 @@ import vtray
 from vtray import Camera, SceneError, Vector
 from vtray.scene.placing.bounds import Balls
 from vtray.scene.placing.moved import axes_of
-from vtray.scene.placing.views import moments, principal_axes
+from vtray.scene.placing.views import moments, principal_axes, tilt_of
 
 POINTS = np.random.default_rng(3).normal(size=(60, 3))
 
@@ -204,3 +204,45 @@ def test_targets_of_other_kinds_are_told() -> None:
 def test_particles_are_fitted_as_their_positions() -> None:
     particles = vtray.Particles(np.random.default_rng(1).normal(size=(9, 3)))
     assert Camera.fit(particles, view="iso") == Camera.fit(particles.positions, view="iso")
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_even_clouds_are_seen_from_a_corner(seed: int) -> None:
+    cloud = np.random.default_rng(seed).uniform(0, 100, (200, 3))
+    assert Camera.fit(cloud, view="auto") == Camera.fit(cloud, view="iso")
+
+
+@pytest.mark.parametrize(
+    ("edges", "near"),
+    [
+        ([(5, 0, 0), (0, 3, 0)], (0, -3, 0)),  # lies flat
+        ([(5, 0, 0), (0, 0, 3)], (0, 0, 3)),  # stands
+        ([(5, 0, 0), (0, 2, 1)], (0, -2, -1)),  # leans back
+        ([(5, 0, 0), (0, 1, 2)], (0, 1, 2)),
+    ],
+)
+def test_sheets_are_seen_from_their_near_edges(
+    edges: list[tuple[float, ...]], near: tuple[float, ...]
+) -> None:
+    steps = np.linspace(-1, 1, 5)
+    sheet = np.array(
+        [a * np.array(edges[0]) + b * np.array(edges[1]) for a in steps for b in steps]
+    )
+    camera = Camera.fit(sheet, view="auto")
+    right, down, forward = axes_of(camera)
+    assert abs(right[0]) == pytest.approx(1)
+    assert down[2] < 0
+    toward = -np.array(forward) @ np.array(near) / np.linalg.norm(near)
+    assert toward == pytest.approx(math.sin(math.radians(20)))
+    # Turned by so much, what is up in the picture lies in the sheet, which turntables go around.
+    angle = math.radians(tilt_of(sheet, "test"))
+    around = -math.cos(angle) * np.array(down) - math.sin(angle) * np.array(forward)
+    assert around @ np.cross(*edges) == pytest.approx(0, abs=1e-9)
+
+
+def test_floors_have_no_horizon() -> None:
+    scene = vtray.Scene()
+    scene.add_plane((0, 0, 0), normal=(0, 0, 1))
+    scene.add_sphere((0, 0, 1), 1)
+    image = vtray.render(scene, size=(20, 15))
+    assert (image.ids[..., 0] >= 0).all()

@@ -29,7 +29,7 @@ from vtray.commands.options import settings_of
 from vtray.rendering.beside import Margin
 from vtray.scene.camera import Camera
 from vtray.scene.particles.view import SIZE, VIEW, camera_of
-from vtray.scene.placing.views import TILT
+from vtray.scene.placing.views import tilt_of
 
 if TYPE_CHECKING:
     from vtray.scene.scene import Scene
@@ -110,7 +110,7 @@ def _make(options: argparse.Namespace, film: Film, load: "Callable[[], Scene] | 
         particles = read_particles(options)
         scene, marks = shown_data(options, particles)
         zoom = data_options.given(options).get("zoom", 1.0)
-        start = upright(scene.camera, TILT)
+        start = upright(scene.camera, tilt_of(scene, "turntable"))
         camera, about = around_beside(scene, start, {**film.look.annotate, **marks}, zoom)
         shot = Shot(scene, camera, None, particles.frame, particles.time, marks)
         go_around(film, scene, camera, about, seconds, shot=shot)

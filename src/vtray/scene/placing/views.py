@@ -52,8 +52,10 @@ TILT = 20.0
 """How far above the shortest axis the viewer is who is shown the shape, in degrees."""
 
 ALIKE = 0.75
-"""Two axes are not told apart if the mean square along one is so large a part of the other, as by
-chance alone it is for some hundred points in a cube."""
+"""Two axes are not told apart if the mean square along one is so large a part of the other."""
+
+EVEN = 0.6
+"""Nor are all three: as much may differ by chance alone for some hundred points in a cube."""
 
 SIDES: Vec = (1.0, -2.0, 4.0)
 """On the side of this direction the viewer is: rather above than below, in front than behind."""
@@ -111,6 +113,29 @@ def view_from(azimuth: float, elevation: float) -> View:
     return View((-a * c, -b * c, -d), (-a * d, -b * d, c))
 
 
+def tilt_of(subject: object, call: str) -> float:
+    """Return how far the viewer is above what points up, who is shown the shape; in degrees.
+
+    Parameters
+    ----------
+    subject, call
+        As for `view_of`.
+    """
+    shape = _shape_of(balls_of(subject, call))
+    return TILT if shape is None else shape.tilt
+
+
+class _Shape(NamedTuple):
+    """How something lies: what the viewer is to look along, towards them, and what is to point up.
+
+    The viewer is above what points up, or below it by a tilt, in degrees.
+    """
+
+    short: Vec
+    up: Vec
+    tilt: float
+
+
 def _view_of_shape(parts: Sequence[Balls]) -> View:
     """Return the view that shows the shape of what is there.
 
@@ -118,10 +143,21 @@ def _view_of_shape(parts: Sequence[Balls]) -> View:
     or below where it is more upright than what points up in the picture; the longest is horizontal
     there. Where two are alike, what is between them is up to the world's axes.
     """
+    shape = _shape_of(parts)
+    if shape is None:
+        return view_from(*VIEWS["iso"])
+    short, up, tilt = shape
+    toward = _sum(times(cosine(tilt), short), times(sine(tilt), up))
+    upward = _sum(times(cosine(tilt), up), times(-sine(tilt), short))
+    return View(times(-1.0, toward), upward)
+
+
+def _shape_of(parts: Sequence[Balls]) -> _Shape | None:
+    """Return how something lies; None where all axes are alike."""
     variances, axes = principal_axes(moments(parts))
     (least, middle, most), (short, _, long) = variances, axes
-    if least >= ALIKE * most:
-        return view_from(*VIEWS["iso"])
+    if least >= EVEN * most:
+        return None
     if least >= ALIKE * middle:
         short = _beside(SIDES, long)
     if dot(short, SIDES) < 0:
@@ -134,10 +170,7 @@ def _view_of_shape(parts: Sequence[Balls]) -> View:
         if dot(up, UPS) < 0:
             up = times(-1.0, up)
     # What lies flat is seen from its lower side in the picture, so that this is nearer.
-    tilt = -TILT if abs(short[2]) > abs(up[2]) else TILT
-    toward = _sum(times(cosine(tilt), short), times(sine(tilt), up))
-    upward = _sum(times(cosine(tilt), up), times(-sine(tilt), short))
-    return View(times(-1.0, toward), upward)
+    return _Shape(short, up, -TILT if abs(short[2]) > abs(up[2]) else TILT)
 
 
 def moments(parts: Sequence[Balls]) -> Matrix:
