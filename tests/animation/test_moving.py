@@ -1,6 +1,7 @@
 """Clip planes, slices and opacities that move, between keyframes or by functions."""
 
 import math
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ import vtray
 from conftest import once
 from vtray.animation.between_planes import between_clips, between_slices
 from vtray.animation.fading import between_opacities, faded, opacity_of
+from vtray.animation.keyframes import Keyframes, straight
 from vtray.animation.moving import way_of_opacity, way_of_part
 from vtray.base.errors import SceneError
 
@@ -205,3 +207,9 @@ def test_errors(wrong: dict[str, Any], message: str, tmp_path: Path) -> None:
     with pytest.raises(SceneError, match=message):
         vtray.animate(balls(), tmp_path / "a.gif", **{"frames": 3, **wrong})
     assert not [*tmp_path.iterdir()]
+
+
+def test_keyframes_may_be_between_pictures() -> None:
+    moving = Keyframes("opacity", {Fraction(3, 2): 1.0, 0: 0.0}, straight)
+    assert [moving(k) for k in (0, 2)] == [0.0, 1.0]
+    assert 0.5 < moving(1) < 1.0

@@ -290,6 +290,12 @@ def test_columns_that_lack_numbers(
     assert capfd.readouterr().out.splitlines()[-1] == line
 
 
+def test_highlighting_nothing_is_warned_of(water: Path) -> None:
+    words = "water.xyz: --highlight: none of the 3 particles that are drawn; all of them fade"
+    with pytest.warns(UserWarning, match=words):
+        scene_of(water, "--highlight", "element == 'Xe'")
+
+
 def test_columns_of_nothing(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "none.xyz"
     path.write_text("0\n\n")

@@ -10,7 +10,7 @@ from examples import light, plane, scene, sphere
 
 import vtray
 from conftest import compiled_only, once
-from vtray.rendering.fog import ball_around, fitted
+from vtray.rendering.fog import ball_around, fitted, shapes_of
 from vtray.scene.placing.bounds import balls_of
 from vtray.scene.placing.depths import depths_of
 from vtray.scene.style import Style
@@ -319,3 +319,11 @@ def test_a_lamp_is_as_dim_beside_what_fades(samples: int) -> None:
     seen = alone.linear.max(axis=2) > 300
     assert seen.any()
     np.testing.assert_allclose(image.linear[seen], alone.linear[seen], rtol=1e-12)
+
+
+def test_sheets_seen_from_above_have_the_fog_of_the_ball_around() -> None:
+    scene = vtray.Scene()
+    scene.add_spheres([(0, 0, 0), (3, 0, 0), (0, 4, 0)], 0.0)
+    scene.camera = vtray.Camera.orthographic((0, 0, 9), (0, 0, 0), 8, up=(0, 1, 0), size=(4, 3))
+    fog = fitted(Style(fog=True), scene.camera, lambda: shapes_of(scene)).fog
+    assert fog.start < 9 < fog.end

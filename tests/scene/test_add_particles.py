@@ -268,11 +268,6 @@ def test_what_has_no_values_has_no_colour_map() -> None:
         drawn(np.zeros((2, 3)), clim=(0, 1))
 
 
-def test_highlighting_nothing_is_warned_of() -> None:
-    with pytest.warns(UserWarning, match="none of the 3 particles that are drawn; all of them"):
-        drawn(highlight="element == 'Xe'")
-
-
 def test_logarithms_are_exact_enough() -> None:
     values = np.concatenate([np.geomspace(1e-300, 1e300, 999), [1.0, 0.5, 2.0, np.nextafter(1, 2)]])
     found = logarithm(values)

@@ -153,5 +153,11 @@ def test_particles_that_are_lost_cost_nothing(far: float, axes: list[int]) -> No
     assert module._Grid.build(every.T, 1.5).sides == [0.5, 1.5, 1.5]
 
 
+def test_particles_too_far_from_a_cell_are_told() -> None:
+    places = [(1, 1, 1), (1, 1e300, 1)]
+    with pytest.raises(SceneError, match=r"^Particles.positions\[1\]: is 1.25e\+299 edges away"):
+        find_bonds(Particles(places, cell=CUBE, periodic=ALL), cutoff=1.5)
+
+
 def pairs_of(bonds: Bonds) -> set[tuple[int, ...]]:
     return set(map(tuple, bonds.pairs.tolist()))

@@ -4,6 +4,7 @@ import copy
 import pickle
 import subprocess
 import sys
+from fractions import Fraction
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -19,6 +20,7 @@ import vtray
 from vtray.base.errors import SceneError
 from vtray.base.extras import ExtraError
 from vtray.scene.particles.from_objects import as_particles
+from vtray.scene.particles.particles import Particles
 
 POINTS = [(0.0, 1.0, 2.0), (3.0, 4.0, 5.0)]
 COLUMNS = dict(zip("xyz", np.array(POINTS).T.tolist(), strict=True))
@@ -295,3 +297,17 @@ def test_names_of_columns_are_in_particles() -> None:
     for many in (list, dict, iter):
         with pytest.raises(TypeError, match="'Particles' object is not iterable"):
             many(particles)
+
+
+def test_columns_of_matrices_do_not_keep_tables_from_being_read() -> None:
+    table = pd.DataFrame({"x": [0.0, 1], "y": [0.0, 1], "z": [0.0, 1]})
+    table["stress"] = [np.eye(3)] * 2
+    table["force"] = [np.ones(3)] * 2
+    particles = as_particles(table)
+    assert particles["stress"].shape == (2,)
+    assert particles["force"].shape == (2, 3)
+
+
+def test_fractions_are_numbers() -> None:
+    places = Particles([[Fraction(1, 2), 2, 3]]).positions  # type: ignore[arg-type]
+    assert places.tolist() == [[0.5, 2.0, 3.0]]

@@ -47,6 +47,10 @@ def test_what_holds_no_more_is_forgotten() -> None:
     spheres = vtray.Scene().add_particles(WATER, color="charge").spheres
     assert spheres.replace(color=(1, 2, 3)).color_scale is None
     assert made_of(spheres.replace(color=(1, 2, 3))) is not None
+    # Rows may be in another order, which nobody says.
+    turned = spheres.replace(center=spheres.center[::-1])
+    assert made_of(turned) is None
+    assert turned.color_scale is not None
     fewer = spheres.replace(center=spheres.center[:2], radius=1.0, color=(1, 2, 3))
     assert made_of(fewer) is None
 

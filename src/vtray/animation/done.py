@@ -102,7 +102,7 @@ class Done:
 
     def release(self) -> None:
         """Let another run go on; where there is nothing yet, leave nothing behind."""
-        if not len(self) and self._is_alone():
+        if not len(self) and self._says_nothing():
             self.output.record.unlink(missing_ok=True)
         self._held.release()
         self._leave_folder()
@@ -186,10 +186,10 @@ class Done:
             reason = (error.strerror or str(error)).lower()
             raise OutputError(f"{folder}: cannot be made: {reason}") from None
 
-    def _is_alone(self) -> bool:
-        """Tell whether the record is all there is; never beside pictures of other runs."""
+    def _says_nothing(self) -> bool:
+        """Tell whether nothing stands beside the record in a folder that is made for that."""
         if self.output.format is None:
-            return False
+            return True
         with contextlib.suppress(OSError):
             kept = {path for path in self.output.folder.iterdir() if path.suffix != LOCK}
             return kept == {self.output.record}

@@ -54,7 +54,7 @@ class Keyframes(Generic[Value]):
         between: Callable[[Value, Value, float], Value],
     ) -> None:
         self._numbers = numbers_of(name, values)
-        self._values = [values[number] for number in self._numbers]
+        self._values = [values[number] for number in sorted(values, key=number_of)]
         self._between = between
         for (k, one), (n, other) in pairwise(zip(self._numbers, self._values, strict=True)):
             try:

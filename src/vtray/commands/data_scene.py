@@ -61,6 +61,7 @@ def shown_data(
         if len(particles) and not len(drawn.indices):
             words = f"--select: none of the {len(particles)} particles; the cell alone is shown"
             warnings.warn(f"{options.scene}: {words}", stacklevel=2)
+        _warn_if_all_fades(options, drawn, particles)
         _warn_if_lost(options, drawn)
         return scene, marks
     if len(particles):
@@ -122,6 +123,18 @@ def draw_data(
     except SceneError as error:
         raise SceneError(f"{options.scene}: {error}") from None
     return scene, drawn, marks
+
+
+def _warn_if_all_fades(options: argparse.Namespace, drawn: "Drawn", particles: "Particles") -> None:
+    """Warn of a highlight that nothing has."""
+    from vtray.scene.particles.drawing import chosen
+
+    highlight = data_options.given(options).get("highlight")
+    if highlight is None or not len(drawn.indices):
+        return
+    if not chosen(particles, highlight, "highlight")[drawn.indices].any():
+        words = f"none of the {len(drawn.indices)} particles that are drawn; all of them fade"
+        warnings.warn(f"{options.scene}: --highlight: {words}", stacklevel=2)
 
 
 def _warn_if_lost(options: argparse.Namespace, drawn: "Drawn") -> None:

@@ -46,18 +46,25 @@ class Shapes(NamedTuple):
     parts: list[Balls]
 
     def depths(self, camera: Camera) -> tuple[float, float]:
-        """Return the distances of the nearest and the farthest point of all from a camera."""
-        return depths_of(camera, self.parts)
+        """Return the distances of the nearest and the farthest point of all from a camera.
+
+        Where all are as far away, as points of a sheet may be, they are those of the ball around.
+        """
+        nearest, farthest = depths_of(camera, self.parts)
+        return (nearest, farthest) if farthest > nearest else self.ball.depths(camera)
+
+    @property
+    def ball(self) -> Ball:
+        """The ball around all."""
+        middle, radius = bounding_sphere(*self.parts)
+        x, y, z = map(float, middle)
+        return Ball((x, y, z), radius)
 
 
 def ball_around(scene: Scene) -> Ball | None:
     """Return the ball around all bounded objects of a scene; None if there are none."""
     shapes = shapes_of(scene)
-    if shapes is None:
-        return None
-    middle, radius = bounding_sphere(*shapes.parts)
-    x, y, z = map(float, middle)
-    return Ball((x, y, z), radius)
+    return None if shapes is None else shapes.ball
 
 
 def shapes_of(scene: Scene) -> Shapes | None:

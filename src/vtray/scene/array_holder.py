@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 import msgspec
 
 from vtray.scene.checks.checked import Checked, Frozen, Made, bind
-from vtray.scene.checks.columns import Columns
+from vtray.scene.checks.columns import POINT, Columns
 from vtray.scene.checks.limits import Byte
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ OF_COLORS = ("color_scale_",)
 """What is remembered of the colours alone."""
 
 OF_ROWS = ("made_of_", "ends_")
-"""What is remembered of each row."""
+"""What is remembered of each row, whatever stands there."""
 
 
 class ArrayHolder(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=True):
@@ -75,8 +75,11 @@ class ArrayHolder(Frozen, metaclass=_CheckedArrays, frozen=True, eq=False, dict=
             Which attributes may differ.
         """
         lost: set[str] = set() if len(self) == len(other) else set(OF_ROWS)
-        if any(name in self.COLUMNS and self.COLUMNS[name].kind is Byte for name in changed):
+        columns = [self.COLUMNS[name] for name in changed if name in self.COLUMNS]
+        if any(column.kind is Byte for column in columns):
             lost.update(OF_COLORS)
+        if POINT in columns:  # the rows may be in another order
+            lost.update(OF_ROWS)
         known = {name: what for name, what in other.__dict__.items() if name not in lost}
         self.__dict__.update(known)
         return self

@@ -1,5 +1,6 @@
 """Arrays of Python's objects, which tables have where entries are missing, as numbers or names."""
 
+from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ def without_objects(column: "Array") -> "Array":
 
     What is missing, ``None`` or not a number, is NaN among numbers, and a name without letters
     among names. What is true or false counts as 1 or 0 where some of it is missing. Entries that
-    are arrays of one shape, such as Arrow's lists of three numbers, become rows.
+    are arrays of one length, such as Arrow's lists of three numbers, become rows.
 
     Parameters
     ----------
@@ -29,13 +30,13 @@ def without_objects(column: "Array") -> "Array":
         return column
     entries = column.ravel().tolist()
     shapes = {entry.shape if isinstance(entry, np.ndarray) else () for entry in entries}
-    if len(shapes) == 1 and () not in shapes:
-        return np.stack(entries).reshape(*column.shape, *shapes.pop())
+    if column.ndim == 1 and len(shapes) == 1 and len(next(iter(shapes))) == 1:
+        return np.stack(entries)
     missing = [_is_missing(entry) for entry in entries]
     there = [entry for entry, gone in zip(entries, missing, strict=True) if not gone]
-    if there and all(isinstance(entry, (bool, int, float, np.number, np.bool_)) for entry in there):
+    if there and all(isinstance(entry, (Real, np.bool_)) for entry in there):
         # Integers and truths stay what they are where none is missing.
-        are_exact = not any(missing) and not any(isinstance(e, (float, np.floating)) for e in there)
+        are_exact = not any(missing) and all(isinstance(e, (Integral, np.bool_)) for e in there)
         numbers = [np.nan if gone else entry for entry, gone in zip(entries, missing, strict=True)]
         return np.array(numbers, None if are_exact else np.float64).reshape(column.shape)
     names = [

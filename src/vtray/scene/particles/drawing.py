@@ -1,6 +1,5 @@
 """From particles to objects of a scene, step by step."""
 
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
@@ -242,9 +241,6 @@ def draw(
     placed = _place(particles, name, rows, bonds, pairs, times, boundary, wrap=wrap, unwrap=unwrap)
     found = color_particles(particles, rows, **coloring)
     kept = None if highlight is None else chosen(particles, highlight, "highlight")
-    if kept is not None and len(rows) and not kept[rows].any():
-        words = f"none of the {len(rows)} particles that are drawn; all of them fade"
-        warnings.warn(f"highlight: {words}", stacklevel=4)
     if kept is not None and opacity is None:
         usual = "black" if shines else "white"
         behind = usual if background is None else background

@@ -23,6 +23,8 @@ else:
 FLAT = 1e-9
 """Volume of a cell below which its edges count as lying in one plane, in parts of their product."""
 
+FARTHEST = 2.0**62
+"""Edges that a point may be away from the cell, as integers of 64 bits can tell."""
 
 LONGEST = 1e100
 """No edge is longer, and none shorter than its inverse: their product is the volume."""
@@ -85,13 +87,23 @@ class Lattice(NamedTuple):
         """Return how many edges points are away from the cell, (n, 3); 0 where nothing repeats.
 
         Those that are before a face by such a part of an edge count as beyond it.
+
+        Raises
+        ------
+        SceneError
+            A point is too many edges away.
         """
         import numpy as np
 
         found = np.zeros((len(columns[0]), 3), np.int64)
         for k, fraction in enumerate(self.fractions(columns)):
             if self.periodic[k]:
-                found[:, k] = np.floor(fraction + slack)
+                edges = np.floor(fraction + slack)
+                lost = np.flatnonzero(~(np.abs(edges) < FARTHEST))
+                if len(lost):
+                    words = f"is {edges[lost[0]]:g} edges away from the cell that repeats"
+                    raise SceneError(f"Particles.positions[{lost[0]}]: {words}; leave it out")
+                found[:, k] = edges
         return found
 
 

@@ -61,7 +61,7 @@ def check_dull(stretched: Mapping[str, Any]) -> None:
         As for `shining`.
     """
     for name, value in stretched.items():
-        if value != UNSAID[name]:
+        if value is not None and value != UNSAID[name]:
             raise SceneError(f"{name}: is for points that shine; give emission, or leave it out")
 
 
