@@ -180,12 +180,12 @@ def test_depths_are_those_of_all_points(projection: str, kind: str) -> None:
     assert (near, far) == pytest.approx((distance.min(), distance.max()), abs=0.03)
 
 
-def test_a_copy_is_as_far_as_the_ball_around_it() -> None:
+def test_copies_are_as_far_as_what_they_hold() -> None:
     found = vtray.Scene()
     parts = [vtray.Sphere((0, 0, 0), 1), vtray.Sphere((4, 0, 0), 1)]
     found.objects.append(vtray.Copies(parts, at=[(0, 0, 20), (0, 0, 30)]))
     camera = vtray.Camera.orthographic((0, 0, 0), (0, 0, 1), 8.0)
-    assert depths_of(camera, balls_of(found, "test")) == pytest.approx((17, 33))
+    assert depths_of(camera, balls_of(found, "test")) == (19, 31)
 
 
 def test_nothing_to_fit_it_to() -> None:
@@ -327,3 +327,20 @@ def test_sheets_seen_from_above_have_the_fog_of_the_ball_around() -> None:
     scene.camera = vtray.Camera.orthographic((0, 0, 9), (0, 0, 0), 8, up=(0, 1, 0), size=(4, 3))
     fog = fitted(Style(fog=True), scene.camera, lambda: shapes_of(scene)).fog
     assert fog.start < 9 < fog.end
+
+
+@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
+@pytest.mark.parametrize("seed", range(6))
+def test_copies_are_as_far_away_as_if_written_out(seed: int, projection: str) -> None:
+    random = np.random.default_rng(seed)
+    ends, places = random.normal(size=(2, 5, 3)), 3 * random.normal(size=(9, 3))
+    radii = random.uniform(0, 1, 5)
+    balls, sticks = vtray.Spheres(ends[0], radii), vtray.Cylinders(*ends, radii)
+    copies, written = vtray.Scene(), vtray.Scene()
+    copies.objects = [vtray.Copies([balls, sticks], places)]
+    for at in places:
+        written.add_spheres(ends[0] + at, radii)
+        written.add_cylinders(*(ends + at), radii)
+    camera = vtray.Camera.fit(written, view="iso", projection=projection)
+    found, expected = (depths_of(camera, balls_of(one, "test")) for one in (copies, written))
+    assert found == expected

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import vtray
+from vtray.scene.fingerprint import scene_hash
 from vtray.scene.materials import MaterialName
 
 RUBY = {"type": "glass", "ior": 1.76}
@@ -219,3 +220,17 @@ def test_who_takes_materials_says_which() -> None:
             name for name in typing.get_args(MaterialName) if f'"{name}"' not in taker.__doc__
         ]
         assert not missing, taker.__name__
+
+
+def test_several_matt_materials_are_saved(tmp_path: Path) -> None:
+    scene = vtray.Scene()
+    scene.add_spheres([(0, 0, 0), (1, 0, 0)], 0.5)
+    scene.objects[0] = scene.objects[0].replace(
+        material=("lambert", "lambert"), material_index=[0, 1]
+    )
+    scene.add_light((0, 0, 9))
+    scene.camera = vtray.Camera.fit(scene)
+    scene.save(tmp_path / "two.json")
+    for again in (vtray.load(tmp_path / "two.json"), vtray.load_dict(scene.to_dict())):
+        assert again.objects == scene.objects
+        assert scene_hash(again) == scene_hash(scene)

@@ -241,8 +241,8 @@ def material_of(given: Material | MaterialName) -> Material:
 
 
 def is_default(given: AnyMaterials) -> bool:
-    """Tell whether all is made of the material that everything is made of by default."""
-    return all(one == _BY_NAME["lambert"] for one in materials_of(given))
+    """Tell whether all is made of the one material that everything is made of by default."""
+    return materials_of(given) == (_BY_NAME["lambert"],)
 
 
 def materials_of(given: AnyMaterials) -> tuple[Material, ...]:

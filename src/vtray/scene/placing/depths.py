@@ -1,5 +1,6 @@
 """How far from a camera the bounded shapes of a scene reach."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -13,34 +14,71 @@ from vtray.scene.placing.pieces import by_pieces
 
 Floats = NDArray[np.float64]
 
+SLACK = 1e-9
+"""By how much rounding may change a distance, in parts of the largest length."""
+
 
 def depths_of(camera: HasView, parts: Sequence[Balls]) -> tuple[float, float]:
     """Return the distances of the nearest and of the farthest point of balls and discs.
 
     They are those along the rays to these points, in scene units, from where such rays start; where
-    rays are parallel, what is behind that has distances below 0. Of each copy, the ball around it
-    counts.
+    rays are parallel, what is behind that has distances below 0.
     """
     forward = np.array(unit(camera.normal))
     focus = 0.0 if camera.projection == "panorama" else camera.focus
     eye = np.array([camera.center.x, camera.center.y, camera.center.z]) - focus * forward
     axis = forward if camera.projection == "orthographic" else None
-    parts = [part if part.at is None else _around_each(part) for part in parts]
-    scale = max(_largest(part) for part in (*parts, Balls(eye[None], focus))) or 1.0
-    nearest, farthest = zip(*(_ends(part, eye, axis, scale) for part in parts), strict=True)
+    largest = max(map(_largest, (*parts, Balls(eye[None], focus))))
+    scale = math.ldexp(1.0, math.frexp(largest)[1])  # which changes no bits
+    found = [
+        _ends(part, eye, axis, scale)
+        if part.at is None
+        else _ends_of_copies(part, eye, axis, scale)
+        for part in parts
+    ]
+    nearest, farthest = zip(*found, strict=True)
     return min(nearest), max(farthest)
 
 
-def _around_each(copies: Balls) -> Balls:
-    """Return the balls around copies."""
-    middle, radius = bounding_sphere(copies._replace(at=None))
-    assert copies.at is not None  # noqa: S101
-    return Balls(copies.at + middle, radius)
-
-
 def _largest(balls: Balls) -> float:
-    """Return the largest of all coordinates and radii, a unit in which no square overflows."""
-    return max(float(np.max(abs(balls.center))), float(np.max(balls.radius)))
+    """Return a length that no coordinate nor radius exceeds."""
+    moved = 0.0 if balls.at is None else float(np.max(abs(balls.at)))
+    return moved + max(float(np.max(abs(balls.center))), float(np.max(balls.radius)))
+
+
+def _ends_of_copies(
+    copies: Balls, eye: Floats, axis: Floats | None, scale: float
+) -> tuple[float, float]:
+    """Return what `_ends` does of copies written out.
+
+    Only those are asked whose balls around them may reach as near, or as far.
+    """
+    assert copies.at is not None  # noqa: S101
+    middle, radius = bounding_sphere(copies._replace(at=None))
+    way = [column / scale for column in from_middle(copies.at + middle, eye)]
+    near, far = (found * scale for found in _of_balls(way, radius / scale, axis))
+    slack = SLACK * scale
+    nearest, farthest = math.inf, -math.inf
+    for k in np.argsort(near).tolist():
+        if near[k] - slack > nearest:
+            break
+        nearest = min(nearest, _ends(_written_out(copies, k), eye, axis, scale)[0])
+    for k in np.argsort(-far).tolist():
+        if far[k] + slack < farthest:
+            break
+        farthest = max(farthest, _ends(_written_out(copies, k), eye, axis, scale)[1])
+    return nearest, farthest
+
+
+def _written_out(copies: Balls, k: int) -> Balls:
+    """Return a copy where it stands."""
+    assert copies.at is not None  # noqa: S101
+    center, toward = (
+        None if points is None else points.astype(np.float64) + copies.at[k]
+        for points in (copies.center, copies.toward)
+    )
+    assert center is not None  # noqa: S101
+    return Balls(center, copies.radius, toward)
 
 
 def _ends(balls: Balls, eye: Floats, axis: Floats | None, scale: float) -> tuple[float, float]:
@@ -65,12 +103,19 @@ def _ends(balls: Balls, eye: Floats, axis: Floats | None, scale: float) -> tuple
         if part.toward is not None:
             near, far = _of_discs(way, radius, normals_of(part), axis)
         else:
-            middle = _lengths(way) if axis is None else _along(way, axis)
-            near, far = middle - radius, middle + radius
+            near, far = _of_balls(way, radius, axis)
         return float(near.min()) * scale, float(far.max()) * scale
 
     nearest, farthest = zip(*by_pieces(len(balls.center), ends), strict=True)
     return min(nearest), max(farthest)
+
+
+def _of_balls(
+    way: list[Floats], radius: Floats | float, axis: Floats | None
+) -> tuple[Floats, Floats]:
+    """Return the distances of the nearest and of the farthest points of balls, each (n,)."""
+    middle = _lengths(way) if axis is None else _along(way, axis)
+    return middle - radius, middle + radius
 
 
 def _of_discs(
