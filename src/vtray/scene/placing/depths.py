@@ -29,7 +29,7 @@ def depths_of(camera: HasView, parts: Sequence[Balls]) -> tuple[float, float]:
     eye = np.array([camera.center.x, camera.center.y, camera.center.z]) - focus * forward
     axis = forward if camera.projection == "orthographic" else None
     largest = max(map(_largest, (*parts, Balls(eye[None], focus))))
-    scale = math.ldexp(1.0, math.frexp(largest)[1])  # which changes no bits
+    scale = math.ldexp(1.0, min(math.frexp(largest)[1], 1023))  # which changes no bits
     found = [
         _ends(part, eye, axis, scale)
         if part.at is None
@@ -41,9 +41,9 @@ def depths_of(camera: HasView, parts: Sequence[Balls]) -> tuple[float, float]:
 
 
 def _largest(balls: Balls) -> float:
-    """Return a length that no coordinate nor radius exceeds."""
-    moved = 0.0 if balls.at is None else float(np.max(abs(balls.at)))
-    return moved + max(float(np.max(abs(balls.center))), float(np.max(balls.radius)))
+    """Return a length near the largest coordinate or radius; twice that is no less than any."""
+    given = [balls.radius, abs(balls.center), *([] if balls.at is None else [abs(balls.at)])]
+    return max(float(np.max(values)) for values in given)
 
 
 def _ends_of_copies(
