@@ -1,8 +1,7 @@
 """Fog between its two distances, and as kernels see it."""
 
-import math
 from collections.abc import Callable
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,20 +11,13 @@ from vtray.scene.camera import Camera
 from vtray.scene.placing.bounding_sphere import bounding_sphere
 from vtray.scene.placing.bounds import Balls, balls_of
 from vtray.scene.placing.depths import depths_of
-from vtray.scene.placing.directions import Vec, unit
+from vtray.scene.placing.directions import Vec
 from vtray.scene.scene import Scene
 from vtray.scene.style import Fog, Style
 from vtray.transport.fog import FogFrame
 
 LARGEST = 2.0**900
 """Lengths in units of the arrays that are as good as any longer one."""
-
-
-class Around(Protocol):
-    """What is in the fog, as far as its distances go."""
-
-    def depths(self, camera: Camera) -> tuple[float, float]:
-        """Return the distances of its nearest and its farthest point from a camera."""
 
 
 class Ball(NamedTuple):
@@ -36,8 +28,7 @@ class Ball(NamedTuple):
 
     def depths(self, camera: Camera) -> tuple[float, float]:
         """Return the distances of its nearest and its farthest point from a camera."""
-        away = _distance(camera, self.middle)
-        return away - self.radius, away + self.radius
+        return depths_of(camera, [Balls(np.array([self.middle]), self.radius)])
 
 
 class Shapes(NamedTuple):
@@ -75,7 +66,7 @@ def shapes_of(scene: Scene) -> Shapes | None:
         return None
 
 
-def fitted(style: Style, camera: Camera, around: Callable[[], Around | None]) -> Style:
+def fitted(style: Style, camera: Camera, around: Callable[[], Ball | Shapes | None]) -> Style:
     """Return a style whose fog has both its distances.
 
     What is not given is that of the bounded objects, whichever of them are seen: from the nearest
@@ -108,23 +99,6 @@ def fitted(style: Style, camera: Camera, around: Callable[[], Around | None]) ->
         words = f"expected a start before its end, got {start:g} and {end:g}, fitted to the scene"
         raise SceneError(f"fog: {words}; give both")
     return style.replace(fog=fog.replace(start=start, end=end))
-
-
-def _distance(camera: Camera, point: Vec) -> float:
-    """Return how far a point is from where the ray to it starts, in scene units."""
-    x, y, z = unit(camera.normal)
-    center, focus = camera.center, camera.focus
-    way = (point[0] - center.x, point[1] - center.y, point[2] - center.z)
-    focus = 0.0 if camera.projection == "panorama" else focus
-    along = way[0] * x + way[1] * y + way[2] * z + focus
-    if camera.projection == "orthographic":
-        return along
-    across = [part - (along - focus) * axis for part, axis in zip(way, (x, y, z), strict=True)]
-    largest = max(abs(along), *map(abs, across)) or 1.0
-    squares = 0.0
-    for part in (along, *across):
-        squares += (part / largest) * (part / largest)
-    return largest * math.sqrt(squares)
 
 
 def with_fog(packed: Packed, style: Style) -> Packed:
