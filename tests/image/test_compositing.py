@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import numba
 import numpy as np
 import pytest
 from pictures import SCENE, hand_made
@@ -12,13 +13,14 @@ from vtray.image.exposure import develop
 from vtray.scene.style import Fog, Outline, Style
 
 BACKGROUNDS = ["black", "transparent", vtray.Color(90, 60, 30), vtray.Color(255, 255, 255)]
+SIZE = (12, 11) if numba.config.DISABLE_JIT else (70, 67)
 PEAKS = [1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7]
 SHARES = [0.0, 0.1, 0.5, 1 / 3, 0.9999999, 1.0]
 
 
 def picture(seed: int, background: object, *, lines: bool, shade: bool, fog: str) -> vtray.Image:
     """Return a picture of random light on which what is asked for is drawn."""
-    made = hand_made(70, 67, chance=seed, background=background)
+    made = hand_made(*SIZE, chance=seed, background=background)
     random = np.random.default_rng(seed)
     size = made.linear.shape[:2]
     alpha = random.choice([*SHARES, -0.01, 1.02], size)

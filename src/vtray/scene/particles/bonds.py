@@ -11,6 +11,7 @@ from vtray.base.errors import SceneError
 from vtray.base.number import number_of
 from vtray.scene.particles.elements import are_anions, are_metals
 from vtray.scene.particles.lattice import Lattice, columns_of, lattice_of
+from vtray.scene.particles.nearest_image import nearest_shifts
 from vtray.scene.particles.pairs import pairs_of
 from vtray.scene.particles.radii import radii_of
 
@@ -170,14 +171,10 @@ def bonds_between(particles: "Particles", pairs: Any) -> Bonds:  # noqa: ANN401
         They are no pairs of indices.
     """
     given = pairs_of(pairs, len(particles), "bonds")
-    shifts = np.zeros((len(given), 3), np.int64)
     lattice = lattice_of(particles)
-    if lattice is not None:
-        for k, fraction in enumerate(lattice.fractions(columns_of(particles.positions))):
-            if lattice.periodic[k]:
-                ahead = fraction[given[:, 1]] - fraction[given[:, 0]]
-                shifts[:, k] = -np.rint(ahead)
-    return Bonds(given, shifts)
+    if lattice is None:
+        return Bonds(given, np.zeros((len(given), 3), np.int64))
+    return Bonds(given, nearest_shifts(lattice, columns_of(particles.positions), given))
 
 
 def _reach(particles: "Particles", factor: object, radii: "Radii", cutoff: object) -> Floats:
