@@ -31,6 +31,7 @@ def lit_pixel(
                 y,
                 light,
                 fans,
+                reference.AS_NEEDED,
                 spent,
                 seed,
                 stack,

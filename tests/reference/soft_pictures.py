@@ -86,6 +86,7 @@ def compare_fans(
                 row,
                 light,
                 fans,
+                reference.AS_NEEDED,
                 0,
                 seed,
                 stack,
@@ -97,7 +98,7 @@ def compare_fans(
             share = np.array(found[: expected.weights.shape[1]])
             shares.append(share)
             sky = by_rules.skies.get(light)
-            own = fan_of(fans, 0, 0, column, row, light, seed)
+            own = fan_of(fans, 0, 1, 0, column, row, light, seed)
             order = _order(fans.points, own, expected.points)
             is_lamp = by_rules.lights[light]["type"] in ("sphere", "rectangle")
             longest = np.inf if is_lamp else FAR * unit

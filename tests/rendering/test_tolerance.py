@@ -134,3 +134,23 @@ def test_kept_light_does_not_look_at_light(samples: int) -> None:
 def test_wrong_tolerances_are_one_line(value: object) -> None:
     with pytest.raises(vtray.SceneError, match="tolerance: .*got"):
         render(scene_of(LIGHTS["ambient"]), tolerance=value)
+
+
+@compiled_only
+@pytest.mark.parametrize("samples", [4, 16])
+@pytest.mark.parametrize("tolerance", [0.002, 0.008])
+def test_samples_make_nothing_brighter(samples: int, tolerance: float) -> None:
+    # A floor, and beside the picture a black ball before some of the sky.
+    radius, scene = 1.2, vtray.Scene()
+    scene.add_plane((0, 0, 0), normal=(0, 0, 1))
+    scene.add_sphere((3, 0, 3), radius, color="black")
+    scene.lights = [vtray.Sky(1.0)]
+    # A lens that is nearly a point, as pixels have samples then.
+    lens = vtray.Lens(1e-6, focus_distance=10)
+    scene.camera = vtray.Camera.look_at((0, 0, 10), (0, 0, 0), (0, 1, 0), 0.01, (32, 32), lens=lens)
+    # The ball's share of the cosine-weighted sky: its solid angle's sine squared times the cosine.
+    share = 1 - radius**2 / 18 * np.sqrt(0.5)
+    image = render(scene, samples=samples, tolerance=tolerance, exposure=1.0)
+    off = image.linear[..., 0] / 255 - share
+    assert abs(off.mean()) < 0.001
+    assert np.sqrt((off * off).mean()) < 1.2 * image.error.mean() / 255

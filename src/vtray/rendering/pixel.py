@@ -16,7 +16,7 @@ from vtray.rendering.pixel_lights import Lit, shadow_rays, trace_fans
 from vtray.rendering.pixel_surfaces import as_vec, find_surface, rgb
 from vtray.scene.scene import Scene
 from vtray.scene.vectors import Color
-from vtray.transport.integrators.reference import TracedPixel
+from vtray.transport.integrators.reference import AS_NEEDED, TracedPixel
 from vtray.transport.sampling.fans import Fans
 
 
@@ -35,6 +35,8 @@ class Pixel(NamedTuple):
         Which rays are cast to soft lights, None without any; and whether all lights share them.
     seed
         The seed of the picture.
+    fan_count
+        How many fans each soft light has from a hit, if it is not ``AS_NEEDED``.
     """
 
     scene: Scene
@@ -44,6 +46,7 @@ class Pixel(NamedTuple):
     fans: Fans | None
     are_shared: bool
     seed: int
+    fan_count: int = AS_NEEDED
 
 
 def in_world(pixel: Pixel, point: Vec) -> Vec:
@@ -90,6 +93,6 @@ def ways_to_lights(
     if pixel.fans is not None and pixel.are_shared:
         fans, light = trace_shared(*known, pixel.fans, pixel.seed)
     else:
-        fans, light = trace_fans(*known, pixel.fans, pixel.seed)
+        fans, light = trace_fans(*known, pixel.fans, pixel.fan_count, pixel.seed)
     ways = [*shadow_rays(lit, cosines, blockers), *fans]
     return tuple(sorted(ways, key=lambda way: way.light)), light

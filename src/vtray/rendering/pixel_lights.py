@@ -10,8 +10,8 @@ from vtray.base.compiler.compiled import pinned, uncompiled
 from vtray.base.exact_math import hypotenuse
 from vtray.figures.traced_rays import FanRay, Hit, ShadowFan, ShadowRay, WayToLight
 from vtray.geometry.packets.fan import DIRECTION, END, FAN, WEIGHT, Fan, new_fan
-from vtray.geometry.packets.layer_notes import new_walk
-from vtray.geometry.packets.stack import new_stack
+from vtray.geometry.packets.layer_notes import Walk, new_walk
+from vtray.geometry.packets.stack import Stack, new_stack
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, scale, sub
 from vtray.geometry.world import body_count
@@ -99,6 +99,7 @@ def trace_fans(
     traced: TracedPixel,
     pixel: tuple[int, int],
     fans: Fans | None,
+    count: int,
     seed: int,
 ) -> tuple[list[WayToLight], Vec]:
     """Trace the rays to all lights that are no points, each of which has its own.
@@ -113,8 +114,8 @@ def trace_fans(
         The pixel with the light of the points.
     pixel
         Its column and row.
-    fans
-        Which rays are cast to such lights, None without any.
+    fans, count
+        Which rays are cast to such lights, None without any; and how many fans to each.
     seed
         The seed of the picture.
 
@@ -127,15 +128,12 @@ def trace_fans(
     arrays, soft = packed.arrays, packed.arrays.lights.soft
     if fans is None or soft is None:
         return ways, traced.value
-    spent = 0.0
-    own = uncompiled(fans_of_share)(fans, traced.share)
-    fan, stack, blockers = new_fan(), new_stack(), np.full(own.rays, NOTHING)
-    walk = new_walk(body_count(arrays.world))
+    spent, scratch = 0.0, _scratch(packed, traced, fans)
+    _, fan, blockers, _ = scratch
     start, length = traced.interaction.point, packed.unit
     world, lamps, cast = pinned(arrays), pinned(soft), pinned(fans)
-    scratch = pinned(stack), fan, blockers, pinned(walk)
     for k, light in asked_lights(lit.scene):
-        known = world, lamps, traced, *pixel, len(ways), cast
+        known = world, lamps, traced, *pixel, len(ways), cast, count
         lamp = trace_lamp(*known, spent, seed, *scratch)
         components = uncompiled(component_count)(soft, len(ways))
         rays: list[FanRay] = []
@@ -149,6 +147,32 @@ def trace_fans(
         traced = traced._replace(value=lamp.value)
         spent += lamp.counted
     return ways, traced.value
+
+
+def variance_on_trial(
+    packed: Packed, traced: TracedPixel, pixel: tuple[int, int], fans: Fans, seed: int
+) -> float:
+    """Return the variance of one fan to each light that is no point, as a part of what it may be.
+
+    The parameters are those of `trace_fans`.
+    """
+    arrays, soft = packed.arrays, packed.arrays.lights.soft
+    assert soft is not None  # noqa: S101 - they have fans
+    spent, scratch = 0.0, _scratch(packed, traced, fans)
+    for light in range(len(soft.kind)):
+        known = arrays, soft, traced, *pixel, light, fans, 1
+        lamp = trace_lamp(*known, spent, seed, *scratch)
+        spent += lamp.counted
+    return spent
+
+
+def _scratch(
+    packed: Packed, traced: TracedPixel, fans: Fans
+) -> tuple[Stack, Fan, NDArray[np.int64], Walk]:
+    """Return scratch memory of a hit's fans, with the rays of one and what blocks them."""
+    rays = uncompiled(fans_of_share)(fans, traced.share).rays
+    walk = new_walk(body_count(packed.arrays.world))
+    return pinned(new_stack()), new_fan(), np.full(rays, NOTHING), pinned(walk)
 
 
 def _shadow_ray(lit: Lit, number: int, light: Light, cosine: float, primitive: int) -> ShadowRay:

@@ -1,6 +1,7 @@
 """What a ray of a pixel sees over many surfaces: all rays of one path, as users get them."""
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -29,12 +30,12 @@ from vtray.geometry.world import body_count
 from vtray.rendering.pack_looks import materials_by_row
 from vtray.rendering.pixel import Pixel, hit_of, in_world, ways_to_lights
 from vtray.rendering.pixel_coat import Coat, coat_lights
-from vtray.rendering.pixel_lights import place_of_lamp
+from vtray.rendering.pixel_lights import place_of_lamp, variance_on_trial
 from vtray.rendering.pixel_surfaces import as_vec
 from vtray.scene.colors.color_light import light_of_numbers
 from vtray.scene.materials import Lambert
 from vtray.transport.integrators.path import MIRRORED, REFRACTED, SCATTERED
-from vtray.transport.integrators.reference import TracedPixel
+from vtray.transport.integrators.reference import AS_NEEDED, TracedPixel
 from vtray.transport.integrators.single_path import Choice as Chosen
 from vtray.transport.integrators.single_path import (
     Followed,
@@ -45,6 +46,7 @@ from vtray.transport.integrators.single_path import (
     leave_hit,
     light_matt,
 )
+from vtray.transport.integrators.soft_trial import fans_for
 from vtray.transport.lights.crowd import sharing_lights
 from vtray.transport.lights.light import light_count
 from vtray.transport.sampling.paths import Step, seed_of_step
@@ -66,8 +68,35 @@ def follow_path(pixel: Pixel, sampling: Sampling, sample: int) -> tuple[tuple[Pa
     sampling, sample
         How its rays are cast, and the number of the one that is told.
     """
-    follower = _Follower(pixel, sampling, sample)
+    follower = _Follower(pixel, sampling, sample, _fans_of_hits(pixel, sampling, sample))
     return tuple(follower.follow()), follower.light()
+
+
+def _fans_of_hits(pixel: Pixel, sampling: Sampling, sample: int) -> list[int]:
+    """Return how many fans each soft light has from each hit of a sample, as all samples decide.
+
+    The list is empty where each decides by itself.
+    """
+    fans, count = pixel.fans, int(sampling.rays)
+    if fans is None or pixel.are_shared or sampling.paths is not None or count == 1:
+        return []
+    first = sample // LANES * LANES
+    tried = []
+    for each in range(first, min(first + LANES, count)):
+        follower = _Follower(pixel, sampling, each, None)
+        follower.follow()
+        tried.append(follower.tried)
+    longest = max(map(len, tried))
+    hits = zip(*(each + [0.0] * (longest - len(each)) for each in tried), strict=True)
+    return [uncompiled(fans_for)(_sum(hit) / len(tried), fans.fans) for hit in hits]
+
+
+def _sum(values: Iterable[float]) -> float:
+    """Return a sum with the bits of the kernels, which add one after the other."""
+    total = 0.0
+    for value in values:
+        total += value
+    return total
 
 
 class _Waiting(NamedTuple):
@@ -87,9 +116,15 @@ class _Lit(NamedTuple):
 
 
 class _Follower:
-    """Follows the rays of a path, one after the other, in the first lane of a packet."""
+    """Follows the rays of a path, one after the other, in the first lane of a packet.
 
-    def __init__(self, pixel: Pixel, sampling: Sampling, sample: int) -> None:
+    Each soft light has so many fans from each hit as is given. Where that is None, it has one on
+    trial, of which the variance is noted, and nothing is told.
+    """
+
+    def __init__(
+        self, pixel: Pixel, sampling: Sampling, sample: int, fans: Sequence[int] | None
+    ) -> None:
         arrays = pixel.packed.arrays
         assert arrays.materials.looks is not None  # noqa: S101 - rays go on
         self._pixel, self._arrays = pixel, arrays
@@ -105,6 +140,8 @@ class _Follower:
         self._waiting: list[_Waiting] = []
         self._rays: list[PathRay] = []
         self._light = BLACK
+        self._fans = fans
+        self.tried: list[float] = []
         self._steps = 0
 
     def follow(self) -> list[PathRay]:
@@ -198,15 +235,25 @@ class _Follower:
         asked: tuple[NDArray[np.float64], NDArray[np.int64]],
     ) -> _Lit:
         """Return the ways from a hit to lights, given what `light_matt` says of points."""
-        row = int(chosen.row)
+        row, seed = int(chosen.row), int(uncompiled(seed_of_step)(self._pixel.seed, self._steps))
+        if self._fans is None:
+            self._try(traced, seed)
+            return _Lit((), BLACK, None)
         if chosen.has_coat:
             return _Lit(coat_lights(self._coat(hit, row)), BLACK, None)
         is_matt = isinstance(self._materials[row], Lambert)
         if not (is_matt or max(traced.material.color) > 0.0):
             return _Lit((), BLACK, None)
-        seed = int(uncompiled(seed_of_step)(self._pixel.seed, self._steps))
-        ways, light = ways_to_lights(self._pixel._replace(seed=seed), traced, hit, *asked)
+        count = self._fans[self._steps] if self._fans else AS_NEEDED
+        pixel = self._pixel._replace(seed=seed, fan_count=count)
+        ways, light = ways_to_lights(pixel, traced, hit, *asked)
         return _Lit(ways, light, self._shown(traced, hit))
+
+    def _try(self, traced: TracedPixel, seed: int) -> None:
+        """Note how noisy one fan to each soft light is."""
+        place, packed, fans = self._pixel.place, self._pixel.packed, self._pixel.fans
+        assert fans is not None  # noqa: S101 - there is something to be tried
+        self.tried.append(variance_on_trial(packed, traced, place, fans, seed))
 
     def _take_waiting(self, parent: int, hit: Hit) -> Vec | None:
         """Keep the rays that go on from a hit; return the direction of the last, if any."""

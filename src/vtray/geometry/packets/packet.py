@@ -146,6 +146,14 @@ VALUE = _fields.vector()
 NOISE = _fields.scalar()
 """The variance of that, which soft lights have."""
 
+# How many fans soft lights have, where a pixel has samples.
+UNLIT = _fields.vector()
+"""The light from a hit before that of soft lights."""
+COUNTED = _fields.scalar()
+"""The variance of their first fans, as a part of what it may be, by the lanes."""
+FANS = _fields.scalar()
+"""Integer: how many each of them has, by the lanes."""
+
 # Its shadow rays to one light.
 BLOCKED = _fields.scalar()
 """The share of its light that something stops."""

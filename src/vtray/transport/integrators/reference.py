@@ -59,6 +59,9 @@ from vtray.transport.sampling.shared_estimate import (
 from vtray.transport.sampling.shared_fans import spread_among, weigh_lights
 from vtray.transport.scene_arrays import SceneArrays, lit_world
 
+AS_NEEDED = 0
+"""In place of a number of fans: so many as their variance asks for."""
+
 
 class TracedPixel(NamedTuple):
     """How a pixel got its value, lengths in units of the arrays.
@@ -231,6 +234,7 @@ def _trace_fan(
     row: int,
     light: int,
     fans: Fans,
+    count: int,
     number: int,
     seed: int,
     stack: Stack,
@@ -250,8 +254,9 @@ def _trace_fan(
         The pixel, from the left and from the top.
     light
         The light, counted among the soft ones.
-    fans, number, seed
-        Which rays are cast: those of the fan of this number, from 0.
+    fans, count, number, seed
+        Which rays are cast: those of the fan of this number, from 0, and of so many; ``AS_NEEDED``
+        if that follows of their variance.
     stack, walk
         Scratch memory.
     fan
@@ -269,7 +274,7 @@ def _trace_fan(
     point, normal, error_scale, _ = traced.interaction
     start = Start(point, plane_depth_of(scene.camera, point), error_scale)
     aim = aim_at(soft, light, start, normal)
-    offset, keys = fan_of(fans, number, traced.sample, column, row, light, seed)
+    offset, keys = fan_of(fans, number, max(count, 1), traced.sample, column, row, light, seed)
     spread_fan(
         fan,
         fans.rays,
@@ -330,6 +335,7 @@ def trace_lamp(
     row: int,
     light: int,
     fans: Fans,
+    count: int,
     spent: float,
     seed: int,
     stack: Stack,
@@ -341,7 +347,7 @@ def trace_lamp(
 
     Parameters
     ----------
-    scene, soft, column, row, light, fans, seed, stack, fan, blockers, walk
+    scene, soft, column, row, light, fans, count, seed, stack, fan, blockers, walk
         As for `trace_fan`.
     traced
         The pixel, with the light of all lights before this one.
@@ -349,13 +355,30 @@ def trace_lamp(
         What these have of the variance that all may have.
     """
     material = traced.material
-    worth, estimate = soft_worth(scene.lights, soft, light, material), no_estimate()
-    while needs_more(estimate, fans, worth, spent, light, soft_count(soft)):
+    worth, estimate, goes_on = soft_worth(scene.lights, soft, light, material), no_estimate(), True
+    while goes_on:
         number = estimate.fans
         shares, spread = _trace_any_fan(
-            scene, soft, traced, column, row, light, fans, number, seed, stack, fan, blockers, walk
+            scene,
+            soft,
+            traced,
+            column,
+            row,
+            light,
+            fans,
+            count,
+            number,
+            seed,
+            stack,
+            fan,
+            blockers,
+            walk,
         )
         estimate = with_fan(estimate, shares, spread)
+        if count == AS_NEEDED:
+            goes_on = needs_more(estimate, fans, worth, spent, light, soft_count(soft))
+        else:
+            goes_on = estimate.fans < count
     shares, value = shares_of(estimate), traced.value
     counted = counted_variance(estimate, fans, worth)
     for component in range(component_count(soft, light)):

@@ -33,6 +33,12 @@ from vtray.geometry.stopped import Bundle, stop_rays
 from vtray.geometry.vector import Vec, add
 from vtray.geometry.world import Faded
 from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
+from vtray.transport.integrators.soft_trial import (
+    begin_trial,
+    end_trial,
+    fans_on_trial,
+    note_trial,
+)
 from vtray.transport.lights.light import Powers, load_power, soft_worth
 from vtray.transport.lights.soft_light import (
     Aim,
@@ -166,20 +172,27 @@ def add_soft_lights(
         Scratch memory.
     """
     casting = Casting(lit, soft, fans, seed, samples, first, block, begin, cosines)
-    cast, batch = 0, work.batch
+    cast, batch, waiting, is_trial = 0, work.batch, hits, samples > 1
     clear_noise(packet, hits)
     for hit in range(hits):
         batch.is_taken[hit] = False
-    for hit in range(hits):
-        if batch.is_taken[hit]:
-            continue
-        own = fans_of_hit(packet, hit, casting)
-        most, apart = most_of(lit.world.faded, own, samples, is_near)
-        count = take_near(packet, hits, hit, most, apart, batch)
-        for member in range(count):
-            batch.spent[member] = 0.0
-        for light in range(soft_count(soft)):
-            cast += _light_batch(packet, count, casting, own, light, is_wide, work)
+    if is_trial:
+        begin_trial(packet, hits)
+    while waiting > 0:
+        for hit in range(hits):
+            if batch.is_taken[hit]:
+                continue
+            own = fans_of_hit(packet, hit, casting)
+            most, apart = most_of(lit.world.faded, own, samples, is_near)
+            count = take_near(packet, hits, hit, most, apart, batch)
+            for member in range(count):
+                batch.spent[member] = 0.0
+            for light in range(soft_count(soft)):
+                cast += _light_batch(packet, count, casting, own, light, is_wide, work)
+            if is_trial:
+                note_trial(packet, count, batch)
+        waiting = end_trial(packet, hits, samples, fans, batch) if is_trial else 0
+        is_trial = False
     return cast
 
 
@@ -438,7 +451,8 @@ def _spread_from(
         lane, casting.samples, casting.first, casting.block, casting.begin, work.pixels
     )
     number = load_estimate(batch, member).fans
-    offset, keys = fan_of(fans, number, sample, column, row, light, seed)
+    count = fans_on_trial(packet, lane) if casting.samples > 1 else 1
+    offset, keys = fan_of(fans, number, count, sample, column, row, light, seed)
     set_start(work.fan, k, start, aim.error_scale + start.error_scale)
     rays = spread_fan(
         work.fan[k * fans.rays :],
@@ -474,7 +488,11 @@ def _goes_on(
     shares, spread = arriving_shares(fan, fans.rays, component_count(soft, light), aim, normal)
     estimate = with_fan(load_estimate(batch, member), shares, spread)
     worth, spent = _worth_at(packet, hit, casting, light), batch.spent[member]
-    if needs_more(estimate, fans, worth, spent, light, soft_count(soft)):
+    if casting.samples > 1:
+        goes_on = estimate.fans < fans_on_trial(packet, integers(packet)[SOURCE + hit])
+    else:
+        goes_on = needs_more(estimate, fans, worth, spent, light, soft_count(soft))
+    if goes_on:
         store_estimate(batch, member, estimate)
         return True
     variance = with_unseen(estimate, fans.rays, aim.share)

@@ -6,10 +6,9 @@ by side, and pixels in an order in which neighbours follow each other. So the fi
 samples fill the square evenly together, and so do those of 4, 16 ... pixels: what one has too much,
 another has too little.
 
-More fans are cast where light is noisy. What counts then is that those of one sample fill the
-square together. Blocks of neighbours would do that, but neighbours would be off alike, and blocks
-far apart would not. So each pixel has one more sequence, whose block k XOR n is fan k, 1 or more,
-of the sample at place n.
+More fans are cast where light is noisy, blocks of a sequence that each pixel has for itself. Each
+of several samples gets as many blocks side by side, a power of two: so those of one fill the square
+evenly together, and those of all of them more finely.
 
 Points that follow each other are near each other: each two share an elementary cell, a side of
 which is a power of 1/2, in the places of its size, and each 4, 8 ... a larger one. Scrambling moves
@@ -60,6 +59,10 @@ NO_OFFSET = (0, 0)
 WHOLE_FAN = 64
 """Rays from a hit to a light at a time, where a pixel has one sample."""
 
+TRIAL = 128
+"""Rays from all hits of a pixel with few samples to a light on trial; see `soft_trial`. They cost
+little beside the samples themselves: with 64, what is left of grain was 3/2 times as much."""
+
 LEAST_FAN = 16
 """Rays of each of many samples of a pixel."""
 
@@ -78,7 +81,7 @@ larger than they are estimated to be.
 MOST_FANS = 64
 """Fans from the one hit of a pixel to one light at the most."""
 
-MOST_FANS_OF_SAMPLES = 256
+MOST_FANS_OF_SAMPLES = 128
 """The same of all samples of a pixel, where each has more than one."""
 
 
@@ -197,7 +200,7 @@ def fans_of_middles(noise: Noise) -> Fans:
 def fans_of_samples(samples: int, noise: Noise) -> Fans:
     """Return the fans of pixels with so many samples, more than 1, which share their rays."""
     rays = LEAST_FAN
-    while 2 * rays * samples <= WHOLE_FAN:
+    while 2 * rays * samples <= TRIAL:
         rays *= 2
     return _fans(rays >> noise.halvings, max(MOST_FANS_OF_SAMPLES // samples, 1), samples, noise)
 
@@ -236,7 +239,7 @@ def _fans(rays: int, fans: int, samples: int, noise: Noise) -> Fans:
         points, offsets = shared_points(rays, fans), block_offsets(rays, blocks)
         order = offsets  # not asked for
     else:
-        blocks = max(1 << levels, 1 << (fans - 1).bit_length())
+        blocks = 1 << levels + (fans - 1).bit_length()
         sizes = [rays >> k for k in range(rays.bit_length()) if k == 0 or rays >> k >= FEWEST]
         points = np.concatenate([fan_points(size) for size in sizes], axis=1)
         offsets = np.concatenate([block_offsets(size, blocks) for size in sizes], axis=1)
@@ -341,7 +344,7 @@ def place_of(levels: int, sample: int, column: int, row: int, light: int, seed: 
 
 @device
 def fan_of(
-    fans: Fans, number: int, sample: int, column: int, row: int, light: int, seed: int
+    fans: Fans, number: int, count: int, sample: int, column: int, row: int, light: int, seed: int
 ) -> tuple[tuple[int, int], tuple[int, int]]:
     """Return what makes the points of the first block those of a fan: its offset, and its keys.
 
@@ -349,17 +352,19 @@ def fan_of(
     ----------
     fans
         The fans.
-    number, sample
-        Which fan of which sample it is.
+    number, count
+        Which fan of the sample it is, and of how many, as far as that is known before: else of one.
+    sample
+        The number of the sample.
     column, row
         The pixel.
     light, seed
         The number of the light, and what chooses other places of all samples.
     """
     place = place_of(fans.levels, sample, column, row, light, seed)
-    offset = offset_of(fans, place, number)
-    if number > 0:
-        return offset, fan_keys(column, row, light, seed)
+    if number > 0 or count > 1:
+        return offset_of(fans, place * count + number), fan_keys(column, row, light, seed)
+    offset = offset_of(fans, place)
     side = fans.order_levels // 2
     across, down = column >> side, row >> side
     key, _ = pixel_keys(across, down, PIXEL_ORDER + light, seed)
@@ -369,13 +374,13 @@ def fan_of(
 
 
 @device
-def offset_of(fans: Fans, place: int, number: int) -> tuple[int, int]:
-    """Return that of a fan, given by its number, of the sample at a place, among those of a pixel.
+def offset_of(fans: Fans, block: int) -> tuple[int, int]:
+    """Return that of a block, given by its number.
 
-    Combined with it by XOR, the points of the first block become those of another one.
+    Combined with it by XOR, the points of the first block become those of this one.
     """
-    block = fans.first_block + (place ^ number)
-    return fans.offsets[0, block], fans.offsets[1, block]
+    place = fans.first_block + block
+    return fans.offsets[0, place], fans.offsets[1, place]
 
 
 @device
