@@ -9,6 +9,7 @@ import pytest
 
 import vtray
 from conftest import JIT, once
+from vtray.figures.ray_tree import RayTree
 from vtray.scene.fingerprint import scene_hash
 
 SIZE = (48, 40) if JIT else (16, 12)
@@ -273,6 +274,58 @@ def test_pixels_are_told_as_they_are(integrator: str) -> None:
     for y in range(1, SIZE[1], 5):
         for x in range(1, SIZE[0], 5):
             assert vtray.trace_pixel(image, x, y).light == tuple(image.linear[y, x]), (x, y)
+
+
+def lit_pattern(material: Any, integrator: str = "direct") -> RayTree:
+    """Return the rays of a pixel that sees a plane with a pattern, with a light right above."""
+    scene = vtray.Scene()
+    scene.add_plane((0, 0, 0), normal=(0, 0, 1), color=(200, 100, 50), material=material)
+    scene.add_light((0.5, 0.5, 9))
+    scene.camera = vtray.Camera.look_at((0.5, 0.5, 5), (0.5, 0.5, 0), size=(2, 2), fov_degrees=3)
+    return vtray.trace_pixel(vtray.render(scene, integrator=integrator, exposure=1), 1, 1)
+
+
+GREEN = (10, 240, 30)
+PICTURE = vtray.ImagePattern(np.full((2, 2, 3), GREEN, np.uint8))
+
+
+@pytest.mark.parametrize(
+    ("material", "integrator", "line", "seen"),
+    [
+        (vtray.Lambert(pattern=vtray.Checker((GREEN, GREEN))), "direct", "checker, lambert 1", 1),
+        (vtray.Lambert(pattern=vtray.Stripes((GREEN, GREEN))), "path", "stripes, lambert 1", 1),
+        (vtray.Lambert(pattern=PICTURE), "direct", "image, lambert 1", 1),
+        (vtray.Plastic(pattern=PICTURE), "whitted", "image, plastic, ior 1.5", 0.96),
+        (vtray.Metal(pattern=PICTURE), "whitted", "image, metal", 0),
+        (vtray.Emissive(pattern=PICTURE), "path", "image, emissive, radiance 1", 0),
+    ],
+)
+def test_the_color_that_is_told_is_that_of_the_pattern(
+    material: Any, integrator: str, line: str, seen: float
+) -> None:
+    tree = lit_pattern(material, integrator)
+    hit = tree.hit or tree.path[0].hit
+    assert hit is not None
+    assert hit.surface.color == pytest.approx(GREEN)
+    assert hit.pattern is material.pattern
+    assert f"  material   color (10, 240, 30) of its {line}\n" in str(tree)
+    if seen:
+        (way,) = tree.lights or tree.path[0].lights
+        assert way.adds == pytest.approx([seen * channel for channel in GREEN])
+        more = " x 0.96 that is seen" if seen < 1 else ""
+        assert f" = cosine 1 x lambert 1 x intensity 1 x color{more}\n" in str(tree)
+
+
+def test_where_the_object_has_its_own_color_no_pattern_is_told() -> None:
+    hit = lit_pattern(vtray.Lambert(pattern=vtray.Checker((None, None)))).hit
+    assert hit is not None
+    assert (hit.surface.color, hit.pattern) == ((200, 100, 50), None)
+
+
+def test_colors_of_patterns_are_told_as_given_and_as_light() -> None:
+    scene = lit_pattern(vtray.Lambert(pattern=PICTURE)).scene
+    tree = vtray.trace_pixel(vtray.render(scene, tonemap="srgb", exposure=1), 1, 1)
+    assert "color (10, 240, 30) of its image, as light (0.773994, " in str(tree)
 
 
 def test_edges_of_colors_get_samples() -> None:

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 import vtray
-from vtray.scene.colors.color_light import light_of, light_of_numbers
+from vtray.scene.colors.color_light import as_light, light_of, light_of_numbers, numbers_of_light
 from vtray.scene.colors.srgb import decode_srgb, encode_srgb
 from vtray.scene.colors.tone_map_names import ToneMapName, is_encoded
+from vtray.scene.vectors import Color
 
 
 def true_light(encoded: Decimal) -> Decimal:
@@ -65,3 +66,14 @@ def test_what_numbers_are_as_light() -> None:
     assert light_of(vtray.Color(188, 0, 255), "linear") == (188.0, 0.0, 255.0)
     with pytest.raises(ValueError, match="read-only"):
         light_of_numbers("srgb")[0] = 1.0
+
+
+@pytest.mark.parametrize("tonemap", ["linear", "srgb"])
+def test_colors_as_light_and_back(tonemap: ToneMapName) -> None:
+    for k in range(256):
+        color = Color(k, 255 - k, 7 * k % 256)
+        light = as_light((color.r, color.g, color.b), tonemap)
+        assert light == light_of(color, tonemap)
+        assert numbers_of_light(light, tonemap) == (color.r, color.g, color.b)
+    between = (0.5, 100.25, 254.9)
+    assert numbers_of_light(as_light(between, tonemap), tonemap) == pytest.approx(between)

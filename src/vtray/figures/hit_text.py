@@ -5,7 +5,7 @@ from typing import Any
 
 from vtray.figures.traced_rays import Hit, ShadowFan, Surface, WayToLight
 from vtray.geometry.vector import Vec
-from vtray.scene.colors.color_light import light_of_numbers
+from vtray.scene.colors.color_light import as_light
 from vtray.scene.colors.tone_map_names import is_encoded
 from vtray.scene.light_types import AnyLight, measure_of, strength_of
 from vtray.scene.materials import Blend, Material, blended_in
@@ -18,7 +18,7 @@ WHITE = (255.0, 255.0, 255.0)
 
 def describe_hit(hit: Hit, scene: Scene, material: Material | None = None) -> list[str]:
     """Return the lines on what the ray hit; `material` is what it is made of if it is not matt."""
-    made = f"color {color_text(hit.surface.color, scene)}"
+    made = f"color {_color_text(hit, scene)}"
     made += f", lambert {hit.surface.lambert:g}" if material is None else f", {_words(material)}"
     return [
         f"hit          {hit.surface}, {hit.distance:.10g} away",
@@ -96,7 +96,7 @@ def _describe_light(way: WayToLight, hit: Hit, seen: Vec | None, scene: Scene) -
     factors = f"{factor} {amount} x lambert {hit.surface.lambert:g}"
     factors += f" x {strength} {way.intensity:g} x color"
     if way.color != WHITE:
-        tint = [channel / 255 for channel in _as_light(way.color, scene)]
+        tint = [channel / 255 for channel in as_light(way.color, scene.render.tonemap)]
         factors += f" x {vector_text(tint)} of the light"
     if share_text(seen) != "1":
         factors += f" x {share_text(seen)} that is seen"
@@ -113,21 +113,15 @@ def _describe_copy(surface: Surface, scene: Scene) -> list[str]:
     )
 
 
-def color_text(color: Sequence[float], scene: Scene) -> str:
-    """Return a colour as it was given, and as light if that is something else."""
-    shown = "(" + ", ".join(f"{channel:g}" for channel in color) + ")"
-    tonemap = scene.render.tonemap
-    return (
-        f"{shown}, as light {vector_text(_as_light(color, scene))}"
-        if is_encoded(tonemap)
-        else shown
-    )
-
-
-def _as_light(color: Sequence[float], scene: Scene) -> list[float]:
-    """Return a colour as light, 255 for white."""
-    table = light_of_numbers(scene.render.tonemap)
-    return [float(table[int(channel)]) for channel in color]
+def _color_text(hit: Hit, scene: Scene) -> str:
+    """Return the colour of a hit, where it comes from, and as light if that is something else."""
+    color, tonemap = hit.surface.color, scene.render.tonemap
+    words = "(" + ", ".join(f"{channel:g}" for channel in color) + ")"
+    if hit.pattern is not None:
+        words += f" of its {hit.pattern.__struct_config__.tag}"
+    if is_encoded(tonemap):
+        words += f", as light {vector_text(as_light(color, tonemap))}"
+    return words
 
 
 def _is_idle(way: WayToLight) -> bool:

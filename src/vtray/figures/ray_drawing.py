@@ -95,7 +95,7 @@ class _Drawing(Stage):
     def __init__(self, tree: TracedRays, section: Section, ax: "Axes") -> None:
         super().__init__(tree, section, ax)
         self.labels: list[Floats] = []
-        self.drawn: set[Surface] = set()
+        self.drawn: set[str] = set()  # names, as colours differ on one surface
 
     def surroundings(self) -> None:
         """Draw what the plane of the drawing cuts, apart from what rays meet."""
@@ -173,7 +173,7 @@ class _Drawing(Stage):
 
     def surface(self, surface: Surface, *, filled: bool) -> None:
         """Draw what a ray meets."""
-        self.drawn.add(surface)
+        self.drawn.add(str(surface))
         scene, section = self.tree.scene, self.section
         shape = shape_of(scene, surface)
         if shape is None:
@@ -191,7 +191,7 @@ class _Drawing(Stage):
 
     def once(self, surface: Surface) -> None:
         """Draw what a ray meets, if it is not drawn already."""
-        if surface not in self.drawn:
+        if str(surface) not in self.drawn:
             self.surface(surface, filled=True)
 
     def shadow_ray(self, ray: ShadowRay, *, thin: bool) -> None:
@@ -211,7 +211,7 @@ class _Drawing(Stage):
             assert ray.blocker is not None  # noqa: S101
             start = self.tree.hit.point
             stop = self.section(where_met(self.tree.scene, ray.blocker, start, ray.direction))
-            if ray.blocker not in self.drawn:
+            if str(ray.blocker) not in self.drawn:
                 self.surface(ray.blocker, filled=False)
             if not thin:
                 self.line(self.end, stop, BLOCKED, lw=1.8, ls=(0, (4, 2.2)))
@@ -231,7 +231,7 @@ class _Drawing(Stage):
         strength = 1.0 if main else 0.35
         if main:
             for blocker in fan.blockers[:MOST_BLOCKERS]:
-                if blocker not in self.drawn:
+                if str(blocker) not in self.drawn:
                     self.surface(blocker, filled=False)
             self.ax.plot(*self.section(lines.stops).T, ".", ms=4, color=BLOCKED, zorder=6)
         if not fan.arrives:

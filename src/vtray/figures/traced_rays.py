@@ -7,6 +7,7 @@ from typing import TypeAlias
 from vtray.geometry.vector import Vec
 from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.materials import Material
+from vtray.scene.patterns import Pattern
 from vtray.scene.scene import Scene
 
 
@@ -29,7 +30,7 @@ class Surface:
     normal
         Unit normal of the plane in world space; None for others.
     color
-        Red, green and blue, from 0 to 255.
+        Red, green and blue, from 0 to 255; of a hit on a pattern, those of the pattern there.
     lambert
         Share of the light that it scatters, from 0 to 1.
     end
@@ -84,12 +85,15 @@ class Hit:
         The hit in world space.
     normal
         Unit normal there, in world space, on the side that the ray comes from.
+    pattern
+        The pattern of which it has the colour; None if that is the surface's own.
     """
 
     surface: Surface
     distance: float
     point: Vec
     normal: Vec
+    pattern: Pattern | None = None
 
 
 @dataclass(frozen=True)

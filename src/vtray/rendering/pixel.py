@@ -6,17 +6,21 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.base.compiler.compiled import uncompiled
 from vtray.figures.traced_rays import Hit, WayToLight
 from vtray.geometry.packets.packet import CAP, SECOND
 from vtray.geometry.vector import Vec
 from vtray.rendering.numbering import Numbering
 from vtray.rendering.pack import Packed
+from vtray.rendering.pack_looks import materials_by_row
 from vtray.rendering.pixel_crowd import trace_shared
 from vtray.rendering.pixel_lights import Lit, shadow_rays, trace_fans
-from vtray.rendering.pixel_surfaces import as_vec, find_surface, rgb
+from vtray.rendering.pixel_surfaces import as_vec, find_surface
+from vtray.scene.colors.color_light import as_light, numbers_of_light
+from vtray.scene.patterns import Pattern
 from vtray.scene.scene import Scene
-from vtray.scene.vectors import Color
 from vtray.transport.integrators.reference import AS_NEEDED, TracedPixel
+from vtray.transport.materials.material import pattern_of
 from vtray.transport.sampling.fans import Fans
 
 
@@ -64,12 +68,22 @@ def hit_of(pixel: Pixel, traced: TracedPixel, before: float = 0.0) -> Hit:
     half, packed = traced.interaction.half, pixel.packed
     is_second = half & SECOND != 0
     surface = find_surface(pixel.scene, pixel.numbering, traced.primitive, is_second=is_second)
-    cap = pixel.scene.style.cap
-    if half & CAP and isinstance(cap, Color):
-        surface = replace(surface, color=rgb(cap))
+    tonemap, color, pattern = pixel.scene.render.tonemap, as_vec(traced.color), None
+    if color != as_light(surface.color, tonemap):
+        surface = replace(surface, color=numbers_of_light(color, tonemap))
+        pattern = None if half & CAP else _pattern_of(packed, traced.primitive)
     distance = traced.distance * packed.unit + before
     point, normal, _, _ = traced.interaction
-    return Hit(surface, distance, in_world(pixel, point), as_vec(normal))
+    return Hit(surface, distance, in_world(pixel, point), as_vec(normal), pattern)
+
+
+def _pattern_of(packed: Packed, primitive: int) -> Pattern | None:
+    """Return the pattern of a primitive."""
+    patterns = packed.arrays.materials.patterns
+    if patterns is None:
+        return None
+    row = uncompiled(pattern_of)(packed.arrays.materials, patterns, primitive)
+    return materials_by_row(packed.made)[row].pattern
 
 
 def ways_to_lights(

@@ -32,7 +32,6 @@ from vtray.rendering.pixel import Pixel, hit_of, in_world, ways_to_lights
 from vtray.rendering.pixel_coat import Coat, coat_lights
 from vtray.rendering.pixel_lights import place_of_lamp, variance_on_trial
 from vtray.rendering.pixel_surfaces import as_vec
-from vtray.scene.colors.color_light import light_of_numbers
 from vtray.scene.materials import Lambert
 from vtray.transport.integrators.path import MIRRORED, REFRACTED, SCATTERED
 from vtray.transport.integrators.reference import AS_NEEDED, TracedPixel
@@ -247,7 +246,7 @@ class _Follower:
         count = self._fans[self._steps] if self._fans else AS_NEEDED
         pixel = self._pixel._replace(seed=seed, fan_count=count)
         ways, light = ways_to_lights(pixel, traced, hit, *asked)
-        return _Lit(ways, light, self._shown(traced, hit))
+        return _Lit(ways, light, _shown(traced))
 
     def _try(self, traced: TracedPixel, seed: int) -> None:
         """Note how noisy one fan to each soft light is."""
@@ -292,16 +291,6 @@ class _Follower:
         glossy = Glossy(looks, looks.albedos, row)
         return Coat(self._pixel, step, self._packet, hit, glossy, self._work.stack)
 
-    def _shown(self, traced: TracedPixel, hit: Hit) -> Vec:
-        """Return how much is seen of the colour of a surface."""
-        table = light_of_numbers(self._pixel.scene.render.tonemap)
-        own = [float(table[int(channel)]) for channel in hit.surface.color]
-        red, green, blue = (
-            float(seen) / of if of else 0.0
-            for seen, of in zip(traced.material.color, own, strict=True)
-        )
-        return red, green, blue
-
     def _lamp(self, row: int) -> int | None:
         """Return the place of a lamp in the scene, given its row."""
         return place_of_lamp(self._pixel.scene, self._arrays.lights, row)
@@ -313,3 +302,12 @@ class _Follower:
     def _put_light(self, light: Vec) -> None:
         """Set the light of the first lane."""
         self._packet[GATHERED : GATHERED + 3 * LANES : LANES] = light
+
+
+def _shown(traced: TracedPixel) -> Vec:
+    """Return how much is seen of the colour of a surface."""
+    red, green, blue = (
+        float(seen) / float(of) if of else 0.0
+        for seen, of in zip(traced.material.color, traced.color, strict=True)
+    )
+    return red, green, blue

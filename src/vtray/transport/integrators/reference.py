@@ -84,6 +84,8 @@ class TracedPixel(NamedTuple):
         How much of the light from there is seen: 1 with nothing before it.
     material
         What is hit is made of, whose colour counts as much as is seen of it.
+    color
+        The colour there as light, 255 for white, of a pattern if there is one.
     sample
         The number of the ray among the samples of the pixel; 0 for that through its middle.
     """
@@ -96,6 +98,7 @@ class TracedPixel(NamedTuple):
     lamp: int
     share: float
     material: Material
+    color: Vec
     sample: int
 
 
@@ -145,12 +148,12 @@ def trace_behind(
     value = (0.0, 0.0, 0.0)
     nowhere = Interaction(ray.origin, ray.direction, 0.0, 0)
     lamp, distance = nearest_lamp(ray, hit.distance, scene.lights.visible)
-    nothing = Material(value, 0.0)
+    nothing = Material(value, 0.0), value, 0
     if lamp != NOTHING:
         light = scale(share, lamp_light(scene.lights, lamp))
-        return TracedPixel(ray, distance, NOTHING, nowhere, light, lamp, share, nothing, 0)
+        return TracedPixel(ray, distance, NOTHING, nowhere, light, lamp, share, *nothing)
     if hit.primitive == NOTHING:
-        return TracedPixel(ray, hit.distance, NOTHING, nowhere, value, NOTHING, share, nothing, 0)
+        return TracedPixel(ray, hit.distance, NOTHING, nowhere, value, NOTHING, share, *nothing)
     return light_hit(scene, ray, hit, share, stack, cosines, blockers, walk)
 
 
@@ -181,7 +184,8 @@ def light_hit(
     )
     material = Material(scale(share, own.color), own.lambert)
     value = light_of_points(scene, found, material, stack, cosines, blockers, walk)
-    return TracedPixel(ray, hit.distance, hit.primitive, found, value, NOTHING, share, material, 0)
+    made = material, own.color, 0
+    return TracedPixel(ray, hit.distance, hit.primitive, found, value, NOTHING, share, *made)
 
 
 @device

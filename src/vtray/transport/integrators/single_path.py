@@ -291,8 +291,19 @@ def light_matt(
         NOTHING,
         1.0,
         material,
+        _own_color(scene, packet),
         place.sample,
     )
+
+
+@device
+def _own_color(scene: SceneArrays, packet: Packet) -> Vec:
+    """Return the colour of the first hit of a packet as light, 255 for white."""
+    numbers = integers(packet)
+    row, slot = split_met(numbers[MET])
+    primitive, half, point = numbers[PRIMITIVE], int(numbers[HALF]), load(packet, POINT, 0)
+    own = material_at(scene.world, scene.materials, primitive, half, row, slot, point)
+    return own.color
 
 
 class ToldRay(NamedTuple):
@@ -374,19 +385,9 @@ def tell_lamp(
 @device
 def _gloss(scene: SceneArrays, glossy: Glossy, packet: Packet) -> Gloss:
     """Return the glossy surface of the first hit of a packet."""
-    numbers, looks = integers(packet), glossy.looks
-    row, slot = split_met(numbers[MET])
-    own = material_at(
-        scene.world,
-        scene.materials,
-        numbers[PRIMITIVE],
-        int(numbers[HALF]),
-        row,
-        slot,
-        load(packet, POINT, 0),
-    )
+    looks, color = glossy.looks, _own_color(scene, packet)
     look = Look(int(looks.kind[glossy.row]), glossy.row)
-    return gloss_at(packet, 0, looks, glossy.albedos, look, scale(1.0 / 255.0, own.color))
+    return gloss_at(packet, 0, looks, glossy.albedos, look, scale(1.0 / 255.0, color))
 
 
 @device
