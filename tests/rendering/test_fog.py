@@ -257,6 +257,43 @@ def test_a_pixel_is_explained() -> None:
     assert vtray.trace_pixel(found, 0, 0).veil is None
 
 
+@pytest.mark.parametrize("place", [(3, 3, 0), (0, 0, 2)])
+def test_fog_is_told_where_bodies_are_faded(place: tuple[float, float, float]) -> None:
+    """Whether they are before what is seen, or nowhere in the picture."""
+    found = vtray.Scene()
+    found.add_plane((0, 0, 0), normal=(0, 0, 1), color="white")
+    found.add_sphere(place, 0.5, opacity=0.5, color="white")
+    found.add_light(vtray.Sun((0, 0, -1)))
+    found.camera = vtray.Camera.look_at((0, 0, 5), (0, 0, 0), size=(2, 2), fov_degrees=10)
+    image = vtray.render(found, fog=(2, 6), exposure=1)
+    tree, passed = vtray.trace_pixel(image, 1, 1), 0.5 if place[0] == 0 else 1
+    assert tree.veil is not None
+    assert (tree.veil.distance, tree.veil.share, tree.veil.is_counted) == (5, 0.75, True)
+    assert tree.light == tree.veil.light == tuple(image.linear[1, 1])
+    assert tree.share == pytest.approx(0.25 * passed)
+    (way,) = tree.lights
+    assert way.adds == pytest.approx([255 * way.share * tree.share] * 3)
+    text = str(tree)
+    assert "fog          75 % of what is seen 5 away, which is left out above\n" in text
+    assert f" x color x {tree.share:g} that is seen\n" in text
+    assert "samples" not in text
+    if tree.layers:
+        (layer,) = tree.layers
+        # The ball begins 2.5 away, in the fog of an eighth.
+        assert (layer.fog, layer.share) == (0.125, pytest.approx(0.5 * 0.875))
+        assert "  seen       43.75 % of its light, through 12.5 % fog\n" in text
+        assert "behind       12.5 % of the light passes all layers and fog\n" in text
+
+
+def test_what_is_behind_layers_and_nowhere_is_in_no_fog() -> None:
+    found = world()
+    found.objects = [vtray.Sphere((0, 0, 5), 3, (255, 255, 255), opacity=0.5)]
+    tree = vtray.trace_pixel(vtray.render(found, fog=(5, 190)), 8, 6)
+    assert (tree.hit, tree.veil) == (None, None)
+    assert tree.share == pytest.approx(0.5)
+    assert "behind       50 % of the light passes all layers\n" in str(tree)
+
+
 def test_pictures_made_again(tmp_path: Path) -> None:
     found = world()
     image = vtray.render(found, fog=True)

@@ -35,7 +35,8 @@ def _describe_direct(tree: TracedRays) -> list[str]:
     for layer in tree.layers:
         lines += _describe_layer(layer, tree.scene)
     if tree.layers:
-        lines.append(f"behind       {100 * tree.share:.4g} % of the light passes all layers")
+        passed = "all layers" if tree.veil is None else "all layers and fog"
+        lines.append(f"behind       {100 * tree.share:.4g} % of the light passes {passed}")
     if tree.lamp is not None:
         lines.append(describe_lamp(tree.scene.lights[tree.lamp], tree.lamp))
     elif tree.hit is None:
@@ -52,10 +53,11 @@ def _describe_direct(tree: TracedRays) -> list[str]:
 def _describe_layer(layer: Layer, scene: Scene) -> list[str]:
     """Return the lines on a layer."""
     first, *others = describe_hit(layer.hit, scene)
+    through = f", through {100 * layer.fog:.4g} % fog" if layer.fog else ""
     return [
         first.replace("hit  ", "layer", 1),
         *others,
-        f"  seen       {100 * layer.share:.4g} % of its light",
+        f"  seen       {100 * layer.share:.4g} % of its light{through}",
         *describe_lights(layer.lights, layer.hit, 3 * (layer.share,), scene),
     ]
 
@@ -63,6 +65,8 @@ def _describe_layer(layer: Layer, scene: Scene) -> list[str]:
 def _describe_veil(veil: Veil) -> str:
     """Return the line on fog."""
     share = f"{100 * veil.share:.4g} % of what is seen {veil.distance:.10g} away"
+    if veil.is_counted:
+        return f"fog          {share}, which is left out above"
     return f"fog          {share}, which leaves {vector_text(veil.light)}"
 
 

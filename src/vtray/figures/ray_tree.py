@@ -70,7 +70,8 @@ class RayTree(TracedRays):
     layers
         The layers of faded bodies before the hit, the nearest first.
     share
-        How much of the light of the hit passes all of them.
+        How much of the light of the hit is seen: what passes all of them, and of that what fog
+        leaves where its `veil` is counted.
     veil
         What fog does to that light; None if there is none, or nothing is met.
     path

@@ -269,12 +269,15 @@ class Layer:
         The ways to all lights, as those of `RayTree`.
     light
         The red, green and blue that the layer adds to the pixel.
+    fog
+        How much of what is seen there is fog, from 0 to 1.
     """
 
     hit: Hit
     share: float
     lights: tuple[WayToLight, ...]
     light: Vec
+    fog: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -444,11 +447,15 @@ class Veil:
         How much of what is seen is fog, from 0 to 1.
     light
         What is left of the light: linear red, green and blue.
+    is_counted
+        Whether the light of the pixel, and how much of it is seen, have that counted already, as in
+        scenes with faded bodies, where each layer has fog of its own before it.
     """
 
     distance: float
     share: float
     light: Vec
+    is_counted: bool = False
 
 
 @dataclass(frozen=True)

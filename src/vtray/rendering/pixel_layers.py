@@ -32,7 +32,8 @@ class Behind(NamedTuple):
     hit, lights
         That, and the ways to all lights; None and empty where nothing is hit.
     share
-        How much of the light from there passes all layers.
+        How much of the light from there is seen: what passes all layers, and fog if anything in the
+        scene is faded.
     """
 
     traced: TracedPixel
@@ -57,17 +58,19 @@ def look_through(pixel: Pixel) -> tuple[tuple[Layer, ...], Behind, Vec]:
         while len(found) < count:
             count = list_pixel(*given, len(found), notes, walk, stack)
             for k in range(int(notes.listed[0])):
-                notes.share[k] *= _clear(pixel, notes.distance[k])
+                fog = _fog_before(pixel, notes.distance[k])
+                notes.share[k] *= 1.0 - fog
                 layer = trace_layer(scene, *pixel.place, notes, k, stack, cosines, blockers, walk)
                 hit = hit_of(pixel, layer, pixel.packed.before)
                 ways, light_of_layer = ways_to_lights(pixel, layer, hit, cosines, blockers)
-                found.append(Layer(hit, layer.share, ways, light_of_layer))
+                found.append(Layer(hit, layer.share, ways, light_of_layer, fog))
                 light = uncompiled(add)(light, light_of_layer)
             share = float(notes.passed[0])
             if not count:
                 break
-        seen = share * _clear(pixel, traced.distance)
-        traced = trace_dimmed_pixel(scene, *pixel.place, seen, stack, cosines, blockers, walk)
+        if is_met(traced):
+            share *= 1.0 - _fog_before(pixel, traced.distance)
+        traced = trace_dimmed_pixel(scene, *pixel.place, share, stack, cosines, blockers, walk)
     if traced.primitive == NOTHING:
         behind = Behind(traced, None, (), share)
         return tuple(found), behind, uncompiled(add)(light, traced.value)
@@ -76,7 +79,12 @@ def look_through(pixel: Pixel) -> tuple[tuple[Layer, ...], Behind, Vec]:
     return tuple(found), Behind(traced, hit, ways, share), uncompiled(add)(light, light_behind)
 
 
-def _clear(pixel: Pixel, distance: float) -> float:
-    """Return how much of what is seen at a distance, in the arrays' units, is no fog."""
+def is_met(traced: TracedPixel) -> bool:
+    """Tell whether the ray of a pixel meets a surface or a lamp."""
+    return bool(traced.primitive != NOTHING or traced.lamp != NOTHING)
+
+
+def _fog_before(pixel: Pixel, distance: float) -> float:
+    """Return how much of what is seen at a distance, in the arrays' units, is fog."""
     fog = pixel.packed.arrays.fog
-    return 1.0 if fog is None else 1.0 - uncompiled(fog_share)(fog, float(distance))
+    return 0.0 if fog is None else uncompiled(fog_share)(fog, float(distance))

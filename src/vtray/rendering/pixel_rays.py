@@ -9,7 +9,6 @@ from vtray.base.compiler.compiled import uncompiled
 from vtray.base.errors import RenderError
 from vtray.base.pool import available_cores
 from vtray.figures.ray_tree import Exposed, RayTree, Veil, View
-from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, scale
 from vtray.image.picking import whole
 from vtray.image.white import known_white
@@ -20,7 +19,7 @@ from vtray.rendering.numbering import number_objects
 from vtray.rendering.pack import Packed, pack
 from vtray.rendering.passes import SurfaceRays, Tracer, rays_from_surfaces
 from vtray.rendering.pixel import Pixel, in_world
-from vtray.rendering.pixel_layers import look_through
+from vtray.rendering.pixel_layers import is_met, look_through
 from vtray.rendering.pixel_lights import place_of_lamp
 from vtray.rendering.pixel_paths import follow_path
 from vtray.rendering.styled import styled
@@ -155,7 +154,6 @@ def _direct_tree(pixel: Pixel, exposed: Exposed | None) -> RayTree:
     layers, behind, light = look_through(pixel)
     traced = behind.traced
     start, direction = in_world(pixel, traced.ray.origin), traced.ray.direction
-    is_met = traced.primitive != NOTHING or traced.lamp != NOTHING
     return RayTree(
         pixel.place,
         uncompiled(add)(start, uncompiled(scale)(-packed.before, direction)),
@@ -169,7 +167,7 @@ def _direct_tree(pixel: Pixel, exposed: Exposed | None) -> RayTree:
         scene,
         layers,
         behind.share,
-        _veil(packed, traced.distance, light) if is_met else None,
+        _veil(packed, traced.distance, light) if is_met(traced) else None,
     )
 
 
@@ -213,12 +211,14 @@ def _path_tree(
 def _veil(packed: Packed, distance: float, light: Vec) -> Veil | None:
     """Return what fog does to the light along the ray of a pixel, which goes so far."""
     fog = packed.arrays.fog
-    # Where there are layers, fog takes its share of each.
-    if fog is None or packed.arrays.world.faded is not None:
+    if fog is None:
         return None
     share = uncompiled(fog_share)(fog, distance)
     length = distance * packed.unit + packed.before
-    return Veil(length, share, uncompiled(scale)(1.0 - share, light))
+    # Where bodies are faded, fog has taken its share of each layer, and of what is behind.
+    is_counted = packed.arrays.world.faded is not None
+    left = light if is_counted else uncompiled(scale)(1.0 - share, light)
+    return Veil(length, share, left, is_counted)
 
 
 def _noise(packed: Packed, settings: RenderSettings) -> Noise | None:
