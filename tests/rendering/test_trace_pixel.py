@@ -255,6 +255,20 @@ def test_unusual_scenes_can_be_drawn(change: Callable[[vtray.Scene], None]) -> N
         assert all(np.isfinite([*ax.get_xlim(), *ax.get_ylim()]))
 
 
+def test_what_is_no_scene() -> None:
+    with pytest.raises(vtray.SceneError, match="^scene: expected a vtray.Scene, got None$"):
+        vtray.trace_pixel(None, 1, 2)  # type: ignore[arg-type]
+
+
+def test_a_scene_whose_camera_was_never_set_is_seen_as_in_pictures() -> None:
+    scene = vtray.Scene()
+    scene.add_sphere((1, 2, 3), 2)
+    tree, told = vtray.trace_pixel(scene, 400, 300), vtray.Camera.fit(scene, view="auto")
+    assert scene.camera is None
+    assert tree.scene.camera == told
+    assert tree.hit is not None
+
+
 def test_lights_that_do_not_exist() -> None:
     tree: RayTree = vtray.trace_pixel(lit_floor(), *floor_pixel())
     for number in (-1, 3):

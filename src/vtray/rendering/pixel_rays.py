@@ -1,7 +1,7 @@
 """Tracing the rays of one pixel, to be looked at."""
 
 import math
-from typing import TYPE_CHECKING, SupportsIndex
+from typing import SupportsIndex
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from vtray.base.errors import RenderError
 from vtray.base.pool import available_cores
 from vtray.figures.ray_tree import Exposed, RayTree, Veil, View
 from vtray.geometry.vector import Vec, add, scale
+from vtray.image.image import Image
 from vtray.image.picking import whole
 from vtray.image.white import known_white
 from vtray.rendering.fog import fitted, shapes_of
@@ -24,6 +25,7 @@ from vtray.rendering.pixel_lights import place_of_lamp
 from vtray.rendering.pixel_paths import follow_path
 from vtray.rendering.styled import styled
 from vtray.scene.camera import Camera
+from vtray.scene.default_camera import with_camera
 from vtray.scene.default_light import lights_of, settings_of
 from vtray.scene.placing.directions import are_parallel, camera_axes, view_axes
 from vtray.scene.scene import Scene
@@ -33,12 +35,9 @@ from vtray.transport.sampling.fans import Noise
 from vtray.transport.sampling.pixel_samples import filter_samples, lens_points, middle_rays
 from vtray.transport.scene_arrays import SceneArrays, with_pinhole
 
-if TYPE_CHECKING:
-    from vtray.image.image import Image
-
 
 def trace_pixel(
-    scene: "Scene | Image",
+    scene: Scene | Image,
     x: SupportsIndex,
     y: SupportsIndex,
     sample: SupportsIndex | None = None,
@@ -74,15 +73,14 @@ def trace_pixel(
     >>> print(tree)
     >>> tree.draw().figure.savefig("rays.png")
     """
-    if isinstance(scene, Scene):
-        scene.check()
-        return trace_rays(scene, None, x, y, sample)
-    return trace_rays(scene.scene, scene, x, y, sample)
+    if isinstance(scene, Image):
+        return trace_rays(scene.scene, scene, x, y, sample)
+    return trace_rays(with_camera(scene, None), None, x, y, sample)
 
 
 def trace_rays(
     scene: Scene,
-    image: "Image | None",
+    image: Image | None,
     x: SupportsIndex,
     y: SupportsIndex,
     sample: SupportsIndex | None = None,
@@ -250,7 +248,7 @@ def _view_along(camera: Camera, down: Vec, direction: Vec) -> View:
     return View(eye, x, y, direction, 0.0, size, (0.0, 0.0))
 
 
-def _exposed(image: "Image", column: int, row: int) -> Exposed:
+def _exposed(image: Image, column: int, row: int) -> Exposed:
     """Return what a picture made of the light of a pixel."""
     red, green, blue = map(float, image.linear[row, column])
     sky = None
