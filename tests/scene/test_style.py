@@ -128,6 +128,11 @@ def test_code_says_it(given: dict[str, Any], style: Style) -> None:
         ({"outline": -1}, "Outline.width: expected a number of pixels > 0 and at most 64, got -1"),
         ({"outline": None}, "Style.outline: expected a width in pixels, or that and a colour"),
         ({"eye_dome": (1, "x")}, "Style.eye_dome: expected a strength, or that and a radius"),
+        ({"eye_dome": b"a"}, "Style.eye_dome: expected a strength, or that and a radius"),
+        ({"fog": b"ab"}, "Style.fog: expected two distances, maybe a colour, such as"),
+        ({"slice": {}}, "Style.slice: lacks normal, thickness; expected normal, thickness, dis"),
+        ({"cap": {"r": 1, "b": 2}}, "Style.cap: lacks g; expected r, g, b"),
+        ({"clip": {"distance": 2}}, "Style.clip: lacks normal; expected normal, distance"),
     ],
 )
 def test_code_says_it_wrong(given: dict[str, Any], problem: str) -> None:
@@ -139,6 +144,8 @@ def test_code_says_it_wrong(given: dict[str, Any], problem: str) -> None:
 def test_misspelt() -> None:
     with pytest.raises(TypeError, match=r"Fog\(\) argument 'begin' is unknown"):
         Style(fog={"begin": 1})
+    with pytest.raises(TypeError, match=r"Slice\(\) argument 'norml' is unknown; did you mean"):
+        Style(slice={"norml": (0, 0, 1)})
     scene = vtray.Scene()
     with pytest.raises(AttributeError, match=r"'fog', which is a part of its style: .*scene.style"):
         scene.fog = True

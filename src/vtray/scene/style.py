@@ -15,7 +15,7 @@ from msgspec import Meta
 
 from vtray.base.errors import SceneError
 from vtray.base.number import number_in
-from vtray.scene.checks.checked import Checked, Frozen
+from vtray.scene.checks.checked import Checked, Frozen, from_mapping
 from vtray.scene.checks.limits import FieldError, NonNegative, Positive, YesOrNo, alternatives
 from vtray.scene.clip import ClipPlane, Slice
 from vtray.scene.colors.names import to_rgb
@@ -173,7 +173,7 @@ def _clip(given: Any, place: str) -> tuple[ClipPlane, ...]:  # noqa: ANN401
         if isinstance(one, ClipPlane):
             planes.append(one)
         elif isinstance(one, Mapping):
-            planes.append(ClipPlane(**one))
+            planes.append(from_mapping(ClipPlane, one, place))
         else:
             try:
                 *normal, distance = _numbers(one, place, 3, words)
@@ -373,7 +373,7 @@ def taken(cls: type[msgspec.Struct], name: str, given: Any, place: str) -> Any: 
     if isinstance(given, (bool, *structs)) or option.of is None:
         return given
     if isinstance(given, Mapping) and len(structs) == 1:
-        return structs[0](**given)
+        return from_mapping(structs[0], given, place)
     return option.of(given, place)
 
 
@@ -390,7 +390,8 @@ def _parts(given: Any, place: str, numbers: int, words: str) -> list[Any]:  # no
         found = [*given] if hasattr(given, "__len__") and len(given) else [given]
     else:
         found = [given]
-    if given is None or not numbers <= len(found) <= numbers + 1:
+    is_none = given is None or isinstance(given, (bytes, bytearray))
+    if is_none or not numbers <= len(found) <= numbers + 1:
         raise _wrong(given, place, words)
     return [_number(part, place, words, given) for part in found[:numbers]] + found[numbers:]
 

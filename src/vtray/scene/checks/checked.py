@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar
 
 import msgspec
 
+from vtray.base.errors import SceneError
 from vtray.scene.checks.limits import limits_alone
 from vtray.scene.checks.unknown_names import unknown_argument, unknown_attribute
 
@@ -124,12 +125,35 @@ def bind(cls: type, args: tuple[object, ...], kwargs: dict[str, object]) -> dict
             )
         values[name] = value
     values = {**getattr(cls, "_in_code", {}), **values}
-    required = names[: len(names) - len(cls.__struct_defaults__)]  # type: ignore[attr-defined]
-    missing = [name for name in required if name not in values]
+    missing = _missing(cls, values)
     if missing:
         message = f"{cls.__name__}() lacks the arguments {', '.join(missing)}"
         raise TypeError(message)
     return values
+
+
+def from_mapping(cls: type[Made], given: Mapping[Any, Any], place: str) -> Made:
+    """Make an object of a dictionary of its attributes, as a call with these does.
+
+    Raises
+    ------
+    SceneError
+        If one is not right or is lacking.
+    TypeError
+        If there is no attribute of a name.
+    """
+    names: tuple[str, ...] = cls.__struct_fields__  # type: ignore[attr-defined]
+    missing = _missing(cls, {**getattr(cls, "_in_code", {}), **given})
+    if missing and set(given) <= set(names):
+        raise SceneError(f"{place}: lacks {', '.join(missing)}; expected {', '.join(names)}")
+    return cls(**given)
+
+
+def _missing(cls: type, values: Mapping[str, object]) -> list[str]:
+    """Return the names of what values for a call lack."""
+    names: tuple[str, ...] = cls.__struct_fields__  # type: ignore[attr-defined]
+    required = names[: len(names) - len(cls.__struct_defaults__)]  # type: ignore[attr-defined]
+    return [name for name in required if name not in values]
 
 
 def _is_plain(value: object) -> bool:
