@@ -1,6 +1,7 @@
 """What a file says of how its picture was made."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -208,6 +209,20 @@ def test_texts_too_long_are_not_read(tmp_path: Path) -> None:
     write(tmp_path / "a.png", "{" * 2 * 10**6)
     with pytest.raises(vtray.ProvenanceError, match="does not say how it was made"):
         vtray.read_provenance(tmp_path / "a.png")
+
+
+@pytest.mark.parametrize(
+    ("name", "got"),
+    [(3, "an object of int"), (None, "an object of NoneType"), ("", "an empty one")],
+)
+def test_what_is_no_name_of_a_picture(name: object, got: str) -> None:
+    with pytest.raises(vtray.ProvenanceError, match=f"^path: expected the name of .*, got {got}$"):
+        vtray.read_provenance(name)  # type: ignore[arg-type]
+
+
+def test_names_may_be_bytes(tmp_path: Path) -> None:
+    path = write(tmp_path / "a.png", told())
+    assert vtray.read_provenance(os.fsencode(path)) == vtray.read_provenance(path)
 
 
 def test_what_is_understood(tmp_path: Path) -> None:

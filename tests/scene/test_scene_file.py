@@ -167,6 +167,15 @@ def test_conformance_scenes(name: str) -> None:
     assert load(CONFORMANCE / name, warn=refuse).camera.focus == 10
 
 
+@pytest.mark.parametrize(
+    ("name", "got"),
+    [(None, "an object of NoneType"), (3, "an object of int"), ("", "an empty one")],
+)
+def test_what_is_no_name_of_a_file(name: object, got: str) -> None:
+    with pytest.raises(SceneError, match=f"^path: expected the name of a file, got {got}$"):
+        load(name)  # type: ignore[arg-type]
+
+
 def test_missing_file_and_directory(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match=r"none\.json: no such file"):
         load(tmp_path / "none.json")

@@ -7,6 +7,7 @@ import msgspec
 from msgspec import Meta
 
 from vtray.base.errors import OutputError, ProvenanceError, why_unreadable
+from vtray.base.file_name import file_name
 from vtray.base.input_file import open_input
 from vtray.base.version import __version__
 from vtray.image.aovs import AovName
@@ -104,7 +105,7 @@ def describe(picture: Picture, how: How) -> Provenance:
     return msgspec.convert(values, Provenance)
 
 
-def read_provenance(path: str | Path) -> Provenance:
+def read_provenance(path: str | bytes | Path) -> Provenance:
     """Read from a picture that vtray has written how it was made.
 
     Parameters
@@ -123,7 +124,7 @@ def read_provenance(path: str | Path) -> Provenance:
         If the file cannot be read, says nothing of how it was made, or something that this
         version of vtray does not know.
     """
-    path = Path(path)
+    path = Path(file_name(path, ProvenanceError))
     text = _read_text(path)
     if not text:
         message = f"{path}: does not say how it was made; expected a picture that vtray has written"

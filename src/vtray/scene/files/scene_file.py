@@ -14,6 +14,7 @@ import msgspec
 from msgspec import UNSET, UnsetType
 
 from vtray.base.errors import SceneError, why_unreadable
+from vtray.base.file_name import file_name
 from vtray.base.input_file import is_given, read_input
 from vtray.scene.camera import Camera
 from vtray.scene.checks.checked import make_unchecked
@@ -78,7 +79,7 @@ def load(path: str | os.PathLike[str], *, warn: Warn | None = None) -> Scene:
         If the file cannot be read or is not a valid scene. The message names the file, the
         place, what is wrong and what would be right.
     """
-    name = os.fsdecode(path)
+    name = file_name(path, SceneError)
     try:
         raw = read_input(path)
     except (OSError, ValueError, MemoryError) as error:
