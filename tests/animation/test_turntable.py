@@ -15,7 +15,7 @@ from vtray.animation.shots import camera_around
 from vtray.animation.stage import Look
 from vtray.animation.swept import fit_around, upright
 from vtray.animation.turned_lights import turned_light
-from vtray.base.errors import SceneError
+from vtray.base.errors import OutputError, SceneError
 from vtray.scene.placing.moved import axes_of
 from vtray.scene.scene import Scene
 
@@ -153,6 +153,8 @@ def test_cameras_go_around_what_is_upright() -> None:
     [
         ({"seconds": 0}, SceneError, "seconds: expected a number > 0, got 0"),
         ({"seconds": 1e9}, SceneError, "seconds: expected at most 1000000 pictures, got 300000000"),
+        ({"seconds": 1e308}, SceneError, "seconds: expected at most 1000000 pictures, got inf"),
+        ({"aov": 5}, OutputError, "aov: expected names of depth, .*, got 5"),
         ({"degrees": np.inf}, SceneError, "degrees: expected a number, got "),
         ({"lights": "off"}, SceneError, "lights: expected 'turn' or 'still', got "),
         ({"sample": 4}, TypeError, r"turntable\(\) argument 'sample' is unknown"),

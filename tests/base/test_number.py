@@ -6,7 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from vtray.base.number import is_integer, number_in, number_of
+from vtray.base.number import integer_of, is_integer, number_in, number_of
 
 
 @pytest.mark.parametrize(
@@ -29,6 +29,16 @@ def test_numbers_beyond_a_double() -> None:
 def test_integers() -> None:
     assert all(map(is_integer, [3, np.int64(3), np.uint8(3)]))
     assert not any(map(is_integer, [True, np.True_, 3.0, np.float32(3), "3", None]))
+
+
+@pytest.mark.parametrize("given", [3, np.int64(3), np.uint8(3), np.array(3)])
+def test_what_stands_for_an_integer(given: object) -> None:
+    assert integer_of(given) == 3
+
+
+@pytest.mark.parametrize("given", [True, 3.0, "3", None, np.array([1, 2]), np.array(3.0)])
+def test_what_stands_for_no_integer(given: object) -> None:
+    assert integer_of(given) is None
 
 
 @pytest.mark.parametrize("text", ["2", "+2", "2.", "2.0", "+.2e1", "20E-1"])

@@ -182,6 +182,7 @@ BAD = [
     ("a.gif", {}, {}, 'cannot write ".gif" files; the formats are .png, .tif, .tiff, .jpg'),
     ("a.png", {"bits": 7}, {}, "bits: expected 8 or 16 for this format, got 7"),
     ("a.png", {"bits": True}, {}, "bits: expected 8 or 16 for this format, got True"),
+    ("a.png", {"bits": np.arange(2)}, {}, "bits: expected 8 or 16 for this format, got array"),
     ("a.png", {"bits": "8"}, {}, "bits: expected 8 or 16 for this format, got '8'"),
     ("a.png", {"bits": 32}, {}, "bits: expected 8 or 16 for this format, got 32; .exr can hold 32"),
     ("a.jpg", {"bits": 16}, {}, "expected 8 for this format, got 16; .png, .tif, .tiff, .npz can"),
@@ -205,6 +206,11 @@ BAD = [
         {},
         f"aov: expected names of {NAMES}, got 1",
     ),
+    *(
+        ("a.exr", {"aov": one}, {}, f"aov: expected names of {NAMES}, got {one!r}")
+        for one in (5, None)
+    ),
+    ("a.exr", {"aov": [np.arange(2)]}, {}, f"aov: expected names of {NAMES}, got array"),
     *(
         (f"a{ending}", {"aov": ["ids", "depth"]}, {}, "cannot hold depth, ids; .exr, .npz can")
         for ending in (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".webp", "")

@@ -199,6 +199,7 @@ WRONG = [
     (lambda image: image.recolor(0, (1, 2, 256)), "recolor: color: .*256"),
     (lambda image: image.recolor("0", "red"), "recolor: index: expected .*'0'"),
     (lambda image: image.recolor(0.0, "red"), "recolor: index: expected .*0.0"),
+    (lambda image: image.recolor(np.arange(2), "red"), r"recolor: index: .*got array\(\[0, 1"),
     (lambda image: image.recolor(True, "red"), "recolor: index: expected .*True"),
 ]
 

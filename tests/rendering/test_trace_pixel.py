@@ -271,7 +271,7 @@ def test_a_scene_whose_camera_was_never_set_is_seen_as_in_pictures() -> None:
 
 def test_lights_that_do_not_exist() -> None:
     tree: RayTree = vtray.trace_pixel(lit_floor(), *floor_pixel())
-    for number in (-1, 3):
+    for number in (-1, 3, np.arange(2)):
         with pytest.raises(vtray.RenderError, match="light: expected one of the 3 lights of the"):
             tree.draw(light=number)
 

@@ -67,6 +67,7 @@ def test_views_are_those_of_directions() -> None:
         ({"view": (0, 91)}, r"view\[1\]: expected an elevation from -90 to 90 degrees, got 91"),
         ({"view": 3}, "view: expected"),
         ({"view": "top", "direction": (0, 1, 0)}, "view: expected None where direction is given"),
+        ({"zoom": np.arange(2)}, r"zoom: expected a number from 1e-9 to 1e9, got \[0, 1\]"),
         ({"zoom": 1e300}, "zoom: expected a number from 1e-9 to 1e9, got 1e.300"),
     ],
 )
@@ -193,6 +194,8 @@ def test_project_behind_the_image_plane_is_nothing() -> None:
     np.testing.assert_allclose(found[1], [(2, 2, 10), (3, 2, math.sqrt(104))])
     with pytest.raises(SceneError, match=r"^Camera.project: points: .* got shape \(2,\)"):
         camera.project((1, 2))
+    with pytest.raises(SceneError, match="^Camera.project: points: expected numbers of shape"):
+        camera.project((1, 2, 10**400))
 
 
 def test_targets_of_other_kinds_are_told() -> None:

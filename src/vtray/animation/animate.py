@@ -30,6 +30,7 @@ from vtray.animation.stage import Look, Shot, Warn
 from vtray.base.errors import SceneError
 from vtray.base.number import number_of
 from vtray.base.progress import ProgressBar
+from vtray.image.formats.image_format import check_aov
 from vtray.scene.camera import Camera
 from vtray.scene.checks.scene_words import show
 from vtray.scene.checks.unknown_names import unknown_argument
@@ -153,7 +154,7 @@ def animate(
     """
     settings, parts = _of_picture(options)
     reading = {name: options.pop(name) for name in READING if name in options}
-    look = Look(settings, check_annotate(annotate), bits, tuple(aov), threads)
+    look = Look(settings, check_annotate(annotate), bits, check_aov(aov), threads)
     film = _film(path, fps, look, resume, client, warn)
     ways = {name: way_of_part(name, part) for name, part in parts.items()}
     last = last_of(camera=camera, opacity=opacity, **parts)
@@ -245,7 +246,7 @@ def turntable(
     given, parts = _of_picture(settings)
     if settings:
         raise _unknown(turntable, next(iter(settings)))
-    look = Look(given, check_annotate(annotate), bits, tuple(aov), threads)
+    look = Look(given, check_annotate(annotate), bits, check_aov(aov), threads)
     film = _film(path, fps, look, resume, client, warn)
     ways = {name: way_of_part(name, part) for name, part in parts.items()}
     if opacity is not None:
@@ -272,10 +273,11 @@ def go_around(
     `shot` says what is painted on each picture, and `moving` what else moves.
     """
     length, angle = _number("seconds", seconds), _number("degrees", degrees, positive=False)
-    count = max(round(length * film.fps), 1)
-    if count > LONGEST:
-        words = f"expected at most {LONGEST} pictures, got {count}"
+    pictures = length * film.fps
+    if not pictures <= LONGEST + 0.5:
+        words = f"expected at most {LONGEST} pictures, got {pictures:.15g}"
         raise SceneError(f"seconds: {words}")
+    count = max(round(pictures), 1)
     if lights not in ("turn", "still"):
         raise SceneError(f"lights: expected 'turn' or 'still', got {show(lights)}")
     _, down, _ = axes_of(camera)

@@ -12,6 +12,7 @@ from vtray.animation.mp4_file import find_ffmpeg, write_mp4
 from vtray.animation.webp_file import write_webp
 from vtray.base.atomic_file import check_writable
 from vtray.base.errors import OutputError
+from vtray.base.number import number_of
 from vtray.image.formats.image_format import check_annotated_format, check_format
 
 Write = Callable[[Path, Feed, float], None]
@@ -134,7 +135,7 @@ class Output:
                 self._make_folder()
             check_writable(self.name(0))
             return
-        if bits not in (None, 8) or aov:
+        if aov or (bits is not None and number_of(bits) != 8):
             what = "aov" if aov else f"bits {bits}"
             message = (
                 f"{self.path}: {what}: movies have 8 bits and colours alone; expected {EXPECTED}"

@@ -5,6 +5,7 @@ check.
 """
 
 import math
+import operator
 import re
 from numbers import Integral, Real
 from typing import TypeGuard
@@ -30,6 +31,16 @@ def number_of(given: object) -> float:
 def is_integer(given: object) -> TypeGuard[int]:
     """Tell whether something is an integer, of any type but those of True and False."""
     return isinstance(given, Integral) and not isinstance(given, bool)
+
+
+def integer_of(given: object) -> int | None:
+    """Return an integer as Python's own, also of what stands for one; None for what is none."""
+    if isinstance(given, bool):
+        return None
+    try:
+        return operator.index(given)  # type: ignore[arg-type]
+    except TypeError:
+        return None
 
 
 def number_in(text: str) -> float:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import RenderError
 from vtray.base.extras import need
+from vtray.base.number import integer_of
 from vtray.figures.drawn.objects import (
     colored_parts,
     cut_shapes,
@@ -23,6 +24,7 @@ from vtray.figures.section import Section, choose_section
 from vtray.figures.stage import SUN, Stage
 from vtray.figures.traced_rays import ShadowFan, ShadowRay, Surface, TracedRays, WayToLight
 from vtray.geometry.vector import Vec
+from vtray.scene.checks.scene_words import show
 from vtray.scene.scene import Plane
 
 if TYPE_CHECKING:
@@ -80,10 +82,12 @@ def draw(tree: TracedRays, ax: "Axes | None", light: int | None) -> "Axes":
 def _main_way(tree: TracedRays, light: int | None) -> WayToLight | None:
     """Return the way to a light that lies in the plane of the drawing."""
     if light is not None:
+        place = integer_of(light)
         for way in tree.lights:
-            if way.light == light:
+            if way.light == place:
                 return way
-        message = f"light: expected one of the {len(tree.lights)} lights of the hit, got {light}"
+        lights = f"the {len(tree.lights)} lights of the hit"
+        message = f"light: expected one of {lights}, got {show(light)}"
         raise RenderError(message)
     # The one that adds most; if none does, one that something blocks.
     return max(tree.lights, key=lambda way: (sum(way.adds), bool(way.blockers)), default=None)

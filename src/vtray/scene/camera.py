@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from vtray.base.errors import SceneError
+from vtray.base.number import number_of
 from vtray.scene.checks.checked import Frozen
 from vtray.scene.checks.limits import (
     FieldError,
@@ -295,7 +296,7 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
             up = upward if up is None else up
         fields = fitting(subject, direction, up, margin, projection, fov_degrees, size)
         camera = cls(**fields, lens=lens)
-        if zoom != 1.0:
+        if number_of(zoom) != 1.0:
             from vtray.scene.placing.moved import zoomed
 
             camera = camera.replace(**zoomed(camera, zoom, "Camera.fit: zoom"))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from vtray.base.errors import SceneError
+from vtray.base.number import integer_of
 from vtray.scene.arrays import Arrays
 from vtray.scene.checks.scene_words import show
 from vtray.scene.colors.color_arrays import color_arrays
@@ -156,8 +157,8 @@ def relit(scene: Scene, intensities: Sequence[float]) -> Scene:
 
 def _check_index(index: int, count: int) -> None:
     """Raise SceneError if there is no object at an index."""
-    is_integer = hasattr(index, "__index__") and not isinstance(index, bool)
-    if is_integer and -count <= index < count:
+    place = integer_of(index)
+    if place is not None and -count <= place < count:
         return
     expected = f"a place from 0 to {count - 1}" if count else "nothing, as there are no objects"
     message = f"recolor: index: expected {expected}, got {index!r}"

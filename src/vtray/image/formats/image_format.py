@@ -8,6 +8,7 @@ from typing import BinaryIO, NamedTuple
 
 from vtray.base.errors import OutputError
 from vtray.base.extras import PACKAGES, pip_install
+from vtray.base.number import number_of
 from vtray.image.aovs import AOVS
 from vtray.image.formats.exr_file import read_exr, write_exr
 from vtray.image.formats.npz_file import read_npz, write_npz
@@ -113,11 +114,12 @@ def check_format(
         If it cannot, or a package is missing that is needed for it.
     """
     form = find_format(path)
-    names = _check_aov(aov)
+    names = check_aov(aov)
     bits = form.bits[0] if bits is None else bits
-    if bits not in form.bits:
+    number = number_of(bits)
+    if number not in form.bits:
         expected = " or ".join(map(str, form.bits))
-        others = _endings(lambda other: bits in other.bits)
+        others = _endings(lambda other: number in other.bits)
         hint = f"; {others} can hold {bits}" if others else ""
         message = f"{path}: bits: expected {expected} for this format, got {bits!r}{hint}"
         raise OutputError(message)
@@ -155,19 +157,35 @@ def check_plain_format(path: Path) -> None:
 def check_annotated_format(path: Path, bits: int | None = None) -> None:
     """Raise OutputError if a file cannot hold a picture with annotations, which has 8 bits."""
     check_plain_format(path)
-    if bits not in (None, 8):
+    if bits is not None and number_of(bits) != 8:
         message = f"{path}: annotations: expected 8 bits with them, got {bits}"
         raise OutputError(message)
 
 
-def _check_aov(aov: Collection[str]) -> tuple[str, ...]:
-    """Return the names of AOVs in their usual order, each once."""
-    given = [aov] if isinstance(aov, str) else list(aov)
+def check_aov(aov: Collection[str]) -> tuple[str, ...]:
+    """Return the names of AOVs in their usual order, each once.
+
+    Raises
+    ------
+    OutputError
+        If one is none of them.
+    """
+    given = _listed(aov)
     for name in given:
-        if name not in tuple(AOVS):
+        if not (isinstance(name, str) and name in AOVS):
             message = f"aov: expected names of {', '.join(AOVS)}, got {name!r}"
             raise OutputError(message)
     return tuple(name for name in AOVS if name in given)
+
+
+def _listed(aov: object) -> list[object]:
+    """Return what names of AOVs are given, or the one thing that is."""
+    if isinstance(aov, str):
+        return [aov]
+    try:
+        return list(aov)  # type: ignore[call-overload, no-any-return]
+    except TypeError:
+        return [aov]
 
 
 def _check_package(path: Path, module: str | None) -> None:

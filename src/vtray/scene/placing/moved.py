@@ -128,7 +128,7 @@ def projected(camera: HasView, points: "ArrayLike") -> "NDArray[np.float64]":
 
     try:
         given = np.asarray(points, np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise SceneError("Camera.project: points: expected numbers of shape (n, 3)") from None
     if given.ndim == 0 or given.shape[-1] != 3:
         words = "expected numbers of shape (n, 3)"
