@@ -46,6 +46,11 @@ class ColorScale:
     nan_color : tuple of int
         Red, green and blue for NaN, from 0 to 255.
 
+    Parameters
+    ----------
+    place : str
+        What the messages of errors begin with: ``"ColorScale: "`` by default.
+
     Raises
     ------
     SceneError
