@@ -143,6 +143,19 @@ def test_colors_by_columns() -> None:
     assert drawn(np.zeros((2, 3)), color=[(1.0, 0, 0), (0, 0, 1.0)]).spheres.color[1, 2] == 255
 
 
+def test_a_column_of_colours_has_no_other_names() -> None:
+    def of(*names: str) -> Any:
+        return Particles(np.arange(3.0 * len(names)).reshape(-1, 3), {"color": np.array(names)})
+
+    assert drawn(of("red", "#00f")).spheres.color.tolist() == [[255, 0, 0], [0, 0, 255]]
+    assert [name for name, _ in drawn(of("warm", "cold")).legend] == ["cold", "warm"]
+    for wrong, hint in {"bleu": '; did you mean "blue"?', "": ""}.items():
+        words = re.escape("add_particles: color[3]: expected a name such as")
+        for options in ({}, {"select": "index == 3"}):
+            with pytest.raises(SceneError, match=f"^{words}.*{re.escape(hint)}$"):
+                drawn(of("red", "blue", "red", wrong), **options)
+
+
 def test_some_are_drawn_and_some_highlighted() -> None:
     found = drawn(select="element == 'H'", color="residue", bonds=True)
     assert found.indices.tolist() == [1, 2]

@@ -159,9 +159,12 @@ def test_columns_of_names_of_colours(tmp_path: Path) -> None:
     drawn = vtray.Scene().add_particles(vtray.read(path))
     assert drawn.spheres.color.tolist() == [[255, 0, 0], [0, 255, 0], [255, 0, 0]]
     assert not drawn.legend
-    path.write_text("x,y,z,color\n0,0,0,red\n1,0,0,bright\n")
+    path.write_text("x,y,z,color\n0,0,0,dull\n1,0,0,bright\n")
     names = [name for name, _ in vtray.Scene().add_particles(vtray.read(path)).legend]
-    assert names == ["bright", "red"]
+    assert names == ["bright", "dull"]
+    path.write_text("x,y,z,color\n0,0,0,red\n1,0,0,bright\n")
+    with pytest.raises(SceneError, match=r"color\[1\]: expected a name .*, got 'bright'$"):
+        vtray.Scene().add_particles(vtray.read(path))
 
 
 def test_what_is_masked_is_not_drawn() -> None:

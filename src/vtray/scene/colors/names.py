@@ -105,6 +105,11 @@ def to_rgb(color: "AnyColor", place: str = "color") -> Rgb:
     return _of_floats(numbers, place)
 
 
+def is_name(text: str) -> bool:
+    """Tell whether a text is the name of a colour, or its hexadecimal digits."""
+    return _found(text.strip().lower()) is not None
+
+
 def _is_bytes(color: object) -> bool:
     """Tell whether a colour is of NumPy's uint8, whose numbers go from 0 to 255 for sure."""
     parts = color if isinstance(color, (list, tuple)) else [color]
@@ -160,10 +165,21 @@ def _of_floats(numbers: list[float], place: str) -> Rgb:
     return red, green, blue
 
 
-@functools.lru_cache(maxsize=4096)
 def _named(name: str, place: str) -> Rgb:
     """Return the colour of a name or of hexadecimal digits."""
     text = name.strip().lower()
+    found = _found(text)
+    if found is None:
+        from PIL import ImageColor
+
+        names = [*ImageColor.colormap, *_OTHER_NAMES]
+        raise SceneError(f"{place}: {_unknown(text, name, names)}")
+    return found
+
+
+@functools.lru_cache(maxsize=4096)
+def _found(text: str) -> Rgb | None:
+    """Return the colour of a name or of hexadecimal digits in small letters, if it is one."""
     if text in _OTHER_NAMES:
         return _OTHER_NAMES[text]
     digits = _hex_digits(text)
@@ -173,11 +189,11 @@ def _named(name: str, place: str) -> Rgb:
         names = ImageColor.colormap
         found = names.get(text) or names.get(text.replace(" ", ""))
         # Pillow keeps names as the digits they stand for, and some as integers once they were used.
-        digits = _hex_digits(found.lower()) if isinstance(found, str) else None
         if isinstance(found, tuple):
             return found[0], found[1], found[2]
-        if digits is None:
-            raise SceneError(f"{place}: {_unknown(text, name, [*names, *_OTHER_NAMES])}")
+        digits = _hex_digits(found.lower()) if isinstance(found, str) else None
+    if digits is None:
+        return None
     red, green, blue = bytes.fromhex(digits)
     return red, green, blue
 

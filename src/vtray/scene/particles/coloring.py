@@ -13,7 +13,7 @@ from vtray.scene.checks.given_array import check_unmasked
 from vtray.scene.checks.scene_words import either, nearest, quoted, show
 from vtray.scene.colors.color_arrays import color_arrays
 from vtray.scene.colors.color_scale import ColorScale
-from vtray.scene.colors.names import Rgb, to_rgb
+from vtray.scene.colors.names import Rgb, is_name, to_rgb
 from vtray.scene.particles.column_names import column_called
 from vtray.scene.particles.elements import SCHEMES, SYMBOLS, atomic_numbers, colors_of
 from vtray.scene.particles.expression import values_of
@@ -172,9 +172,7 @@ def _of_column(
     categories: Sequence[Any] | None,
 ) -> Coloring:
     """Return the colours of what a column holds."""
-    if name == "color" and values.ndim == 2:
-        return _of_values(values, len(values), rows, scaled)
-    if name == "color" and _are_colors(values):
+    if name == "color" and (values.ndim == 2 or _has_colors(values)):
         return _of_values(values, len(values), rows, scaled)
     if values.ndim == 2:
         values = _lengths(values, name)
@@ -196,16 +194,11 @@ def _asked(scaled: dict[str, Any]) -> list[str]:
     return [argument for argument in ("cmap", "clim", "norm") if scaled[argument] is not None]
 
 
-def _are_colors(values: NDArray[Any]) -> bool:
-    """Tell whether values are all names of colours."""
-    if values.ndim != 1 or values.dtype.kind not in "OUST":
+def _has_colors(values: NDArray[Any]) -> bool:
+    """Tell whether some values are names of colours, so that all are meant as such."""
+    if values.dtype.kind not in "OUST":
         return False
-    try:
-        for name in set(values.tolist()):
-            to_rgb(name, "")
-    except SceneError:
-        return False
-    return len(values) > 0
+    return any(map(is_name, set(values.astype(np.str_).tolist())))
 
 
 def _of_categories(values: NDArray[Any], rows: Integers, known: Sequence[Any] | None) -> Coloring:
@@ -271,21 +264,20 @@ def _of_values(given: Any, count: int, rows: Integers, scaled: dict[str, Any]) -
     """Return the colours of values, or colours that are given as such."""
     try:
         array = np.asarray(given)
-        is_each = array.ndim >= 1 and len(array) == count and array.dtype.kind != "O"
-        is_value = array.ndim == 1 and array.dtype.kind in "biuf" and is_each
+        is_value = array.shape == (count,) and array.dtype.kind in "biuf"
     except ValueError:
-        is_each = is_value = False
+        is_value = False
     if is_value and scaled["cmap"] is None and not (count in (3, 4) and isinstance(given, tuple)):
         scaled = {**scaled, "cmap": CMAP}
     found, scale = color_arrays(
-        {"color": array[rows] if is_each else given},
-        len(rows) if is_each else count,
+        {"color": array[rows] if is_value else given},
+        len(rows) if is_value else count,
         "add_particles: ",
         each="particle",
         **scaled,
     )
     colors = found["color"]
-    return Coloring(colors if is_each or colors.ndim == 1 else colors[rows], scale)
+    return Coloring(colors if is_value or colors.ndim == 1 else colors[rows], scale)
 
 
 def _lengths(vectors: NDArray[Any], name: str) -> NDArray[np.float64]:
