@@ -85,6 +85,17 @@ def test_fields_of_records_are_columns() -> None:
     assert found["element"].tolist() == ["O"]
 
 
+def test_bytes_are_names() -> None:
+    names = np.array([b"core", "Hülle".encode(), b"\xff"], "S6")
+    kinds = vtray.Particles(np.eye(3), {"kind": names, "pair": np.stack([names, names], axis=1)})
+    assert kinds["kind"].tolist() == ["core", "Hülle", "\ufffd"]
+    assert kinds["pair"][0].tolist() == ["core", "core"]
+    assert kinds.select("kind == 'Hülle'").positions.tolist() == [[0, 1, 0]]
+    assert vtray.Scene().add_particles(kinds, color="kind").legend[1][0] == "core"
+    table = {"x": [0, 1, 2], "y": [0, 0, 0], "z": [0, 0, 0], "color": np.array([b"red"] * 3)}
+    assert vtray.Scene().add_particles(table).spheres.color[0].tolist() == [255, 0, 0]
+
+
 @pytest.mark.parametrize("x", [[], [("x", "U4")], [("x", "f8", (3,))], [("x", "M8[s]")]])
 def test_records_without_places(x: list[Any]) -> None:
     records = np.zeros(2, [*x, ("y", "f8"), ("z", "f8")])

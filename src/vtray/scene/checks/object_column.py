@@ -1,4 +1,4 @@
-"""Arrays of Python's objects, which tables have where entries are missing, as numbers or names."""
+"""Arrays of bytes and of Python's objects, such as tables have, as numbers or names."""
 
 from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any
@@ -13,8 +13,9 @@ MISSING_NAME = ""
 
 
 def without_objects(column: "Array") -> "Array":
-    """Return a column of numbers or names for one of Python's objects; others as they are.
+    """Return a column of numbers or names for one of bytes or objects; others as they are.
 
+    Bytes are names in UTF-8; what is none of it becomes a question mark.
     What is missing, ``None`` or not a number, is NaN among numbers, and a name without letters
     among names. What is true or false counts as 1 or 0 where some of it is missing. Entries that
     are arrays of one length, such as Arrow's lists of three numbers, become rows.
@@ -26,6 +27,8 @@ def without_objects(column: "Array") -> "Array":
     """
     import numpy as np
 
+    if column.dtype.kind == "S":
+        return np.char.decode(column, "utf-8", "replace")
     if column.dtype != object:
         return column
     entries = column.ravel().tolist()
