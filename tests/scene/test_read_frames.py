@@ -128,6 +128,9 @@ def test_a_file_is_gone_through_once(tmp_path: Path, monkeypatch: pytest.MonkeyP
         ("0:5:0", "run.xyz: frames: expected a step other than 0, got 0:5:0"),
         ("some", "run.xyz: frames: expected START:STOP:STEP such as 0:500:5, or numbers such "),
         (1.5, "run.xyz: frames: expected START:STOP:STEP such as 0:500:5, or numbers such as "),
+        ([1.0], "run.xyz: frames: expected START:STOP:STEP such as 0:500:5, or numbers such as 3"),
+        ([0, None], "run.xyz: frames: expected START:STOP:STEP such as 0:500:5, or numbers such"),
+        (["1"], "run.xyz: frames: expected START:STOP:STEP such as 0:500:5, or numbers such as 3"),
         ([], "run.xyz: frames: expected START:STOP:STEP such as 0:500:5, or numbers such as 3 "),
     ],
 )

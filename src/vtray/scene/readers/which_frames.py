@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable, Sequence
-from typing import SupportsIndex
+from operator import index
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
@@ -41,7 +41,7 @@ def which_frames(frames: Frames, count: Callable[[], int]) -> Sequence[int]:
             raise SceneError(f"frames {_shown(frames)}: {there}, none of which is among these")
         return found
     try:
-        numbers = [*map(int, map(_index, frames))]  # type: ignore[arg-type]
+        numbers = [*map(index, frames)]  # type: ignore[arg-type]
     except TypeError:
         raise SceneError(f"frames: expected {EXPECTED}, got {_shown(frames)}") from None
     if not numbers:
@@ -85,10 +85,6 @@ def as_slice(frames: object) -> slice | None:
     if step == 0:
         raise SceneError(f"frames: expected a step other than 0, got {_shown(frames)}")
     return slice(start, stop, step)
-
-
-def _index(number: SupportsIndex) -> int:
-    return number.__index__()
 
 
 def _shown(frames: object) -> str:
