@@ -96,6 +96,52 @@ def test_bytes_are_names() -> None:
     assert vtray.Scene().add_particles(table).spheres.color[0].tolist() == [255, 0, 0]
 
 
+def test_records_with_names_have_places() -> None:
+    records = pd.DataFrame({**COLUMNS, "name": ["a", "b"]}).to_records()
+    assert vtray.Scene().add_spheres(records, 1).center.tolist() == np.array(POINTS).tolist()
+
+
+class OnCard:
+    """An array that is not in the memory of NumPy."""
+
+    shape, dtype = (2,), "float32"
+
+    def __init__(self, error: type[Exception]) -> None:
+        self._error = error
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
+        message = "it is on the card"
+        raise self._error(message)
+
+    def __len__(self) -> int:
+        return 2
+
+
+@pytest.mark.parametrize("error", [TypeError, RuntimeError])
+def test_what_cannot_be_an_array(error: type[Exception]) -> None:
+    given, pair, scene = OnCard(error), vtray.Particles([(0, 0, 0), (1, 1, 1)]), vtray.Scene()
+    why = r"got an array of dtype float32 and shape \(2,\) \(it is on the card\)$"
+    for take in (
+        lambda: scene.add_particles(given),
+        lambda: scene.add_particles({"x": given, "y": [0, 1], "z": [0, 1]}),
+        lambda: scene.add_particles(pair, select=given),
+        lambda: scene.add_particles(pair, highlight=given),
+        lambda: scene.add_particles(pair, opacity=given),
+        lambda: scene.add_particles(pair, radii=given),
+        lambda: scene.add_particles(pair, bonds=given),
+        lambda: vtray.Particles(given),
+        lambda: vtray.Particles(pair.positions, {"q": given}),
+        lambda: vtray.Particles(pair.positions, bonds=given),
+        lambda: vtray.Particles(pair.positions, cell=given),
+        lambda: pair.select(given),
+        lambda: pair.with_columns(q=given),
+    ):
+        with pytest.raises(SceneError, match=why):
+            take()
+    with pytest.raises(SceneError, match="^add_particles: color: expected a name such as"):
+        scene.add_particles(pair, color=given)
+
+
 @pytest.mark.parametrize("x", [[], [("x", "U4")], [("x", "f8", (3,))], [("x", "M8[s]")]])
 def test_records_without_places(x: list[Any]) -> None:
     records = np.zeros(2, [*x, ("y", "f8"), ("z", "f8")])

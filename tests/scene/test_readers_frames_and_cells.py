@@ -180,6 +180,11 @@ def test_what_is_masked_is_not_drawn() -> None:
         "color": lambda: scene.add_particles(places, color=masked),
         "radii": lambda: scene.add_particles(places, radii=masked),
         "select": lambda: scene.add_particles(places, select=chosen),
+        "opacity": lambda: scene.add_particles(places, opacity=masked / 100),
+        "bonds": lambda: scene.add_particles(places, bonds=rows[:, :2]),
+        "Particles.bonds": lambda: vtray.Particles(places, bonds=rows[:, :2]),
+        "Particles.cell": lambda: vtray.Particles(places, cell=masked),
+        "Particles.origin": lambda: vtray.Particles(places, origin=masked),
     }.items():
         with pytest.raises(SceneError, match=f"{name}: .*{words}"):
             give()

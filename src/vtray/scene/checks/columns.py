@@ -16,10 +16,13 @@ from vtray.base.errors import SceneError
 from vtray.scene.checks.given_array import (
     COORDINATES,
     RED_GREEN_BLUE,
+    UNCONVERTED,
+    converted,
     is_masked,
     remedy_for,
     show_array,
     show_shape,
+    show_unconverted,
 )
 from vtray.scene.checks.limits import Byte, Fraction, MaterialNumber, NonNegative, Real
 from vtray.scene.checks.object_column import without_objects
@@ -149,22 +152,17 @@ def array_words(column: Column, count: object = "n") -> str:
 
 def _to_array(found: Any, column: Column, place: str) -> AnyArray:  # noqa: ANN401
     """Return an array of numbers."""
-    import numpy as np
-
-    from vtray.scene.checks.json_tree import short
-
     given: Any = msgspec.structs.astuple(found) if isinstance(found, msgspec.Struct) else found
     remedy = remedy_for(given, column.table)
     words = f"{place}: expected {array_words(column)}"
     if remedy and not hasattr(given, "__array__"):  # atoms, which NumPy would take one by one
         raise SceneError(f"{words}, got {show_array(given)}{remedy}")
-    only_dlpack = hasattr(given, "__dlpack__") and not hasattr(given, "__array__")
     try:
-        array: AnyArray = np.from_dlpack(given) if only_dlpack else np.asarray(given)
+        array: AnyArray = converted(given)
         if column.row:  # tables whose columns differ, or lack entries, are arrays of objects
             array = without_objects(array)
-    except (ValueError, TypeError, RuntimeError, OverflowError, BufferError) as error:
-        got = f"{show_array(given)} ({short(str(error), 100)})"
+    except UNCONVERTED as error:
+        got = show_unconverted(given, error)
     else:
         if array.dtype.kind in "iuf" and not is_masked(given):
             return array

@@ -1,12 +1,19 @@
-"""What was given where an array is expected, for messages: no values of a table, but its names."""
+"""What was given where an array is expected: as one, and for messages, where tables are names."""
 
 import sys
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
+from vtray.scene.checks.object_column import without_objects
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 COORDINATES = ("x", "y", "z")
 RED_GREEN_BLUE = ("r", "g", "b")
+
+UNCONVERTED = (ValueError, TypeError, RuntimeError, OverflowError, BufferError)
+"""What is raised by what cannot become an array: rows of different length, arrays on a GPU."""
 
 
 def is_masked(given: object) -> bool:
@@ -24,6 +31,48 @@ def check_unmasked(given: object, place: str) -> None:
     if is_masked(given):
         words = f"expected a value for each particle, got {show_array(given)}"
         raise SceneError(f"{place}: {words}{remedy_for(given, ())}")
+
+
+def array_of(given: Any, place: str, words: str) -> "NDArray[Any]":  # noqa: ANN401
+    """Return what was given as an array of numbers or names.
+
+    Parameters
+    ----------
+    given
+        Whatever NumPy makes an array of.
+    place
+        What messages begin with.
+    words
+        What was expected instead of what is no array, or has masked numbers.
+
+    Raises
+    ------
+    SceneError
+        It is one of these.
+    """
+    got = "" if not is_masked(given) else show_array(given)
+    if not got:
+        try:
+            return without_objects(converted(given))
+        except UNCONVERTED as error:
+            got = show_unconverted(given, error)
+    raise SceneError(f"{place}: {words}, got {got}{remedy_for(given, ())}")
+
+
+def converted(given: Any) -> "NDArray[Any]":  # noqa: ANN401
+    """Return what was given as an array; raise one of `UNCONVERTED` if it cannot be one."""
+    import numpy as np
+
+    only_dlpack = hasattr(given, "__dlpack__") and not hasattr(given, "__array__")
+    found: NDArray[Any] = np.from_dlpack(given) if only_dlpack else np.asarray(given)
+    return found
+
+
+def show_unconverted(given: Any, error: Exception) -> str:  # noqa: ANN401
+    """Write what cannot become an array, and why."""
+    from vtray.scene.checks.json_tree import short
+
+    return f"{show_array(given)} ({short(str(error), 100)})"
 
 
 def show_array(given: Any) -> str:  # noqa: ANN401
@@ -58,7 +107,7 @@ def remedy_for(given: Any, columns: tuple[str, ...]) -> str:  # noqa: ANN401
         return "; leave out what is masked, or give array.filled(...)"
     if not hasattr(given, "__array__") and hasattr(given, "collect"):
         return "; give what its collect() returns"
-    if _columns(given):
+    if columns and _columns(given):
         from vtray.scene.checks.scene_words import quoted
 
         names = ", ".join(map(quoted, columns))
@@ -87,9 +136,9 @@ def positions_in(given: Any) -> Any:  # noqa: ANN401
         return given.get_positions()
     fields = fields_of(given)
     if all(name in fields and given.dtype[name].kind in "iuf" for name in COORDINATES):
-        from numpy.lib.recfunctions import structured_to_unstructured
+        import numpy as np
 
-        return structured_to_unstructured(given[list(COORDINATES)])
+        return np.ma.stack([given[name] for name in COORDINATES], axis=1)
     names = _columns(given)
     if len(names) > len(COORDINATES) and all(name in names for name in COORDINATES):
         return given[list(COORDINATES)]

@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 from vtray.base.errors import SceneError
 from vtray.scene.checks.given_array import (
     RED_GREEN_BLUE,
+    UNCONVERTED,
+    converted,
     is_masked,
     remedy_for,
     show_array,
@@ -89,10 +91,10 @@ def _values(given: Any, count: int, place: str, each: str) -> NDArray[np.float64
     words = f"with cmap: expected numbers of shape ({count},), one for each {each}"
     masked = isinstance(given, np.ma.MaskedArray)
     try:
-        array = np.asarray(given)
+        array = converted(given)
         right = array.dtype.kind in "biuf" or (array.dtype == object and array.ndim == 1)
         values = np.array(given.data if masked else array, np.float64) if right else None
-    except (TypeError, ValueError, RuntimeError, OverflowError):
+    except UNCONVERTED:
         values = None
     if values is None:
         got = show_array(given)
@@ -112,8 +114,8 @@ def _colors(given: Any, count: int, place: str, each: str) -> Bytes:  # noqa: AN
     if isinstance(given, (list, tuple)) and any(isinstance(item, (str, Color)) for item in given):
         return _listed(given, count, place, each)
     try:
-        array = np.asarray(given)
-    except (TypeError, ValueError, RuntimeError, OverflowError):
+        array = converted(given)
+    except UNCONVERTED:
         # Rows of different length, or of integers too large.
         if isinstance(given, (list, tuple)):
             return _listed(given, count, place, each)

@@ -9,7 +9,7 @@ from blake3 import blake3
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
-from vtray.scene.checks.given_array import check_unmasked
+from vtray.scene.checks.given_array import UNCONVERTED, check_unmasked, converted
 from vtray.scene.checks.scene_words import either, nearest, quoted, show
 from vtray.scene.colors.color_arrays import color_arrays
 from vtray.scene.colors.color_scale import ColorScale
@@ -263,9 +263,9 @@ def _places(kinds: Sequence[Any], known: Sequence[Any], most: int) -> list[int]:
 def _of_values(given: Any, count: int, rows: Integers, scaled: dict[str, Any]) -> Coloring:  # noqa: ANN401
     """Return the colours of values, or colours that are given as such."""
     try:
-        array = np.asarray(given)
+        array = converted(given)
         is_value = array.shape == (count,) and array.dtype.kind in "biuf"
-    except ValueError:
+    except UNCONVERTED:
         is_value = False
     if is_value and scaled["cmap"] is None and not (count in (3, 4) and isinstance(given, tuple)):
         scaled = {**scaled, "cmap": CMAP}

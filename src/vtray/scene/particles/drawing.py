@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
 from vtray.base.number import is_number, number_of
-from vtray.scene.checks.given_array import check_unmasked
+from vtray.scene.checks.given_array import array_of
 from vtray.scene.checks.scene_words import show
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
@@ -360,10 +360,9 @@ def chosen(particles: Particles, given: Any, name: str) -> NDArray[np.bool_]:  #
         return np.ones(len(particles), np.bool_)
     if isinstance(given, str):
         return mask(particles, given, name)
-    check_unmasked(given, name)
-    found = np.asarray(given)
+    words = f"expected an expression, or an array of {len(particles)} bool"
+    found = array_of(given, name, words)
     if found.dtype != np.bool_ or found.shape != (len(particles),):
-        words = f"expected an expression, or an array of {len(particles)} bool"
         raise SceneError(f"{name}: {words}, got {show(given)}")
     return found
 

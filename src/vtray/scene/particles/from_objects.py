@@ -9,11 +9,15 @@ from typing import TYPE_CHECKING, Any
 from vtray.base.errors import SceneError
 from vtray.base.number import is_number, number_of
 from vtray.scene.checks.given_array import (
+    UNCONVERTED,
+    array_of,
     check_unmasked,
+    converted,
     fields_of,
     positions_in,
     remedy_for,
     show_array,
+    show_unconverted,
 )
 from vtray.scene.checks.object_column import without_objects
 from vtray.scene.particles.column_names import name_columns
@@ -155,13 +159,10 @@ def _columns_of(table: Any, names: Iterable[Any]) -> "dict[str, Array]":  # noqa
     Raises
     ------
     SceneError
-        Some entries of one are masked.
+        One is no array, or some of its entries are masked.
     """
-    import numpy as np
-
-    for name in names:
-        check_unmasked(table[name], f"column {str(name)!r}")
-    return {str(name): np.asarray(table[name]) for name in names}
+    words = "expected a value for each particle"
+    return {str(name): array_of(table[name], f"column {str(name)!r}", words) for name in names}
 
 
 def as_particles(given: Any) -> Particles:  # noqa: ANN401
@@ -179,8 +180,6 @@ def as_particles(given: Any) -> Particles:  # noqa: ANN401
     SceneError
         It is none of these.
     """
-    import numpy as np
-
     if isinstance(given, Particles):
         return given
     if _is_ase(given):
@@ -197,16 +196,23 @@ def as_particles(given: Any) -> Particles:  # noqa: ANN401
     if hasattr(given, "shape") and hasattr(given, "columns"):
         # Those of pyarrow have their names apart.
         return from_columns(_columns_of(given, getattr(given, "column_names", given.columns)))
+    return _from_positions(given)
+
+
+def _from_positions(given: Any) -> Particles:  # noqa: ANN401
+    """Return the particles of what has nothing but places."""
     places = positions_in(given)
     check_unmasked(places, "positions")
     try:
-        positions = without_objects(np.asarray(places))
-    except ValueError:
-        positions = np.empty(0)
-    if positions.ndim == 2 and positions.shape[1] == 3 and positions.dtype.kind in "biuf":
-        return Particles(positions)
+        positions = without_objects(converted(places))
+    except UNCONVERTED as error:
+        got = show_unconverted(given, error)
+    else:
+        if positions.ndim == 2 and positions.shape[1] == 3 and positions.dtype.kind in "biuf":
+            return Particles(positions)
+        got = show_array(given)
     problem = "expected vtray.Particles, an object of ASE, MDAnalysis or OVITO, a table with the"
-    got = f"{show_array(given)}{remedy_for(places, ())}"
+    got = f"{got}{remedy_for(places, ())}"
     raise SceneError(f"{problem} columns x, y and z, or an array (n, 3), got {got}")
 
 

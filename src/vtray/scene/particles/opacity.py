@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
+from vtray.scene.checks.given_array import array_of
 from vtray.scene.cylinders import Cylinders
 from vtray.scene.particles.made_of import made_of
 from vtray.scene.particles.particles import Particles
@@ -35,8 +36,9 @@ def opacities(particles: Particles, given: Any, kept: NDArray[np.bool_] | None) 
         These are no numbers from 0 to 1.
     """
     values = particles[given] if isinstance(given, str) else given
+    array = array_of(values, "opacity", WORDS)
     try:
-        found = np.broadcast_to(np.asarray(values, np.float64), len(particles)).copy()
+        found = np.broadcast_to(array.astype(np.float64), len(particles)).copy()
     except (TypeError, ValueError):
         raise SceneError(f"opacity: {WORDS}, got {_shown(given)}") from None
     wrong = np.flatnonzero(~((found >= 0.0) & (found <= 1.0)))

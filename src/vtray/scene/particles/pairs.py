@@ -3,8 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
-from vtray.scene.checks.given_array import show_array
-from vtray.scene.checks.object_column import without_objects
+from vtray.scene.checks.given_array import array_of, show_array
 
 if TYPE_CHECKING:
     import numpy as np
@@ -30,13 +29,11 @@ def pairs_of(given: Any, count: int, place: str) -> "NDArray[np.int64]":  # noqa
     """
     import numpy as np
 
-    try:
-        found = without_objects(np.asarray(given))
-    except ValueError:  # rows of different length
-        found = np.zeros(1)
+    words = "expected indices of shape (m, 2)"
+    found = array_of(given, place, words)
     is_right = found.ndim == 2 and found.shape[1] == 2 and found.dtype.kind in "iuf"
     if not is_right and found.size:
-        raise SceneError(f"{place}: expected indices of shape (m, 2), got {show_array(given)}")
+        raise SceneError(f"{place}: {words}, got {show_array(given)}")
     pairs = found.reshape(-1, 2)
     is_index = (pairs >= 0) & (pairs < count) & (pairs == np.floor(pairs))  # NaN is none
     wrong = np.flatnonzero(~is_index.all(axis=1))

@@ -6,8 +6,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
-from vtray.scene.checks.given_array import check_unmasked, show_array
-from vtray.scene.checks.object_column import without_objects
+from vtray.scene.checks.given_array import array_of, show_array
 from vtray.scene.particles.column_names import column_called
 from vtray.scene.particles.expression import mask
 from vtray.scene.particles.pairs import pairs_of
@@ -86,7 +85,6 @@ class Particles:
         """Check and convert the arrays."""
         import numpy as np
 
-        check_unmasked(self.positions, "Particles.positions")
         positions = _array(self.positions, "positions")
         if positions.dtype not in (np.float32, np.float64):
             positions = _array(self.positions, "positions", np.float64)
@@ -203,13 +201,13 @@ class Particles:
 
         if isinstance(which, str):
             return np.flatnonzero(mask(self, which))
-        check_unmasked(which, "select")
-        given, count = np.asarray(which), len(self)
+        count = len(self)
+        words = f"expected an expression, {count} of bool, or indices"
+        given = array_of(which, "select", words)
         if given.dtype == np.bool_ and given.shape == (count,):
             return np.flatnonzero(given)
         if given.ndim != 1 or (given.size and given.dtype.kind not in "iu"):
-            expected = f"an expression, {count} of bool, or indices"
-            raise SceneError(f"select: expected {expected}, got {show_array(which)}")
+            raise SceneError(f"select: {words}, got {show_array(which)}")
         chosen = given.astype(np.int64)
         wrong = ((chosen < -count) | (chosen >= count)).nonzero()[0]
         if len(wrong):
@@ -248,14 +246,12 @@ class Particles:
 
 def _array(values: object, name: str, dtype: Any = None) -> "NDArray[Any]":  # noqa: ANN401
     """Return numbers as an array, of a dtype if it is given."""
-    import numpy as np
-
+    words = "must be an array of numbers"
+    found = array_of(values, f"Particles.{name}", words)
     try:
-        found = without_objects(np.asarray(values))
         return found if dtype is None else found.astype(dtype, copy=False)
-    except (TypeError, ValueError, OverflowError):  # rows of different length, too
-        words = f"must be an array of numbers, got {show_array(values)}"
-        raise SceneError(f"Particles.{name}: {words}") from None
+    except (TypeError, ValueError, OverflowError):
+        raise SceneError(f"Particles.{name}: {words}, got {show_array(values)}") from None
 
 
 def _numbers_of(values: object, name: str, shape: tuple[int, ...]) -> "NDArray[np.float64]":
@@ -271,16 +267,11 @@ def _numbers_of(values: object, name: str, shape: tuple[int, ...]) -> "NDArray[n
 
 def _three_of_bool(given: object) -> "NDArray[np.bool_]":
     """Return for each edge of a cell whether it repeats, (3,)."""
-    import numpy as np
-
-    try:
-        found = np.asarray(given)
-    except ValueError:  # rows of different length
-        found = np.empty(0)
+    words = "expected three of True and False, one for each edge"
+    found = array_of(given, "Particles.periodic", words)
     if found.shape != (3,) or found.dtype.kind not in "biuf":
-        words = "expected three of True and False, one for each edge"
         raise SceneError(f"Particles.periodic: {words}, got {show_array(given)}")
-    return found.astype(np.bool_)
+    return found.astype(bool)
 
 
 def _check_finite(array: "NDArray[Any]", name: str) -> None:
@@ -296,17 +287,11 @@ def _check_finite(array: "NDArray[Any]", name: str) -> None:
 
 def _column(name: str, given: object, count: int) -> "NDArray[Any]":
     """Return a column; raise SceneError if it does not have one row for each particle."""
-    import numpy as np
-
     place = f"Particles.columns[{name!r}]"
     if name in POSITION:
         raise SceneError(f"{place}: x, y and z are those of the positions")
-    check_unmasked(given, place)
     words = f"must have one row for each of {count} positions"
-    try:
-        values = without_objects(np.asarray(given))
-    except ValueError:  # rows of different length
-        raise SceneError(f"{place}: {words}, got {show_array(given)}") from None
+    values = array_of(given, place, words)
     if values.ndim not in (1, 2) or len(values) != count:
         raise SceneError(f"{place}: {words}, got shape {values.shape}")
     return values

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
-from vtray.scene.checks.given_array import check_unmasked
+from vtray.scene.checks.given_array import array_of
 from vtray.scene.checks.scene_words import nearest, show
 from vtray.scene.particles import elements
 from vtray.scene.particles.column_names import column_called
@@ -64,9 +64,9 @@ def radii_of(particles: "Particles", radii: Radii, place: str) -> Floats | float
         words = f"expected {', '.join(elements.RADII)}, a number, or a column, got {show(radii)}"
         raise SceneError(f"{place}: {words}{hint}")
     given = particles[radii] if isinstance(radii, str) else radii
-    check_unmasked(given, place)
+    array = array_of(given, place, "expected numbers")
     try:
-        found = np.asarray(given, np.float64)
+        found = array.astype(np.float64, copy=False)
     except (TypeError, ValueError):
         raise SceneError(f"{place}: expected numbers, got {show(given)}") from None
     if found.shape not in ((), (len(particles),)):
