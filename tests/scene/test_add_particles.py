@@ -137,10 +137,31 @@ def test_colors_by_columns() -> None:
     assert residue.spheres.color.tolist() == [first, first, second]
     assert drawn(color="residue", cmap="viridis").color_scale.high == 9
     assert len(drawn(color="name").legend) == 3
-    assert drawn(color=[1.0, 2.0, 3.0]).color_scale.high == 3
+    assert drawn(color=[1.0, 2.0, 3.0], cmap="viridis").color_scale.high == 3
     assert drawn(color="z", clim=(0, 1)).color_scale.low == 0
     assert drawn(color="tomato").spheres.color.tolist() == [255, 99, 71]
     assert drawn(np.zeros((2, 3)), color=[(1.0, 0, 0), (0, 0, 1.0)]).spheres.color[1, 2] == 255
+
+
+@pytest.mark.parametrize("count", [2, 3, 4, 5])
+@pytest.mark.parametrize("kind", [tuple, list, np.array])
+def test_three_numbers_are_one_colour(count: int, kind: Any) -> None:
+    places = np.arange(3.0 * count).reshape(-1, 3)
+    assert drawn(places, color=kind([255, 0, 0])).spheres.color.tolist() == [255, 0, 0]
+    assert drawn(places, color=kind([0.0, 0.0, 1.0])).spheres.color.tolist() == [0, 0, 255]
+    with pytest.raises(
+        SceneError, match=f"^add_particles: color: .*{'; for' if count == 4 else ''}"
+    ):
+        drawn(places, color=kind([255, 0, 0, 9]))
+
+
+def test_three_numbers_are_values_where_there_is_a_colour_map() -> None:
+    for asked in ({"cmap": "viridis"}, {"clim": (0, 1)}, {"norm": "linear"}):
+        assert drawn(color=[0.0, 0.5, 1.0], **asked).color_scale.low == 0
+    assert drawn(WATER.with_columns(q=[0.0, 0.5, 1.0]), color="q").color_scale.high == 1
+    assert drawn(color=[True, False, True]).color_scale.high == 1
+    with pytest.raises(SceneError, match=r"got -0.8 in .*; for values, give a colour map too, for"):
+        drawn(color=[-0.8, 0.4, 0.4])
 
 
 def test_a_column_of_colours_has_no_other_names() -> None:

@@ -29,6 +29,9 @@ Bytes = NDArray[np.uint8]
 
 _VALUE = ("value",)
 
+ONE_COLOR = ((3,), (4,))
+"""Shapes of numbers that are one colour, the second with the alpha that none has."""
+
 
 def color_arrays(
     given: Mapping[str, Any],
@@ -129,7 +132,7 @@ def _numbers(given: Any, array: NDArray[Any], count: int, place: str) -> Bytes: 
     """Return colours that are an array of numbers."""
     if array.dtype.kind not in "iuf" or is_masked(given):
         raise _no_colors(given, place)
-    if array.shape in ((3,), (4,)):
+    if array.shape in ONE_COLOR:
         return np.array(to_rgb(given if isinstance(given, (list, tuple)) else array, place), "u1")
     if array.shape == (0,) and count == 0:
         return np.zeros((0, 3), np.uint8)

@@ -86,10 +86,11 @@ class AddingParticles:
         color
             A colour, in any of the ways of `vtray.colors.to_rgb`; the name of a column, or x, y or
             z; what is worked out of these, such as ``"velocity.x"`` or ``"norm(force)"``, as for
-            `select`; or one colour or one number for each particle. Names, types and at most eight
-            different integers get a colour each, of which people with any colour vision can tell
-            the first eight apart; numbers those of `cmap`, and vectors those of their lengths. With
-            `cmap`, `clim` or `norm`, few integers are numbers, too. By default the columns
+            `select`; or one colour or one number for each particle. Three numbers are a colour, of
+            three particles, too, unless `cmap`, `clim` or `norm` is given. Names, types and at most
+            eight different integers get a colour each, of which people with any colour vision can
+            tell the first eight apart; numbers those of `cmap`, and vectors those of their lengths.
+            With `cmap`, `clim` or `norm`, few integers are numbers, too. By default the columns
             ``color``, ``element`` or ``type``, whichever is there first.
         colors
             Whose colours elements have.

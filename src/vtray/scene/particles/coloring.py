@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vtray.base.errors import SceneError
 from vtray.scene.checks.given_array import UNCONVERTED, check_unmasked, converted
 from vtray.scene.checks.scene_words import either, nearest, quoted, show
-from vtray.scene.colors.color_arrays import color_arrays
+from vtray.scene.colors.color_arrays import ONE_COLOR, color_arrays
 from vtray.scene.colors.color_scale import ColorScale
 from vtray.scene.colors.names import Rgb, is_name, to_rgb
 from vtray.scene.particles.column_names import column_called
@@ -134,7 +134,7 @@ def color_particles(
             raise SceneError(f"color: {words}; leave {' and '.join(asked)} out")
         return Coloring(one)
     check_unmasked(color, "color")
-    return _of_values(color, len(particles), rows, scaled)
+    return _of_values(color, len(particles), rows, scaled, may_be_one=True)
 
 
 def faded(colors: Bytes, kept: NDArray[np.bool_], background: "AnyColor") -> Bytes:
@@ -260,24 +260,39 @@ def _places(kinds: Sequence[Any], known: Sequence[Any], most: int) -> list[int]:
     ]
 
 
-def _of_values(given: Any, count: int, rows: Integers, scaled: dict[str, Any]) -> Coloring:  # noqa: ANN401
-    """Return the colours of values, or colours that are given as such."""
+def _of_values(
+    given: Any,  # noqa: ANN401
+    count: int,
+    rows: Integers,
+    scaled: dict[str, Any],
+    *,
+    may_be_one: bool = False,
+) -> Coloring:
+    """Return the colours of values, or colours that are given as such, one for all if it may be."""
     try:
         array = converted(given)
-        is_value = array.shape == (count,) and array.dtype.kind in "biuf"
     except UNCONVERTED:
-        is_value = False
-    if is_value and scaled["cmap"] is None and not (count in (3, 4) and isinstance(given, tuple)):
+        array = np.empty(())
+    may_be_one &= array.shape in ONE_COLOR and array.dtype.kind in "iuf" and not _asked(scaled)
+    are_values = array.shape == (count,) and array.dtype.kind in "biuf"
+    is_scaled = are_values and not may_be_one
+    if is_scaled and scaled["cmap"] is None:
         scaled = {**scaled, "cmap": CMAP}
-    found, scale = color_arrays(
-        {"color": array[rows] if is_value else given},
-        len(rows) if is_value else count,
-        "add_particles: ",
-        each="particle",
-        **scaled,
-    )
+    try:
+        found, scale = color_arrays(
+            {"color": array[rows] if is_scaled else given},
+            len(rows) if is_scaled else count,
+            "add_particles: ",
+            each="particle",
+            **scaled,
+        )
+    except SceneError as error:
+        if not (are_values and may_be_one):
+            raise
+        hint = f"for values, give a colour map too, for instance cmap={quoted(CMAP)}"
+        raise SceneError(f"{error}; {hint}") from None
     colors = found["color"]
-    return Coloring(colors if is_value or colors.ndim == 1 else colors[rows], scale)
+    return Coloring(colors if is_scaled or colors.ndim == 1 else colors[rows], scale)
 
 
 def _lengths(vectors: NDArray[Any], name: str) -> NDArray[np.float64]:
