@@ -361,6 +361,27 @@ def test_colors_may_be_worked_out() -> None:
             drawn(found, color=text).spheres.color, drawn(found, color=values).spheres.color
         )
     assert [name for name, _ in drawn(found, color="force.x > 0").legend] == ["False", "True"]
+    for text, values in {
+        "index": np.arange(12.0),
+        "x%2": found["x"] % 2,
+        "x - y": found["x"] - found["y"],
+        "-x": -found["x"],
+    }.items():
+        scale = drawn(found, color=text, cmap="viridis").color_scale
+        assert (scale.low, scale.high) == (values.min(), values.max())
+    for text in ("(x > 3) & (y < 1)", "x>3 or y>0", "not (x > 3)", "~(x>3)"):
+        assert [name for name, _ in drawn(found, color=text).legend] == ["False", "True"]
+    for text, problem in {
+        "x or y": "at 1: 'x' is neither true nor false; put comparisons in brackets",
+        "position": "at 1: a vector; expected a component, or norm(position)",
+        "light-bleu": "at 1: no column 'light'; there are x, y, z, position, index, force",
+    }.items():
+        words = f"color {text!r}: {problem}"
+        with pytest.raises(SceneError, match=f"^{re.escape(words)}.*nor is it a colour or a col"):
+            drawn(found, color=text)
+    for text in ("5", "0.5", "'red'", "light bleu", "1,0,0"):
+        with pytest.raises(SceneError, match="^color: expected a colour or the name of a column"):
+            drawn(found, color=text)
     with pytest.raises(SceneError, match=r"color 'forc.x': at 1: no column 'forc'; did you mean"):
         drawn(found, color="forc.x")
     with pytest.raises(SceneError, match="a vector; expected a component, or norm"):

@@ -16,7 +16,7 @@ from vtray.scene.colors.color_scale import ColorScale
 from vtray.scene.colors.names import Rgb, is_name, to_rgb
 from vtray.scene.particles.column_names import column_called
 from vtray.scene.particles.elements import SCHEMES, SYMBOLS, atomic_numbers, colors_of
-from vtray.scene.particles.expression import values_of
+from vtray.scene.particles.expression import BESIDE_COLUMNS, values_of
 from vtray.scene.particles.particles import POSITION
 
 if TYPE_CHECKING:
@@ -125,10 +125,10 @@ def color_particles(
         called = column_called(color, particles.columns)
         if called in particles.columns or color in POSITION:
             return _of_column(called, particles[called], rows, scaled, categories)
-        if _is_expression(color):
-            values = values_of(particles, color, "color")
+        if not is_name(color):
+            values = _worked_out(color, particles)
             return _of_column(color, values, rows, scaled, categories)
-        one = np.array(_one(color, particles), np.uint8)
+        one = np.array(to_rgb(color), np.uint8)
         if asked:
             words = f"{show(color)} is one colour, which no colour map is for"
             raise SceneError(f"color: {words}; leave {' and '.join(asked)} out")
@@ -306,18 +306,23 @@ def _lengths(vectors: NDArray[Any], name: str) -> NDArray[np.float64]:
     return np.sqrt(squares)
 
 
-def _is_expression(color: str) -> bool:
-    """Tell whether a text is to be worked out: it has a sign that no colour has."""
-    return re.search(r"[A-Za-z].*[(\[.*+/<>=]|[(*+/<>=].*[A-Za-z]", color) is not None
-
-
-def _one(color: str, particles: "Particles") -> Rgb:
-    """Return one colour, or explain what is neither a colour nor a column."""
-    try:
-        return to_rgb(color, "color")
-    except SceneError:
+def _worked_out(color: str, particles: "Particles") -> NDArray[Any]:
+    """Return what an expression is, or explain what is neither a column nor a colour nor that."""
+    if not _is_expression(color):
         words = f"expected a colour or the name of a column, got {show(color)}"
-        raise SceneError(f"color: {words}; {columns_like(color, particles)}") from None
+        raise SceneError(f"color: {words}; {columns_like(color, particles)}")
+    try:
+        return values_of(particles, color, "color")
+    except SceneError as error:
+        raise SceneError(f"{error} (nor is it a colour or a column)") from None
+
+
+def _is_expression(color: str) -> bool:
+    """Tell whether a text is meant to be worked out: it has a sign or a word that no name has."""
+    if color.strip() in BESIDE_COLUMNS:
+        return True
+    pattern = r"[^\W\d].*[-(\[.*+/%<>=&|^~!]|[-(*+/%<>=&|^~!].*[^\W\d]|\b(and|or|not|in)\b"
+    return re.search(pattern, color) is not None
 
 
 def columns_like(name: str, particles: "Particles") -> str:

@@ -32,6 +32,9 @@ _MOST_BITS = 1023
 _MOST = 2**63 - 1
 """The largest integer of 64 bits."""
 
+BESIDE_COLUMNS = ("position", "index")
+"""Names that expressions have beside those of columns, and x, y and z."""
+
 _COMPONENTS = {"x": 0, "y": 1, "z": 2, "r": 0, "g": 1, "b": 2}
 
 _COMPARE: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
@@ -323,7 +326,7 @@ class _Steps:
             return np.arange(len(particles.positions))
         from vtray.scene.checks.scene_words import nearest
 
-        known = ["x", "y", "z", "position", "index", *particles.columns]
+        known = ["x", "y", "z", *BESIDE_COLUMNS, *particles.columns]
         close = nearest(name, known, cutoff=0.6)
         remedy = f"did you mean {close}?" if close else f"there are {', '.join(known)}"
         raise self._wrong(node, f"no column {short(name)!r}; {remedy}")
