@@ -4,6 +4,7 @@ import copy
 import pickle
 import subprocess
 import sys
+from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 from types import SimpleNamespace
@@ -94,6 +95,15 @@ def test_bytes_are_names() -> None:
     assert vtray.Scene().add_particles(kinds, color="kind").legend[1][0] == "core"
     table = {"x": [0, 1, 2], "y": [0, 0, 0], "z": [0, 0, 0], "color": np.array([b"red"] * 3)}
     assert vtray.Scene().add_particles(table).spheres.color[0].tolist() == [255, 0, 0]
+
+
+def test_decimals_are_numbers() -> None:
+    charges = [Decimal("-0.5"), None, Decimal("1.25")]
+    for table in (pa.table({"q": charges}), pd.DataFrame({"q": charges})):
+        found = vtray.Particles(np.eye(3), {"q": table["q"]})["q"]
+        assert found.dtype == np.float64
+        np.testing.assert_array_equal(found, [-0.5, np.nan, 1.25])
+    assert as_particles({"x": [Decimal(3)], "y": [0], "z": [0]}).positions.tolist() == [[3, 0, 0]]
 
 
 def test_records_with_names_have_places() -> None:

@@ -1,5 +1,6 @@
 """Arrays of bytes and of Python's objects, such as tables have, as numbers or names."""
 
+from decimal import Decimal
 from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any
 
@@ -37,7 +38,7 @@ def without_objects(column: "Array") -> "Array":
         return np.stack(entries)
     missing = [_is_missing(entry) for entry in entries]
     there = [entry for entry, gone in zip(entries, missing, strict=True) if not gone]
-    if there and all(isinstance(entry, (Real, np.bool_)) for entry in there):
+    if there and all(isinstance(entry, (Real, Decimal, np.bool_)) for entry in there):
         # Integers and truths stay what they are where none is missing.
         are_exact = not any(missing) and all(isinstance(e, (Integral, np.bool_)) for e in there)
         numbers = [np.nan if gone else entry for entry, gone in zip(entries, missing, strict=True)]
