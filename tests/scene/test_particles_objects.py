@@ -70,6 +70,19 @@ def test_numbers_that_are_missing_have_a_place(dtype: Any) -> None:
         vtray.Particles(table)
 
 
+def test_tables_of_arrow_have_places() -> None:
+    table = pa.table({"mass": [1.0, 2.0], **COLUMNS})
+    for given in (table, table.to_batches()[0]):
+        assert vtray.Scene().add_spheres(given, 1).center.tolist() == np.array(POINTS).tolist()
+    words = (
+        r'columns "mass", "a", "b", "c"; choose three .* as in table.select\(\["x", "y", "z"\]\)$'
+    )
+    with pytest.raises(SceneError, match=words):
+        vtray.Scene().add_spheres(table.rename_columns(["mass", *"abc"]), 1)
+    with pytest.raises(SceneError, match=r'choose one column, as in table\["radius"\]$'):
+        vtray.Scene().add_spheres(table, table)
+
+
 def test_tables_that_are_yet_to_be_worked_out() -> None:
     table = pl.LazyFrame(COLUMNS)
     remedy = r"got <LazyFrame .*>; give what its collect\(\) returns$"

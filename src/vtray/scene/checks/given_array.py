@@ -111,12 +111,10 @@ def remedy_for(given: Any, columns: tuple[str, ...]) -> str:  # noqa: ANN401
         from vtray.scene.checks.scene_words import quoted
 
         names = ", ".join(map(quoted, columns))
-        chosen = (
-            f"one column, as in table[{names}]"
-            if len(columns) == 1
-            else f"three columns, as in table[[{names}]]"
-        )
-        return f"; choose {chosen}"
+        if len(columns) == 1:
+            return f"; choose one column, as in table[{names}]"
+        chosen = f"table.select([{names}])" if _is_arrow(given) else f"table[[{names}]]"
+        return f"; choose three columns, as in {chosen}"
     if columns == COORDINATES and hasattr(given, "positions"):
         return "; give its attribute positions"
     if columns == COORDINATES and hasattr(given, "get_positions"):
@@ -141,7 +139,7 @@ def positions_in(given: Any) -> Any:  # noqa: ANN401
         return np.ma.stack([given[name] for name in COORDINATES], axis=1)
     names = _columns(given)
     if len(names) > len(COORDINATES) and all(name in names for name in COORDINATES):
-        return given[list(COORDINATES)]
+        return given.select(COORDINATES) if _is_arrow(given) else given[list(COORDINATES)]
     return given
 
 
@@ -154,7 +152,14 @@ def _columns(given: Any) -> list[str]:  # noqa: ANN401
     """Return the names of the columns of a data frame; none for what is no such."""
     # Tables that are yet to be worked out have no shape, and warn where they are asked for names.
     columns = getattr(given, "columns", None) if hasattr(given, "shape") else None
-    return list(map(str, columns)) if columns is not None else []
+    if columns is None:
+        return []
+    return list(map(str, given.column_names if _is_arrow(given) else columns))
+
+
+def _is_arrow(table: Any) -> bool:  # noqa: ANN401
+    """Tell whether a table is one of Arrow, which has its names apart from its columns."""
+    return hasattr(table, "column_names")
 
 
 def _table(given: Any) -> str:  # noqa: ANN401
