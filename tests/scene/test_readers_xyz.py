@@ -96,6 +96,14 @@ def test_extended(tmp_path: Path) -> None:
     }
 
 
+def test_places_are_pos_whatever_else_is_there(tmp_path: Path) -> None:
+    for properties in ("pos:R:3:center:R:3", "center:R:3:pos:R:3"):
+        row = "1 2 3 7 8 9" if properties.startswith("pos") else "7 8 9 1 2 3"
+        found = read(f"1\nProperties={properties}\n{row}\n", tmp_path)
+        assert found.positions.tolist() == [[1, 2, 3]]
+    assert read("1\nProperties=center:R:3\n1 2 3\n", tmp_path).positions.tolist() == [[1, 2, 3]]
+
+
 def test_same_as_ase(tmp_path: Path) -> None:
     generator = np.random.default_rng(3)
     frames = []
@@ -157,6 +165,7 @@ def test_lines(texts: list[str], step: int, count: int) -> None:
         ("2\n\n1 0 0 0 5\n1 0 0\n", "line 4: expected 4 entries, got 3: '1 0 0'"),
         ("1\n\nO 0 nan 0\n", "line 3: y must be finite, got nan"),
         ("1\nProperties=pos:R:3:a:Q:1\n", "line 2: Properties: expected name:R, I, S or L:width"),
+        ("1\nProperties=q:R:1:pos:R:3:q:R:1\n", "line 2: Properties: expected each column once,"),
         ("1\nProperties=pos:R\n", "line 2: Properties: expected three parts for each column"),
         ("1\nProperties=a:S:1\nO\n", "line 2: Properties: expected pos:R:3 among the columns"),
         ('1\nLattice="1 2"\nO 0 0 0\n', "line 2: Lattice: expected 3 or 9 numbers, got '1 2'"),

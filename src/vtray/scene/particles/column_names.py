@@ -1,6 +1,6 @@
 """What columns are called: the same thing has the same name, whatever a file calls it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -54,6 +54,11 @@ def canonical(name: str) -> str:
 def column_called(name: str, columns: "Mapping[str, Array]") -> str:
     """Return the name of the column that is meant: as it is called here, or as a file calls it."""
     return name if name in columns else canonical(name)
+
+
+def name_twice(names: Sequence[str]) -> str | None:
+    """Return the first name that comes a second time; None if there is none."""
+    return next((name for i, name in enumerate(names) if name in names[:i]), None)
 
 
 def name_columns(columns: "Mapping[str, Array]") -> "dict[str, Array]":

@@ -14,6 +14,7 @@ from vtray.base.input_file import read_stream
 from vtray.base.memory import lack_of_memory
 from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.object_column import without_objects
+from vtray.scene.particles.column_names import name_twice
 from vtray.scene.particles.from_columns import from_columns
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.plain_numbers import parsed_all
@@ -148,7 +149,7 @@ def _check_names(names: list[str], line: int) -> None:
     if not any(names) or are_numbers:
         shown = short(",".join(names)) or "nothing"
         raise SceneError(f"line {line}: expected the names of the columns, got {shown}")
-    twice = next((name for i, name in enumerate(names) if name in names[:i]), None)
+    twice = name_twice(names)
     if twice is not None:
         raise SceneError(f"line {line}: expected each column once, got {short(twice)!r} twice")
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
-from vtray.scene.particles.column_names import canonical, name_columns
+from vtray.scene.particles.column_names import canonical, name_columns, name_twice
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.plain_numbers import parsed, parsed_all
 from vtray.scene.readers.frames import Steps, find_frame, steps_of
@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 _LIST = r"\[(?:[^\[\]]|\[[^\[\]]*\])*\]"
 _PAIR = re.compile(rf"""([\w.-]+)\s*=\s*("[^"]*"|'[^']*'|\{{[^}}]*\}}|{_LIST}|[^\s,;]+)""")
 """A key of a comment, and its value."""
+
+_POS = "pos"
+"""The column of the places, where several may be meant."""
 
 _PLAIN = "species:S:1:pos:R:3"
 """The first columns, where nothing else is said."""
@@ -83,7 +86,7 @@ def _read_frame(lines: Lines, number: int, head: _Head) -> Particles:
     else:
         names, found = _read_plain(lines, head)
     columns = _gather(names, found)
-    positions = columns.pop("pos", None)
+    positions = columns.pop(_POS, None)
     if positions is None or positions.shape != (head.size, 3):
         raise SceneError(f"line {head.line + 1}: Properties: expected pos:R:3 among the columns")
     check_places(positions, range(head.line + 2, head.line + 2 + head.size))
@@ -142,9 +145,14 @@ def _columns_of(properties: str, line: int) -> list[tuple[str, str, int]]:
     if len(parts) % 3:
         problem = f"expected three parts for each column, got {short(properties)!r}"
         raise SceneError(f"line {line}: Properties: {problem}")
+    names = [name for name, _, _ in triples]
+    twice = name_twice(names)
+    if twice is not None:
+        problem = f"expected each column once, got {short(twice)!r} twice"
+        raise SceneError(f"line {line}: Properties: {problem}")
+    places = [name for name in sorted(names, key=_POS.__ne__) if canonical(name) == "position"]
     return [
-        ("pos" if canonical(name) == "position" else name, kind, int(width))
-        for name, kind, width in triples
+        (_POS if name in places[:1] else name, kind, int(width)) for name, kind, width in triples
     ]
 
 
