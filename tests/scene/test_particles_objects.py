@@ -110,6 +110,15 @@ def test_bytes_are_names() -> None:
     assert vtray.Scene().add_particles(table).spheres.color[0].tolist() == [255, 0, 0]
 
 
+@pytest.mark.parametrize("dtype", ["M8[ns]", complex, "U4"])
+def test_what_is_no_number_is_no_place(dtype: Any) -> None:
+    given = np.ones((3, 3)).astype("i8").astype(dtype)
+    for name in ("positions", "cell"):
+        words = rf"^Particles.{name}: must be an array of numbers, got an array of .*\(3, 3\)$"
+        with pytest.raises(SceneError, match=words):
+            vtray.Particles(**{"positions": np.eye(3), name: given})
+
+
 def test_decimals_are_numbers() -> None:
     charges = [Decimal("-0.5"), None, Decimal("1.25")]
     for table in (pa.table({"q": charges}), pd.DataFrame({"q": charges})):

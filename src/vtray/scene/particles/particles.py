@@ -86,8 +86,6 @@ class Particles:
         import numpy as np
 
         positions = _array(self.positions, "positions")
-        if positions.dtype not in (np.float32, np.float64):
-            positions = _array(self.positions, "positions", np.float64)
         if positions.ndim != 2 or positions.shape[1] != 3:
             raise SceneError(f"Particles.positions: must have shape (n, 3), got {positions.shape}")
         _check_finite(positions, "positions")
@@ -103,7 +101,7 @@ class Particles:
             bonds = pairs_of(bonds, len(positions), "Particles.bonds")
         cell = self.cell
         if cell is not None:
-            edges = _array(cell, "cell", np.float64)
+            edges = _array(cell, "cell")
             cell = _numbers_of(np.diag(edges) if edges.shape == (3,) else edges, "cell", (3, 3))
         given = (cell is not None,) * 3 if self.periodic is None else self.periodic
         repeats = _three_of_bool(given)
@@ -244,21 +242,20 @@ class Particles:
         return f"Particles({', '.join(parts)})"
 
 
-def _array(values: object, name: str, dtype: Any = None) -> "NDArray[Any]":  # noqa: ANN401
-    """Return numbers as an array, of a dtype if it is given."""
+def _array(values: object, name: str) -> "NDArray[Any]":
+    """Return numbers as an array of doubles, or of floats of 32 bits as they are."""
+    import numpy as np
+
     words = "must be an array of numbers"
     found = array_of(values, f"Particles.{name}", words)
-    try:
-        return found if dtype is None else found.astype(dtype, copy=False)
-    except (TypeError, ValueError, OverflowError):
-        raise SceneError(f"Particles.{name}: {words}, got {show_array(values)}") from None
+    if found.dtype.kind not in "biuf":
+        raise SceneError(f"Particles.{name}: {words}, got {show_array(values)}")
+    return found if found.dtype in (np.float32, np.float64) else found.astype(np.float64)
 
 
 def _numbers_of(values: object, name: str, shape: tuple[int, ...]) -> "NDArray[np.float64]":
     """Return finite numbers as an array of a shape."""
-    import numpy as np
-
-    found = _array(values, name, np.float64)
+    found = _array(values, name).astype(float, copy=False)
     if found.shape != shape:
         raise SceneError(f"Particles.{name}: must have shape {shape}, got {found.shape}")
     _check_finite(found, name)
