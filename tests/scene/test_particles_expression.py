@@ -259,3 +259,12 @@ def test_with_columns() -> None:
     assert more["type"][0] == "a"
     with pytest.raises(SceneError, match="must have one row for each of 40 positions"):
         PARTICLES.with_columns(charge=[1])
+
+
+@pytest.mark.parametrize(
+    "rest", ["type % 0", "type // 0", "type % (type - type)", "fixed % 0", "(type - type) // 0"]
+)
+def test_no_integer_is_divided_by_0(rest: str) -> None:
+    for part in (f"{rest} == 0", f"{rest.replace('type', '(type * 1.0)')} == 0"):
+        assert not mask(PARTICLES, part).any()
+    assert mask(PARTICLES, "6 % type == 0").all()

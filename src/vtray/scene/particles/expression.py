@@ -387,7 +387,8 @@ def _is_truth(found: Any) -> bool:  # noqa: ANN401
 def _calculated(operation: Callable[[Any, Any], Any], one: Any, other: Any) -> Any:  # noqa: ANN401
     """Return what an operation makes of two numbers, or of those of each particle.
 
-    Integers that 64 bits do not hold become doubles, rather than wrap around.
+    Integers that 64 bits do not hold become doubles, rather than wrap around, and what is divided
+    by 0 NaN or infinite, rather than 0.
     """
     import numpy as np
 
@@ -395,7 +396,7 @@ def _calculated(operation: Callable[[Any, Any], Any], one: Any, other: Any) -> A
     found = operation(one, other)
     if _is_whole(one) and _is_whole(other):
         rough = operation(one * 1.0, other * 1.0)
-        if np.any(np.abs(rough) >= 2.0**63):
+        if not np.all(np.abs(rough) < 2.0**63):
             return rough
     return found
 
