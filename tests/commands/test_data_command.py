@@ -15,6 +15,7 @@ from vtray.commands.data_scene import load_data
 from vtray.commands.options import parse
 from vtray.figures.annotations import Annotations
 from vtray.figures.painted.picture import share_beside
+from vtray.scene.camera import Camera
 from vtray.scene.default_light import settings_of
 from vtray.scene.grain import LITTLE_GRAIN, NO_GRAIN
 from vtray.scene.scene import Scene
@@ -121,6 +122,9 @@ def test_views(water: Path) -> None:
     assert looks("--view", "-x") == (1, 0, 0)
     assert looks("--view=top") == (0, 0, -1)
     assert looks("--view", "-90,0") == (0, 1, 0)
+    assert looks() == looks("--view", "-65,20")
+    shape = Camera.fit(scene_of(water, "--no-cell"), view="auto").normal
+    assert looks("--view", "auto") == pytest.approx((shape.x, shape.y, shape.z))
     near, far = (scene_of(water, *zoom).camera for zoom in (["--zoom", "2"], []))
     assert near.resolution[0] * 2 == far.resolution[0]
     assert scene_of(water, "--orthographic").camera.projection == "orthographic"

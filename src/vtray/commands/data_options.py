@@ -50,11 +50,11 @@ def _radii(text: str) -> str | float:
 
 
 def _view(text: str) -> str | tuple[float, float]:
-    if text in VIEWS:
+    if text in (*VIEWS, "auto"):
         return text
     pair = pair_in(text)
     if pair is None:
-        raise wrong(f"{', '.join(VIEWS)}, or degrees such as 30,20", text)
+        raise wrong(f"{', '.join(VIEWS)}, auto, or degrees such as 30,20", text)
     return pair
 
 
@@ -147,7 +147,7 @@ VIEW: dict[str, dict[str, Any]] = {
     "view": {
         "metavar": "VIEW",
         "type": _view,
-        "help": "from where: x, -x, ..., top, front, right, ..., iso, or AZIMUTH,ELEVATION",
+        "help": "from where: x, -x, ..., top, front, ..., iso, auto, or AZIMUTH,ELEVATION",
     },
     "zoom": {
         "metavar": "NUMBER",
