@@ -5,6 +5,7 @@ whether it is inside another shape of the same body. Only spheres and planes, po
 perspective or orthographic views; rounding is met by a distance that is far above it.
 """
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -31,6 +32,21 @@ class Ball(NamedTuple):
 
 def render(scene: vtray.Scene) -> tuple[Array, Array]:
     """Return the linear light of a scene, (height, width, 3), and the coverage of its pixels."""
+    return _traced(scene, _shade)
+
+
+def albedo(scene: vtray.Scene) -> Array:
+    """Return the share of light that all that is seen sends on, (height, width, 3)."""
+    return _traced(scene, lambda _shapes, _lights, _at, _ray, ball, _view: _share(ball))[0]
+
+
+def _share(ball: Ball) -> Array:
+    """Return the share of light that a surface sends on."""
+    return ball.lambert * ball.color / 255
+
+
+def _traced(scene: vtray.Scene, shade: Callable[..., Array]) -> tuple[Array, Array]:
+    """Return what all layers have by some function, (height, width, 3), and their coverage."""
     view = _Render({**scene.to_dict(), "objects": [], "lights": []}, np.float64)
     rows, columns = np.mgrid[0 : view.height, 0 : view.width]
     starts, rays = view.rays(columns.astype(float), rows.astype(float))
@@ -41,7 +57,7 @@ def render(scene: vtray.Scene) -> tuple[Array, Array]:
     ]
     linear, cover = np.zeros((*rows.shape, 3)), np.zeros(rows.shape)
     for place in np.ndindex(rows.shape):
-        linear[place], cover[place] = _look(shapes, lights, starts[place], rays[place], view)
+        linear[place], cover[place] = _look(shapes, lights, starts[place], rays[place], view, shade)
     return linear, cover
 
 
@@ -74,7 +90,12 @@ def _balls(item: Any, place: int, origin: Array) -> list[Ball]:
 
 
 def _look(
-    shapes: list[Ball], lights: list[Any], start: Array, ray: Array, view: Any
+    shapes: list[Ball],
+    lights: list[Any],
+    start: Array,
+    ray: Array,
+    view: Any,
+    shade: Callable[..., Array],
 ) -> tuple[Array, float]:
     """Return the light along a ray, and how much of what is behind everything it does not see."""
     # What is behind the image plane is not there.
@@ -82,7 +103,7 @@ def _look(
     passed, light = 1.0, np.zeros(3)
     for at, ball in sorted(_seen(shapes, start, ray, first, np.inf), key=lambda found: found[0]):
         point = start + at * ray
-        light += passed * ball.opacity * _shade(shapes, lights, point, ray, ball, view)
+        light += passed * ball.opacity * shade(shapes, lights, point, ray, ball, view)
         passed *= 1.0 - ball.opacity
     return light, 1.0 - passed
 

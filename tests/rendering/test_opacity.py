@@ -9,6 +9,8 @@ import pytest
 
 import vtray
 from conftest import JIT, compiled_only
+from vtray.rendering.guides import Guiding
+from vtray.rendering.hierarchy import accelerate
 from vtray.scene.fingerprint import scene_hash
 
 SIZE = (36, 28) if JIT else (14, 10)
@@ -163,6 +165,39 @@ def test_depth_and_ids_are_those_of_what_is_opaque_enough() -> None:
     middle = SIZE[1] // 2, SIZE[0] // 2
     assert tuple(image.ids[middle]) == (1, 0)
     assert image.depth[middle] == pytest.approx(np.sqrt(153) - 1.0, abs=0.2)
+
+
+@pytest.mark.parametrize("seed", range(12 if JIT else 4))
+def test_albedo_is_that_of_the_oracle(seed: int) -> None:
+    scene = random_scene(seed)
+    found = vtray.render(scene, fog=(8, 14) if seed == 3 else None).albedo
+    is_wrong = ~np.isclose(found, oracle_layers.albedo(scene), rtol=1e-6, atol=1e-9).all(axis=-1)
+    assert np.count_nonzero(is_wrong) <= 1
+
+
+@pytest.mark.parametrize("samples", [1, 4])
+def test_albedo_has_as_much_of_each_layer_as_is_seen(samples: int) -> None:
+    scene = vtray.Scene(camera(), [vtray.Light((4, -9, 8), 1.0)], [])
+    scene.add_plane((0, 0, 0), (0, -1, 0), (204, 0, 0), opacity=0.3)
+    middle = SIZE[1] // 2, SIZE[0] // 2
+    for solid_from in (0.2, 0.5):
+        image = vtray.render(scene, samples=samples, solid_from=solid_from)
+        assert image.albedo[middle] == pytest.approx([0.24, 0, 0])
+        assert image.ids[middle][0] == (0 if solid_from == 0.2 else -1)
+    scene.add_plane((0, 2, 0), (0, -1, 0), (0, 0, 255), lambert=0.5)
+    image = vtray.render(scene, samples=samples)
+    assert image.albedo[middle] == pytest.approx([0.24, 0, 0.35])
+
+
+def test_guides_have_the_normals_of_what_ids_show() -> None:
+    scene = vtray.Scene(camera(), [vtray.Light((4, -9, 8), 1.0)], [])
+    scene.add_plane((0, 0, 0), (0, -1, 0.3), opacity=0.3)
+    for solid_from in (0.2, 0.5):
+        style, kept = vtray.Style(solid_from=solid_from), accelerate(scene)
+        guides = Guiding(kept, vtray.RenderSettings(), style, 1)(scene)
+        image = vtray.render(scene, solid_from=solid_from)
+        np.testing.assert_array_equal(guides.normals, image.normals)
+        np.testing.assert_allclose(guides.cover, image.alpha, rtol=1e-12)
 
 
 def test_other_lights_and_colors_are_those_of_a_new_picture() -> None:

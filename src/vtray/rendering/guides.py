@@ -16,8 +16,10 @@ from vtray.rendering.acceleration import Acceleration
 from vtray.rendering.engines.engine import Plan, trace
 from vtray.rendering.pack import pack
 from vtray.rendering.passes import SURFACES
+from vtray.rendering.styled import styled
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
+from vtray.scene.style import Style
 from vtray.transport.camera_rays import CameraFrame, turned_by
 from vtray.transport.film import Film
 from vtray.transport.sampling.filters import FILTERS
@@ -36,9 +38,11 @@ class Guides(NamedTuple):
     Attributes
     ----------
     albedo
-        The share of light that they send on, (height, width, 3); 0 where nothing is.
+        The share of light that they send on, (height, width, 3); 0 where nothing is. Of bodies that
+        let light through, all that is seen of each layer counts.
     normals
-        Normals in world space, shorter where several are mixed, (height, width, 3).
+        Normals in world space of what ids show, shorter where several are mixed, (height, width,
+        3).
     cover
         How much of a pixel is covered, (height, width).
     """
@@ -55,20 +59,24 @@ class Guiding:
     ----------
     kept
         The shapes of the scene that was traced.
-    settings
-        How the picture was taken.
+    settings, style
+        How the picture was taken, and how it is drawn.
     threads
         How many threads to use at the most.
     """
 
-    def __init__(self, kept: Acceleration, settings: RenderSettings, threads: int) -> None:
+    def __init__(
+        self, kept: Acceleration, settings: RenderSettings, style: Style, threads: int
+    ) -> None:
         self._kept = kept
         self._settings = settings
+        self._style = style
         self._threads = threads
 
     def __call__(self, scene: Scene) -> Guides:
         """Return them for the scene that was traced, maybe in other colours."""
-        arrays = pack(scene, self._kept.with_colors_of(scene.objects)).arrays
+        packed = pack(scene, self._kept.with_colors_of(scene.objects))
+        arrays = styled(packed, self._style).arrays
         return find_guides(arrays, self._settings, self._threads)
 
     def albedo(self, scene: Scene) -> Floats:
@@ -109,11 +117,11 @@ def find_guides(scene: SceneArrays, settings: RenderSettings, threads: int) -> G
 
 
 def _surfaces(film: Film) -> Floats:
-    """Return albedo, normal and 1 for a hit, all 0 for none, (height, width, 7)."""
+    """Return albedo, normal and how much is covered, all 0 for no hit, (height, width, 7)."""
     found = np.empty((*film.primitive.shape, 7))
     found[..., :3] = film.albedo
     found[..., 3:6] = film.normal
-    found[..., 6] = film.primitive >= 0
+    found[..., 6] = film.coverage
     return found
 
 

@@ -41,7 +41,7 @@ from vtray.transport.sampling.pixel_samples import (
 )
 from vtray.transport.scene_arrays import SceneArrays, with_pinhole
 
-SURFACES = ("distance", "normal", "primitive", "half", "albedo")
+SURFACES = ("distance", "normal", "primitive", "half", "albedo", "coverage")
 """What is recorded of the surfaces that middle rays hit."""
 
 SPARSE = 8

@@ -263,7 +263,7 @@ def render(
     sky = SeenSky(packed.arrays.camera, settings, threads)
     sky.warm_up(shown)
     clock.lap("compile")
-    look, guiding = Look(shown, packed, threads), Guiding(kept, settings, threads)
+    look, guiding = Look(shown, packed, threads), Guiding(kept, settings, style, threads)
     white = known_white(settings, lock)
     rerendering = Rerendering(kept, settings, style, white, threads, keep_lights=keep_lights)
     darkroom = Darkroom(

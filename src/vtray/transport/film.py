@@ -13,6 +13,7 @@ from vtray.geometry.packets.packet import (
     COVER,
     DISTANCE,
     FOGGED,
+    GATHERED,
     HALF,
     LAMBERT,
     LANES,
@@ -81,7 +82,8 @@ class Film(NamedTuple):
     half
         As in field ``HALF`` of a packet, 0 where nothing is hit, (height, width).
     albedo
-        The share of light that what the middle ray hits sends on, (height, width, 3).
+        The share of light that what the middle ray hits sends on, (height, width, 3); of faded
+        bodies that of all layers, for films without `linear`.
     orders
         Linear light that surfaces scattered not at all, once, and more often: three channels for
         each, (height, width, 9).
@@ -334,7 +336,17 @@ def write_middles(
     _write_met(packet, block, begin, end, pixels, film.met)
     _write_halves(packet, block, begin, end, pixels, film.half)
     _write_albedos(
-        packet, block, begin, end, hits, pixels, world, materials, materials.looks, film.albedo
+        packet,
+        block,
+        begin,
+        end,
+        hits,
+        pixels,
+        world,
+        materials,
+        materials.looks,
+        world.faded,
+        film.albedo,
     )
     _write_coverage(packet, block, begin, end, pixels, film.coverage, world.faded)
     _write_covered(packet, block, begin, end, pixels, film.covered)
@@ -553,19 +565,30 @@ def _write_albedos(
     world: World,
     materials: Materials,
     looks: Looks | None,
+    faded: Faded | None,
     albedo: Rows,
 ) -> None:
     """Write what share of light the hits send on, 0 for the others."""
     if albedo is None:
         return
+    if faded is not None:
+        for lane in range(end - begin):
+            _write_albedo(block, pixels[begin + lane], load(packet, GATHERED, lane), albedo)
+        return
     _clear(block, begin, end, pixels, albedo)
     numbers = integers(packet)
     for hit in range(hits):
-        row, column = place_of(block, pixels[begin + numbers[SOURCE + hit]])
-        shares = _albedo_of(packet, hit, world, materials, looks)
-        albedo[row, column, 0] = min(max(shares[0], 0.0), 1.0)
-        albedo[row, column, 1] = min(max(shares[1], 0.0), 1.0)
-        albedo[row, column, 2] = min(max(shares[2], 0.0), 1.0)
+        pixel = pixels[begin + numbers[SOURCE + hit]]
+        _write_albedo(block, pixel, _albedo_of(packet, hit, world, materials, looks), albedo)
+
+
+@device
+def _write_albedo(block: Block, pixel: int, shares: Vec, albedo: NDArray[np.float64]) -> None:
+    """Write what share of light a pixel sends on, from 0 to 1."""
+    row, column = place_of(block, pixel)
+    albedo[row, column, 0] = min(max(shares[0], 0.0), 1.0)
+    albedo[row, column, 1] = min(max(shares[1], 0.0), 1.0)
+    albedo[row, column, 2] = min(max(shares[2], 0.0), 1.0)
 
 
 @device

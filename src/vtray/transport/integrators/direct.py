@@ -41,7 +41,9 @@ from vtray.transport.integrators.layered import (
     begin_layers,
     choose_surfaces,
     end_layers,
+    gather_albedos,
     gather_light,
+    leave_layers,
     list_lanes,
     mix_faded,
     see_all,
@@ -158,7 +160,17 @@ def _trace_pixels(
         last = min(first + LANES, sampling.rays)
         lens = scene.camera.lens
         lanes = place_samples(packet, block, begin, end, sampling, first, last, work.pixels, lens)
-        _meet(packet, lanes, scene, scene.world.faded, sampling, film.linear, film.mixed, work)
+        _meet(
+            packet,
+            lanes,
+            scene,
+            scene.world.faded,
+            sampling,
+            film.linear,
+            film.albedo,
+            film.mixed,
+            work,
+        )
         clear_orders(packet, lanes, film.orders)
         hits, cast = _light_lanes(
             packet,
@@ -244,6 +256,7 @@ def _meet(
     faded: Faded | None,
     sampling: Sampling,
     linear: Rows,
+    albedo: Rows,
     mixed: Rows,
     work: Workspace,
 ) -> None:
@@ -258,6 +271,7 @@ def _meet(
     # Arguments that are None are known to the compiler, which drops what depends on that alone.
     if faded is not None:  # noqa: SIM102
         if linear is None:
+            _gather_albedos(packet, lanes, scene, faded, sampling, albedo, mixed, work)
             choose_surfaces(packet, lanes, sheaf, scene.world, faded, work)
     if mixed is not None:
         note_seen(packet, lanes)
@@ -276,6 +290,34 @@ def _meet(
                 work.stack,
             )
             leave_mixed(packet, lanes)
+
+
+@device
+def _gather_albedos(
+    packet: Packet,
+    lanes: int,
+    scene: SceneArrays,
+    faded: Faded,
+    sampling: Sampling,
+    albedo: Rows,
+    mixed: Rows,
+    work: Workspace,
+) -> None:
+    """Add up what share of light all that lanes see sends on, layer by layer, if it is wanted."""
+    if albedo is None:
+        return
+    sheaf, skipped, listed = sheaf_of(scene.camera), 0, 1
+    begin_layers(packet, lanes)
+    while listed > 0:
+        listed = list_lanes(packet, lanes, skipped, sheaf, scene.world, faded, work)
+        waiting = listed
+        while waiting > 0:
+            waiting -= take_round(packet, lanes, skipped, work.layers, None, None)
+            hits = _gather(packet, lanes, scene, sampling, mixed, work)
+            weigh_colors(packet, hits)
+            gather_albedos(packet, hits)
+        skipped += AT_ONCE
+    leave_layers(packet, lanes, work.layers)
 
 
 @device

@@ -20,6 +20,7 @@ from vtray.geometry.packets.packet import (
     DISTANCE,
     FOGGED,
     GATHERED,
+    LAMBERT,
     LIGHT,
     MET,
     MIXED,
@@ -299,13 +300,32 @@ def gather_light(packet: Packet, hits: int) -> None:
 
 
 @device
+def gather_albedos(packet: Packet, hits: int) -> None:
+    """Add the share of light that hits send on, of colours that are weighed, to their lanes."""
+    numbers = integers(packet)
+    for hit in range(hits):
+        lane = numbers[SOURCE + hit]
+        shares = scale(packet[LAMBERT + hit] / 255.0, load(packet, COLOR, hit))
+        store(packet, GATHERED, lane, add(load(packet, GATHERED, lane), shares))
+
+
+@device
+def leave_layers(packet: Packet, lanes: int, layers: Layers) -> None:
+    """Bring back what is behind all layers, and note how much of what is behind all is covered."""
+    numbers = integers(packet)
+    for lane in range(lanes):
+        _restore(packet, lane)
+        is_open = numbers[BEHIND + lane] == NO_PRIMITIVE
+        packet[COVER + lane] = 1.0 - layers.passed[lane] if is_open else 1.0
+
+
+@device
 def end_layers(packet: Packet, lanes: int, layers: Layers) -> int:
     """Make one hit of all that each lane sees; return how many there are."""
     numbers, hits = integers(packet), 0
+    leave_layers(packet, lanes, layers)
     for lane in range(lanes):
-        _restore(packet, lane)
-        passed, behind = layers.passed[lane], numbers[BEHIND + lane]
-        packet[COVER + lane] = 1.0 - passed if behind == NO_PRIMITIVE else 1.0
+        behind = numbers[BEHIND + lane]
         if numbers[PASSED_LAYERS + lane] > 0 or behind > NO_PRIMITIVE:
             numbers[PRIMITIVE + lane] = max(behind, 0)
             numbers[SOURCE + hits] = lane
