@@ -199,6 +199,60 @@ def test_picture_made_again_has_the_same_bytes(
     assert one.read_bytes() == two.read_bytes()
 
 
+def soft_scene() -> vtray.Scene:
+    """Return a ball on the ground in the light of two lamps and a sky."""
+    scene = vtray.Scene()
+    scene.add_sphere((0, 0, 1), 1, "tomato")
+    scene.add_plane((0, 0, 0), (0, 0, 1))
+    scene.lights = [vtray.SphereLight((-2, -3, 4), 1), vtray.SphereLight((3, -2, 4), 1, 0.3)]
+    scene.add_light(vtray.Sky(0.4))
+    scene.camera = vtray.Camera.look_at((0, -6, 3), (0, 0, 0.8), size=(12, 9))
+    return scene
+
+
+def keep(**settings: object) -> vtray.Image:
+    """Return its picture, which keeps its lights."""
+    return vtray.render(soft_scene(), tolerance=0.01, keep_lights=True, **settings)
+
+
+@pytest.mark.parametrize("changed", ["not", "lights", "colours"])
+def test_picture_whose_lights_were_kept_is_made_again(
+    changed: str, small: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    image = keep()
+    if changed == "lights":
+        image = image.relight([0.5, 1.0, 0.2])
+    elif changed == "colours":
+        image = image.recolor(0, "skyblue")
+    one, two = small.with_name("one.png"), small.with_name("two.png")
+    image.save(one)
+    assert vtray.read_provenance(one).keep_lights
+    image.scene.save(small)
+    assert cli.run(["--replay", str(one), str(small), str(two)]) == 0
+    assert capfd.readouterr() == ("", "")
+    assert one.read_bytes() == two.read_bytes()
+    usual = vtray.render(image.scene, tolerance=0.01)
+    assert (usual.pixels != image.pixels).any()
+
+
+def test_lights_are_not_kept_where_they_cannot_be(small: Path) -> None:
+    one, two = small.with_name("one.png"), small.with_name("two.png")
+    image = keep()
+    image.save(one)
+    image.scene.save(small)
+    arguments = ["--replay", str(one), str(small), str(two), "--integrator", "path"]
+    assert cli.run(arguments) == 0
+    assert not vtray.read_provenance(two).keep_lights
+
+
+def test_part_of_a_picture_whose_lights_are_kept_says_so(small: Path) -> None:
+    parts: list[vtray.Image] = []
+    keep(on_update=parts.append, update_seconds=0)
+    assert parts
+    parts[0].save(small.with_name("part.png"))
+    assert vtray.read_provenance(small.with_name("part.png")).keep_lights
+
+
 def write(path: Path, **settings: object) -> None:
     """Write a picture of these settings by hand."""
     from pictures import hand_made

@@ -72,7 +72,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         parser.error("OUTPUT is missing")
     if options.pixel is not None and (options.preview is not None or options.keep_partial):
         parser.error("--preview and --keep-partial are of no use with --pixel")
-    options.lock = None  # no option, but a picture that is replayed may have been locked
+    # No options, but a picture that is replayed may have been locked, or have kept its lights.
+    options.lock = options.keep_lights = None
     return options
 
 
@@ -93,7 +94,7 @@ def _or_stream(stream: str) -> Callable[[str], Path]:
 
 def settings_of(options: argparse.Namespace) -> dict[str, Any]:
     """Return the settings and parts of a style that the options give, to render with."""
-    given = {name: getattr(options, name) for name in (*PICTURE, "lock")}
+    given = {name: getattr(options, name) for name in (*PICTURE, "lock", "keep_lights")}
     return {name: value for name, value in given.items() if value is not None}
 
 

@@ -30,6 +30,8 @@ def take_over(options: argparse.Namespace) -> Provenance:
         decided = name == "exposure" and options.lock is not None
         if getattr(options, name) is None and not decided:
             setattr(options, name, told.told(name))
+    if told.keep_lights and options.integrator == "direct":
+        options.keep_lights = True
     if options.output is not None:
         # Another format than that of the picture may have other bits, and hold nothing beside it.
         held = find_format(options.output)

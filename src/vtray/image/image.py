@@ -53,6 +53,8 @@ class Image(Rendered):
         How it is drawn, beside its light.
     locked
         Whether its exposure is that of another picture.
+    keep_lights
+        Whether its lights were kept, for `relight` and `recolor`.
     partial
         None for a whole picture. While it is rendered, the share of its tiles that are done, from
         0 to 1: the others are filled in with what is known, and the peak that decides the exposure

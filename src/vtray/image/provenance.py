@@ -38,6 +38,8 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
         How it is drawn, beside its light.
     lock : float or None
         The light that became white, where another picture decided that.
+    keep_lights : bool
+        Whether its lights were kept, by which rays are chosen in other ways.
     bits : int
         Bits of each channel of the file.
     aov : tuple of str
@@ -50,6 +52,7 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
     scene: Annotated[str, Meta(pattern=f"^[0-9a-f]{{16,64}}{END}")]
     style: Style = Style()
     lock: NonNegative | None = None
+    keep_lights: bool = False
     bits: Literal[8, 16, 32] = 8
     aov: tuple[AovName, ...] = ()
     partial: Fraction | None = None
@@ -81,6 +84,7 @@ _SELDOM = (
     "firefly",
     "edge_samples",
     "style",
+    "keep_lights",
     "partial",
 )
 """What is told only where it is not as usual: older versions refuse what they do not know."""
@@ -98,6 +102,7 @@ def describe(picture: Picture, how: How) -> Provenance:
         "size": (width, height),
         "style": picture.style,
         "lock": float(picture.white) if picture.locked else None,
+        "keep_lights": picture.keep_lights,
         "bits": how.bits,
         "aov": tuple(how.aov),
         "partial": picture.partial,

@@ -48,7 +48,7 @@ class Rendered:
 
     Parameters
     ----------
-    linear, white, scene, settings, stats, locked, partial
+    linear, white, scene, settings, stats, locked, keep_lights, partial
         The attributes.
     pixels
         Light after exposure with 8 bits; None until it is asked for.
@@ -117,6 +117,7 @@ class Rendered:
         threads: int = 1,
         original: Scene | None = None,
         locked: bool = False,
+        keep_lights: bool = False,
         partial: float | None = None,
         sky: Callable[[Scene, Floats], Floats] | None = None,
         starlight: GivesStarlight | None = None,
@@ -145,6 +146,7 @@ class Rendered:
         self._threads = threads
         self._original = original or scene
         self.locked = locked
+        self.keep_lights = keep_lights
         self.partial = partial
         self._sky = sky
         self._starlight = starlight

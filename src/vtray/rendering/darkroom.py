@@ -44,6 +44,8 @@ class Darkroom:
         Gives the light of the points that shine in a scene, if there are any.
     lock
         A picture whose exposure is taken, or None.
+    keep_lights
+        Whether lights are kept.
     threads
         How many threads to use at the most.
     """
@@ -58,6 +60,7 @@ class Darkroom:
     sky: Callable[[Scene, Floats], Floats]
     starlight: GivesStarlight
     lock: object
+    keep_lights: bool
     threads: int
 
     def part(self, part: Part) -> Image:
@@ -130,6 +133,7 @@ class Darkroom:
             threads=self.threads,
             original=self.original,
             locked=self.lock is not None,
+            keep_lights=self.keep_lights,
             partial=partial,
             sky=self.sky,
             starlight=None if shine is None else self.starlight,

@@ -277,6 +277,7 @@ def render(
         sky,
         Starlight(lambda: look().depth, kept.rooms),
         lock,
+        bool(keep_lights),
         threads,
     )
     growth = _growth(darkroom, on_update, update_seconds)

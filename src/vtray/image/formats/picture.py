@@ -26,6 +26,7 @@ class Picture(Protocol):
     settings: RenderSettings
     style: Style
     locked: bool
+    keep_lights: bool
     partial: float | None
 
     @property
