@@ -253,6 +253,29 @@ def test_part_of_a_picture_whose_lights_are_kept_says_so(small: Path) -> None:
     assert vtray.read_provenance(small.with_name("part.png")).keep_lights
 
 
+def test_what_was_painted_on_a_picture_is_warned_of(
+    small: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    one, two = small.with_name("one.png"), small.with_name("two.png")
+    replay = ["--replay", str(one), str(small), str(two)]
+    words = (
+        "title, legend and whatever else is painted on it are not made again; give them too, by "
+        "--title, --axes and the like, or in Python by image.annotated"
+    )
+    title = ["--size", "90x60", "--title", "Hello"]
+    assert cli.run([str(small), str(one), *title]) == 0
+    assert vtray.read_provenance(one).painted
+    assert cli.run(replay) == 0
+    assert capfd.readouterr().err == f"Warning: {one}: {words}\n"
+    assert not vtray.read_provenance(two).painted
+    assert cli.run([*replay, *title]) == 0
+    assert one.read_bytes() == two.read_bytes()
+    assert cli.run([*replay[:3], "--pixel", "1,1"]) == 0
+    vtray.render(vtray.load(small), size=(90, 60)).annotated().save(one)
+    assert cli.run(replay) == 0
+    assert capfd.readouterr().err == ""
+
+
 def write(path: Path, **settings: object) -> None:
     """Write a picture of these settings by hand."""
     from pictures import hand_made

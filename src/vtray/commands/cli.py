@@ -102,7 +102,8 @@ def _compare(told: "Provenance", scene: "Scene", options: argparse.Namespace) ->
     """Warn of what is not as it was when a picture was made."""
     from vtray.commands.replay import differences
 
-    for difference in differences(told, scene):
+    is_painted = options.pixel is not None or bool(annotations_of(options))
+    for difference in differences(told, scene, is_painted=is_painted):
         _warn(f"{options.replay}: {difference}", options)
 
 

@@ -42,13 +42,26 @@ def take_over(options: argparse.Namespace) -> Provenance:
     return told
 
 
-def differences(told: Provenance, scene: Scene) -> Iterator[str]:
-    """Say what is not as it was, so that the picture may be another."""
+def differences(told: Provenance, scene: Scene, *, is_painted: bool) -> Iterator[str]:
+    """Say what is not as it was, so that the picture may be another.
+
+    Parameters
+    ----------
+    told
+        How the picture was made.
+    scene
+        The scene.
+    is_painted
+        Whether something is painted on the picture that is made now, or none is made.
+    """
     from vtray.scene.fingerprint import scene_hash
 
     if told.partial is not None:
         share = f"{100 * told.partial:.0f} %"
         yield f"is a part of a picture, of whose tiles {share} were done: this one will be whole"
+    if told.painted and not is_painted:
+        words = "are not made again; give them too, by --title, --axes and the like, or in Python"
+        yield f"title, legend and whatever else is painted on it {words} by image.annotated"
     if told.version != __version__:
         yield f"was made by vtray {told.version}, this is {__version__}: the picture may differ"
     if told.scene != scene_hash(scene):

@@ -44,6 +44,8 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
         Bits of each channel of the file.
     aov : tuple of str
         What the file holds beside the picture.
+    painted : bool
+        Whether a title, a legend or the like is painted on it, of which nothing more is told.
     partial : float or None
         The share of its tiles that were done, from 0 to 1, if it was written before it was whole.
     """
@@ -55,6 +57,7 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
     keep_lights: bool = False
     bits: Literal[8, 16, 32] = 8
     aov: tuple[AovName, ...] = ()
+    painted: bool = False
     partial: Fraction | None = None
 
     @property
@@ -85,6 +88,7 @@ _SELDOM = (
     "edge_samples",
     "style",
     "keep_lights",
+    "painted",
     "partial",
 )
 """What is told only where it is not as usual: older versions refuse what they do not know."""
@@ -92,8 +96,8 @@ _SELDOM = (
 _USUAL = Provenance(version="", scene="0" * 16)
 
 
-def describe(picture: Picture, how: How) -> Provenance:
-    """Return how a picture was made, and how it is written."""
+def describe(picture: Picture, how: How, *, painted: bool = False) -> Provenance:
+    """Return how a picture was made, maybe with something painted on it, and how it is written."""
     height, width = picture.linear.shape[:2]
     values = {
         **msgspec.structs.asdict(picture.settings),
@@ -105,6 +109,7 @@ def describe(picture: Picture, how: How) -> Provenance:
         "keep_lights": picture.keep_lights,
         "bits": how.bits,
         "aov": tuple(how.aov),
+        "painted": painted,
         "partial": picture.partial,
     }
     return msgspec.convert(values, Provenance)
