@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import png
 import pytest
 from PIL import Image
 
@@ -104,10 +105,19 @@ def test_kinds_of_image_files(folder: Path, mode: str) -> None:
     np.testing.assert_array_equal(read_picture(Path("kind.png")), gray(255))
 
 
-def test_transparent_image_lies_on_black(folder: Path) -> None:
+def test_transparent_image_is_not_black(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:
     path = folder / "glass.png"
-    Image.new("RGBA", (4, 2), (200, 100, 50, 0)).save(path)
-    np.testing.assert_array_equal(read_picture(path), gray(0, 4, 2))
+    Image.new("RGBA", (12, 8), (200, 100, 50, 0)).save(path)
+    assert diff.run(["glass.png", "black.png"]) == 2
+    assert "96 of 96 pixels differ, by at most 255 of 255; see " in capfd.readouterr().out
+
+
+def test_16_bits_are_compared_as_such(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    for name, level in (("a", 0), ("b", 100)):
+        with (folder / f"{name}.png").open("wb") as file:
+            png.Writer(12, 8, greyscale=False, bitdepth=16).write(file, [[level] * 36] * 8)
+    assert diff.run(["a.png", "b.png", "--threshold", "1"]) == 0
+    assert "; 96 of 96 pixels differ, by at most 100 of 65535\n" in capfd.readouterr().out
 
 
 def test_alike_prints_one_line_and_writes_nothing(

@@ -8,6 +8,7 @@ from io import BytesIO
 from pathlib import Path
 
 import numpy as np
+import png
 import pytest
 from examples import one_sphere
 from hypothesis import given
@@ -16,7 +17,7 @@ from PIL import Image as PillowImage
 
 import vtray
 from vtray.base import memory
-from vtray.figures.comparison import DiffError
+from vtray.figures.comparison import DiffError, read_picture
 
 Pixels = np.ndarray
 
@@ -92,6 +93,105 @@ def test_transparent_pixels_lie_on_black_as_in_files(tmp_path: Path) -> None:
     PillowImage.fromarray(pixels).save(tmp_path / "a.png")
     assert vtray.compare(pixels, tmp_path / "a.png").box is None
     assert vtray.compare(pixels, pixels[..., :3]).box is not None
+
+
+def deep(seed: int, channels: int = 3) -> Pixels:
+    """Return pixels of 16 bits."""
+    return np.random.default_rng(seed).integers(0, 65536, (9, 13, channels), np.uint16)
+
+
+def test_16_bits_are_compared_as_such() -> None:
+    a = np.zeros((4, 5, 3), np.uint16)
+    b = a.copy()
+    b[1, 2] = (0, 100, 0)
+    found = vtray.compare(a, b)
+    assert (found.largest, found.differing, found.maximum) == (100, 1, 65535)
+    assert found.mean == pytest.approx(100 / 60)
+    assert found.psnr == pytest.approx(20 * math.log10(65535 / (100 / math.sqrt(60))))
+    assert "largest      100 of 65535" in str(found)
+    assert found.difference[1, 2].tolist() == [0, 255, 0]
+    assert found.difference.dtype == np.uint8
+    assert found._repr_html_().count("data:image/png") == 3
+    assert vtray.compare(deep(1), deep(1)).box is None
+
+
+@pytest.mark.parametrize("channels", [3, 4])
+@pytest.mark.parametrize("is_interlaced", [False, True])
+def test_png_of_16_bits_is_read_with_all_of_them(
+    channels: int, is_interlaced: bool, tmp_path: Path
+) -> None:
+    pixels, path = deep(2, channels), tmp_path / "a.png"
+    form = {"greyscale": False, "alpha": channels == 4, "bitdepth": 16, "interlace": is_interlaced}
+    with path.open("wb") as file:
+        png.Writer(13, 9, **form).write(file, pixels.reshape(9, -1).tolist())
+    np.testing.assert_array_equal(read_picture(path), pixels)
+
+
+@pytest.mark.parametrize("background", ["black", "transparent"])
+@pytest.mark.parametrize("ending", [".png", ".tif"])
+def test_images_are_compared_with_files_of_16_bits(
+    ending: str, background: str, tmp_path: Path
+) -> None:
+    if ending == ".tif":
+        pytest.importorskip("tifffile", reason="needs the extra vtray[formats]")
+    scene = vtray.loads(json.dumps(one_sphere()))
+    image = vtray.render(scene, threads=1, background=background)
+    path, coarse = tmp_path / f"a{ending}", tmp_path / "b.png"
+    image.save(path, bits=16)
+    image.save(coarse)
+    np.testing.assert_array_equal(read_picture(path), image.develop(16))
+    assert vtray.compare(image, path).box is None
+    found = vtray.compare(path, coarse)
+    assert 0 < found.largest < 257
+    assert found.maximum == 65535
+
+
+def test_files_of_16_bits_that_are_not_read(tmp_path: Path) -> None:
+    path = tmp_path / "a.png"
+    with path.open("wb") as file:
+        form = {"greyscale": True, "alpha": True, "bitdepth": 16}
+        png.Writer(13, 9, **form).write(file, deep(3, 2).reshape(9, -1).tolist())
+    problem = "expected an image of 8 bits per channel, got one of kind RGBA with 16, gray or of"
+    with pytest.raises(DiffError, match=f"{path}: {problem}"):
+        vtray.compare(path, path)
+    with path.open("wb") as file:
+        form = {"greyscale": False, "transparent": (1, 2, 3), "bitdepth": 16}
+        png.Writer(13, 9, **form).write(file, deep(3).reshape(9, -1).tolist())
+    with pytest.raises(DiffError, match="got one of kind RGB with 16"):
+        vtray.compare(path, path)
+
+
+@pytest.mark.parametrize("kind", [np.uint8, np.uint16])
+def test_what_is_empty_is_not_black(kind: type) -> None:
+    maximum = np.iinfo(kind).max
+    empty = np.zeros((4, 5, 4), kind)
+    black = empty.copy()
+    black[..., 3] = maximum
+    for other in (black, black[..., :3]):
+        found = vtray.compare(empty, other)
+        assert (found.largest, found.differing) == (maximum, 20)
+        assert (found.difference == 255).all()
+    red = empty.copy()
+    red[..., 0] = 200  # of what is empty, nobody sees the colour
+    assert vtray.compare(empty, red).box is None
+    half = black.copy()
+    half[0, 0, 3] = maximum // 3
+    assert vtray.compare(half, black).largest == maximum - maximum // 3
+
+
+def test_flip_of_what_is_empty_is_that_on_white() -> None:
+    pytest.importorskip("flip_evaluator", reason="needs the extra vtray[diff]")
+    empty, black = np.zeros((4, 5, 4), np.uint8), np.zeros((4, 5, 3), np.uint8)
+    assert vtray.compare(empty, black).flip == vtray.compare(black + 255, black).flip
+    seen = np.full((4, 5, 4), 255, np.uint8)
+    assert vtray.compare(empty, seen).flip == vtray.compare(black, black + 255).flip
+
+
+def test_flip_of_16_bits_is_that_of_8() -> None:
+    pytest.importorskip("flip_evaluator", reason="needs the extra vtray[diff]")
+    a, b = noise(1), noise(2)
+    fine = vtray.compare(a.astype(np.uint16) * 257, b)
+    assert fine.flip == pytest.approx(vtray.compare(a, b).flip, rel=1e-5)
 
 
 @pytest.mark.parametrize(

@@ -21,9 +21,9 @@ from vtray.commands.command import FAILURE, SUCCESS, Parser, print_result, run_c
 from vtray.commands.values import wrong
 from vtray.figures import comparison
 from vtray.figures.comparison import check_same_size, read_picture
-from vtray.figures.flip import flip_error
 
 if TYPE_CHECKING:
+    from vtray.figures.comparison import Channels
     from vtray.image.formats.image_file import Pixels
 
 ALIKE, DIFFERENT = SUCCESS, 2
@@ -52,6 +52,10 @@ specks in 300 of a million pixels, 0.03 for a ball missing in a room, or for one
 everywhere. As it is an average, look also at how many pixels differ: images that count as alike
 may lack something tiny. Use --threshold 0 to accept only what looks equal.
 
+If one image has 16 bits per channel, both are compared so. Of the same picture, one with 8 bits
+then differs by less than 257 of 65535, half of that on average, for which the error is about 0.02.
+If one is transparent anywhere, both are compared on black and on white: more of each counts.
+
 The difference image is black where the pictures look equal and bright where they do not.
 """
 
@@ -69,9 +73,11 @@ class Likeness:
     differing
         How many pixels are not equal.
     largest
-        The largest difference of a channel, of 255.
+        The largest difference of a channel, of `maximum`.
     error_map
         The FLIP error of each pixel in magma colours, uint8, (height, width, 3).
+    maximum
+        The largest value of a channel: 255, or 65535 where one has 16 bits per channel.
     """
 
     flip: float
@@ -79,6 +85,7 @@ class Likeness:
     differing: int
     largest: int
     error_map: "Pixels"
+    maximum: int = 255
 
     def is_alike(self, threshold: float = THRESHOLD) -> bool:
         """Tell whether the pictures look alike: their mean error is at most `threshold`."""
@@ -93,17 +100,17 @@ class Likeness:
             return f"FLIP 0 ({scale}); all {self.pixels:,} pixels are equal"
         return (
             f"FLIP {flip} ({scale}); {self.differing:,} of {self.pixels:,} pixels differ, "
-            f"by at most {self.largest} of 255"
+            f"by at most {self.largest} of {self.maximum}"
         )
 
 
-def compare(a: "Pixels", b: "Pixels") -> Likeness:
+def compare(a: "Channels", b: "Channels") -> Likeness:
     """Compare two pictures as people see them.
 
     Parameters
     ----------
     a, b
-        The pixels of both, uint8, (height, width, 3), such as `vtray.Image.pixels`.
+        The pixels of both, as for `vtray.compare`, such as `vtray.Image.pixels`.
 
     Returns
     -------
@@ -113,13 +120,14 @@ def compare(a: "Pixels", b: "Pixels") -> Likeness:
     Raises
     ------
     DiffError
-        The pictures are not of the same size, or are not 8-bit RGB.
+        The pictures are not of the same size, or are no pixels of 8 or 16 bits.
     ExtraError
         The package ``flip-evaluator`` is not installed.
     """
     found = comparison.compare(a, b)
-    flip, error_map = flip_error(found.a, found.b, "vtray-diff")
-    return Likeness(flip, found.pixels, found.differing, found.largest, error_map)
+    flip, error_map = found.flip_error("vtray-diff")
+    counts = found.pixels, found.differing, found.largest
+    return Likeness(flip, *counts, error_map, found.maximum)
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -195,7 +203,7 @@ def _check_output(output: Path, options: argparse.Namespace) -> None:
     check_spares(output, (options.a, options.b), what, "choose another name with -o")
 
 
-def _read_both(a: Path, b: Path) -> "tuple[Pixels, Pixels]":
+def _read_both(a: Path, b: Path) -> "tuple[Channels, Channels]":
     """Read two image files of the same size."""
     from PIL import Image as PillowImage
 

@@ -12,22 +12,27 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from vtray.base.errors import UnfitFileError, VtrayError, why_unreadable
 from vtray.base.input_file import open_input
 from vtray.base.memory import lack_of_memory
+from vtray.figures.deep_picture import is_deep, read_deep
 
 if TYPE_CHECKING:
     import numpy as np
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
+    from PIL import Image as PillowImage
 
     from vtray.figures.subject import HasPixels, Pixels
 
-    Picture: TypeAlias = HasPixels | Pixels | str | PathLike[str]
+    Channels: TypeAlias = NDArray[Any]
+    Picture: TypeAlias = HasPixels | Channels | str | PathLike[str]
 
 MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")
-"""Pillow's names for images of at most 8 bits per channel, in colours of a monitor."""
+"""Pillow's names for images in colours of a monitor."""
 
+BYTES_PER_PIXEL = 4 + 4 + 4
+"""A picture as Pillow reads it, as RGBA, and as an array; of 16 bits, twice as many."""
 
-BYTES_PER_PIXEL = 4 + 4 + 3
-"""A picture as Pillow reads it, as RGB, and as an array."""
+DEEP = 65535
+"""The largest value of 16 bits."""
 
 LEAST_SHOWN = 64
 """The least value in a difference picture of what is not equal."""
@@ -44,30 +49,40 @@ class Comparison:
     Attributes
     ----------
     a, b
-        Their pixels, uint8, (height, width, 3).
+        Their pixels, (height, width, 3), what is transparent on black: uint8, or uint16 where one
+        of them has 16 bits per channel.
     names
         What they are called: their files, or "a" and "b".
     largest
-        The largest difference of a channel, of 255.
+        The largest difference of a channel, of `maximum`.
     mean
-        The mean of the differences of all channels, of 255.
+        The mean of the differences of all channels, of `maximum`.
     rmse
-        The root of the mean of their squares, of 255.
+        The root of the mean of their squares, of `maximum`.
     differing
         How many pixels are not equal.
     box
         Left, top, right and bottom of the rectangle in which pixels differ, the last two
         exclusive: it is ``a[top:bottom, left:right]``. None if all are equal.
+    on_white
+        Both on white, where any is transparent: they differ by what they do on black or on white,
+        whichever is more.
     """
 
-    a: "Pixels" = field(repr=False)
-    b: "Pixels" = field(repr=False)
+    a: "Channels" = field(repr=False)
+    b: "Channels" = field(repr=False)
     names: tuple[str, str]
     largest: int
     mean: float
     rmse: float
     differing: int
     box: tuple[int, int, int, int] | None
+    on_white: "tuple[Channels, Channels] | None" = field(default=None, repr=False)
+
+    @property
+    def maximum(self) -> int:
+        """The largest value of a channel: 255, or 65535 of 16 bits."""
+        return _maximum_of(self.a)
 
     @property
     def pixels(self) -> int:
@@ -82,32 +97,48 @@ class Comparison:
     @property
     def psnr(self) -> float:
         """Peak signal-to-noise ratio in decibels, infinite for equal pictures."""
-        return 20 * math.log10(255 / self.rmse) if self.rmse else math.inf
+        return 20 * math.log10(self.maximum / self.rmse) if self.rmse else math.inf
 
     @cached_property
     def flip(self) -> float:
         """Mean FLIP error, as ``vtray-diff`` prints it: 0 for pictures that look equal, at most 1.
+
+        Where any is transparent, it is that on black or on white, whichever is more.
 
         Raises
         ------
         ExtraError
             The package ``flip-evaluator`` is not installed.
         """
+        return self.flip_error("Comparison.flip")[0]
+
+    def flip_error(self, user: str) -> "tuple[float, Pixels]":
+        """Return the mean FLIP error, and its map in magma colours; see `flip_error` of ``flip``.
+
+        Parameters
+        ----------
+        user
+            What needs this, for the message if the package is missing.
+        """
         from vtray.figures.flip import flip_error
 
-        return flip_error(self.a, self.b, "Comparison.flip")[0]
+        on_black = flip_error(self.a, self.b, user)
+        if self.on_white is None:
+            return on_black
+        return max(on_black, flip_error(*self.on_white, user), key=lambda found: found[0])
 
     @cached_property
     def difference(self) -> "Pixels":
         """Where the pictures differ, made visible, uint8, (height, width, 3).
 
-        A channel is 0 where both have the same value. Where one is greater by d, it is
+        A channel is 0 where both have the same value. Where they differ by d, it is
         ``64 + 191 * d / largest``: so the least difference can be seen, and the largest is 255.
         """
         import numpy as np
 
-        steps = _steps(self.a, self.b)
-        shown = LEAST_SHOWN + (255 - LEAST_SHOWN) * np.arange(256) / max(self.largest, 1)
+        steps = _steps(self.a, self.b, self.on_white)
+        levels = np.arange(self.maximum + 1)
+        shown = LEAST_SHOWN + (255 - LEAST_SHOWN) * levels / max(self.largest, 1)
         shown[0] = 0
         table: Pixels = np.minimum(shown, 255).astype(np.uint8)
         return table[steps]
@@ -124,7 +155,7 @@ class Comparison:
             [
                 f"differing    {self.differing:,} of {self.pixels:,} pixels ({share})",
                 f"where        {place}",
-                f"largest      {self.largest} of 255",
+                f"largest      {self.largest} of {self.maximum}",
                 f"mean         {self.mean:.4g}",
                 f"RMSE         {self.rmse:.4g}",
                 f"PSNR         {self.psnr:.4g} dB",
@@ -151,17 +182,25 @@ class Comparison:
         from vtray.figures.figure import compare_figure
 
         captions = [*self.names, self._caption()]
-        return compare_figure([self.a, self.b, self.difference], captions, str(self), dpi)
+        return compare_figure(self._shown(), captions, str(self), dpi)
+
+    def _shown(self) -> "list[Pixels]":
+        """Return both pictures and their difference with 8 bits per channel."""
+        step = self.maximum // 255
+        both: list[Pixels] = [(pixels // step).astype("uint8") for pixels in (self.a, self.b)]
+        return [*both, self.difference]
 
     def _caption(self) -> str:
         """Say what the difference picture shows."""
-        return f"difference, up to {self.largest} of 255" if self.largest else "no difference"
+        if not self.largest:
+            return "no difference"
+        return f"difference, up to {self.largest} of {self.maximum}"
 
     def _repr_html_(self) -> str:
         """Return pictures, difference and figures as HTML, by which notebooks show them."""
         cells = []
         captions = (*self.names, self._caption())
-        for caption, pixels in zip(captions, (self.a, self.b, self.difference), strict=True):
+        for caption, pixels in zip(captions, self._shown(), strict=True):
             source = f"data:image/png;base64,{b64encode(_as_png(pixels)).decode()}"
             text = html.escape(caption)
             image = f'<img src="{source}" alt="{text}" style="max-width: 100%">'
@@ -178,8 +217,11 @@ def compare(a: "Picture", b: "Picture") -> Comparison:
     Parameters
     ----------
     a, b
-        Images that were rendered, arrays of pixels, uint8 of shape (height, width, 3) or with
-        alpha (height, width, 4), or paths of image files. What is transparent lies on black.
+        Images that were rendered, arrays of pixels, uint8 or uint16 of shape (height, width, 3) or
+        with alpha (height, width, 4), or paths of image files. If any has 16 bits per channel, both
+        are compared so: of an image that was rendered, its own 16 bits, of others 257 times their
+        8. If any is transparent, both are compared on black and on white, and the greater
+        difference of each channel counts.
 
     Returns
     -------
@@ -189,8 +231,8 @@ def compare(a: "Picture", b: "Picture") -> Comparison:
     Raises
     ------
     DiffError
-        They are not pictures with 8 bits per channel, not of the same size, or a file cannot be
-        read.
+        They are not pictures with 8 or 16 bits per channel, not of the same size, or a file cannot
+        be read.
 
     Examples
     --------
@@ -200,46 +242,47 @@ def compare(a: "Picture", b: "Picture") -> Comparison:
 
     (name, first), (other, second) = _take(a, "a"), _take(b, "b")
     check_same_size(first, second, name, other)
-    steps = _steps(first, second)
-    counts = np.bincount(steps.ravel(), minlength=256)
+    if first.dtype != second.dtype:
+        first, second = _deepened(a, first), _deepened(b, second)
+    maximum = _maximum_of(first)
+    on_black, on_white = (_laid(first, 0), _laid(second, 0)), None
+    if 4 in (first.shape[2], second.shape[2]):
+        on_white = _laid(first, maximum), _laid(second, maximum)
+    steps = _steps(*on_black, on_white)
+    counts = np.bincount(steps.ravel(), minlength=maximum + 1)
     levels = np.arange(len(counts))
     total, squares = int(counts @ levels), int(counts @ (levels * levels))
     unequal = np.any(steps, axis=2)
     return Comparison(
-        first,
-        second,
+        *on_black,
         (name, other),
         int(steps.max(initial=0)),
         total / max(steps.size, 1),
         math.sqrt(squares / max(steps.size, 1)),
         int(unequal.sum()),
         _box(np.asarray(unequal)),
+        on_white,
     )
 
 
-def read_picture(path: Path) -> "Pixels":
-    """Read an image file as 8-bit RGB; what is transparent lies on black.
+def read_picture(path: Path) -> "Channels":
+    """Read an image file, uint8 or uint16, (height, width, 3), or 4 if any of it is transparent.
 
     Raises
     ------
     DiffError
         The file cannot be read, or is not an image of this kind.
     """
-    import numpy as np
     from PIL import Image as PillowImage
 
     try:
         with open_input(path) as file, PillowImage.open(file) as image:
-            mode = image.mode
-            lack = lack_of_memory(image.width * image.height * BYTES_PER_PIXEL)
+            mode, deep = image.mode, is_deep(image)
+            lack = lack_of_memory(image.width * image.height * BYTES_PER_PIXEL * (1 + deep))
             if lack:
                 message = f"{path}: a picture of {image.width} x {image.height} pixels needs {lack}"
                 raise DiffError(message)
-            if not image.has_transparency_data:
-                picture = image.convert("RGB")
-            else:
-                picture = PillowImage.new("RGB", image.size)
-                picture.paste(image, mask=image.convert("RGBA").getchannel("A"))
+            pixels = read_deep(lambda: PillowImage.open(file)) if deep else _read(image)
     except (MemoryError, DiffError):
         raise
     except UnfitFileError as error:
@@ -248,26 +291,34 @@ def read_picture(path: Path) -> "Pixels":
         reason = getattr(error, "strerror", None) or "it is no image, or a damaged one"
         message = f"{path}: cannot be read: {reason[:1].lower()}{reason[1:]}"
         raise DiffError(message) from error
-    if mode not in MODES:
-        message = f"{path}: expected an image of 8 bits per channel, got one of kind {mode}"
+    if mode not in MODES or pixels is None:
+        kind = f"{mode} with 16, gray or of one transparent colour" if mode in MODES else mode
+        message = f"{path}: expected an image of 8 bits per channel, got one of kind {kind}"
         raise DiffError(message)
-    return np.asarray(picture)
+    return _without_full_alpha(pixels)
 
 
-def check_same_size(a: "Pixels", b: "Pixels", first: object, second: object) -> None:
+def _read(image: "PillowImage.Image") -> "Pixels":
+    """Return the pixels of an image of 8 bits per channel."""
+    import numpy as np
+
+    return np.asarray(image.convert("RGBA" if image.has_transparency_data else "RGB"))
+
+
+def check_same_size(a: "Channels", b: "Channels", first: object, second: object) -> None:
     """Raise DiffError if two pictures, of these names, are not of the same size."""
-    if a.shape != b.shape:
+    if a.shape[:2] != b.shape[:2]:
         expected = f"expected an image of {_size(a)} pixels, as {first} is, got {_size(b)}"
         message = f"{second}: {expected}"
         raise DiffError(message)
 
 
-def _size(pixels: "Pixels") -> str:
+def _size(pixels: "Channels") -> str:
     return f"{pixels.shape[1]} x {pixels.shape[0]}"
 
 
-def _take(picture: "Picture", name: str) -> "tuple[str, Pixels]":
-    """Return the name and the pixels of a picture, uint8, (height, width, 3)."""
+def _take(picture: "Picture", name: str) -> "tuple[str, Channels]":
+    """Return the name and the pixels of a picture, as `read_picture` does."""
     import numpy as np
 
     if isinstance(picture, (str, PathLike)):
@@ -276,27 +327,61 @@ def _take(picture: "Picture", name: str) -> "tuple[str, Pixels]":
     got = f"{type(pixels).__name__}"
     if isinstance(pixels, np.ndarray):
         got = f"{pixels.dtype} {pixels.shape}"
-        if pixels.dtype == np.uint8 and pixels.ndim == 3 and pixels.shape[2] in {3, 4}:
-            return name, _on_black(pixels)
-    message = f"{name}: expected an Image, a path, or uint8 (height, width, 3), got {got}"
+        is_kind = pixels.dtype in (np.uint8, np.uint16)
+        if is_kind and pixels.ndim == 3 and pixels.shape[2] in {3, 4}:
+            return name, _without_full_alpha(pixels)
+    expected = "an Image, a path, or uint8 or uint16 (height, width, 3)"
+    message = f"{name}: expected {expected}, got {got}"
     raise DiffError(message)
 
 
-def _on_black(pixels: "Pixels") -> "Pixels":
-    """Return pixels without alpha, those that are transparent laid on black."""
+def _deepened(picture: "Picture", pixels: "Channels") -> "Channels":
+    """Return the pixels of a picture with 16 bits per channel: its own ones if it has them."""
+    import numpy as np
+
+    if pixels.dtype == np.uint16:
+        return pixels
+    develop = getattr(picture, "develop", None)
+    if develop is not None:
+        return _without_full_alpha(develop(16))
+    deep: Channels = pixels.astype(np.uint16) * (DEEP // 255)
+    return deep
+
+
+def _maximum_of(pixels: "Channels") -> int:
+    """Return the largest value that a channel can have."""
+    return 255 if pixels.dtype.itemsize == 1 else DEEP
+
+
+def _without_full_alpha(pixels: "Channels") -> "Channels":
+    """Return pixels without alpha if none of them is transparent."""
+    if pixels.shape[2] == 4 and (pixels[..., 3] == _maximum_of(pixels)).all():
+        return pixels[..., :3]
+    return pixels
+
+
+def _laid(pixels: "Channels", ground: int) -> "Channels":
+    """Return pixels without alpha, those that are transparent laid on a gray."""
     import numpy as np
 
     if pixels.shape[2] == 3:
         return pixels
-    product = pixels[..., :3].astype(np.uint16) * pixels[..., 3:]
-    return ((product + 127) // 255).astype(np.uint8)
+    maximum = _maximum_of(pixels)
+    wide: Channels = pixels.astype(np.uint16 if maximum == 255 else np.uint32)
+    alpha = wide[..., 3:]
+    product = wide[..., :3] * alpha + ground * (maximum - alpha)
+    laid: Channels = ((product + maximum // 2) // maximum).astype(pixels.dtype)
+    return laid
 
 
-def _steps(a: "Pixels", b: "Pixels") -> "Pixels":
-    """Return the differences without sign."""
+def _steps(
+    a: "Channels", b: "Channels", on_white: "tuple[Channels, Channels] | None"
+) -> "Channels":
+    """Return the differences without sign: on white, too, the greater ones."""
     import numpy as np
 
-    return np.where(a > b, a - b, b - a)
+    steps = np.where(a > b, a - b, b - a)
+    return steps if on_white is None else np.maximum(steps, _steps(*on_white, None))
 
 
 def _box(unequal: "NDArray[np.bool_]") -> tuple[int, int, int, int] | None:

@@ -5,7 +5,7 @@ References
 Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020.
 """
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import VtrayError
 from vtray.base.extras import need
@@ -22,13 +22,13 @@ BYTES_PER_PIXEL = 240
 """What the library takes, as measured."""
 
 
-def flip_error(a: "Pixels", b: "Pixels", user: str) -> "tuple[float, Pixels]":
+def flip_error(a: "NDArray[Any]", b: "NDArray[Any]", user: str) -> "tuple[float, Pixels]":
     """Return the mean FLIP error, from 0 to 1, and its map in magma colours.
 
     Parameters
     ----------
     a, b
-        The pixels of both, uint8, (height, width, 3).
+        The pixels of both, uint8 or uint16, (height, width, 3).
     user
         What needs this, for the message if the package is missing.
 
@@ -47,6 +47,8 @@ def flip_error(a: "Pixels", b: "Pixels", user: str) -> "tuple[float, Pixels]":
     if lack:
         message = f"to compare pictures of {width} x {height} pixels needs {lack}"
         raise VtrayError(message)
-    reference, test = (np.ascontiguousarray(pixels, np.float32) / 255 for pixels in (a, b))
+    reference, test = (
+        np.ascontiguousarray(pixels, np.float32) / np.iinfo(pixels.dtype).max for pixels in (a, b)
+    )
     colors, mean, _ = evaluate(reference, test, "LDR", applyMagma=True)
     return float(mean), np.round(colors * 255).astype(np.uint8)
