@@ -1,6 +1,7 @@
 """Scenes with other colours of an object, and with other intensities of the lights."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from numbers import Real
 from typing import TYPE_CHECKING, Any
 
@@ -139,11 +140,12 @@ def relit(scene: Scene, intensities: Sequence[float]) -> Scene:
     """
     lights = scene.lights
     count = len(intensities) if hasattr(intensities, "__len__") else repr(intensities)
+    numbers = "a list of one number" if len(lights) == 1 else f"{len(lights)} numbers"
+    expected = f"relight: intensities: expected {numbers}, one for each light"
+    if isinstance(intensities, Mapping | AbstractSet):  # which say nothing of which is whose
+        raise SceneError(f"{expected}, in their order, got a {type(intensities).__name__}")
     if count != len(lights):
-        numbers = "a list of one number" if len(lights) == 1 else f"{len(lights)} numbers"
-        words = f"{numbers}, one for each light"
-        message = f"relight: intensities: expected {words}, got {count}"
-        raise SceneError(message)
+        raise SceneError(f"{expected}, got {count}")
     changed = []
     for k, (light, intensity) in enumerate(zip(lights, intensities, strict=True)):
         try:
