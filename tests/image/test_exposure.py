@@ -1,6 +1,8 @@
 """From light to pixels."""
 
 import math
+import re
+from typing import Any
 
 import numpy as np
 import pytest
@@ -107,3 +109,12 @@ def test_lights_too_bright_for_a_double() -> None:
     check_brightness([vtray.Light((0, 0, 0), BRIGHTEST)])
     with pytest.raises(RenderError, match=r"^lights: the intensities add up to inf, expected at"):
         check_brightness([vtray.Light((0, 0, 0), 1.7e308)] * 2)
+
+
+@pytest.mark.parametrize("bits", [12, 32, 0, -8, True, 16.5, 8.0, math.nan, "16", None, [8]])
+def test_bits_are_8_or_16(bits: Any) -> None:
+    image = hand_made()
+    problem = re.escape(f"bits: expected 8 or 16, got {bits!r}")
+    with pytest.raises(RenderError, match=f"^{problem}$"):
+        vtray.Image.develop(image, bits)
+    assert vtray.Image.develop(image, np.int64(16)).dtype == np.uint16

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import RenderError
+from vtray.base.number import is_integer
 from vtray.figures.brightness_scale import SHADES, BrightnessScale
 from vtray.image.compositing import Drawn, composite, has_background, with_lines
 from vtray.image.exposure import Overlay, check_brightness, develop
@@ -169,7 +170,14 @@ class Rendered:
         65535. With a tone map that is not linear, it becomes ``round(maximum * encoded)``. With a
         transparent background there is a fourth channel, alpha, and colours are not multiplied by
         it.
+
+        Raises
+        ------
+        RenderError
+            `bits` is neither 8 nor 16.
         """
+        if not is_integer(bits) or bits not in (8, 16):
+            raise RenderError(f"bits: expected 8 or 16, got {bits!r}")
         if bits == 8 and self._pixels is not None:
             return self._pixels
         background = self.settings.background
