@@ -263,9 +263,10 @@ class Rendered:
 
         Of a matt one that is its colour as light, 1 for white, times ``lambert``. With the
         integrators whitted and path it is also what coats, mirrors and metals mirror, and what
-        glass mirrors and lets through, as it would be seen in white light from everywhere. Of what
-        has an opacity below 1, each layer counts for as much of it as is seen. Of a pixel with
-        samples it is the mean over the pixel, sharp also where there is a lens.
+        glass mirrors and lets through of white light from everywhere: the first surface alone, not
+        what is seen in it or behind it. Of what has an opacity below 1, each layer counts for as
+        much of it as is seen. Of a pixel with samples it is the mean over the pixel, sharp also
+        where there is a lens.
         """
         return self._albedo(self.scene)
 
