@@ -276,6 +276,30 @@ def test_what_was_painted_on_a_picture_is_warned_of(
     assert capfd.readouterr().err == ""
 
 
+@pytest.mark.parametrize("size", [(8, 6), (24, 18)])
+def test_scene_as_it_was_rendered_is_no_other(
+    size: tuple[int, int], small: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    one, two = small.with_name("one.npz"), small.with_name("two.npz")
+    shown, scene = small.with_name("shown.json"), vtray.load(small)
+    image = vtray.render(scene, size=size, keep_lights=True)
+    for picture in (image, image.expose(2), image.relight([0.5])):
+        picture.save(one)
+        picture.scene.save(shown)
+        assert cli.run(["--replay", str(one), str(shown), str(two)]) == 0
+        assert capfd.readouterr() == ("", "")
+        with np.load(one) as before, np.load(two) as after:
+            np.testing.assert_array_equal(before["linear"], after["linear"])
+    image.save(one)
+    assert cli.run(["--replay", str(one), str(small), str(two)]) == 0
+    assert capfd.readouterr() == ("", "")
+    vtray.render(scene, size=(4, 3)).scene.save(shown)
+    assert cli.run(["--replay", str(one), str(shown), str(two)]) == 0
+    assert "was made from another scene" in capfd.readouterr().err
+    vtray.render(scene).save(one)
+    assert vtray.read_provenance(one).shown is None
+
+
 def write(path: Path, **settings: object) -> None:
     """Write a picture of these settings by hand."""
     from pictures import hand_made

@@ -64,5 +64,5 @@ def differences(told: Provenance, scene: Scene, *, is_painted: bool) -> Iterator
         yield f"title, legend and whatever else is painted on it {words} by image.annotated"
     if told.version != __version__:
         yield f"was made by vtray {told.version}, this is {__version__}: the picture may differ"
-    if told.scene != scene_hash(scene):
+    if scene_hash(scene) not in (told.scene, told.shown):
         yield "was made from another scene, or this one has changed since: the picture will differ"

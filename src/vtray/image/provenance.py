@@ -17,6 +17,8 @@ from vtray.scene.checks.limits import END, Fraction, NonNegative
 from vtray.scene.settings import RenderSettings, Settings
 from vtray.scene.style import Style
 
+Hash = Annotated[str, Meta(pattern=f"^[0-9a-f]{{16,64}}{END}")]
+
 
 class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """How a picture was made.
@@ -29,6 +31,9 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
         The version of vtray.
     scene : str
         The hash of the scene.
+    shown : str or None
+        The hash of the scene as it was rendered, with a camera of another size; None if that is the
+        same.
     samples, filter, seed, tolerance, exposure, background, denoise, stops,
     tonemap, integrator, depth, firefly, edge_samples
         As in the settings of the render, those that were left out too.
@@ -51,7 +56,8 @@ class Provenance(Settings, frozen=True, forbid_unknown_fields=True, kw_only=True
     """
 
     version: str
-    scene: Annotated[str, Meta(pattern=f"^[0-9a-f]{{16,64}}{END}")]
+    scene: Hash
+    shown: Hash | None = None
     style: Style = Style()
     lock: NonNegative | None = None
     keep_lights: bool = False
@@ -86,6 +92,7 @@ _SELDOM = (
     "depth",
     "firefly",
     "edge_samples",
+    "shown",
     "style",
     "keep_lights",
     "painted",
@@ -103,6 +110,7 @@ def describe(picture: Picture, how: How, *, painted: bool = False) -> Provenance
         **msgspec.structs.asdict(picture.settings),
         "version": __version__,
         "scene": picture.scene_hash,
+        "shown": picture.shown_hash,
         "size": (width, height),
         "style": picture.style,
         "lock": float(picture.white) if picture.locked else None,

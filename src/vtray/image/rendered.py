@@ -457,6 +457,12 @@ class Rendered:
         """A hash of the scene, 32 hexadecimal digits: that of the same scene loaded again."""
         return scene_hash(self._original)
 
+    @cached_property
+    def shown_hash(self) -> str | None:
+        """A hash of `scene`, whose camera may have another size; None if it has the same."""
+        is_same = self.scene.camera == self._original.camera
+        return None if is_same else scene_hash(self.scene)
+
     def _relit(self, scene: Scene, lock: object) -> Self:
         """Return the picture of a scene that differs in lights and colours alone."""
         if self.partial is not None:
@@ -483,7 +489,7 @@ class Rendered:
         """Return a picture of the same view with other attributes, exposed anew."""
         other = copy.copy(self)
         of_scene = ("_orders",) if "scene" in changes else ()
-        for name in ("scene_hash", "with_sky", "error", "albedo", *of_scene):
+        for name in ("scene_hash", "shown_hash", "with_sky", "error", "albedo", *of_scene):
             vars(other).pop(name, None)
         vars(other).update(changes, _pixels=None, locked=lock is not None)
         other.white = white_of(other.settings, other.linear, lock)

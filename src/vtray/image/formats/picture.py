@@ -34,6 +34,10 @@ class Picture(Protocol):
         """A hash of the scene."""
 
     @property
+    def shown_hash(self) -> str | None:
+        """A hash of the scene as it was rendered, if that has another camera."""
+
+    @property
     def with_overlays(self) -> "Floats":
         """Light of all that is seen: the sky too, fog and lines, (height, width, 3)."""
 
