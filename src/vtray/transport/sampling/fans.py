@@ -72,10 +72,10 @@ LEAST_EDGE_FAN = 4
 FEWEST = 8
 """Rays of each fan of a layer of which little is seen, at the least."""
 
-COARSE, COARSER = 0.016, 0.032
-"""From these tolerances on, the fans of samples have half and a quarter as many rays. How much the
-samples of a pixel differ says what that does; where there is but one, thin bars would make errors
-larger than they are estimated to be.
+COARSE, COARSER = 0.016, 0.024
+"""From these tolerances on, the fans of samples have half and a quarter as many rays: half as many
+are off by 1.5 times as much. How much the samples of a pixel differ says what that does; where
+there is but one, thin bars would make errors larger than they are estimated to be.
 """
 
 MOST_FANS = 64
