@@ -15,7 +15,6 @@ from vtray.base.compiler.compiled import Kernel, kernel, uncompiled
 from vtray.base.compiler.object_code import compile_object
 from vtray.transport.sampling.fans import (
     COARSE,
-    COARSER,
     NO_OFFSET,
     RUN,
     Fans,
@@ -232,7 +231,7 @@ def test_order_of_pixels(column: int, row: int, levels: int, key: int) -> None:
 
 @pytest.mark.parametrize(
     ("tolerance", "parts"),
-    [(0.001, 1), (COARSE / 1.01, 1), (COARSE, 2), (COARSER / 1.01, 2), (COARSER, 4), (1.0, 4)],
+    [(0.001, 1), (COARSE[0] / 1.01, 1), *zip(COARSE, (2, 4, 8), strict=True), (1.0, 8)],
 )
 def test_fans_of_samples_have_fewer_rays_where_much_noise_may_be(
     tolerance: float, parts: int
