@@ -7,6 +7,7 @@ from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.queries import NOTHING
 from vtray.transport.integrators import reference
+from vtray.transport.sampling.estimate import AS_NEEDED
 from vtray.transport.sampling.fans import Fans
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -31,7 +32,7 @@ def lit_pixel(
                 y,
                 light,
                 fans,
-                reference.AS_NEEDED,
+                AS_NEEDED,
                 spent,
                 seed,
                 stack,

@@ -26,6 +26,7 @@ from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
 from vtray.rendering.pack_lights import FAR
 from vtray.transport.integrators import reference
+from vtray.transport.sampling.estimate import AS_NEEDED
 from vtray.transport.sampling.fans import Noise, fan_of, fan_point, fans_of_middles
 
 Scene = dict[str, Any]
@@ -86,7 +87,7 @@ def compare_fans(
                 row,
                 light,
                 fans,
-                reference.AS_NEEDED,
+                AS_NEEDED,
                 0,
                 seed,
                 stack,

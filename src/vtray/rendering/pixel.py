@@ -19,8 +19,9 @@ from vtray.rendering.pixel_surfaces import as_vec, find_surface
 from vtray.scene.colors.color_light import as_light, numbers_of_light
 from vtray.scene.patterns import Pattern
 from vtray.scene.scene import Scene
-from vtray.transport.integrators.reference import AS_NEEDED, TracedPixel
+from vtray.transport.integrators.reference import TracedPixel
 from vtray.transport.materials.material import pattern_of
+from vtray.transport.sampling.estimate import AS_NEEDED
 from vtray.transport.sampling.fans import Fans
 
 

@@ -34,7 +34,7 @@ from vtray.rendering.pixel_lights import place_of_lamp, variance_on_trial
 from vtray.rendering.pixel_surfaces import as_vec
 from vtray.scene.materials import Lambert
 from vtray.transport.integrators.path import MIRRORED, REFRACTED, SCATTERED
-from vtray.transport.integrators.reference import AS_NEEDED, TracedPixel
+from vtray.transport.integrators.reference import TracedPixel
 from vtray.transport.integrators.single_path import Choice as Chosen
 from vtray.transport.integrators.single_path import (
     Followed,
@@ -48,6 +48,7 @@ from vtray.transport.integrators.single_path import (
 from vtray.transport.integrators.soft_trial import fans_for
 from vtray.transport.lights.crowd import sharing_lights
 from vtray.transport.lights.light import light_count
+from vtray.transport.sampling.estimate import AS_NEEDED
 from vtray.transport.sampling.paths import Step, seed_of_step
 from vtray.transport.sampling.pixel_samples import Sampling
 from vtray.transport.scene_arrays import depth_of

@@ -59,9 +59,6 @@ from vtray.transport.sampling.shared_estimate import (
 from vtray.transport.sampling.shared_fans import spread_among, weigh_lights
 from vtray.transport.scene_arrays import SceneArrays, lit_world
 
-AS_NEEDED = 0
-"""In place of a number of fans: so many as their variance asks for."""
-
 
 class TracedPixel(NamedTuple):
     """How a pixel got its value, lengths in units of the arrays.
@@ -359,8 +356,8 @@ def trace_lamp(
         What these have of the variance that all may have.
     """
     material = traced.material
-    worth, estimate, goes_on = soft_worth(scene.lights, soft, light, material), no_estimate(), True
-    while goes_on:
+    worth, estimate = soft_worth(scene.lights, soft, light, material), no_estimate()
+    while needs_more(estimate, fans, count, worth, spent, light, soft_count(soft)):
         number = estimate.fans
         shares, spread = _trace_any_fan(
             scene,
@@ -379,10 +376,6 @@ def trace_lamp(
             walk,
         )
         estimate = with_fan(estimate, shares, spread)
-        if count == AS_NEEDED:
-            goes_on = needs_more(estimate, fans, worth, spent, light, soft_count(soft))
-        else:
-            goes_on = estimate.fans < count
     shares, value = shares_of(estimate), traced.value
     counted = counted_variance(estimate, fans, worth)
     for component in range(component_count(soft, light)):

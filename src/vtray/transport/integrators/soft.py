@@ -56,6 +56,7 @@ from vtray.transport.lights.soft_light import (
 )
 from vtray.transport.materials.material import Material, scattered
 from vtray.transport.sampling.estimate import (
+    AS_NEEDED,
     counted_variance,
     load_estimate,
     needs_more,
@@ -451,8 +452,8 @@ def _spread_from(
         lane, casting.samples, casting.first, casting.block, casting.begin, work.pixels
     )
     number = load_estimate(batch, member).fans
-    count = fans_on_trial(packet, lane) if casting.samples > 1 else 1
-    offset, keys = fan_of(fans, number, count, sample, column, row, light, seed)
+    count = _fans_of(packet, lane, casting)
+    offset, keys = fan_of(fans, number, max(count, 1), sample, column, row, light, seed)
     set_start(work.fan, k, start, aim.error_scale + start.error_scale)
     rays = spread_fan(
         work.fan[k * fans.rays :],
@@ -488,11 +489,8 @@ def _goes_on(
     shares, spread = arriving_shares(fan, fans.rays, component_count(soft, light), aim, normal)
     estimate = with_fan(load_estimate(batch, member), shares, spread)
     worth, spent = _worth_at(packet, hit, casting, light), batch.spent[member]
-    if casting.samples > 1:
-        goes_on = estimate.fans < fans_on_trial(packet, integers(packet)[SOURCE + hit])
-    else:
-        goes_on = needs_more(estimate, fans, worth, spent, light, soft_count(soft))
-    if goes_on:
+    count = _fans_of(packet, integers(packet)[SOURCE + hit], casting)
+    if needs_more(estimate, fans, count, worth, spent, light, soft_count(soft)):
         store_estimate(batch, member, estimate)
         return True
     variance = with_unseen(estimate, fans.rays, aim.share)
@@ -500,6 +498,12 @@ def _goes_on(
     packet[NOISE + hit] += worth * worth * variance
     _add_shares(packet, hit, casting, light, shares_of(estimate))
     return False
+
+
+@device
+def _fans_of(packet: Packet, lane: int, casting: Casting) -> int:
+    """Return how many fans are cast from the hit of a lane to each light, or ``AS_NEEDED``."""
+    return fans_on_trial(packet, lane) if casting.samples > 1 else AS_NEEDED
 
 
 @device

@@ -32,6 +32,10 @@ LEAST = 0.25
 """Each light may have such a part of an equal part of the variance, whatever others have had."""
 
 
+AS_NEEDED = 0
+"""In place of a number of fans: so many as their variance asks for."""
+
+
 class Estimate(NamedTuple):
     """What is known after some fans.
 
@@ -92,7 +96,7 @@ def store_estimate(batch: Batch, member: int, estimate: Estimate) -> None:
 
 @device
 def needs_more(
-    estimate: Estimate, fans: Fans, worth: float, spent: float, light: int, lights: int
+    estimate: Estimate, fans: Fans, count: int, worth: float, spent: float, light: int, lights: int
 ) -> bool:
     """Tell whether another fan is to be cast.
 
@@ -100,6 +104,8 @@ def needs_more(
     ----------
     estimate, fans
         What is known so far, and which fans there are.
+    count
+        How many are to be cast, or ``AS_NEEDED``.
     worth
         The largest channel of what all of the light adds, shining squarely.
     spent
@@ -110,6 +116,8 @@ def needs_more(
     """
     if estimate.fans == 0:
         return True
+    if count != AS_NEEDED:
+        return estimate.fans < count
     allowed = max((1.0 - spent) / (lights - light), LEAST / lights)
     is_noisy = counted_variance(estimate, fans, worth) > allowed
     return is_noisy and estimate.fans < fans.fans
