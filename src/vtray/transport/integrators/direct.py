@@ -312,7 +312,7 @@ def _gather_albedos(
         listed = list_lanes(packet, lanes, skipped, sheaf, scene.world, faded, work)
         waiting = listed
         while waiting > 0:
-            waiting -= take_round(packet, lanes, skipped, work.layers, None, None)
+            waiting -= take_round(packet, lanes, lanes, skipped, work.layers, None, None)
             hits = _gather(packet, lanes, scene, sampling, mixed, work)
             weigh_colors(packet, hits)
             gather_albedos(packet, hits)
@@ -402,12 +402,16 @@ def _light_layers(
 ) -> tuple[int, int]:
     """Find the light of all lanes layer by layer; the result is that of `_light_lanes`."""
     sheaf, cast, skipped, listed = sheaf_of(scene.camera), 0, 0, 1
+    # The samples of a pixel decide together how many rays go to soft lights.
+    together = lanes if scene.lights.soft is None else last - first
     begin_layers(packet, lanes)
     while listed > 0 and not stop[0]:
         listed = list_lanes(packet, lanes, skipped, sheaf, scene.world, faded, work)
         waiting = listed
         while waiting > 0 and not stop[0]:
-            waiting -= take_round(packet, lanes, skipped, work.layers, scene.fog, film.orders)
+            waiting -= take_round(
+                packet, lanes, together, skipped, work.layers, scene.fog, film.orders
+            )
             hits = _gather(packet, lanes, scene, sampling, film.mixed, work)
             weigh_colors(packet, hits)
             cast += _light_hits(

@@ -187,6 +187,7 @@ def _restore(packet: Packet, lane: int) -> None:
 def take_round(
     packet: Packet,
     lanes: int,
+    together: int,
     skipped: int,
     layers: Layers,
     fog: FogFrame | None,
@@ -194,42 +195,61 @@ def take_round(
 ) -> int:
     """Let the next of what is listed take some lanes, or what is behind the last of it.
 
-    These are the lanes in which that is nearer than on average: so what takes them is near each
-    other, and so are the shadow rays from there. With `orders`, the light of lamps that are seen is
-    added in its order, too.
+    Of so many lanes together, these are the ones in which that is nearer than on average: so what
+    takes them is near each other, and so are the shadow rays from there. With `orders`, the light
+    of lamps that are seen is added in its order, too.
+
+    Parameters
+    ----------
+    packet, lanes, together
+        The lanes, and how many of them have a say in which are taken: no more than those of a pixel
+        where what they are lit by depends on which others are.
+    skipped, layers
+        After how many layers of each lane the list begins, and the list.
+    fog, orders
+        What takes its share of all that is seen, and where light goes by its order, if asked.
 
     Returns
     -------
     int
         How many lanes were taken.
     """
-    numbers, taken = integers(packet), 0
-    farthest = _mean_distance(packet, lanes, skipped, layers)
-    for lane in range(lanes):
-        k, listed = numbers[NEXT_LAYER + lane], layers.listed[lane]
-        distance = _next_distance(packet, lane, layers)
-        is_now = distance <= farthest or distance == math.inf
-        if not (is_now and _is_waiting(packet, lane, skipped, layers)):
-            numbers[PRIMITIVE + lane] = NO_PRIMITIVE
-            continue
-        taken += 1
-        numbers[NEXT_LAYER + lane] = k + 1
-        if k < listed:
-            place = lane * AT_ONCE + k
-            packet[DISTANCE + lane] = layers.distance[place]
-            numbers[PRIMITIVE + lane] = layers.number[place]
-            numbers[MET + lane] = layers.met[place]
-            packet[SHARE + lane] = _clear_share(packet, lane, layers.share[place], fog)
-        elif layers.passed[lane] > 0.0:
-            _restore(packet, lane)
-            packet[SHARE + lane] = _clear_share(packet, lane, layers.passed[lane], fog)
-            if numbers[PRIMITIVE + lane] < NO_PRIMITIVE:
-                light = scale(packet[SHARE + lane], load(packet, LIGHT, lane))
-                store(packet, GATHERED, lane, add(load(packet, GATHERED, lane), light))
-                add_in_order(packet, lane, light, 0, orders)
-        else:
-            numbers[PRIMITIVE + lane] = NO_PRIMITIVE
+    taken = 0
+    for begin in range(0, lanes, together):
+        end = min(begin + together, lanes)
+        farthest = _mean_distance(packet, begin, end, skipped, layers)
+        for lane in range(begin, end):
+            distance = _next_distance(packet, lane, layers)
+            is_now = distance <= farthest or distance == math.inf
+            if is_now and _is_waiting(packet, lane, skipped, layers):
+                _take(packet, lane, layers, fog, orders)
+                taken += 1
+            else:
+                integers(packet)[PRIMITIVE + lane] = NO_PRIMITIVE
     return taken
+
+
+@device
+def _take(packet: Packet, lane: int, layers: Layers, fog: FogFrame | None, orders: Rows) -> None:
+    """Let the next of what is listed of a lane take it, or what is behind the last."""
+    numbers = integers(packet)
+    k = numbers[NEXT_LAYER + lane]
+    numbers[NEXT_LAYER + lane] = k + 1
+    if k < layers.listed[lane]:
+        place = lane * AT_ONCE + k
+        packet[DISTANCE + lane] = layers.distance[place]
+        numbers[PRIMITIVE + lane] = layers.number[place]
+        numbers[MET + lane] = layers.met[place]
+        packet[SHARE + lane] = _clear_share(packet, lane, layers.share[place], fog)
+    elif layers.passed[lane] > 0.0:
+        _restore(packet, lane)
+        packet[SHARE + lane] = _clear_share(packet, lane, layers.passed[lane], fog)
+        if numbers[PRIMITIVE + lane] < NO_PRIMITIVE:
+            light = scale(packet[SHARE + lane], load(packet, LIGHT, lane))
+            store(packet, GATHERED, lane, add(load(packet, GATHERED, lane), light))
+            add_in_order(packet, lane, light, 0, orders)
+    else:
+        numbers[PRIMITIVE + lane] = NO_PRIMITIVE
 
 
 @device
@@ -254,10 +274,10 @@ def _next_distance(packet: Packet, lane: int, layers: Layers) -> float:
 
 
 @device
-def _mean_distance(packet: Packet, lanes: int, skipped: int, layers: Layers) -> float:
-    """Return how far what is next in the lanes is on average, which is not nearer than all."""
+def _mean_distance(packet: Packet, begin: int, end: int, skipped: int, layers: Layers) -> float:
+    """Return how far what is next in some lanes is on average, which is not nearer than all."""
     total, count, most = 0.0, 0, 0.0
-    for lane in range(lanes):
+    for lane in range(begin, end):
         if _is_waiting(packet, lane, skipped, layers):
             distance = _next_distance(packet, lane, layers)
             if distance < math.inf:
