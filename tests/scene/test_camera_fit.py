@@ -132,6 +132,28 @@ def test_fit_is_inside_tight_and_in_the_middle(
         assert math.degrees(2 * math.atan(slope)) == pytest.approx(fov)
 
 
+@pytest.mark.parametrize(
+    ("size", "across", "down"),
+    [
+        ((300, 400), None, 40),
+        ((400, 300), None, 40),
+        ((640, 360), 52, None),
+        ((1000, 150), 52, None),
+        ((2, 400), None, 40),
+    ],
+)
+def test_wide_pictures_are_not_seen_at_wider_angles(
+    size: tuple[int, int], across: float | None, down: float | None
+) -> None:
+    camera = Camera.fit(np.random.default_rng(5).normal(size=(9, 3)), size=size)
+    for angle, pixels, side in zip((across, down), size, camera.resolution, strict=True):
+        if angle is not None:
+            found = 2 * math.degrees(math.atan(pixels * side / 2 / camera.focus))
+            assert found == pytest.approx(angle)
+    given = Camera.fit([(0, 0, 0), (1, 0, 0)], fov_degrees=40, size=size)
+    assert size[1] * given.resolution[1] / given.focus == pytest.approx(2 * math.tan(math.pi / 9))
+
+
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 @pytest.mark.parametrize("margins", [(0.1, 0, 0.4, 0.2), (0, 0.45, 0.05, 0.05)])
 @pytest.mark.parametrize("size", [(101, 101), (201, 101)])

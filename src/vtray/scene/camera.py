@@ -222,7 +222,7 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         up: "Direction | Vector | Triple | None" = None,
         margin: float | tuple[float, float, float, float] = 0.05,
         projection: FlatProjection = "perspective",
-        fov_degrees: float = 40.0,
+        fov_degrees: float | None = None,
         size: Sequence[int] = (800, 600),
         *,
         view: str | tuple[float, float] | None = None,
@@ -254,7 +254,8 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         projection
             "perspective" or "orthographic".
         fov_degrees
-            The vertical field of view in degrees, > 0 and < 180; only for perspective.
+            The vertical field of view in degrees, > 0 and < 180; only for perspective. By default
+            40, but so much less in pictures wider than 4:3 that the horizontal one is 52.
         size
             Width and height of the picture in pixels.
         view

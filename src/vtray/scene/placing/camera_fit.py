@@ -36,6 +36,10 @@ CLEARANCE = 16.0
 enough to see a floor before that, if it is looked at from more than 4 degrees above."""
 
 
+TALL, WIDE = 40.0, 52.0
+"""The fields of view, vertical and horizontal in degrees, of which the narrower is taken unless one
+is given. Up to 4:3 that is the vertical one; wider, balls at the sides would look like eggs."""
+
 Frames = tuple[tuple[float, float], tuple[float, float]]
 """Where silhouettes may begin and end, across and down, in pixels from the axis."""
 
@@ -60,7 +64,7 @@ def fitting(
     forward = unit(argument(call, "direction", direction, Direction))
     free = _margins(call, margin)
     kind = argument(call, "projection", projection, FlatProjection)
-    fov = argument(call, "fov_degrees", fov_degrees, FieldOfView)
+    fov = argument(call, "fov_degrees", fov_degrees, FieldOfView | None)
     width, height = pixels = argument(call, "size", size, SizePair)
     parts = balls_of(subject, call)
     middle = middle_of(parts)
@@ -70,7 +74,7 @@ def fitting(
     frames = _frame(int(width), free[0], free[2]), _frame(int(height), free[1], free[3])
     with np.errstate(over="ignore", invalid="ignore"):
         if kind == "perspective":
-            slope = pixel_slope(fov, pixels)
+            slope = _usual_slope(pixels) if fov is None else pixel_slope(fov, pixels)
             edges = [(first * slope, last * slope) for first, last in frames]
             place, focus = _stand([look(part, middle, axes, edges) for part in parts], edges)
             eye = _to_world(place, middle, axes)
@@ -84,6 +88,11 @@ def fitting(
         words = "expected coordinates and radii whose sums and products are doubles"
         raise SceneError(f"{call}: the spheres reach too far; {words}, up to about 1e307")
     return fields
+
+
+def _usual_slope(size: tuple[int, int]) -> float:
+    """Return the width of a pixel at distance 1 from the eye where no field of view is given."""
+    return min(pixel_slope(TALL, size), pixel_slope(WIDE, (size[1], size[0])))
 
 
 def _choose_up(subject: object, up: object, forward: Vec, middle: Floats) -> Direction:
