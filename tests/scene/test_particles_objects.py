@@ -83,6 +83,35 @@ def test_tables_of_arrow_have_places() -> None:
         vtray.Scene().add_spheres(table, table)
 
 
+@pytest.mark.parametrize("made", [pd.DataFrame, pl.DataFrame, pa.table])
+@pytest.mark.parametrize("order", ["xyz", "zyx", "yXz"])
+def test_columns_have_their_meaning_in_any_order(made: Any, order: str) -> None:
+    table = made({name: COLUMNS[name.lower()] for name in order})
+    places, scene, line = np.array(POINTS), vtray.Scene(), np.eye(3)[:2]
+    part = vtray.Spheres(line, 1, (0, 0, 0), 1)
+    for found in (
+        scene.add_spheres(table, 1).center,
+        scene.add_cylinders(table, line, 1).start,
+        scene.add_cones(line, table, 1).end,
+        scene.add_copies(part, table).at,
+        scene.add_particles(table).spheres.center,
+        vtray.Particles(table).positions,
+    ):
+        assert found.tolist() == places.tolist()
+    assert vtray.Camera.fit(table) == vtray.Camera.fit(places)
+    other = made({name: COLUMNS[own] for name, own in zip("abc", "xyz", strict=True)})
+    assert scene.add_spheres(other, 1).center.tolist() == places.tolist()
+
+
+@pytest.mark.parametrize("made", [pd.DataFrame, pl.DataFrame, pa.table])
+def test_columns_of_colours_have_their_meaning_in_any_order(made: Any) -> None:
+    table = made({"b": [3, 6], "g": [2, 5], "r": [9, 4]})
+    scene, rows = vtray.Scene(), [[9, 2, 3], [4, 5, 6]]
+    assert scene.add_spheres(POINTS, 1, table).color.tolist() == rows
+    assert scene.add_particles(POINTS, color=table).spheres.color.tolist() == rows
+    assert vtray.Spheres(POINTS, 1, table, 1).color.tolist() == rows
+
+
 def test_tables_that_are_yet_to_be_worked_out() -> None:
     table = pl.LazyFrame(COLUMNS)
     remedy = r"got <LazyFrame .*>; give what its collect\(\) returns$"

@@ -158,7 +158,7 @@ def _to_array(found: Any, column: Column, place: str) -> AnyArray:  # noqa: ANN4
     if remedy and not hasattr(given, "__array__"):  # atoms, which NumPy would take one by one
         raise SceneError(f"{words}, got {show_array(given)}{remedy}")
     try:
-        array: AnyArray = converted(given)
+        array: AnyArray = converted(given, column.table if column.row else ())
         if column.row:  # tables whose columns differ, or lack entries, are arrays of objects
             array = without_objects(array)
     except UNCONVERTED as error:

@@ -1,6 +1,7 @@
 """What was given where an array is expected: as one, and for messages, where tables are names."""
 
 import sys
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
@@ -33,7 +34,12 @@ def check_unmasked(given: object, place: str) -> None:
         raise SceneError(f"{place}: {words}{remedy_for(given, ())}")
 
 
-def array_of(given: Any, place: str, words: str) -> "NDArray[Any]":  # noqa: ANN401
+def array_of(
+    given: Any,  # noqa: ANN401
+    place: str,
+    words: str,
+    names: Sequence[str] = (),
+) -> "NDArray[Any]":
     """Return what was given as an array of numbers or names.
 
     Parameters
@@ -44,6 +50,8 @@ def array_of(given: Any, place: str, words: str) -> "NDArray[Any]":  # noqa: ANN
         What messages begin with.
     words
         What was expected instead of what is no array, or has masked numbers.
+    names
+        As for `converted`.
 
     Raises
     ------
@@ -53,15 +61,22 @@ def array_of(given: Any, place: str, words: str) -> "NDArray[Any]":  # noqa: ANN
     got = "" if not is_masked(given) else show_array(given)
     if not got:
         try:
-            return without_objects(converted(given))
+            return without_objects(converted(given, names))
         except UNCONVERTED as error:
             got = show_unconverted(given, error)
     raise SceneError(f"{place}: {words}, got {got}{remedy_for(given, ())}")
 
 
-def converted(given: Any) -> "NDArray[Any]":  # noqa: ANN401
-    """Return what was given as an array; raise one of `UNCONVERTED` if it cannot be one."""
+def converted(given: Any, names: Sequence[str] = ()) -> "NDArray[Any]":  # noqa: ANN401
+    """Return what was given as an array; raise one of `UNCONVERTED` if it cannot be one.
+
+    A table that has columns of some names and no others, in any order, becomes an array of these
+    in the order of the names; all other tables become arrays of what they have, as it stands.
+    """
     import numpy as np
+
+    if names and len(_columns(given)) == len(names):
+        given = _chosen(given, names)
 
     only_dlpack = hasattr(given, "__dlpack__") and not hasattr(given, "__array__")
     found: NDArray[Any] = np.from_dlpack(given) if only_dlpack else np.asarray(given)
@@ -137,10 +152,7 @@ def positions_in(given: Any) -> Any:  # noqa: ANN401
         import numpy as np
 
         return np.ma.stack([given[name] for name in COORDINATES], axis=1)
-    names = _columns(given)
-    if len(names) > len(COORDINATES) and all(name in names for name in COORDINATES):
-        return given.select(COORDINATES) if _is_arrow(given) else given[list(COORDINATES)]
-    return given
+    return _chosen(given, COORDINATES)
 
 
 def fields_of(given: Any) -> tuple[str, ...]:  # noqa: ANN401
@@ -155,6 +167,15 @@ def _columns(given: Any) -> list[str]:  # noqa: ANN401
     if columns is None:
         return []
     return list(map(str, given.column_names if _is_arrow(given) else columns))
+
+
+def _chosen(table: Any, names: Sequence[str]) -> Any:  # noqa: ANN401
+    """Return a table of the columns of some names, in any case; itself if it lacks one."""
+    theirs = _columns(table)
+    chosen = [next((own for own in theirs if own.lower() == name), None) for name in names]
+    if None in chosen or theirs == chosen:
+        return table
+    return table.select(chosen) if _is_arrow(table) else table[chosen]
 
 
 def _is_arrow(table: Any) -> bool:  # noqa: ANN401

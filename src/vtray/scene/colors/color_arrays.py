@@ -117,7 +117,7 @@ def _colors(given: Any, count: int, place: str, each: str) -> Bytes:  # noqa: AN
     if isinstance(given, (list, tuple)) and any(isinstance(item, (str, Color)) for item in given):
         return _listed(given, count, place, each)
     try:
-        array = converted(given)
+        array = converted(given, RED_GREEN_BLUE)
     except UNCONVERTED:
         # Rows of different length, or of integers too large.
         if isinstance(given, (list, tuple)):
