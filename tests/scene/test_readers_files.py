@@ -13,6 +13,7 @@ import pyarrow.parquet
 import pytest
 from ase import Atoms
 from ase.build import bulk, molecule
+from ase.calculators.singlepoint import SinglePointCalculator
 
 import vtray
 from vtray.base.errors import SceneError
@@ -683,8 +684,27 @@ def test_molecule_of_ase() -> None:
     found = vtray.from_ase(ethanol)
     assert found["element"].tolist() == ethanol.get_chemical_symbols()
     assert found["velocity"].tolist() == ethanol.get_velocities().tolist()
-    assert found["charge"].tolist() == list(range(9))
+    assert found["initial_charge"].tolist() == list(range(9))
+    assert "charge" not in found
     assert found.cell is None
+
+
+@pytest.mark.parametrize("name", [None, "a.traj", "a.extxyz"])
+def test_charges_are_those_that_a_calculator_has_found(name: str | None, tmp_path: Path) -> None:
+    atoms = Atoms("H2", [(0, 0, 0), (0, 0, 0.7)])
+    atoms.set_initial_charges([0.0, 0.1])
+    atoms.set_initial_magnetic_moments([1.0, -1.0])
+    atoms.calc = SinglePointCalculator(
+        atoms, charges=np.array([0.5, -0.5]), magmoms=np.array([0.2, -0.2])
+    )
+    found = vtray.from_ase(atoms)
+    if name is not None:
+        ase.io.write(tmp_path / name, atoms)
+        found = vtray.read(tmp_path / name)
+    assert found["charge"].tolist() == [0.5, -0.5]
+    assert found["magmom"].tolist() == [0.2, -0.2]
+    assert found["initial_charges"].tolist() == found["initial_charge"].tolist() == [0.0, 0.1]
+    assert found["initial_magmom"].tolist() == [1.0, -1.0]
 
 
 MISSING = """x,y,z,kind,value,count,is_new

@@ -18,9 +18,11 @@ _CALLED = {
     "color": ("colors", "colour", "colours", "rgb"),
     "velocity": ("velocities", "velo", "vel"),
     "force": ("forces", "frc"),
-    "charge": ("charges", "q", "initial_charges", "mmcharges"),
+    "charge": ("charges", "q", "mmcharges"),
+    "initial_charge": ("initial_charges",),
     "mass": ("masses",),
-    "magmom": ("magmoms", "initial_magmoms"),
+    "magmom": ("magmoms",),
+    "initial_magmom": ("initial_magmoms",),
     "id": ("identifier", "particle_identifier", "atom_id"),
 }
 """What each is called by files and libraries, beside its own name, in any case."""

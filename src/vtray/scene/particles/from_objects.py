@@ -63,8 +63,9 @@ def from_ase(atoms: Any) -> Particles:  # noqa: ANN401
     -------
     Particles
         With the columns ``element`` (or ``type`` where all are unknown), ``velocity`` where there
-        are momenta, what a calculator has found (``force``, ``charge``, ``magmom``), and all other
-        arrays by their names; and with the cell.
+        are momenta, what a calculator has found (``force``, ``charge``, ``magmom``), what it began
+        with (``initial_charge``, ``initial_magmom``), and all other arrays by their names; and
+        with the cell.
 
     Raises
     ------
