@@ -4,6 +4,7 @@ import copy
 import pickle
 import subprocess
 import sys
+import warnings
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -23,8 +24,12 @@ from vtray.base.extras import ExtraError
 from vtray.scene.particles.from_objects import as_particles
 from vtray.scene.particles.particles import Particles
 
+with warnings.catch_warnings(action="ignore"):
+    import MDAnalysis
+
 POINTS = [(0.0, 1.0, 2.0), (3.0, 4.0, 5.0)]
 COLUMNS = dict(zip("xyz", np.array(POINTS).T.tolist(), strict=True))
+NAMED = {"positions": POINTS, "mass": [1, 2]}
 
 
 @pytest.mark.parametrize(
@@ -34,7 +39,8 @@ COLUMNS = dict(zip("xyz", np.array(POINTS).T.tolist(), strict=True))
         np.array(POINTS, np.float32),
         vtray.Particles(POINTS),
         COLUMNS,
-        {"positions": POINTS, "mass": [1, 2]},
+        {"mass": [1, 2], "Z": COLUMNS["z"], "y": COLUMNS["y"], "x": COLUMNS["x"]},
+        NAMED,
         pd.DataFrame({**COLUMNS, "name": ["a", "b"]}),
         pl.DataFrame({**COLUMNS, "name": ["a", "b"]}),
         pd.DataFrame(COLUMNS).to_records(),
@@ -54,9 +60,10 @@ COLUMNS = dict(zip("xyz", np.array(POINTS).T.tolist(), strict=True))
 def test_whatever_has_places(given: object) -> None:
     found = as_particles(given)
     assert found.positions.tolist() == [list(point) for point in POINTS]
-    if not isinstance(given, dict) and "position" not in getattr(given, "columns", ()):
+    if given is not NAMED and "position" not in getattr(given, "columns", ()):
         scene = vtray.Scene()
         assert scene.add_spheres(given, 1).center.tolist() == found.positions.tolist()
+        assert vtray.Camera.fit(given) == vtray.Camera.fit(found.positions)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("dtype", ["Float64", "float64[pyarrow]", object])
@@ -223,6 +230,22 @@ def test_records_that_are_masked() -> None:
     records.mask = False
     assert as_particles(records).positions.tolist() == [[0, 0, 0]] * 2
     assert vtray.Scene().add_spheres(records, 1).center.tolist() == [[0, 0, 0]] * 2
+
+
+def test_mappings_without_places() -> None:
+    for wrong, got in (([5.0], "{'x'.*"), ([None, 5.0], "nan")):
+        with pytest.raises(SceneError, match=rf"^add_spheres: positions.*, got {got}$"):
+            vtray.Scene().add_spheres({**COLUMNS, "z": wrong}, 1)
+
+
+def test_a_universe_is_its_atoms() -> None:
+    universe = MDAnalysis.Universe.empty(2, trajectory=True)
+    universe.atoms.positions = np.array(POINTS)
+    for given in (universe, universe.residues, ovito()):
+        assert vtray.Scene().add_spheres(given, 1).center.tolist() == np.array(POINTS).tolist()
+        assert vtray.Camera.fit(given) == vtray.Camera.fit(np.array(POINTS))
+    with pytest.raises(SceneError, match=r"^add_spheres: positions: expected .* got <Universe"):
+        vtray.Scene().add_spheres(MDAnalysis.Universe.empty(2), 1)
 
 
 def test_atoms_are_spheres() -> None:

@@ -98,8 +98,8 @@ class Adding:
         Parameters
         ----------
         positions
-            Centres in world space, (n, 3); or what has them: `Particles`, atoms of ASE or
-            MDAnalysis, a table with the columns x, y and z among others.
+            Centres in world space, (n, 3); or what has them: `Particles`, atoms of ASE, atoms or a
+            universe of MDAnalysis, a table or a mapping with the columns x, y and z among others.
         radius
             Radii in scene units, (n,), or one for all, ≥ 0.
         color

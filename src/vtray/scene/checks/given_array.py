@@ -1,7 +1,7 @@
 """What was given where an array is expected: as one, and for messages, where tables are names."""
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
@@ -12,6 +12,9 @@ if TYPE_CHECKING:
 
 COORDINATES = ("x", "y", "z")
 RED_GREEN_BLUE = ("r", "g", "b")
+
+_HELD = ("atoms", "particles")
+"""Attributes in which universes of MDAnalysis and data of OVITO have what has places."""
 
 UNCONVERTED = (ValueError, TypeError, RuntimeError, OverflowError, BufferError)
 """What is raised by what cannot become an array: rows of different length, arrays on a GPU."""
@@ -140,19 +143,33 @@ def remedy_for(given: Any, columns: tuple[str, ...]) -> str:  # noqa: ANN401
 def positions_in(given: Any) -> Any:  # noqa: ANN401
     """Return the places of what has some, or what was given itself.
 
-    Atoms of ASE and MDAnalysis have them as ``positions`` or by ``get_positions()``, tables in the
+    Atoms of ASE and MDAnalysis have them as ``positions`` or by ``get_positions()``, universes of
+    MDAnalysis and data of OVITO in their ``atoms`` or ``particles``; tables and mappings in the
     columns x, y and z, among others; structured arrays in fields of these names.
     """
-    if hasattr(given, "positions"):
-        return given.positions
+    for holder in (given, *(getattr(given, name, None) for name in _HELD)):
+        if hasattr(holder, "positions"):
+            return holder.positions
     if hasattr(given, "get_positions"):
         return given.get_positions()
     fields = fields_of(given)
     if all(name in fields and given.dtype[name].kind in "iuf" for name in COORDINATES):
-        import numpy as np
-
-        return np.ma.stack([given[name] for name in COORDINATES], axis=1)
+        return _stacked(given[name] for name in COORDINATES)
+    if isinstance(given, Mapping):
+        chosen = _called(list(given), COORDINATES)
+        try:
+            return given if chosen is None else _stacked(given[name] for name in chosen)
+        except UNCONVERTED:  # columns of different length
+            return given
     return _chosen(given, COORDINATES)
+
+
+def _stacked(columns: Iterable[Any]) -> "NDArray[Any]":
+    """Return columns side by side; raise one of `UNCONVERTED` if they cannot be."""
+    import numpy as np
+
+    arrays = [c if is_masked(c) else without_objects(converted(c)) for c in columns]
+    return np.ma.stack(arrays, axis=1)
 
 
 def fields_of(given: Any) -> tuple[str, ...]:  # noqa: ANN401
@@ -172,10 +189,16 @@ def _columns(given: Any) -> list[str]:  # noqa: ANN401
 def _chosen(table: Any, names: Sequence[str]) -> Any:  # noqa: ANN401
     """Return a table of the columns of some names, in any case; itself if it lacks one."""
     theirs = _columns(table)
-    chosen = [next((own for own in theirs if own.lower() == name), None) for name in names]
-    if None in chosen or theirs == chosen:
+    chosen = _called(theirs, names)
+    if chosen is None or theirs == chosen:
         return table
     return table.select(chosen) if _is_arrow(table) else table[chosen]
+
+
+def _called(theirs: Sequence[Any], names: Sequence[str]) -> list[Any] | None:
+    """Return those that are some names in any case, in the order of these; None if one is not."""
+    chosen = [next((own for own in theirs if str(own).lower() == name), None) for name in names]
+    return None if None in chosen else chosen
 
 
 def _is_arrow(table: Any) -> bool:  # noqa: ANN401
