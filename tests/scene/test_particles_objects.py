@@ -119,6 +119,19 @@ def test_columns_of_colours_have_their_meaning_in_any_order(made: Any) -> None:
     assert vtray.Spheres(POINTS, 1, table, 1).color.tolist() == rows
 
 
+@pytest.mark.parametrize("name", ["x", "q"])
+def test_tables_with_a_column_twice(name: str) -> None:
+    names = ["x", "y", "z", "q", name]
+    table = pa.table([[1.0, 2.0]] * 5, names)
+    for given in (table, pd.DataFrame(np.ones((2, 5)), columns=names)):
+        with pytest.raises(SceneError, match=rf"^expected each column once, got '{name}' twice$"):
+            as_particles(given)
+    with pytest.raises(
+        SceneError, match=r"^add_spheres: positions: .* \"x\", \"y\", \"z\", \"q\", "
+    ):
+        vtray.Scene().add_spheres(table.select([0, 1, 2, 3, 0]), 1)
+
+
 def test_tables_that_are_yet_to_be_worked_out() -> None:
     table = pl.LazyFrame(COLUMNS)
     remedy = r"got <LazyFrame .*>; give what its collect\(\) returns$"

@@ -196,8 +196,16 @@ def _chosen(table: Any, names: Sequence[str]) -> Any:  # noqa: ANN401
 
 
 def _called(theirs: Sequence[Any], names: Sequence[str]) -> list[Any] | None:
-    """Return those that are some names in any case, in the order of these; None if one is not."""
-    chosen = [next((own for own in theirs if str(own).lower() == name), None) for name in names]
+    """Return those that are some names in any case, in the order of these.
+
+    None if one is not there, or twice, as tables may have it.
+    """
+
+    def called(name: str) -> Any:  # noqa: ANN401
+        found = (own for own in theirs if str(own).lower() == name and theirs.count(own) == 1)
+        return next(found, None)
+
+    chosen = [called(name) for name in names]
     return None if None in chosen else chosen
 
 

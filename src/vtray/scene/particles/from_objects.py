@@ -19,8 +19,9 @@ from vtray.scene.checks.given_array import (
     show_array,
     show_unconverted,
 )
+from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.object_column import without_objects
-from vtray.scene.particles.column_names import name_columns
+from vtray.scene.particles.column_names import name_columns, name_twice
 from vtray.scene.particles.elements import are_symbols, symbol_of, symbols_of
 from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.from_columns import from_columns
@@ -160,10 +161,14 @@ def _columns_of(table: Any, names: Iterable[Any]) -> "dict[str, Array]":  # noqa
     Raises
     ------
     SceneError
-        One is no array, or some of its entries are masked.
+        One is no array, or some of its entries are masked; or two have one name.
     """
+    listed = list(names)
+    twice = name_twice([str(name) for name in listed])
+    if twice is not None:
+        raise SceneError(f"expected each column once, got {short(twice)!r} twice")
     words = "expected a value for each particle"
-    return {str(name): array_of(table[name], f"column {str(name)!r}", words) for name in names}
+    return {str(name): array_of(table[name], f"column {str(name)!r}", words) for name in listed}
 
 
 def as_particles(given: Any) -> Particles:  # noqa: ANN401
