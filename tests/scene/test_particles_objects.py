@@ -433,6 +433,30 @@ def test_wrong_arrays_of_particles(given: dict[str, Any], message: str) -> None:
         assert str(caught.value).startswith(message)
 
 
+def test_truths_are_neither_places_nor_radii() -> None:
+    mask, plain = np.eye(3, dtype=bool), vtray.Particles(ORIGIN, {"radius": [True, False, True]})
+    for take in (vtray.Particles, as_particles, vtray.Scene().add_spheres):
+        with pytest.raises(SceneError, match=r"got an array of dtype bool and shape \(3, 3\)$"):
+            take(mask, *([1] if take.__name__ == "add_spheres" else []))
+    with pytest.raises(
+        SceneError, match="^column 'x'\\[0\\]: expected numbers, got such as 'True'$"
+    ):
+        as_particles(dict(zip("xyz", mask, strict=True)))
+    got = r"expected numbers, got an array of dtype bool and shape \(3,\)$"
+    with pytest.raises(SceneError, match=f"^radii: {got}"):
+        vtray.Scene().add_particles(ORIGIN, radii=mask[0])
+    with pytest.raises(SceneError, match=f"^radii: column 'radius': {got}"):
+        vtray.Scene().add_particles(plain)
+
+
+def test_a_wrong_radius_names_its_column() -> None:
+    particles = vtray.Particles(ORIGIN, {"radius": [1.0, np.nan, 1.0]})
+    for radii, column in ((None, "radius"), ("radii", "radii")):
+        words = rf"^radii: column '{column}'\[1\]: expected a number ≥ 0, got nan$"
+        with pytest.raises(SceneError, match=words):
+            vtray.Scene().add_particles(particles, radii=radii)
+
+
 @pytest.mark.parametrize("bonds", [[], [[0.0, 1.0]], np.array([[0, 1]], np.uint64)])
 def test_bonds_are_integers(bonds: Any) -> None:
     made = vtray.Particles(ORIGIN, bonds=bonds)

@@ -93,7 +93,7 @@ def _check_numbers(part: "Array", name: str, place_of: Callable[[int, str], str]
 
     if part.ndim != 1:
         raise SceneError(f"column {name!r}: expected numbers, got shape {part.shape}")
-    if part.size and part.dtype.kind not in "biuf":
+    if part.size and part.dtype.kind not in "iuf":
         row = next((k for k, entry in enumerate(part) if not _is_number(entry)), 0)
         shown = short(str(part[row]))
         raise SceneError(f"{place_of(row, name)}: expected numbers, got such as {shown!r}")

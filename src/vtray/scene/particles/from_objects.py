@@ -214,7 +214,7 @@ def _from_positions(given: Any) -> Particles:  # noqa: ANN401
     except UNCONVERTED as error:
         got = show_unconverted(given, error)
     else:
-        if positions.ndim == 2 and positions.shape[1] == 3 and positions.dtype.kind in "biuf":
+        if positions.ndim == 2 and positions.shape[1] == 3 and positions.dtype.kind in "iuf":
             return Particles(positions)
         got = show_array(given)
     problem = "expected vtray.Particles, an object of ASE, MDAnalysis or OVITO, a table with the"

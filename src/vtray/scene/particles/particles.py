@@ -248,7 +248,7 @@ def _array(values: object, name: str) -> "NDArray[Any]":
 
     words = "must be an array of numbers"
     found = array_of(values, f"Particles.{name}", words, POSITION)
-    if found.dtype.kind not in "biuf":
+    if found.dtype.kind not in "iuf":
         raise SceneError(f"Particles.{name}: {words}, got {show_array(values)}")
     return found if found.dtype in (np.float32, np.float64) else found.astype(np.float64)
 

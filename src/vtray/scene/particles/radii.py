@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
-from vtray.scene.checks.given_array import array_of
+from vtray.scene.checks.given_array import array_of, show_array
 from vtray.scene.checks.scene_words import nearest, show
 from vtray.scene.particles import elements
 from vtray.scene.particles.column_names import column_called
@@ -63,12 +63,13 @@ def radii_of(particles: "Particles", radii: Radii, place: str) -> Floats | float
         hint = f"; did you mean {close}?" if close else ""
         words = f"expected {', '.join(elements.RADII)}, a number, or a column, got {show(radii)}"
         raise SceneError(f"{place}: {words}{hint}")
-    given = particles[radii] if isinstance(radii, str) else radii
+    given: Any = radii
+    if isinstance(radii, str):
+        given, place = particles[radii], f"{place}: column {radii!r}"
     array = array_of(given, place, "expected numbers")
-    try:
-        found = array.astype(np.float64, copy=False)
-    except (TypeError, ValueError):
-        raise SceneError(f"{place}: expected numbers, got {show(given)}") from None
+    if array.dtype.kind not in "iuf":
+        raise SceneError(f"{place}: expected numbers, got {show_array(given)}")
+    found = array.astype(np.float64, copy=False)
     if found.shape not in ((), (len(particles),)):
         words = f"expected one number, or {len(particles)}, one for each particle"
         raise SceneError(f"{place}: {words}, got shape {found.shape}")
