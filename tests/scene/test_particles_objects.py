@@ -486,6 +486,14 @@ def test_columns_of_matrices_do_not_keep_tables_from_being_read() -> None:
     assert particles["force"].shape == (2, 3)
 
 
+@pytest.mark.parametrize("made", [pl.Series, pd.Series, pa.array])
+def test_lists_of_several_lengths_are_texts(made: Any) -> None:
+    column = made([[1], [2, 3], []])
+    assert vtray.Particles(ORIGIN, {"n": column})["n"].tolist() == ["[1]", "[2, 3]", "[]"]
+    column = made([[1.0], None, [2.0, float("nan")]])
+    assert vtray.Particles(ORIGIN, {"n": column})["n"].tolist() == ["[1.0]", "", "[2.0, nan]"]
+
+
 def test_fractions_are_numbers() -> None:
     places = Particles([[Fraction(1, 2), 2, 3]]).positions  # type: ignore[arg-type]
     assert places.tolist() == [[0.5, 2.0, 3.0]]

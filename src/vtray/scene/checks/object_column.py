@@ -19,7 +19,8 @@ def without_objects(column: "Array") -> "Array":
     Bytes are names in UTF-8; what is none of it becomes a question mark.
     What is missing, ``None`` or not a number, is NaN among numbers, and a name without letters
     among names. What is true or false counts as 1 or 0 where some of it is missing. Entries that
-    are arrays of one length, such as Arrow's lists of three numbers, become rows.
+    are arrays of one length, such as Arrow's lists of three numbers, become rows; those of
+    several lengths become texts, as of lists.
 
     Parameters
     ----------
@@ -36,6 +37,8 @@ def without_objects(column: "Array") -> "Array":
     shapes = {entry.shape if isinstance(entry, np.ndarray) else () for entry in entries}
     if column.ndim == 1 and len(shapes) == 1 and len(next(iter(shapes))) == 1:
         return np.stack(entries)
+    if shapes != {()}:
+        entries = [entry.tolist() if isinstance(entry, np.ndarray) else entry for entry in entries]
     missing = [_is_missing(entry) for entry in entries]
     there = [entry for entry, gone in zip(entries, missing, strict=True) if not gone]
     if there and all(isinstance(entry, (Real, Decimal, np.bool_)) for entry in there):
