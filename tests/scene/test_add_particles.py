@@ -12,7 +12,7 @@ from vtray.base.errors import SceneError
 from vtray.base.exact_math import logarithm
 from vtray.scene.particles.coloring import PALETTE
 from vtray.scene.particles.particles import Particles
-from vtray.scene.particles.radii import mean_spacing
+from vtray.scene.particles.radii import filled_boxes, mean_spacing
 from vtray.scene.placing.directions import unit
 
 WATER = Particles(
@@ -100,6 +100,13 @@ def test_mean_distance_is_that_where_particles_are() -> None:
     far = np.concatenate([hills, hills + 1e5])
     assert mean_spacing(Particles(far)) == pytest.approx(1.2, abs=0.3)
     assert mean_spacing(Particles(np.repeat([(0.0, 0, 0), (1, 1, 1)], 500, axis=0))) > 0
+
+
+@pytest.mark.parametrize("side", [50.0, 7.0, 1.0, 0.01])
+def test_filled_boxes_are_counted(side: float) -> None:
+    points = np.random.default_rng(7).uniform(-40, 60, (300, 3))
+    boxes = {tuple(row) for row in np.floor((points - points.min(axis=0)) / side).tolist()}
+    assert filled_boxes(points, side) == len(boxes)
 
 
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])

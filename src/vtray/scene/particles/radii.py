@@ -26,6 +26,10 @@ more, they fill but a part of the space around all."""
 MOST_BOXES = 2**19
 """How many boxes there are at most along an axis, so that their numbers fit into 64 bits."""
 
+MARKED = 8
+"""Boxes for each particle up to which all of them are marked: in the memory of their numbers, and
+for three million particles in 0.05 s, ten times as fast as numbers are sorted."""
+
 _BORDERS = (2.0**1.5, 2.0**2.5)
 """Growth of the number of filled boxes, as they become half as large, between one and two, and two
 and three dimensions."""
@@ -120,24 +124,31 @@ def _local_spacing(positions: NDArray[Any], spacing: float, longest: float) -> f
         The longest side of that.
     """
     count, side = len(positions), 2.0 * spacing
-    filled = _filled(positions, side)
+    filled = filled_boxes(positions, side)
     if count <= CROWD * filled:
         return spacing
     while count > CROWD * filled:
         if side * MOST_BOXES < longest:
             return spacing  # many are at one place
         larger, side = filled, side / 2
-        filled = _filled(positions, side)
+        filled = filled_boxes(positions, side)
     # Half as large boxes are twice as many on a line, four times on a surface.
     growth = filled / larger
     power = 1 if growth < _BORDERS[0] else 2 if growth < _BORDERS[1] else 3
     return side / _root(count / filled, power)
 
 
-def _filled(positions: NDArray[Any], side: float) -> int:
+def filled_boxes(positions: NDArray[Any], side: float) -> int:
     """Return how many boxes of a grid have particles in them."""
     x, y, z = (np.floor((column - column.min()) / side).astype(np.int64) for column in positions.T)
-    return len(np.unique((z * (int(y.max()) + 1) + y) * (int(x.max()) + 1) + x))
+    wide, deep, high = (int(column.max()) + 1 for column in (x, y, z))
+    numbers = (z * deep + y) * wide + x
+    if wide * deep * high <= MARKED * len(numbers):
+        marks = np.zeros(wide * deep * high, np.bool_)
+        marks[numbers] = True
+        return int(np.count_nonzero(marks))
+    numbers.sort()
+    return 1 + int(np.count_nonzero(numbers[1:] != numbers[:-1]))
 
 
 def _root(value: float, power: int) -> float:
