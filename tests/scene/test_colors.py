@@ -291,6 +291,9 @@ def test_arrays_that_are_none() -> None:
     words = "with cmap: expected numbers of shape (4,), one for each position, got"
     assert refusal(OnGraphicsCard(), cmap="viridis") == f"color: {words} <device array>"
     assert refusal(OnGraphicsCard()) == f"color: {KINDS} <device array>"
+    for texts in (np.array([*"1234"]), np.array([*"1234"], object)):
+        got = f"color: {words} an array of dtype {texts.dtype} and shape (4,)"
+        assert refusal(texts, cmap="viridis") == got
     assert refusal([1, "x", 3, 4], cmap="viridis") == f"color: {words} [1, 'x', 3, 4]"
     ragged = [(1, 2, 3), (1, 2), (1, 2, 3), (1, 2, 3)]
     assert refusal(ragged) == f"color[1]: {KINDS} (1, 2)"

@@ -16,6 +16,7 @@ from vtray.scene.checks.given_array import (
     show_array,
     show_shape,
 )
+from vtray.scene.checks.object_column import without_objects
 from vtray.scene.checks.scene_words import show
 from vtray.scene.colors.color_scale import ColorScale, scale_of
 from vtray.scene.colors.names import ALPHA, WORDS, Rgb, ambiguous, to_rgb
@@ -94,9 +95,8 @@ def _values(given: Any, count: int, place: str, each: str) -> NDArray[np.float64
     words = f"with cmap: expected numbers of shape ({count},), one for each {each}"
     masked = isinstance(given, np.ma.MaskedArray)
     try:
-        array = converted(given)
-        right = array.dtype.kind in "biuf" or (array.dtype == object and array.ndim == 1)
-        values = np.array(given.data if masked else array, np.float64) if right else None
+        array = without_objects(converted(given.data if masked else given))
+        values = np.array(array, np.float64) if array.dtype.kind in "biuf" else None
     except UNCONVERTED:
         values = None
     if values is None:
