@@ -5,6 +5,8 @@ import re
 from typing import Any
 
 import numpy as np
+import pandas as pd
+import polars as pl
 import pytest
 
 import vtray
@@ -166,9 +168,56 @@ def test_three_numbers_are_values_where_there_is_a_colour_map() -> None:
     for asked in ({"cmap": "viridis"}, {"clim": (0, 1)}, {"norm": "linear"}):
         assert drawn(color=[0.0, 0.5, 1.0], **asked).color_scale.low == 0
     assert drawn(WATER.with_columns(q=[0.0, 0.5, 1.0]), color="q").color_scale.high == 1
-    assert drawn(color=[True, False, True]).color_scale.high == 1
+    assert drawn(color=[True, False, True], cmap="gray").color_scale.high == 1
     with pytest.raises(SceneError, match=r"got -0.8 in .*; for values, give a colour map too, for"):
         drawn(color=[-0.8, 0.4, 0.4])
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        [0, 1, 0, 1, 2],
+        [0.5, 1.0, 0.5, 2.0, 2.0],
+        [0, 1, 0, 1, 200],
+        [True, False, True, False, True],
+        [b"u", b"v", b"u", b"x", b"v"],
+        np.array([1, 2, None, 1, 1], object),
+        np.array([1, 2, 2, 1, 1], object),
+        pd.Categorical(list("uvuxv")),
+        pl.Series(list("uvuxv")),
+    ],
+    ids=repr,
+)
+@pytest.mark.parametrize("options", [{}, {"cmap": "magma"}, {"categories": ["v", "u", 1]}])
+def test_arrays_have_the_colours_of_columns(values: Any, options: dict[str, Any]) -> None:
+    places = np.arange(15.0).reshape(5, 3)
+
+    def told(color: Any) -> Any:
+        try:
+            found = drawn(Particles(places, {"c": values}), color=color, **options)
+        except SceneError as error:
+            return str(error).replace("column 'c'", "the array").replace('column "c"', "the array")
+        return found.legend, found.color_scale, found.categories, found.spheres.color.tolist()
+
+    assert told(values) == told("c")
+
+
+def test_names_of_colours_in_arrays_are_colours() -> None:
+    places = np.arange(9.0).reshape(3, 3)
+    red_and_blue = [[255, 0, 0], [0, 0, 255], [255, 0, 0]]
+    for given in (
+        ["red", "#00f", "r"],
+        ["red", (0, 0, 255), "r"],
+        [vtray.Color(*row) for row in red_and_blue],
+        pd.Series([tuple(row) for row in red_and_blue]),
+        pl.Series(red_and_blue),
+    ):
+        assert drawn(places, color=given).spheres.color.tolist() == red_and_blue
+    for given in (["w", "u", "v"], pd.Categorical(["w", "u", "v"])):
+        words = r"^add_particles: color\[1\]: .* got 'u'; to colour by names, .*=\['w', \.\.\.\]$"
+        with pytest.raises(SceneError, match=words):
+            drawn(places, color=given)
+        assert len(drawn(places, color=given, categories=["u", "v"]).legend) == 3
 
 
 def test_a_column_of_colours_has_no_other_names() -> None:

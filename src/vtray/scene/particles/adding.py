@@ -86,12 +86,14 @@ class AddingParticles:
         color
             A colour, in any of the ways of `vtray.colors.to_rgb`; the name of a column, or x, y or
             z; what is worked out of these, such as ``"velocity.x"`` or ``"norm(force)"``, as for
-            `select`; or one colour or one number for each particle. Three numbers are a colour, of
-            three particles, too, unless `cmap`, `clim` or `norm` is given. Names, types and at most
-            eight different integers get a colour each, of which people with any colour vision can
-            tell the first eight apart; numbers those of `cmap`, and vectors those of their lengths.
-            With `cmap`, `clim` or `norm`, few integers are numbers, too. By default the columns
-            ``color``, ``element`` or ``type``, whichever is there first.
+            `select`; or a colour, a number or a name for each particle, which is coloured as in a
+            column. Names of which some are colours are all meant as such, unless `categories` is
+            given. Three numbers are a colour, of three particles, too, unless `cmap`, `clim` or
+            `norm` is given. Names, types and at most eight different integers get a colour each, of
+            which people with any colour vision can tell the first eight apart; numbers those of
+            `cmap`, and vectors those of their lengths. With `cmap`, `clim` or `norm`, few integers
+            are numbers, too. By default the columns ``color``, ``element`` or ``type``, whichever
+            is there first.
         colors
             Whose colours elements have.
         cmap

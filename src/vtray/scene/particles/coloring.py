@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.given_array import UNCONVERTED, check_unmasked, converted
+from vtray.scene.checks.object_column import without_objects
 from vtray.scene.checks.scene_words import either, nearest, quoted, show
 from vtray.scene.colors.color_arrays import ONE_COLOR, color_arrays
 from vtray.scene.colors.color_scale import ColorScale
@@ -18,6 +19,7 @@ from vtray.scene.particles.column_names import column_called
 from vtray.scene.particles.elements import SCHEMES, SYMBOLS, atomic_numbers, colors_of
 from vtray.scene.particles.expression import BESIDE_COLUMNS, values_of
 from vtray.scene.particles.particles import POSITION
+from vtray.scene.vectors import Color
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -133,8 +135,7 @@ def color_particles(
             words = f"{show(color)} is one colour, which no colour map is for"
             raise SceneError(f"color: {words}; leave {' and '.join(asked)} out")
         return Coloring(one)
-    check_unmasked(color, "color")
-    return _of_values(color, len(particles), rows, scaled, may_be_one=True)
+    return _of_array(color, len(particles), rows, scaled, categories)
 
 
 def faded(colors: Bytes, kept: NDArray[np.bool_], background: "AnyColor") -> Bytes:
@@ -164,6 +165,43 @@ def _of_elements(symbols: NDArray[Any], colors: str) -> Coloring:
     return Coloring(table[numbers], None, legend)
 
 
+def _one_for_each(given: Any, count: int) -> NDArray[Any] | None:  # noqa: ANN401
+    """Return a number or a name for each particle, as in a column; None if they are none."""
+    try:
+        array = converted(given)
+    except UNCONVERTED:
+        return None
+    if array.shape != (count,) or (array.dtype == object and any(map(_is_color, array))):
+        return None
+    return without_objects(array)
+
+
+def _is_color(item: object) -> bool:
+    """Tell whether one of many is meant as a colour as such, not by its name."""
+    return isinstance(item, (Color, tuple, list, np.ndarray))
+
+
+def _of_array(
+    given: Any,  # noqa: ANN401
+    count: int,
+    rows: Integers,
+    scaled: dict[str, Any],
+    categories: Sequence[Any] | None,
+) -> Coloring:
+    """Return the colours that are given, or those of what a column could hold instead."""
+    check_unmasked(given, "color")
+    values, asked = _one_for_each(given, count), _asked(scaled)
+    if values is None or (values.shape in ONE_COLOR and values.dtype.kind in "iuf" and not asked):
+        return _of_values(given, count, rows, scaled, may_be_one=True)
+    try:
+        return _of_column("", values, rows, scaled, categories)
+    except SceneError as error:
+        if asked or values.dtype.kind != "U":
+            raise
+        hint = f"to colour by names, give these, as in categories=[{show(str(values[0]))}, ...]"
+        raise SceneError(f"{error}; {hint}") from None
+
+
 def _of_column(
     name: str,
     values: NDArray[Any],
@@ -171,8 +209,9 @@ def _of_column(
     scaled: dict[str, Any],
     categories: Sequence[Any] | None,
 ) -> Coloring:
-    """Return the colours of what a column holds."""
-    if name == "color" and (values.ndim == 2 or _has_colors(values)):
+    """Return the colours of what a column holds, or an array without a name: one for each."""
+    may_be_colors = name == "color" or (not name and categories is None)
+    if may_be_colors and (values.ndim == 2 or _has_colors(values)):
         return _of_values(values, len(values), rows, scaled)
     if values.ndim == 2:
         values = _lengths(values, name)
@@ -184,7 +223,8 @@ def _of_column(
     if not asked and (is_text or few):
         return _of_categories(values, rows, categories)
     if is_text:
-        words = f"column {show(name)} holds names, which no colour map is for"
+        what = f"column {show(name)}" if name else "the array"
+        words = f"{what} holds names, which no colour map is for"
         raise SceneError(f"color: {words}; leave {' and '.join(asked)} out")
     return _of_values(values, len(values), rows, scaled)
 
