@@ -136,6 +136,7 @@ QUOTES = {
     'x,y,z,name\n0,0,0,C\n1,0,0,"O5\n2,0,0,C\n3,0,0,N\n': "line 3: a quote has no end",
     'x,y,z,name\n0,0,0,C\n1,0,0,"O5': "line 3: unexpected end of data",
     'x,name,y,z\n0,C,0,0\n1,"O5,0,0\n2,"C",0,0\n': "line 3: a quote has no end",
+    '# a table\n# of two rows\nx,y,"z\n0,0,0\n': "line 3: a quote has no end",
     'x,name,y,z\n0,"C\nD",0\n': "line 2: expected 4 entries, got 3",
 }
 

@@ -1,5 +1,6 @@
 """Files of data but XYZ: beside what the libraries themselves read."""
 
+import tracemalloc
 import warnings
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,7 @@ from ase.calculators.singlepoint import SinglePointCalculator
 
 import vtray
 from vtray.base.errors import SceneError
+from vtray.scene.readers import csv_columns
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")
@@ -469,6 +471,55 @@ UNDERSCORES = {
     "a.csv": "x,y,z,label\n0,0,0,1_2\n0,0,0,1_3\n",
     "a.xyz": "2\ntime=1_0\nC 0 0 0 1_2\nC 0 0 0 1_3\n",
 }
+
+
+LATE = {
+    "an integer": (["1", "2", " 3", "+4", "-0"], [1, 2, 3, 4, 0]),
+    "a number": (["1", "2", "3", "4.5", "-0"], [1.0, 2.0, 3.0, 4.5, -0.0]),
+    "numbers first": (["1e3", "2", "3", "4.5", "-0"], [1000.0, 2.0, 3.0, 4.5, -0.0]),
+    "a missing one": (["1", "2", "3", "NA", "4"], [1.0, 2.0, 3.0, np.nan, 4.0]),
+    "missing in numbers": (["1.5", "2", "3", "", "4"], [1.5, 2.0, 3.0, np.nan, 4.0]),
+    "one too large": (["1", "2", "3", "4", "9" * 20], [1.0, 2.0, 3.0, 4.0, 1e20]),
+    "a name": (["1", "2.50", "3", " b ", "true"], ["1", "2.50", "3", "b", "true"]),
+    "truths": (["", "NA", "true", "False", "True"], [np.nan, np.nan, 1.0, 0.0, 1.0]),
+    "all truths": (["false", "TRUE", "true", "False", "true"], [False, True, True, False, True]),
+    "no truths": (["", "na", "true", "False", "1"], ["", "na", "true", "False", "1"]),
+    "underscores": (["1.5", "2", "1_0", "4", "5"], ["1.5", "2", "1_0", "4", "5"]),
+}
+
+
+@pytest.mark.parametrize(("given", "found"), LATE.values(), ids=LATE)
+@pytest.mark.parametrize("quote", ["", '"'])
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\n\n"])
+def test_columns_of_csv_read_in_pieces(
+    given: list[str],
+    found: list[object],
+    quote: str,
+    end: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    path = tmp_path / "a.csv"
+    rows = [f"{k},0.5,0,{quote}{entry}{quote}" for k, entry in enumerate(given)]
+    path.write_text(end.join(["x,y,z,value", *rows]), newline="")
+    for size in (1, 20, 10**6):
+        monkeypatch.setattr(csv_columns, "_LETTERS", size)
+        monkeypatch.setattr(csv_columns, "_ROWS", size)
+        particles = vtray.read(path)
+        assert particles["value"].dtype.kind == np.array(found).dtype.kind
+        assert [*map(repr, particles["value"].tolist())] == [*map(repr, found)]
+        assert particles.positions.tolist() == [[k, 0.5, 0] for k in range(5)]
+
+
+def test_memory_for_csv_is_that_of_its_columns(tmp_path: Path) -> None:
+    path, count = tmp_path / "a.csv", 200_000
+    path.write_text("x,y,z\n" + "".join(f"{k}.25,0.5,1e-3\n" for k in range(count)))
+    tracemalloc.start()
+    particles = vtray.read(path)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert particles.positions[-1].tolist() == [count - 0.75, 0.5, 0.001]
+    assert most < 60 * 3 * count  # with all entries as texts 150
 
 
 @pytest.mark.parametrize("name", ["a.csv", "a.xyz"])

@@ -1,10 +1,7 @@
-"""Tables: .csv by Python alone, .npz by NumPy, .parquet by pyarrow."""
+"""Tables: .csv by Python and NumPy, .npz by NumPy, .parquet by pyarrow."""
 
-import csv
-import io
 from dataclasses import replace
 from functools import partial
-from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,11 +10,9 @@ from vtray.base.extras import need
 from vtray.base.input_file import read_stream
 from vtray.base.memory import lack_of_memory
 from vtray.scene.checks.json_tree import short
-from vtray.scene.checks.object_column import without_objects
-from vtray.scene.particles.column_names import name_twice
 from vtray.scene.particles.from_columns import from_columns
 from vtray.scene.particles.particles import Particles
-from vtray.scene.particles.plain_numbers import parsed_all
+from vtray.scene.readers.csv_columns import csv_columns, in_line, without_comments
 from vtray.scene.readers.frames import frame_number
 from vtray.scene.readers.libraries import check_room, told
 from vtray.scene.readers.reader_table import Given
@@ -27,24 +22,11 @@ if TYPE_CHECKING:
 
     Array = NDArray[Any]
 
-_SEPARATORS = ",;\t"
-
-_COMMENT = "#"
-
 CELLS = {"cell", "box", "lattice"}
 """What the three vectors of a cell, or its three lengths, are called in .npz files."""
 
 PERIODIC = {"periodic", "pbc"}
 """What three truths are called that say along which edges of the cell all repeats, likewise."""
-
-_MISSING = {"", "na", "n/a", "nan", "null", "none", "<na>", "-nan"}
-"""What .csv files have in the place of a number that is missing, in any case."""
-
-_TRUTHS = {"true": True, "false": False}
-"""What they have for what is true or not, in any case."""
-
-_BYTES = 160
-"""Of memory for an entry of a .csv file while it is read."""
 
 
 def read(given: Given) -> Particles:
@@ -59,8 +41,8 @@ def read(given: Given) -> Particles:
     """
     frame_number(given.frame, 1)
     if given.format == "csv":
-        text = _without_comments(_read_text(given))
-        return from_columns(_csv_columns(text), given.columns, partial(_in_line, text))
+        text = without_comments(_read_text(given))
+        return from_columns(csv_columns(text), given.columns, partial(in_line, text))
     columns = {"npz": _read_npz, "parquet": _read_parquet}[given.format](given)
     of_frame = _taken_out(columns) if given.format == "npz" else {}
     return replace(from_columns(columns, given.columns), **of_frame)
@@ -72,106 +54,6 @@ def _read_text(given: Given) -> str:
         return read_stream(given.file).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise SceneError(f"byte {error.start}: not UTF-8; expected text") from None
-
-
-def _without_comments(text: str) -> str:
-    """Return a text whose comments before all else are empty lines.
-
-    The last of them stays if it names the columns, as those of NumPy do: where numbers follow.
-    """
-    count, last, rest = 0, "", text
-    while rest.startswith(_COMMENT):
-        last, _, rest = rest.partition("\n")
-        count += 1
-    if count == 0:
-        return text
-    separator = _separator(rest)
-    first = _first_line(rest).split(separator)
-    has_numbers = any(_column([entry]).dtype.kind in "if" for entry in first)
-    is_named = has_numbers and last.count(separator) == len(first) - 1
-    names = last.lstrip(_COMMENT) if is_named else ""
-    return "\n" * (count - 1) + names + "\n" + rest
-
-
-def _csv_columns(text: str) -> "dict[str, Array]":
-    """Return columns between commas, semicolons or tabs, named in the first line."""
-    entries = _first_line(text).count(_separator(text)) + 1
-    lack = lack_of_memory(_BYTES * entries * text.count("\n"))
-    if lack:
-        raise SceneError(f"reading it needs about {lack}")
-    lines, begin = _csv_lines(text), 1
-    try:
-        names = [name.strip() for name in next(filter(None, lines), [])]
-        _check_names(names, lines.line_num or 1)
-        rows, begin = [], lines.line_num + 1
-        for row in lines:
-            if len(row) != len(names) and row:
-                words = f"expected {len(names)} entries, got {len(row)}"
-                raise SceneError(f"line {begin}: {words}")
-            if row:
-                rows.append(row)
-            begin = lines.line_num + 1
-    except csv.Error as error:
-        words = "a quote has no end" if lines.line_num > begin else str(error)
-        raise SceneError(f"line {begin}: {words}") from None
-    parts = zip(*rows, strict=True) if rows else ([] for _ in names)
-    return {name: _column(list(part)) for name, part in zip(names, parts, strict=True)}
-
-
-def _separator(text: str) -> str:
-    """Return what is between the entries of a text."""
-    return max(_SEPARATORS, key=_first_line(text).count)
-
-
-def _first_line(text: str) -> str:
-    """Return the first line of a text that is not empty."""
-    begun = text.lstrip("\r\n")
-    end = begun.find("\n")
-    return begun if end < 0 else begun[:end]  # what follows may be long, and is not copied
-
-
-def _csv_lines(text: str) -> Any:  # noqa: ANN401
-    """Return a reader of the lines of a text, entry by entry."""
-    file = io.StringIO(text, newline="")
-    return csv.reader(file, delimiter=_separator(text), skipinitialspace=True, strict=True)
-
-
-def _in_line(text: str, row: int, name: str) -> str:
-    """Return where an entry stands, given its row below the names and the name of its column."""
-    lines = _csv_lines(text)
-    rows = (lines.line_num for entries in lines if entries)
-    return f"line {next(islice(rows, row + 1, None))}: column {name!r}"
-
-
-def _check_names(names: list[str], line: int) -> None:
-    """Raise SceneError if a line does not name the columns."""
-    are_numbers = bool(names) and all(_column([name]).dtype.kind in "if" for name in names)
-    if not any(names) or are_numbers:
-        shown = short(",".join(names)) or "nothing"
-        raise SceneError(f"line {line}: expected the names of the columns, got {shown}")
-    twice = name_twice(names)
-    if twice is not None:
-        raise SceneError(f"line {line}: expected each column once, got {short(twice)!r} twice")
-
-
-def _column(entries: list[str]) -> "Array":
-    """Return entries as integers, numbers (NaN where one is missing), truths, or text."""
-    import numpy as np
-
-    for parse in (int, float, _number_or_nan):
-        try:
-            return parsed_all(entries, parse)
-        except (ValueError, OverflowError):
-            continue
-    words = [entry.strip() for entry in entries]
-    if {word.lower() for word in words} - _MISSING <= _TRUTHS.keys():
-        return without_objects(np.array([_TRUTHS.get(word.lower()) for word in words], object))
-    return np.array(words, np.str_)
-
-
-def _number_or_nan(entry: str) -> float:
-    """Return an entry as a number, NaN where it says that there is none."""
-    return float("nan") if entry.strip().lower() in _MISSING else float(entry)
 
 
 def _read_npz(given: Given) -> "dict[str, Array]":
