@@ -326,6 +326,10 @@ def test_tables_with_other_columns(frame: Any) -> None:
         Scene().add_spheres(POINTS, table)
     assert f'{got} three columns, as in table[["r", "g", "b"]]' in refusal(table)
     assert f'{got} one column, as in table["value"]' in refusal(table, cmap="gray")
+    alpha = frame(dict.fromkeys("rgba", [0.5] * 4))
+    got = 'a table of shape (4, 4) with the columns "r", "g", "b", "a"'
+    remedy = 'choose three columns, as in table[["r", "g", "b"]]'
+    assert refusal(alpha) == f"color: {ALPHA} {got}; {remedy}"
     short = table[["x", "y"]]
     with pytest.raises(SceneError, match=r'got a table of .*the columns "x", "y"; choose three'):
         Scene().add_spheres(short, 1)

@@ -150,7 +150,8 @@ def _no_colors(given: object, place: str) -> SceneError:
 def _wrong_shape(given: object, shape: tuple[int, ...], count: int) -> str:
     """Say what is wrong with the shape of colours."""
     if shape == (count, 4):
-        return f"{ALPHA}, got shape {shape}; give color[:, :3]"
+        remedy = remedy_for(given, RED_GREEN_BLUE) or "; give color[:, :3]"
+        return f"{ALPHA}, got {show_shape(given, shape)}{remedy}"
     words = f"expected one colour, or numbers of shape ({count}, 3)"
     words = f"{words}, got {show_shape(given, shape)}{remedy_for(given, RED_GREEN_BLUE)}"
     if shape == (count,):
