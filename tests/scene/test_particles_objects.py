@@ -280,6 +280,8 @@ def test_time_of_atoms(time: object, found: float | None) -> None:
 def test_what_has_no_places(given: object) -> None:
     with pytest.raises(SceneError, match="^expected "):
         as_particles(given)
+    with pytest.raises(SceneError, match="^add_particles: expected "):
+        vtray.Scene().add_particles(given)
 
 
 def test_wrong_objects() -> None:

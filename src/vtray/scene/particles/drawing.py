@@ -220,7 +220,7 @@ def draw(
     camera: "Camera | None",
 ) -> Drawn:
     """Add particles to a scene, as `Scene.add_particles` says, whose parameters these are."""
-    particles = as_particles(given)
+    particles = as_particles(given, "add_particles: ")
     size = _number(scale, "scale", *SCALES)
     shines = emission is not None
     if shines and opacity is not None:

@@ -171,7 +171,7 @@ def _columns_of(table: Any, names: Iterable[Any]) -> "dict[str, Array]":  # noqa
     return {str(name): array_of(table[name], f"column {str(name)!r}", words) for name in listed}
 
 
-def as_particles(given: Any) -> Particles:  # noqa: ANN401
+def as_particles(given: Any, place: str = "") -> Particles:  # noqa: ANN401
     """Return the particles of whatever has places.
 
     Parameters
@@ -180,12 +180,22 @@ def as_particles(given: Any) -> Particles:  # noqa: ANN401
         `Particles`; objects of ASE, MDAnalysis or OVITO; what has ``positions`` or
         ``get_positions()``; tables, mappings and structured arrays with the columns x, y
         and z; or an array (n, 3).
+    place
+        What messages begin with.
 
     Raises
     ------
     SceneError
         It is none of these.
     """
+    try:
+        return _particles_of(given)
+    except SceneError as error:
+        raise SceneError(f"{place}{error}") from None
+
+
+def _particles_of(given: Any) -> Particles:  # noqa: ANN401
+    """Return what `as_particles` does."""
     if isinstance(given, Particles):
         return given
     if _is_ase(given):
