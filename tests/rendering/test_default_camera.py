@@ -1,5 +1,7 @@
 """Scenes whose camera was never set are seen as a whole."""
 
+import copy
+import pickle
 from typing import Any
 
 import numpy as np
@@ -49,6 +51,59 @@ def test_a_floor_is_below(center: Any, normal: Any) -> None:
     assert y < 0  # rows are counted from the top
     way = -np.array([camera.center.x, camera.center.y, camera.center.z])
     assert np.dot(way, up) < 0  # the floor is seen from above
+
+
+def slab(**given: Any) -> vtray.Scene:
+    """Return particles that lie flat in a cell."""
+    scene = vtray.Scene()
+    places = np.random.default_rng(2).uniform(0, 1, (20, 3)) * (5, 4, 0.2)
+    scene.add_particles(vtray.Particles(places, cell=np.diag([5.0, 4.0, 9.0])), **given)
+    return scene
+
+
+def from_the_side(scene: vtray.Scene) -> bool:
+    """Tell whether a scene without a camera is seen as cells are."""
+    camera = vtray.render(scene, size=(8, 8), samples=1, tolerance=1).scene.camera
+    assert scene.camera is None
+    return camera == vtray.Camera.fit(scene, view=(-65, 20), size=(8, 8))
+
+
+@once
+@pytest.mark.parametrize("given", [{}, {"cell": False}, {"emission": 1.0}, {"opacity": 0.5}])
+def test_cells_are_seen_from_the_side(given: Any) -> None:
+    assert from_the_side(slab(**given))
+
+
+@once
+def test_cells_are_known_of_scenes_made_of_others() -> None:
+    scene = slab(cell=False)
+    assert from_the_side(copy.deepcopy(scene))
+    assert from_the_side(pickle.loads(pickle.dumps(scene)))
+    moved = scene.objects[0].replace(center=scene.objects[0].center * 2, color=(255, 0, 0))
+    assert from_the_side(vtray.Scene(objects=[moved]))
+    assert from_the_side(vtray.Scene(objects=[vtray.Copies(moved, np.eye(3))]))
+    scene.add_particles(np.eye(3))
+    assert from_the_side(scene)
+    del scene.objects[0]
+    assert not from_the_side(scene)
+
+
+@once
+def test_a_floor_is_below_cells() -> None:
+    scene = slab()
+    scene.add_plane((0, 0, -1), (0, 0, 1))
+    assert not from_the_side(scene)
+
+
+@once
+def test_points_that_shine_are_shown() -> None:
+    scene = vtray.Scene()
+    scene.add_particles([(0, 0, 0), (1, 2, 0), (3, 1, 0)], emission=1.0)
+    image = vtray.render(scene, size=(16, 12))
+    assert image.scene.camera == vtray.Camera.fit(scene, view="auto", size=(16, 12))
+    assert image.pixels.any()
+    with pytest.raises(SceneError, match=r"^Scene\.camera: there is none; set one"):
+        scene.check()
 
 
 @once

@@ -114,7 +114,8 @@ def render(
     ----------
     scene
         The scene. Where its camera was never set, all is seen that has an end, as
-        ``vtray.Camera.fit(scene, view="auto")`` shows it, or above the first plane if there is one.
+        ``vtray.Camera.fit(scene, view="auto")`` shows it, with particles that have a cell as
+        ``view=(-65, 20)`` does, or above the first plane if there is one.
     threads
         How many threads to use, at least 1; None for all cores. No more are used than there is
         work for.

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 from vtray.base.errors import SceneError
 from vtray.base.exact_math import cosine, sine
 from vtray.scene.camera import Camera
-from vtray.scene.default_light import lit_objects
-from vtray.scene.objects import Plane
+from vtray.scene.default_light import has_end
+from vtray.scene.particles.made_of import has_cell
+from vtray.scene.particles.view import USUAL
 from vtray.scene.studio import HasCamera
 
 if TYPE_CHECKING:
@@ -26,8 +27,9 @@ ABOVE = 25.0
 def with_camera(scene: "Scene", size: Sequence[int] | None) -> "Scene":
     """Return a scene, checked, with a camera: its own, or one that shows all that has an end.
 
-    The camera shows the shape of the objects, as ``view="auto"`` of `Camera.fit` does. With a
-    plane, the first is the floor, and the camera looks down on it a little.
+    The camera shows the shape of the objects, as ``view="auto"`` of `Camera.fit` does, and
+    particles that have a cell from where cells are seen. With a plane, the first is the floor, and
+    the camera looks down on it a little.
 
     Parameters
     ----------
@@ -45,7 +47,7 @@ def with_camera(scene: "Scene", size: Sequence[int] | None) -> "Scene":
     seen = scene
     if not _has_camera(scene):
         type(scene)(None, scene.lights, scene.objects, scene.render, scene.style)  # checks the rest
-        if any(not isinstance(item, Plane) for item in lit_objects(scene)):
+        if has_end(scene):
             asked: dict[str, Any] = {} if size is None else {"size": size}
             seen = copy(scene)
             seen.camera = Camera.fit(scene, **_view_of(scene), **asked)
@@ -73,7 +75,9 @@ def _view_of(scene: "Scene") -> dict[str, Any]:
     from vtray.scene.placing.bounds import balls_of, middle_of, ups_of_planes
 
     floors = ups_of_planes(scene, middle_of(balls_of(scene, "Camera.fit")))
-    return {"direction": _down_to(floors[0])} if floors else {"view": "auto"}
+    if floors:
+        return {"direction": _down_to(floors[0])}
+    return {"view": USUAL if has_cell(scene.objects) else "auto"}
 
 
 def _down_to(up: "Vec") -> "Vec":

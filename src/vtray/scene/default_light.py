@@ -60,6 +60,11 @@ def lit_objects(scene: HasCamera) -> "list[Object]":
     return [item for item in scene.objects if not isinstance(item, Stars) and not _is_empty(item)]
 
 
+def has_end(scene: HasCamera) -> bool:
+    """Tell whether a camera can show the whole of something: planes have no end."""
+    return any(not isinstance(item, Plane) and not _is_empty(item) for item in scene.objects)
+
+
 def _is_empty(item: object) -> bool:
     """Tell whether an object is one of many that holds none."""
     if isinstance(item, Copies):

@@ -143,10 +143,10 @@ class Scene(
         """
         Scene(self.camera, self.lights, self.objects, self.render, self.style)
         if _is_none(self.camera):
-            from vtray.scene.default_light import lit_objects
+            from vtray.scene.default_light import has_end
 
             remedy = "set one, for instance vtray.Camera.fit(scene)"
-            if all(isinstance(item, Plane) for item in lit_objects(self)):
+            if not has_end(self):
                 remedy = "nothing has an end that one could show; set one by vtray.Camera.look_at"
             raise SceneError(f"Scene.camera: there is none; {remedy}")
         if any(issubclass(kind, ArrayHolder) for kind in set(map(type, self.objects))):

@@ -28,7 +28,14 @@ from vtray.scene.particles.coloring import Coloring, color_particles, faded
 from vtray.scene.particles.expression import mask
 from vtray.scene.particles.from_objects import as_particles
 from vtray.scene.particles.hydrogen_bonds import DASHES, criterion_of, find_hydrogen_bonds
-from vtray.scene.particles.made_of import MadeOf, remember, remember_ends, repeated, written_out
+from vtray.scene.particles.made_of import (
+    MadeOf,
+    remember,
+    remember_cell,
+    remember_ends,
+    repeated,
+    written_out,
+)
 from vtray.scene.particles.opacity import opacities, see_through
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.shining import check_dull, check_shining, shining
@@ -246,6 +253,7 @@ def draw(
         behind = usual if background is None else background
         found = found._replace(colors=faded(found.colors, kept[rows], behind))
     seen_through = None if opacity is None else opacities(particles, opacity, kept)
+    before = len(scene.objects)
     if shines:
         positions, places = placed.positions[rows], placed.places
         stars = shining(particles, rows, positions, places, emission, found, stretched)
@@ -262,6 +270,8 @@ def draw(
     if cell if cell is not None else particles.cell is not None and not shines:
         edges = _edges(particles, times)
         scene.objects.extend(edges)
+    if particles.cell is not None:
+        remember_cell(scene.objects[before:])
     legend = list(found.legend)
     return Drawn(
         *solid, again, edges, copies, stars, found.scale, legend, rows, name, found.categories

@@ -2,11 +2,14 @@
 
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
+from vtray.scene.array_holder import ArrayHolder
 from vtray.scene.arrays import Arrays
 from vtray.scene.checks.columns import POINT
 from vtray.scene.checks.limits import Byte
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     import numpy as np
     from numpy.typing import NDArray
 
@@ -125,6 +128,21 @@ def made_of(item: object) -> MadeOf | None:
     """Return what objects were made of; None where that is not known."""
     found: MadeOf | None = getattr(item, "__dict__", {}).get("made_of_")
     return found
+
+
+def remember_cell(objects: "Iterable[object]") -> None:
+    """Let objects remember that the particles which they show have a cell, drawn or not."""
+    for item in objects:
+        if isinstance(item, ArrayHolder):
+            item.__dict__["has_cell_"] = True
+
+
+def has_cell(objects: "Iterable[object]") -> bool:
+    """Tell whether some objects, or some that are copied, show particles that have a cell."""
+    return any(
+        "has_cell_" in getattr(item, "__dict__", {}) or has_cell(getattr(item, "objects", ()))
+        for item in objects
+    )
 
 
 def remember_ends(item: "Copies", copies: Integers) -> "Copies":
