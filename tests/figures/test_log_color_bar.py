@@ -22,12 +22,21 @@ def test_marks_are_at_powers_of_ten(
     assert words == texts
 
 
+@pytest.mark.parametrize("norm", ["linear", "log"])
+@pytest.mark.parametrize(("low", "high"), [(2e-6, 3e-5), (-2.0, 3.5), (0.5, 2000.0), (1.0, 1e12)])
+def test_figures_say_what_is_painted(low: float, high: float, norm: str) -> None:
+    if norm == "log" and low < 0:
+        return
+    scale = ColorScale("viridis", low, high, norm=norm)
+    assert _ticks(scale, 6)[1] == [text for _, text in marks_of(scale, 6)]
+
+
 @pytest.mark.parametrize(
     ("low", "high", "texts"),
     [
         (0.5, 2000.0, ["1", "10", "100", "1000"]),
         (2.0, 5.0, ["2", "5"]),
-        (1.0, 1e12, ["1", "100", "10000", "1e+06", "1e+08", "1e+10", "1e+12"]),
+        (1.0, 1e12, ["1", "100", "10000", "1e6", "1e8", "1e10", "1e12"]),
         (3.1, 3.9, ["3.2", "3.4", "3.6", "3.8"]),
     ],
 )

@@ -73,36 +73,13 @@ def bar_labels(colorbar: bool | str | Sequence[str], scales: Sequence[Any]) -> l
 
 def _ticks(scale: Any, most: int) -> tuple[list[float], list[str]]:  # noqa: ANN401
     """Return where a colour bar has marks, and what is written there."""
-    from matplotlib.ticker import LogLocator, MaxNLocator, ScalarFormatter
-
+    marks = marks_of(scale, most)
+    values = [value for value, _ in marks]
     if isinstance(scale, BrightnessScale):
-        found = marks_of(scale, most)
-        return [share_of(scale, value) for value, _ in found], [text for _, text in found]
-    low, high = scale.low, scale.high
-    if low == high:
-        return [low], [f"{low:g}"]
-    if scale.norm == "log":
-        marks = LogLocator(numticks=most).tick_values(low, high)
-        inside = [float(value) for value in marks if low <= value <= high]
-        if len(inside) < 2:
-            inside = [low, high]
-        return [math.log10(value) for value in inside], [f"{value:g}" for value in inside]
-    slack = 1e-9 * (high - low)
-    values = [
-        float(value)
-        for value in MaxNLocator(nbins=most, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
-        if low - slack <= value <= high + slack
-    ]
-    formatter = ScalarFormatter(useOffset=False)
-    formatter.create_dummy_axis()
-    axis: Any = formatter.axis
-    axis.set_view_interval(low, high)
-    axis.set_data_interval(low, high)
-    texts = formatter.format_ticks(values)
-    offset = formatter.get_offset()
-    if offset:  # such as 1e-9: write it out at each mark
-        texts = [f"{value:.6g}" for value in values]
-    return values, texts
+        values = [share_of(scale, value) for value in values]
+    elif scale.norm == "log" and scale.low < scale.high:
+        values = [math.log10(value) for value in values]
+    return values, [text for _, text in marks]
 
 
 @dataclass

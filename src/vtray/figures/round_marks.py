@@ -1,6 +1,6 @@
 """Round numbers between two others, for the marks of a scale."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 
 MINUS = "\N{MINUS SIGN}"
@@ -11,14 +11,11 @@ DIGITS = (1, 5, 2)
 LEAST_POWER = -308
 """Power of ten below which no number is written."""
 
-LONGEST = 7
-"""How many digits a number has at most that is written out, if fewer tell it from others."""
+PLAIN = range(-4, 6)
+"""The powers of ten of the greatest number of a scale whose numbers are always written out."""
 
-MOST = 16
-"""With more, doubles cannot be told from each other."""
-
-SHORTEST = 6
-"""So many digits numbers may always have."""
+DIGITS_ALONE = 6
+"""How many digits a number has at most that is not one of evenly spread ones."""
 
 
 def round_marks(low: float, high: float, most: int) -> list[tuple[float, str]]:
@@ -37,13 +34,7 @@ def round_marks(low: float, high: float, most: int) -> list[tuple[float, str]]:
         if end - start < most:
             break
     values = [(start + k) * step for k in range(int(end - start) + 1)]
-    digits = max(0, -step.adjusted())
-    whole = max((abs(value).adjusted() for value in values), default=0)
-    needed = whole - step.adjusted() + 1  # digits by which they differ
-    is_short = digits < LONGEST and whole < LONGEST
-    if is_short or (needed > LONGEST and max(whole, 0) + digits < MOST):
-        return [(float(v), _signed(f"{v:.{digits}f}")) for v in values]
-    return [(float(v), number_text(float(v), max(needed, SHORTEST))) for v in values]
+    return [(float(value), text) for value, text in zip(values, _written(values), strict=True)]
 
 
 def spread_marks(
@@ -79,10 +70,23 @@ def spread_marks(
     return [(value, number_text(value)) for value in sorted(found)]
 
 
-def number_text(value: float, digits: int = SHORTEST) -> str:
-    """Return a number as people read it, with at most so many digits."""
-    return _signed(f"{value:.{digits}g}")
+def number_text(value: float) -> str:
+    """Return a number as people read it."""
+    return _written([Decimal(f"{value:.{DIGITS_ALONE - 1}e}").normalize()])[0]
 
 
-def _signed(text: str) -> str:
-    return text.replace("-", MINUS)
+def _written(values: Sequence[Decimal]) -> list[str]:
+    """Return numbers as people read them: written out, or all with powers of ten if shorter."""
+    texts = [f"{value:f}" for value in values]
+    greatest = max((value.copy_abs() for value in values), default=Decimal(0))
+    if greatest and greatest.adjusted() not in PLAIN:
+        texts = min(texts, [*map(_with_power, values)], key=lambda found: max(map(len, found)))
+    return [text.replace("-", MINUS) for text in texts]
+
+
+def _with_power(value: Decimal) -> str:
+    """Return a number such as 1.5e-6, which all fonts can show; 0 as it is."""
+    if value == 0:
+        return "0"
+    power = value.adjusted()
+    return f"{value.scaleb(-power).normalize():f}e{power}"
