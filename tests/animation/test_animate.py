@@ -157,6 +157,20 @@ def test_particles_have_one_camera_and_one_scale(tmp_path: Path) -> None:
     assert (pixels(tmp_path)[1] == made.pixels).all()
 
 
+def test_a_cell_is_in_all_pictures_or_in_none() -> None:
+    cell = np.eye(3) * 4
+    inside, outside = (vtray.Particles([(x, 1, 1)], cell=cell) for x in (1, -3))
+    drawing = Drawing({}, SIZE, None)
+    make = ParticleScenes(drawing.draw, drawing.fit, [inside, inside])
+    counts = [
+        len(make(one, 0).scene.objects) for one in (inside, outside, vtray.Particles([(0, 0, 0)]))
+    ]
+    assert counts == [3, 3, 1]
+    with pytest.warns(UserWarning, match="cell: not drawn"):
+        make = ParticleScenes(drawing.draw, drawing.fit, [outside])
+    assert [len(make(one, 0).scene.objects) for one in (inside, outside)] == [1, 1]
+
+
 @compiled_only
 def test_annotations(tmp_path: Path) -> None:
     frames = [vtray.Particles([(0, 0, 0)], time=0.25 * k) for k in range(2)]

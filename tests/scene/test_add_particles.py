@@ -303,6 +303,38 @@ def test_particles_shine() -> None:
     assert colored.stars.color[1].tolist() == (colored.color_scale.colors([0.4])[0] // 5).tolist()
 
 
+OUTSIDE = [(x, -3.0, 1.0) for x in range(7)]
+
+
+def test_a_cell_beside_its_particles_is_not_drawn() -> None:
+    away = Particles([*OUTSIDE, (1, 1, 1)], cell=np.eye(3) * 8)
+    words = r"^cell: not drawn, .* a quarter of the particles; wrap=True \(--wrap\) brings"
+    with pytest.warns(UserWarning, match=words) as found:
+        assert drawn(away).cell is None
+    assert len(found) == 1
+    with pytest.warns(UserWarning, match="cell: not drawn") as found:
+        vtray.Scene().add_particles(away, replicate=(2, 1, 1))
+    assert found[0].filename == __file__
+    # What is asked for, or brought in, needs no words.
+    assert drawn(away, cell=True).cell is not None
+    assert drawn(away, cell=False).cell is None
+    assert drawn(away, wrap=True).cell is not None
+    assert drawn(away, emission=1.0).cell is None
+
+
+@pytest.mark.parametrize(
+    ("positions", "cell"),
+    [
+        ([*OUTSIDE[:3], (1, 1, 1)], np.eye(3) * 8),
+        ([(0, 0, -1e-4), (8, 8, 0), (8, 0, 8.004)], np.eye(3) * 8),
+        ([(1, 1, 50), (1, 1, -50)], np.diag([8.0, 8, 0])),
+        (np.zeros((0, 3)), np.eye(3) * 8),
+    ],
+)
+def test_a_cell_with_its_particles_is_drawn(positions: Any, cell: Any) -> None:
+    assert drawn(Particles(positions, cell=cell)).cell is not None
+
+
 def test_cell_is_drawn_where_there_is_one() -> None:
     boxed = Particles([(1, 1, 1)], cell=np.eye(3) * 4)
     edges, corners = drawn(boxed).cell

@@ -83,12 +83,13 @@ class ParticleScenes:
         seen = Objects([])
         scales: list[ColorScale] = []
         categories: dict[Any, None] = {}
-        has_cell = False
+        has_cell = shows_cell = False
         for given in looked_at:
             particles = as_particles(given)
             scene, drawn, of_data = draw(particles, None, {})
             seen.objects += scene.objects
             has_cell |= particles.cell is not None
+            shows_cell |= drawn.cell is not None
             if shown is None or len(drawn.indices):
                 shown, marks = particles, of_data
             if not len(drawn.indices):
@@ -96,6 +97,7 @@ class ParticleScenes:
             if drawn.color_scale is not None:
                 scales.append(drawn.color_scale)
             categories.update(dict.fromkeys(drawn.categories or ()))
+        self._shows_cell = shows_cell
         self.fixed: dict[str, Any] = {}
         if scales:
             low, high = min(scale.low for scale in scales), max(scale.high for scale in scales)
@@ -117,7 +119,10 @@ class ParticleScenes:
     def __call__(self, given: Any, _: int, opacity: Opacity | None = None) -> Shot:  # noqa: ANN401
         """Return what a picture is taken of."""
         particles = as_particles(given)
-        fixed = self.fixed if opacity is None else {**self.fixed, "opacity": opacity}
+        has_cell = particles.cell is not None
+        fixed = {**self.fixed, "cell": self._shows_cell and has_cell}
+        if opacity is not None:
+            fixed["opacity"] = opacity
         scene, _drawn, marks = self._draw(particles, self.camera, fixed)
         frame = None if particles.source is None else particles.frame
         return Shot(scene, self.camera, None, frame, particles.time, marks)

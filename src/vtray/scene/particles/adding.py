@@ -143,8 +143,8 @@ class AddingParticles:
             from which part of the brightest on it counts by its logarithm; and the light of a
             pixel that is as bright as can be. See `Stars`.
         cell
-            Whether the edges of the cell are drawn; by default, if there is one, and nothing
-            shines.
+            Whether the edges of the cell are drawn; by default, if there is one that holds at least
+            a quarter of all particles, and nothing shines.
         replicate
             How many times the cell is shown along each of its edges. Where all
             cells together have more than half a million objects, they are `Copies`, which take no

@@ -11,6 +11,7 @@ from vtray.base.exact_math import hypotenuse
 from vtray.base.memory import lack_of_memory
 from vtray.scene.checks.scene_words import show
 from vtray.scene.particles.bonds import Bonds
+from vtray.scene.particles.boundary import TOLERANCE
 from vtray.scene.particles.column_names import IMAGE, IMAGES
 from vtray.scene.particles.lattice import columns_of, lattice_from, lattice_of
 
@@ -22,6 +23,9 @@ Integers = NDArray[np.int64]
 
 THIN = 0.0035
 """Radius of a cell's edges, in parts of the longest one that is drawn."""
+
+HELD = 0.25
+"""The share of all particles that a cell holds at least which tells where they are."""
 
 ROUNDED = 2.0**-40
 """What is before a face of the cell by less than this part of an edge is on it but for rounding."""
@@ -134,6 +138,27 @@ def _ahead(bonds: Bonds, count: int) -> Integers:
         ahead[front] = ahead[start[rows]] + steps[rows]
         known[front] = True
     return ahead
+
+
+def holds_particles(particles: "Particles", positions: NDArray[Any]) -> bool:
+    """Tell whether enough particles are within their cell, or on its faces, if there are any.
+
+    Where the cell has no edge, all are within.
+
+    Parameters
+    ----------
+    particles
+        The particles, which have a cell.
+    positions
+        Where they are drawn, (n, 3).
+    """
+    assert particles.cell is not None  # noqa: S101
+    inside = np.ones(len(positions), np.bool_)
+    fractions = lattice_from(particles).fractions(columns_of(positions))
+    for edge, along in zip(particles.cell, fractions, strict=True):
+        if edge.any():
+            inside &= (along >= -TOLERANCE) & (along <= 1.0 + TOLERANCE)
+    return bool(inside.sum() >= HELD * len(positions))
 
 
 def cell_edges(

@@ -1,5 +1,6 @@
 """From particles to objects of a scene, step by step."""
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
@@ -19,6 +20,7 @@ from vtray.scene.particles.boundary import Images, images_on_boundary, tolerance
 from vtray.scene.particles.cell import (
     THIN,
     cell_edges,
+    holds_particles,
     times_of,
     translations,
     unwrapped,
@@ -267,7 +269,9 @@ def draw(
         )
         solid, again, copies = _add(scene, solid, again, between, placed, seen_through)
     edges = None
-    if cell if cell is not None else particles.cell is not None and not shines:
+    if cell is None:
+        cell = not shines and _holds_what_is_drawn(particles, placed.positions)
+    if cell:
         edges = _edges(particles, times)
         scene.objects.extend(edges)
     if particles.cell is not None:
@@ -477,6 +481,18 @@ def _spheres(
 def _again(balls: Spheres, images: Images) -> Spheres:
     """Return the balls of particles that are shown again."""
     return repeated(balls, images.particles, images.steps, images.copies)
+
+
+def _holds_what_is_drawn(particles: Particles, positions: NDArray[Any]) -> bool:
+    """Tell whether there is a cell that holds particles; warn if it holds hardly any."""
+    if particles.cell is None:
+        return False
+    if holds_particles(particles, positions):
+        return True
+    words = "not drawn, as it holds less than a quarter of the particles"
+    remedy = "wrap=True (--wrap) brings them into it, cell=True (--cell) draws it"
+    warnings.warn(f"cell: {words}; {remedy}", stacklevel=5)
+    return False
 
 
 def _edges(particles: Particles, times: tuple[int, int, int]) -> tuple[Cylinders, Spheres]:
