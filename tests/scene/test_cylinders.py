@@ -215,6 +215,7 @@ FIVE = "as start has shape (5, 3), got shape"
 ENDS = f"expected an array of numbers of shape (5, 3), {FIVE}"
 NUMBERS = "expected a number or an array of numbers of shape"
 COLORS = "expected three integers or an array of numbers of shape"
+NAMES = "a name becomes numbers by vtray.colors.to_rgb"
 BAD_ARRAYS: list[tuple[str, Any, str]] = [
     ("start", spoilt("start", (3, 1), INF), "start[3, 1]: expected a finite number, got inf"),
     ("start", np.zeros((3, 5)), f"start: {POINTS} shape (3, 5) (transpose it)"),
@@ -235,7 +236,8 @@ BAD_ARRAYS: list[tuple[str, Any, str]] = [
     ("color_end", spoilt("color_end", (4, 0), 0.5), f"color_end[4, 0]: {BYTE} 0.5"),
     ("color_end", (0, 300, 0), f"color_end[1]: {BYTE} 300"),
     ("color_end", [(1, 2, 3)], f"color_end: {COLORS} (5, 3), {FIVE} (1, 3)"),
-    ("color_end", "red", f"color_end: {COLORS} (n, 3), got 'red'"),
+    ("color_end", "red", f"color_end: {COLORS} (n, 3), got 'red'; {NAMES}('red')"),
+    ("color", ["red", "b"], f"color: {COLORS} (n, 3), got ['red', 'b']; {NAMES}('red')"),
     ("lambert", spoilt("lambert", 3, 1.5), "lambert[3]: expected a number from 0 to 1, got 1.5"),
 ]
 

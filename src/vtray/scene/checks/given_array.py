@@ -133,11 +133,23 @@ def remedy_for(given: Any, columns: tuple[str, ...]) -> str:  # noqa: ANN401
             return f"; choose one column, as in table[{names}]"
         chosen = f"table.select([{names}])" if _is_arrow(given) else f"table[[{names}]]"
         return f"; choose three columns, as in {chosen}"
+    if columns == RED_GREEN_BLUE:
+        return remedy_for_name(given)
     if columns == COORDINATES and hasattr(given, "positions"):
         return "; give its attribute positions"
     if columns == COORDINATES and hasattr(given, "get_positions"):
         return "; give what its get_positions() returns"
     return ""
+
+
+def remedy_for_name(given: object) -> str:
+    """Say how the name of a colour, or names in a list, become numbers; "" for all else."""
+    name = given[0] if isinstance(given, (list, tuple)) and given else given
+    if not isinstance(name, str):
+        return ""
+    from vtray.scene.checks.scene_words import show
+
+    return f"; a name becomes numbers by vtray.colors.to_rgb({show(name)})"
 
 
 def positions_in(given: Any) -> Any:  # noqa: ANN401

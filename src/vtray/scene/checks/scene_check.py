@@ -14,6 +14,7 @@ from typing import Any
 import msgspec
 
 from vtray.base.errors import SceneError
+from vtray.scene.checks.given_array import RED_GREEN_BLUE, remedy_for_name
 from vtray.scene.checks.json_tree import CLEAN, Members, Tree, Written
 from vtray.scene.checks.limits import FieldError, limits_alone, may_be_infinite
 from vtray.scene.checks.scene_words import (
@@ -240,8 +241,7 @@ def _struct_from_code(found: Any, structs: tuple[Struct, ...], kind: Kind, place
         found = msgspec.structs.astuple(found)
     if isinstance(found, (list, tuple)) and len(found) == len(names) and _is_triple(structs):
         return construct(structs[0], dict(zip(names, found, strict=True)), place)
-    is_name = isinstance(found, str) and names == ("r", "g", "b")
-    remedy = f"; a name becomes numbers by vtray.colors.to_rgb({show(found)})" if is_name else ""
+    remedy = remedy_for_name(found) if names == RED_GREEN_BLUE else ""
     raise wrong(place, kind, f"{show(found)}{remedy}", in_code=True)
 
 
