@@ -280,6 +280,14 @@ def test_what_clip_planes_leave_of_a_body_is_closed() -> None:
     assert np.count_nonzero(~is_same.all(axis=-1)) <= (30 if JIT else 8)
 
 
+def test_cut_bodies_are_closed_without_a_cap_too() -> None:
+    closed, other = (
+        vtray.render(cut_scene(0.7), clip=(0.3, -1, 0.2, 0.1), cap=cap) for cap in (True, False)
+    )
+    np.testing.assert_array_equal(other.depth, closed.depth)
+    np.testing.assert_array_equal(other.alpha, closed.alpha)
+
+
 def test_bodies_beyond_clip_planes_are_not_there() -> None:
     scene = cut_scene(0.4)
     left = vtray.Scene(scene.camera, scene.lights, [])

@@ -189,7 +189,8 @@ def render(
         origin, and its thickness, as four or five numbers, or a `Slice`; False for none.
     cap
         Whether spheres, cylinders and cones that are cut are closed: True in their own colour, or a
-        colour; False leaves them open, so that light comes in and their inside is seen.
+        colour; False leaves them open, so that light comes in and their inside is seen, but for
+        bodies that let light through, which are solid and always closed.
     solid_from
         Depth, ids and normals are those of the first surface that is more opaque than that, 0.5 by
         default.

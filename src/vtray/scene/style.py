@@ -254,7 +254,8 @@ class Style(Frozen, metaclass=_CheckedStyle, frozen=True, omit_defaults=True, gc
         A slab; nothing exists outside of it. Code may also give a normal and the thickness as four
         numbers, or five with the distance from the origin before the thickness.
     cap : bool or Color
-        Whether what is cut is closed, in its own colour or in another. If not, its inside is seen.
+        Whether what is cut is closed, in its own colour or in another. If not, its inside is seen,
+        but for bodies that let light through, which are solid and always closed.
     solid_from : float
         Depth, ids and normals are those of the first surface that is more opaque than that, from 0
         to below 1.
