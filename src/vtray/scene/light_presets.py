@@ -43,7 +43,9 @@ def studio(scene: HasCamera, intensity: float = 1.0) -> list[AnyLight]:
     A large lamp, the key, is 40 degrees to the left and 45 above, a weaker one to the right fills
     its shadows, a weak one from the camera reaches whatever is seen, and one from behind draws
     rims; ambient light shows what is deep and what is open. With an exposure of 1, the brightest
-    part of a ball, between the camera and the key, shows its own colour.
+    part of a ball, between the camera and the key, shows its own colour. Scenes without lights have
+    other settings, too: the ``settings`` of their picture as ``scene.render`` make this light the
+    same.
 
     Parameters
     ----------
