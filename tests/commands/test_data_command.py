@@ -130,6 +130,16 @@ def test_views(water: Path) -> None:
     assert scene_of(water, "--orthographic").camera.projection == "orthographic"
 
 
+@pytest.mark.parametrize("style", ["spacefill", "points"])
+def test_a_cell_that_is_left_out_is_told_of_once(style: str, tmp_path: Path) -> None:
+    path = tmp_path / "beside.xyz"
+    path.write_text('1\nLattice="4 0 0 0 4 0 0 0 4"\nO -3 1 1\n')
+    scene_of(path, "--style", style, "--no-cell")
+    with pytest.warns(UserWarning, match=r"cell: not drawn, .*--wrap.*--cell") as found:
+        assert len(scene_of(path, "--style", style).objects) == 1
+    assert len(found) == 1
+
+
 def test_particles_that_are_lost_in_their_cell(tmp_path: Path) -> None:
     def shown(edge: float, *options: str) -> Scene:
         path = tmp_path / "lost.xyz"

@@ -117,6 +117,7 @@ def draw_data(
             if drawn.style == "points" and drawn.stars is None:
                 # They are as large as its pixels, not as those of the camera before it.
                 scene.objects.clear()
+                drawing["cell"] = drawn.cell is not None
                 drawn = scene.add_particles(particles, **drawing)
         if camera is not None:
             scene.render = scene.render.replace(tolerance=MOVING)
