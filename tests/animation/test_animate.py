@@ -79,6 +79,25 @@ def test_exposure_is_that_of_the_first(tmp_path: Path) -> None:
     assert [int(picture.max()) for picture in pixels(tmp_path / "b")] == [255, 255]
 
 
+@compiled_only  # several thousand samples
+@pytest.mark.parametrize("integrator", ["direct", "path"])
+def test_what_does_not_move_stays_the_same(tmp_path: Path, integrator: str) -> None:
+    # Which pixels get more samples, and how many rays go to soft lights, depends on what is white.
+    scene = ball()
+    scene.add_spheres([(1.3, -1, 0.5), (-1, -1.2, -0.7)], 0.5, color="white")
+    scene.add_plane((0, 0, -1.3), (0, 0, 1), "white")
+    scene.lights = [vtray.SphereLight((2, -9, 3), 2, 4), vtray.SphereLight((-3, -4, 1), 1, 1)]
+    how = {"size": (48, 36), "samples": 2, "integrator": integrator, "edge_samples": 8}
+    vtray.animate(scene, tmp_path / "a" / "%d.png", frames=3, **how)
+    vtray.turntable(scene, tmp_path / "b" / "%d.png", seconds=2, fps=1, degrees=0, **how)
+    first, *others = pixels(tmp_path / "a")
+    assert all((first == other).all() for other in others)
+    one, two = pixels(tmp_path / "b")
+    assert (one == two).all()
+    locked = [vtray.read_provenance(tmp_path / "a" / f"{k}.png").lock is not None for k in range(2)]
+    assert locked == [integrator == "direct", True]
+
+
 def test_stops_count_once_in_all_pictures(tmp_path: Path) -> None:
     scene, dark = ball(), ball()
     scene.lights = [vtray.Light((0, -9, 0))]

@@ -3,6 +3,7 @@
 import copy
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -14,6 +15,7 @@ from vtray.image.finished import save_finished
 from vtray.image.image import Image
 from vtray.image.white import Exposed
 from vtray.rendering.fog import Ball, ball_around, fitted
+from vtray.rendering.passes import depends_on_white
 from vtray.rendering.renderer import render
 from vtray.rendering.starlight import peak_of
 from vtray.scene.camera import Camera
@@ -154,6 +156,9 @@ class Stage:
     ) -> tuple[Image, float | None]:
         """Return a picture, and the light that becomes white in all others, if it decides that.
 
+        Where rays depend on that light, those of the picture that decides are cast once more, now
+        that it is known, so that they are the same as in all others.
+
         Parameters
         ----------
         shot
@@ -167,11 +172,19 @@ class Stage:
         """
         scene, look = self.set(shot), self._look
         holds = look.holds(scene)
-        lock = Exposed(white) if holds and white is not None else None
         given = {**look.settings, **msgspec.structs.asdict(self.style(scene))}
-        image = render(scene, threads or look.threads, lock=lock, warn=warn, **given)
-        decides = holds and lock is None and image.white > 0
-        return image, float(image.white) if decides else None
+        take = partial(render, scene, threads or look.threads, warn=warn, **given)
+        if not holds:
+            return take(), None
+        if white is not None:
+            return take(lock=Exposed(white)), None
+        image = take()
+        if not image.white > 0:
+            return image, None
+        white = float(image.white)
+        if depends_on_white(image.settings, image.noise):
+            image = take(lock=Exposed(white))
+        return image, white
 
     def style(self, scene: Scene) -> Style:
         """Return how pictures are drawn, with fog that is fitted to what the first one shows."""

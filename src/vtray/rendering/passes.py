@@ -312,6 +312,17 @@ def has_more_for_edges(settings: RenderSettings) -> bool:
     return settings.edge_samples > settings.samples > 1 and settings.integrator == "direct"
 
 
+def depends_on_white(settings: RenderSettings, noise: Noise | None) -> bool:
+    """Tell whether it depends on the light that becomes white which rays are cast.
+
+    Parameters
+    ----------
+    settings, noise
+        Those of a picture whose lights are not kept.
+    """
+    return has_more_for_edges(settings) or (noise is not None and math.isfinite(noise.error))
+
+
 class SurfaceRays(NamedTuple):
     """Which rays are cast from surfaces."""
 

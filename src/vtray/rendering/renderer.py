@@ -196,7 +196,8 @@ def render(
         default.
     lock
         A picture whose exposure is taken, its stops too, so that a sequence does not flicker; not
-        together with `exposure` or `stops`.
+        together with `exposure` or `stops`. What is white is then known before rays are cast to
+        soft lights and edges, whose grain may be another than without a lock.
     keep_lights
         Keep the light of each lamp apart, for `Image.relight` and `Image.recolor`.
     on_update
