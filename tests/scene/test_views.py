@@ -160,6 +160,26 @@ def test_orbit() -> None:
         camera.orbit(0, 95)
 
 
+def test_orbit_keeps_views_upright() -> None:
+    ball = vtray.Sphere((1, 2, 3), 2)
+    scene = vtray.Scene(objects=[ball])
+    for projection in ("perspective", "orthographic"):
+        first, other = (
+            Camera.fit(scene, view=view, projection=projection) for view in ((-60, 25), (30, 25))
+        )
+        turned = first.orbit(90, about=scene)
+        for one, wanted in zip(axes_of(turned), axes_of(other), strict=True):
+            assert one == pytest.approx(wanted, abs=1e-9)
+        np.testing.assert_allclose(eye(turned), eye(other), atol=1e-6)
+        assert turned.up == vtray.Direction(0, 0, 1)
+    risen = Camera.fit(scene, view=(-60, 25)).orbit(0, 20, about=scene)
+    wanted = axes_of(Camera.fit(scene, view=(-60, 45)))[2]
+    assert axes_of(risen.orbit(40).orbit(-40))[2] == pytest.approx(wanted)
+    # An up that leans on purpose is gone around.
+    leaning = Camera.look_at((0, -9, 2), (0, 0, 0), up=(1, 0, 3))
+    assert leaning.orbit(30).up == leaning.up
+
+
 def test_stereo() -> None:
     camera = Camera.look_at((0, -10, 0), (0, 0, 0), up=(0, 0, 1), size=(40, 30))
     left, right = camera.stereo(0.5)

@@ -38,7 +38,7 @@ from vtray.scene.default_light import has_default_light
 from vtray.scene.particles.view import VIEW
 from vtray.scene.placing.bounds import balls_of, middle_of
 from vtray.scene.placing.directions import Vec, unit
-from vtray.scene.placing.moved import axes_of
+from vtray.scene.placing.moved import up_of
 from vtray.scene.scene import Scene
 from vtray.scene.style import PICTURE, check_picture
 from vtray.scene.vectors import Vector
@@ -280,9 +280,8 @@ def go_around(
     count = max(round(pictures), 1)
     if lights not in ("turn", "still"):
         raise SceneError(f"lights: expected 'turn' or 'still', got {show(lights)}")
-    _, down, _ = axes_of(camera)
-    axis = (-down[0], -down[1], -down[2]) if camera.up is None else unit(camera.up)
     turns = lights == "turn" and not has_default_light(scene)
+    axis = unit(up_of(camera))
     shots = TurnedShots(shot or Shot(Scene(), camera), camera, about, axis, angle, count, turns)
     run(film, Script(source_of(scene, count), scene, shots, moving or Moving()))
 

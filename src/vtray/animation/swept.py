@@ -4,27 +4,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
-from vtray.base.exact_math import cosine, sine
 from vtray.rendering.beside import MARGIN, Margin
 from vtray.scene.camera import Camera
 from vtray.scene.cylinders import Cylinders
 from vtray.scene.placing.bounding_sphere import bounding_sphere
 from vtray.scene.placing.bounds import Balls, balls_of, middle_of
-from vtray.scene.placing.directions import Vec, along, dot, unit
-from vtray.scene.placing.moved import axes_of
+from vtray.scene.placing.directions import Vec, unit
+from vtray.scene.placing.moved import up_of
 from vtray.scene.placing.panorama import check_flat
-from vtray.scene.vectors import Direction, Vector
+from vtray.scene.vectors import Vector
 
 Floats = NDArray[np.float64]
-
-WORLD: tuple[Vec, ...] = ((0, 0, 1), (0, 1, 0), (1, 0, 0), (0, 0, -1), (0, -1, 0), (-1, 0, 0))
-"""Axes of the world that a camera may stand upright on, the usual one first."""
-
-STRAIGHT = 1e-9
-"""The cosine of an angle that is taken for a right one."""
-
-LEANING = 0.1
-"""The least cosine of the angle between an axis and what is up in the picture."""
 
 SLICES = 64
 """Discs, one above the other, that stand for what is swept."""
@@ -40,12 +30,11 @@ def fit_around(
     subject
         A scene, or what else `Camera.fit` takes.
     camera
-        Whose direction, size, projection and `up` it has; it turns about that.
+        Whose direction, size and projection it has; it turns about what that stands upright on.
     zoom, margin
         As for `Camera.fit`.
     """
-    camera = upright(camera)
-    axis, forward = unit(camera.up or Direction(*WORLD[0])), unit(camera.normal)
+    axis, forward = unit(up_of(camera)), unit(camera.normal)
     width, height = map(int, camera.size)
     check_flat(camera, "turntable", "take a camera that looks one way")
     parts = balls_of(subject, "turntable")
@@ -63,26 +52,8 @@ def fit_around(
 
 
 def upright(camera: Camera, tilt: float = 0.0) -> Camera:
-    """Return the same view with an `up` to go around.
-
-    Views that are named or given by angles have as `up` what is up in the picture; the camera
-    stands upright on an axis of the world all the same.
-
-    Parameters
-    ----------
-    camera
-        The camera. An `up` that is not square to its view stays.
-    tilt
-        How far the camera is above what it should go around, in degrees, if it stands upright on
-        no axis of the world.
-    """
-    right, down, forward = axes_of(camera)
-    if camera.up is not None and abs(dot(unit(camera.up), forward)) > STRAIGHT:
-        return camera
-    up = (-down[0], -down[1], -down[2])
-    axes = [axis for axis in WORLD if abs(dot(axis, right)) < STRAIGHT and dot(axis, up) > LEANING]
-    around = along(along((0.0, 0.0, 0.0), cosine(tilt), up), -sine(tilt), forward)
-    return camera.replace(up=Direction(*(axes[0] if axes else around)))
+    """Return the same view with an `up` to go around; see `up_of`."""
+    return camera.replace(up=up_of(camera, tilt))
 
 
 def swept(parts: list[Balls], middle: Vec, axis: Vec) -> Cylinders:

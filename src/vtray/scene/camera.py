@@ -356,8 +356,9 @@ class Camera(Frozen, frozen=True, gc=False, omit_defaults=True):
         Parameters
         ----------
         degrees
-            By how much it moves to its right on a circle about `up`, or about what is up in its
-            picture if it has none.
+            By how much it moves to its right on a circle: about its `up`, or, where that is square
+            to its view as in `fit` by a view, or there is none, about the axis of the world that is
+            upright in its picture. Without such an axis, it is about what is up in the picture.
         elevation
             By how many degrees it rises before that. It cannot go beyond where it looks straight
             down or up.

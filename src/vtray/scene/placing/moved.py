@@ -24,6 +24,15 @@ from vtray.scene.placing.look_at import NEAR, argument
 from vtray.scene.placing.panorama import around, check_flat
 from vtray.scene.vectors import Direction, Vector
 
+WORLD: tuple[Vec, ...] = ((0, 0, 1), (0, 1, 0), (1, 0, 0), (0, 0, -1), (0, -1, 0), (-1, 0, 0))
+"""Axes of the world that a camera may stand upright on, the usual one first."""
+
+STRAIGHT = 1e-9
+"""The cosine of an angle that is taken for a right one."""
+
+LEANING = 0.1
+"""The least cosine of the angle between an axis and what is up in the picture."""
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
@@ -62,6 +71,30 @@ def axes_of(camera: HasView) -> tuple[Vec, Vec, Vec]:
     return (*view_axes(forward, unit(camera.up)), forward)
 
 
+def up_of(camera: HasView, tilt: float = 0.0) -> Direction:
+    """Return what a camera goes around.
+
+    Views that are named or given by angles have as `up` what is up in the picture; the camera
+    stands upright on an axis of the world all the same.
+
+    Parameters
+    ----------
+    camera
+        The camera. It goes around an `up` that is not square to its view.
+    tilt
+        How far the camera is above what it should go around, in degrees, if it stands upright on
+        no axis of the world.
+    """
+    right, down, forward = axes_of(camera)
+    if camera.up is not None and abs(dot(unit(camera.up), forward)) > STRAIGHT:
+        return camera.up
+    up = times(-1.0, down)
+    for axis in WORLD:
+        if abs(dot(axis, right)) < STRAIGHT and dot(axis, up) > LEANING:
+            return Direction(*axis)
+    return Direction(*along(times(cosine(tilt), up), -sine(tilt), forward))
+
+
 def orbiting(camera: HasView, degrees: object, elevation: object, about: object) -> dict[str, Any]:
     """Return the fields of `Camera.orbit` that change."""
     call = "Camera.orbit"
@@ -69,7 +102,8 @@ def orbiting(camera: HasView, degrees: object, elevation: object, about: object)
     rise = argument(call, "elevation", elevation, Real)
     target = _target(camera, about, call)
     forward = unit(camera.normal)
-    up = unit(camera.up) if camera.up is not None else times(-1.0, axes_of(camera)[1])
+    axis = up_of(camera)
+    up = unit(axis)
     eye = along(_vec(camera.center), -camera.focus, forward)
     offset = (eye[0] - target[0], eye[1] - target[1], eye[2] - target[2])
     right = axes_of(camera)[0]
@@ -84,7 +118,7 @@ def orbiting(camera: HasView, degrees: object, elevation: object, about: object)
     return {
         "center": Vector(*along(eye, camera.focus, forward)),
         "normal": Direction(*forward),
-        "up": Direction(*up) if camera.up is None else camera.up,
+        "up": axis,
     }
 
 
