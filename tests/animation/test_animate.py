@@ -158,6 +158,22 @@ def test_camera(tmp_path: Path) -> None:
     assert scene.camera == away  # it is not changed
 
 
+def test_what_is_wrong_with_a_frame_says_which(tmp_path: Path) -> None:
+    given = [vtray.Particles([(0, 0, 0)], {"q": [1]}, time=1), vtray.Particles([(0, 0, 0)])]
+    path = tmp_path / "a.gif"
+    with pytest.raises(SceneError, match=r"^scenes: frame 1: color: expected a colour or the name"):
+        vtray.animate(given, path, color="q", size=SIZE)
+    with pytest.raises(SceneError, match=r"^scenes: frame 4: color: expected a colour or the name"):
+        vtray.animate(lambda k: given[k // 4], path, frames=range(3, 5), color="q", size=SIZE)
+    with pytest.raises(SceneError, match=r"^scenes: frame 0: expected vtray.Particles, .*, got 1$"):
+        vtray.animate([1, 2], path, size=SIZE)
+    late = {"annotate": {"time": True}, "resume": True, "size": SIZE}
+    with pytest.raises(OutputError, match=r"^scenes: frame 1: time: the data do not say the time"):
+        vtray.animate(given, path, **late)
+    with pytest.raises(SceneError, match=r"^scenes: frame 1: color: "):
+        vtray.animate(iter(given), tmp_path / "b.gif", color="q", size=SIZE)
+
+
 @compiled_only
 def test_particles_have_one_camera_and_one_scale(tmp_path: Path) -> None:
     def frame(k: int) -> vtray.Particles:
@@ -296,7 +312,7 @@ ERRORS = [
     ({"camera": {0: 1}}, SceneError, r"camera\[0\]: expected a Camera, got 1"),
     ({"camera": lambda k: k}, SceneError, "camera: expected a Camera for picture 0, got 0"),
     ({"scenes": "no.xyz"}, SceneError, "no.xyz: no such file; expected a file of data"),
-    ({"scenes": [ball(), 3]}, SceneError, "scenes: expected a Scene for picture 1, got 3"),
+    ({"scenes": [ball(), 3]}, SceneError, "scenes: frame 1: expected a Scene, got 3"),
 ]
 
 
@@ -349,8 +365,8 @@ def test_numbers_of_an_array_are_those_of_frames() -> None:
 def test_pictures_of_one_size(tmp_path: Path) -> None:
     other = ball()
     other.camera = other.camera.resized((6, 9))
-    words = "expected pictures of 12 x 9 pixels as the first, got 6 x 9; give a size for all"
-    with pytest.raises(OutputError, match=words) as error:
+    words = "a.gif: expected pictures of 12 x 9 pixels as the first, got 6 x 9; give a size for all"
+    with pytest.raises(OutputError, match=f"^scenes: frame 1: .*{words}") as error:
         vtray.animate([ball(), other], tmp_path / "a.gif")
     assert "a.gif: 1 picture done" in error.value.__notes__[0]
     vtray.animate([ball(), other], tmp_path / "b.gif", size=(8, 6))
@@ -375,7 +391,7 @@ def test_ffmpeg_that_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 def test_render_errors_are_passed_on(tmp_path: Path) -> None:
     dark = ball()
     dark.lights = [vtray.Light((0, 0, 9), 1e306)]
-    with pytest.raises(RenderError, match="the intensities add up to"):
+    with pytest.raises(RenderError, match="^scenes: frame 1: .*the intensities add up to"):
         vtray.animate([ball(), dark], tmp_path / "a.gif")
 
 

@@ -154,7 +154,7 @@ def test_what_is_wrong_comes_back(tmp_path: Path, client: Any, run_file: Path) -
         file.write("3\n\nC 0 0 0\nC 0 0 never\nC 0 0 0\n" + FRAME.format(1, 1, 1, 1))
     with pytest.raises(SceneError, match=r"run.xyz: line 6[0-9]: .*never"):
         vtray.animate(run_file, tmp_path / "a%d.png", frames=[0, 1, 12, 13], client=client)
-    with pytest.raises(SceneError, match="scenes: expected a Scene for picture 1, got 3"):
+    with pytest.raises(SceneError, match="scenes: frame 1: expected a Scene, got 3"):
         vtray.animate([make(3), 3], tmp_path / "b%d.png", client=client)
 
 

@@ -119,6 +119,13 @@ def test_what_is_painted(run: Path) -> None:
     assert (one[:30, :60] != other[:30, :60]).any()
 
 
+MIXED = [
+    "1\nProperties=species:S:1:pos:R:3:q:R:1 Time=1\nC 0 0 0 1\n",
+    "1\nProperties=species:S:1:pos:R:3:q:R:1\nC 0 0 0 1\n",
+    "1\n\nC 0 0 0\n",
+]
+"""Frames of which not all have a time and a column."""
+
 ERRORS = [
     (["DATA", "a.png", "--frames", "::2"], "a.png: is no movie by its name; expected .mp4, .gif"),
     (["DATA", "a.png", "--fps", "5"], "a.png: is no movie by its name; expected .mp4, .gif, "),
@@ -139,11 +146,13 @@ ERRORS = [
     (["DATA", "m/%d.png", "--bits", "16", "--axes"], "m/0.png: annotations: expected 8 bits with"),
     (["DATA", "a.gif", "--alpha"], "a.gif: background: this format cannot be transparent; .webp "),
     (["DATA", "no/a.gif"], "no/a.gif: there is no folder "),
-    (["DATA", "a.gif", "--color", "no"], "DATA: color: expected a colour or the name of a column"),
-    pytest.param(
-        ["DATA", "a.gif", "--time", "{t}", "--size", "8x6"],
+    (["DATA", "a.gif", "--color", "no"], "DATA: frame 0: color: expected a colour or the name of"),
+    (["MIXED", "a.gif", "--color", "q"], "MIXED: frame 2: color: expected a colour or the name of"),
+    (["MIXED", "a.gif", "--select", "q > 0"], "MIXED: frame 2: select 'q > 0': at 1: no column"),
+    (["MIXED", "a.gif", "--time", "{time}"], "MIXED: frame 1: time: the data do not say the time"),
+    (
+        ["DATA", "a.gif", "--time", "{t}"],
         "time: expected {frame} and {time} alone in braces, such as {time:.1f} ps, got {t}",
-        marks=compiled_only,  # found out when the first picture is there
     ),
     (["SCENE", "a.gif"], "a.gif: a scene has one picture; --turntable SECONDS goes around it"),
     (["SCENE", "a.gif", "--frames", "1:"], "--frames is for files of data, and SCENE is a scene"),
@@ -161,7 +170,8 @@ def test_errors(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.chdir(run.parent)
-    named = {"DATA": run.name, "SCENE": scene.name}
+    Path("mixed.xyz").write_text("".join(MIXED))
+    named = {"DATA": run.name, "SCENE": scene.name, "MIXED": "mixed.xyz"}
     status = cli.run([*(named.get(word, word) for word in arguments), "-t1"])
     error = capfd.readouterr().err
     if not message:  # what is printed needs no OUTPUT

@@ -36,7 +36,7 @@ from vtray.scene.checks.scene_words import show
 from vtray.scene.checks.unknown_names import unknown_argument
 from vtray.scene.default_light import has_default_light
 from vtray.scene.particles.view import VIEW
-from vtray.scene.placing.bounds import balls_of, middle_of
+from vtray.scene.placing.bounds import middle_in
 from vtray.scene.placing.directions import Vec, unit
 from vtray.scene.placing.moved import up_of
 from vtray.scene.scene import Scene
@@ -345,10 +345,9 @@ def _film(
 def _pivot(scene: Scene) -> Vec:
     """Return the middle of a scene; the origin if nothing has one."""
     try:
-        x, y, z = map(float, middle_of(balls_of(scene, "")))
+        return middle_in(scene, "")
     except SceneError:
         return 0.0, 0.0, 0.0
-    return x, y, z
 
 
 def _number(name: str, value: object, *, positive: bool = True) -> float:

@@ -61,6 +61,9 @@ def check_annotate(given: object) -> dict[str, Any]:
     for name in given:
         if name not in known:
             raise OutputError(f"annotate: {unknown_argument('Image.annotated', name, known)}")
+    for name in VARYING:
+        if isinstance(given.get(name), str):
+            _formatted(name, given[name], {"frame": 0, "time": 0.0})
     # What can be gone through but once is for all pictures, and for another run to compare.
     return {
         name: [*value] if isinstance(value, Iterator) else value for name, value in given.items()

@@ -261,7 +261,8 @@ class _Flight:
         film = self._film
         for message in taken.warnings:
             film.warn(message)
-        film.check_size(taken.shape)
+        with self._script.source.of_picture(k):
+            film.check_size(taken.shape)
         if taken.white is not None:
             self._done.white = taken.white
         write_whole(film.output.name(k), lambda file: file.write(taken.content))

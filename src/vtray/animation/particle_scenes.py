@@ -4,7 +4,8 @@ Both are those of some frames, spread over all, which are looked at before: with
 them are in the picture, and the scale has all their values.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import AbstractContextManager
 from types import MappingProxyType
 from typing import Any
 
@@ -74,7 +75,7 @@ class ParticleScenes:
         self,
         draw: Draw,
         fit: Fit,
-        looked_at: Iterable[Any],
+        looked_at: Iterable["Looked"],
         annotate: Mapping[str, Any] = MappingProxyType({}),
     ) -> None:
         self._draw = draw
@@ -84,9 +85,10 @@ class ParticleScenes:
         scales: list[ColorScale] = []
         categories: dict[Any, None] = {}
         has_cell = shows_cell = False
-        for given in looked_at:
-            particles = as_particles(given)
-            scene, drawn, of_data = draw(particles, None, {})
+        for given, of_given in looked_at:
+            with of_given:
+                particles = as_particles(given)
+                scene, drawn, of_data = draw(particles, None, {})
             seen.objects += scene.objects
             has_cell |= particles.cell is not None
             shows_cell |= drawn.cell is not None
@@ -128,11 +130,18 @@ class ParticleScenes:
         return Shot(scene, self.camera, None, frame, particles.time, marks)
 
 
-def looked_at(source: Source, first: Any) -> Iterable[Any]:  # noqa: ANN401
-    """Return the frames of a source that are looked at before; the first where it goes by once."""
+Looked = tuple[Any, AbstractContextManager[None]]
+"""A frame, and what says of errors that they are of it."""
+
+
+def looked_at(source: Source, first: Any) -> Iterator[Looked]:  # noqa: ANN401
+    """Give the frames of a source that are looked at before; the first where it goes by once."""
     if source.some is None or source.count is None:
-        return [first]
-    return source.some(spread(source.count, LOOKED_AT))
+        yield first, source.of_picture(0)
+        return
+    numbers = spread(source.count, LOOKED_AT)
+    for k, item in zip(numbers, source.some(numbers), strict=True):
+        yield item, source.of_picture(k)
 
 
 class Drawing:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from vtray.animation.fading import Opacity
+from vtray.animation.frame_errors import of_frame
 from vtray.animation.moving import Moved, Moving
 from vtray.animation.sources import Source
 from vtray.animation.stage import Shot
@@ -29,16 +30,20 @@ class Take(NamedTuple):
         Its number where it comes from.
     moved
         What is said of it alone.
+    origin
+        Where it comes from, for messages.
     """
 
     k: int
     item: Any
     number: int
     moved: Moved
+    origin: str
 
     def shot(self, make: Make) -> Shot:
         """Return what it is taken of."""
-        found = make(self.item, self.k, self.moved.opacity)._replace(style=self.moved.style)
+        with of_frame(self.origin, self.number):
+            found = make(self.item, self.k, self.moved.opacity)._replace(style=self.moved.style)
         if self.moved.camera is not None:
             found = found._replace(camera=self.moved.camera)
         return found if found.frame is not None else found._replace(frame=self.number)
@@ -83,7 +88,9 @@ class Script:
         """Give what others need to take pictures, from one with a number on; called once."""
         for k, item in enumerate(self.source.start(start), start):
             # What goes through a trajectory may give the same object again and again.
-            yield self._take(k, item if isinstance(self.first, Scene) else as_particles(item))
+            with self.source.of_picture(k):
+                found = item if isinstance(self.first, Scene) else as_particles(item)
+            yield self._take(k, found)
 
     def takes_in_file(self, start: int) -> Iterator[Take]:
         """Give the same for those who read the file themselves."""
@@ -98,4 +105,4 @@ class Script:
         return self._take(k, item)
 
     def _take(self, k: int, item: Any) -> Take:  # noqa: ANN401
-        return Take(k, item, self.source.number(k), self.moving(k))
+        return Take(k, item, self.source.number(k), self.moving(k), self.source.origin)

@@ -3,16 +3,16 @@
 All three go on at the same time, one picture apart, so that memory does not grow with the movie.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
-from typing import Self
+from typing import Any, Self
 
 from vtray.animation.done import PART, Done
 from vtray.animation.film import Film
 from vtray.animation.output import Output
 from vtray.animation.script import Script
-from vtray.animation.stage import Shot, Stage, common_of
+from vtray.animation.stage import Stage, common_of
 from vtray.base.atomic_file import explained
 from vtray.image.image import Image
 from vtray.scene.default_light import settings_of
@@ -69,14 +69,16 @@ def _take_here(
             following = reader.submit(next, coming, None)
             if k not in done:
                 film.tell(count, script.total)
-                image, white = stage.take(shot, done.white, film.warn)
-                film.check_size(image.linear.shape)
+                with script.source.of_picture(k):
+                    keywords = film.look.painted(shot)
+                    image, white = stage.take(shot, done.white, film.warn)
+                    film.check_size(image.linear.shape)
                 if white is not None:
                     done.white = white
                 if written is not None:
                     written.result()
                 check()
-                written = writer.submit(_write, film, image, shot, k)
+                written = writer.submit(_write, film, image, keywords, k)
                 count += 1
                 del image
             del shot
@@ -85,9 +87,9 @@ def _take_here(
             written.result()
 
 
-def _write(film: Film, image: Image, shot: Shot, k: int) -> None:
-    """Write a picture to its file."""
-    film.look.save(image, shot, film.output.name(k))
+def _write(film: Film, image: Image, keywords: Mapping[str, Any], k: int) -> None:
+    """Write a picture, and what is painted on it, to its file."""
+    film.look.save(image, keywords, film.output.name(k))
     film.accept(k)
 
 

@@ -15,7 +15,7 @@ from vtray.scene.camera import Camera
 from vtray.scene.checks.scene_words import show
 from vtray.scene.default_camera import check_is_scene
 from vtray.scene.particles.view import USUAL
-from vtray.scene.placing.bounds import balls_of, middle_of
+from vtray.scene.placing.bounds import middle_in
 from vtray.scene.placing.directions import Vec
 from vtray.scene.scene import Scene
 from vtray.scene.vectors import Vector
@@ -30,10 +30,10 @@ class SceneShots:
             fit = partial(_usual_camera, first, look)
             self._fitted = fit_beside(fit, first.objects, look.annotate)
 
-    def __call__(self, scene: Any, k: int, opacity: Opacity | None = None) -> Shot:  # noqa: ANN401
+    def __call__(self, scene: Any, _: int, opacity: Opacity | None = None) -> Shot:  # noqa: ANN401
         """Return what a picture is taken of."""
         if not isinstance(scene, Scene):
-            raise SceneError(f"scenes: expected a Scene for picture {k}, got {show(scene)}")
+            raise SceneError(f"expected a Scene, got {show(scene)}")
         camera = self._fitted if _is_none(scene.camera) else scene.camera
         return Shot(scene, camera, opacity=opacity)
 
@@ -85,8 +85,7 @@ def camera_around(scene: Scene, look: Look) -> tuple[Camera, Vector]:
     check_is_scene(scene)
     if _is_none(scene.camera):
         return around_beside(scene, _usual_camera(scene, look), look.annotate)
-    x, y, z = map(float, middle_of(balls_of(scene, "turntable")))
-    return upright(scene.camera), Vector(x, y, z)
+    return upright(scene.camera), Vector(*middle_in(scene, "turntable"))
 
 
 def around_beside(

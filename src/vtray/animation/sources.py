@@ -2,10 +2,12 @@
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from itertools import chain, islice, repeat
 from typing import Any
 
+from vtray.animation.frame_errors import of_frame
 from vtray.animation.spool import Spool
 from vtray.animation.stored import Stored
 from vtray.base.errors import SceneError
@@ -38,6 +40,8 @@ class Source:
         The file that others may read frames from; None if there is none.
     repeats
         Whether there is the same scene for each picture.
+    origin
+        Where pictures come from, for messages about one of them.
     """
 
     count: int | None
@@ -46,10 +50,15 @@ class Source:
     numbers: Sequence[int] | None = None
     stored: Stored | None = None
     repeats: bool = False
+    origin: str = "scenes"
 
     def number(self, k: int) -> int:
         """Return what is the number of a picture where it comes from."""
         return k if self.numbers is None else int(self.numbers[k])
+
+    def of_picture(self, k: int) -> AbstractContextManager[None]:
+        """Say within of errors which picture they are of."""
+        return of_frame(self.origin, self.number(k))
 
 
 def source_of(
@@ -83,6 +92,7 @@ def source_of(
             lambda k: repeat(scenes, count - k),
             lambda ks: repeat(scenes, len(ks)),
             repeats=True,
+            origin="",
         )
     if callable(scenes):
         return _of_function(scenes, frames)
@@ -108,14 +118,21 @@ def _of_file(path: str, frames: Any, reading: Mapping[str, Any]) -> Source:  # n
             # What is wrong with the file names it.
             name = "" if str(error).startswith(path) else f"{path}: "
             raise SceneError(f"{name}{error}") from None
-        return _listed(spool.read, found)
+        return replace(_listed(spool.read, found), origin=path)
     numbers = numbers_of(path, frames, **reading)
 
     def read(ks: Sequence[int]) -> Iterator[Any]:
         return read_frames(path, [numbers[k] for k in ks], **reading)
 
     stored = Stored(path, reading)
-    return Source(len(numbers), lambda k: read(range(k, len(numbers))), read, numbers, stored)
+    return Source(
+        len(numbers),
+        lambda k: read(range(k, len(numbers))),
+        read,
+        numbers,
+        stored,
+        origin=path,
+    )
 
 
 def _of_function(make: Callable[[int], Any], frames: Any) -> Source:  # noqa: ANN401

@@ -101,9 +101,12 @@ class Look:
         """Tell whether pictures have the exposure of the first: unless it is said otherwise."""
         return "exposure" not in self.settings and isinstance(settings_of(scene).exposure, str)
 
-    def save(self, image: Image, shot: Shot, path: Path) -> None:
+    def painted(self, shot: Shot) -> dict[str, Any]:
+        """Return what is painted on a picture, as keywords of `vtray.Image.annotated`."""
+        return annotated(self.annotate, shot.frame, shot.time, shot.marks or {})
+
+    def save(self, image: Image, keywords: Mapping[str, Any], path: Path) -> None:
         """Write a picture, and what is painted on it, to a file."""
-        keywords = annotated(self.annotate, shot.frame, shot.time, shot.marks or {})
         save_finished(image, path, keywords, self.bits, self.aov)
 
 

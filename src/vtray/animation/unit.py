@@ -10,6 +10,7 @@ from pathlib import Path
 from threading import Lock
 from typing import Any, NamedTuple
 
+from vtray.animation.frame_errors import of_frame
 from vtray.animation.script import Make, Take
 from vtray.animation.stage import Common, Look, Stage
 from vtray.animation.stored import Stored
@@ -89,12 +90,13 @@ class Unit:
                 return None
         shot = take.shot(make)
         warnings: list[str] = []
-        with self._lock:
+        with of_frame(take.origin, take.number), self._lock:
+            keywords = look.painted(shot)
             threads = look.threads or threads_here()
             image, found = self._stage.take(shot, white, warnings.append, threads)
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, f"picture{ending}")
-            look.save(image, shot, path)
+            look.save(image, keywords, path)
             return Taken(path.read_bytes(), image.linear.shape, found, warnings)
 
 

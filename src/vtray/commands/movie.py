@@ -9,6 +9,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from vtray.animation.animate import go_around, run
+from vtray.animation.annotating import check_annotate
 from vtray.animation.cluster import check_client, connect
 from vtray.animation.film import Film
 from vtray.animation.output import Output
@@ -53,7 +54,7 @@ def make_movie(
     """
     output = Output(options.output)
     fps = getattr(options, "fps", None) or FPS
-    aov, annotate = tuple(options.aov or ()), annotations_of(options)
+    aov, annotate = tuple(options.aov or ()), check_annotate(annotations_of(options))
     output.check(fps, options.bits, aov, is_annotated=bool(annotate))
     look = Look(settings_of(options), annotate, options.bits, aov, options.threads)
     film = Film(output, fps, look, bool(getattr(options, "resume", False)), on_warning=warn)

@@ -208,6 +208,12 @@ def middle_of(parts: Sequence[Balls]) -> Floats:
     return middle
 
 
+def middle_in(subject: object, place: str) -> Vec:
+    """Return the middle of what has one; see `balls_of`."""
+    x, y, z = map(float, middle_of(balls_of(subject, place)))
+    return x, y, z
+
+
 def from_middle(center: NDArray[Any], middle: Floats) -> list[Floats]:
     """Return the coordinates of points relative to the middle, each (n,)."""
     return [column - offset for column, offset in zip(center.T, middle, strict=True)]

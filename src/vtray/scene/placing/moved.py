@@ -196,10 +196,9 @@ def _target(camera: HasView, about: object, call: str) -> Vec:
     if about is None:
         return along(_vec(camera.center), camera.focus / NEAR - camera.focus, unit(camera.normal))
     if hasattr(about, "objects") or hasattr(about, "hull"):
-        from vtray.scene.placing.bounds import balls_of, middle_of
+        from vtray.scene.placing.bounds import middle_in
 
-        x, y, z = map(float, middle_of(balls_of(about, call)))
-        return x, y, z
+        return middle_in(about, call)
     return _vec(argument(call, "about", about, Vector))
 
 
