@@ -119,6 +119,22 @@ def test_what_is_painted(run: Path) -> None:
     assert (one[:30, :60] != other[:30, :60]).any()
 
 
+@compiled_only
+def test_legend_and_scale_bar_are_those_of_all_frames(tmp_path: Path) -> None:
+    path, there = tmp_path / "run.xyz", tmp_path / "made" / "%d.png"
+    atoms = ["O 0 0 0", "H 0 4 9", "C 9 0 0", "C 9 4 0"]
+    frames = [f"{count}\n\n" + "\n".join(atoms[-count:]) + "\n" for count in (1, 4, 2)]
+    path.write_text("".join(frames))
+    options = ["--size", "160x120", "-t1", "--legend", "--scale-bar=nm", "--samples", "1"]
+    assert cli.run([*options, "--view", "front", str(path), str(there)]) == 0
+    one, all_, few = pictures(there.parent)
+    assert (all_[:, :115] != few[:, :115]).any()
+    for picture in (all_, few):
+        assert (picture[:, 130:] == one[:, 130:]).all()  # the legend, and the end of the bar
+        assert (picture[108:] == one[108:]).all()  # the remark below the bar
+    assert len(np.unique(one[:60, 130:].reshape(-1, 3), axis=0)) > 10
+
+
 MIXED = [
     "1\nProperties=species:S:1:pos:R:3:q:R:1 Time=1\nC 0 0 0 1\n",
     "1\nProperties=species:S:1:pos:R:3:q:R:1\nC 0 0 0 1\n",

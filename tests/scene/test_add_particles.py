@@ -131,6 +131,10 @@ def test_colors_of_elements() -> None:
     found = drawn()
     assert found.spheres.color.tolist() == [[255, 13, 13], [228] * 3, [228] * 3]
     assert found.legend == [("H", (228, 228, 228)), ("O", (255, 13, 13))]
+    assert found.categories == ["H", "O"]
+    more = drawn(categories=["O", "C", "none", 7])
+    assert [name for name, _ in more.legend] == ["H", "C", "O"]
+    assert (more.spheres.color == found.spheres.color).all()
     assert drawn(colors="cpk").spheres.color[0].tolist() == [240, 0, 0]
 
 

@@ -23,6 +23,7 @@ from vtray.scene.particles.drawing import Drawn
 from vtray.scene.particles.from_objects import as_particles
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.view import MOVING, SIZE, VIEW, camera_of, places_of
+from vtray.scene.placing.bounds import middle_in
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 
@@ -114,6 +115,7 @@ class ParticleScenes:
         if has_beside({**annotate, **marks}):
             scene, _, marks = draw(shown, None, self.fixed)
             last = scene.objects
+        self._middle = middle_in(seen, "Camera.fit")
         self.camera = fit_beside(
             lambda margin: fit(seen, has_cell, margin), last, {**annotate, **marks}
         )
@@ -127,7 +129,7 @@ class ParticleScenes:
             fixed["opacity"] = opacity
         scene, _drawn, marks = self._draw(particles, self.camera, fixed)
         frame = None if particles.source is None else particles.frame
-        return Shot(scene, self.camera, None, frame, particles.time, marks)
+        return Shot(scene, self.camera, None, frame, particles.time, marks, middle=self._middle)
 
 
 Looked = tuple[Any, AbstractContextManager[None]]

@@ -26,7 +26,9 @@ class SceneShots:
 
     def __init__(self, first: Scene, look: Look) -> None:
         self._fitted = first.camera
+        self._middle: Vec | None = None
         if _is_none(first.camera):
+            self._middle = middle_in(first, "Camera.fit")
             fit = partial(_usual_camera, first, look)
             self._fitted = fit_beside(fit, first.objects, look.annotate)
 
@@ -34,8 +36,9 @@ class SceneShots:
         """Return what a picture is taken of."""
         if not isinstance(scene, Scene):
             raise SceneError(f"expected a Scene, got {show(scene)}")
-        camera = self._fitted if _is_none(scene.camera) else scene.camera
-        return Shot(scene, camera, opacity=opacity)
+        if not _is_none(scene.camera):
+            return Shot(scene, scene.camera, opacity=opacity)
+        return Shot(scene, self._fitted, opacity=opacity, middle=self._middle)
 
 
 @dataclass(frozen=True)
@@ -77,6 +80,7 @@ class TurnedShots:
             camera=self.camera.orbit(turn, about=self.about),
             lights=lights,
             opacity=opacity,
+            middle=middle,
         )
 
 

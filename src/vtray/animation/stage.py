@@ -21,6 +21,7 @@ from vtray.rendering.starlight import peak_of
 from vtray.scene.camera import Camera
 from vtray.scene.default_light import settings_of
 from vtray.scene.light_types import AnyLight
+from vtray.scene.placing.directions import Vec
 from vtray.scene.scene import Scene
 from vtray.scene.settings import overridden
 from vtray.scene.stars import Stars
@@ -48,6 +49,9 @@ class Shot(NamedTuple):
         How opaque its objects are; None for as they are.
     style
         The parts of its style that are its own, by their names.
+    middle
+        That of what all pictures show, at whose distance a scale bar is right; None for that of
+        what is seen in each.
     """
 
     scene: Scene
@@ -58,6 +62,14 @@ class Shot(NamedTuple):
     marks: Mapping[str, Any] | None = None
     opacity: Opacity | None = None
     style: Mapping[str, Any] = {}
+    middle: Vec | None = None
+
+    @property
+    def is_ahead(self) -> bool:
+        """Whether the middle is known and in front of the camera."""
+        if self.middle is None or self.camera.projection == "panorama":
+            return False
+        return bool(self.camera.project(self.middle)[2] > 0)
 
 
 class Common(NamedTuple):
@@ -103,7 +115,10 @@ class Look:
 
     def painted(self, shot: Shot) -> dict[str, Any]:
         """Return what is painted on a picture, as keywords of `vtray.Image.annotated`."""
-        return annotated(self.annotate, shot.frame, shot.time, shot.marks or {})
+        marks = dict(shot.marks or {})
+        if self.annotate.get("scalebar") and self.annotate.get("at") is None and shot.is_ahead:
+            marks["at"] = shot.middle
+        return annotated(self.annotate, shot.frame, shot.time, marks)
 
     def save(self, image: Image, keywords: Mapping[str, Any], path: Path) -> None:
         """Write a picture, and what is painted on it, to a file."""

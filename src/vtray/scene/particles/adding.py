@@ -109,7 +109,8 @@ class AddingParticles:
             Names or integers that get a colour each, in their order, so that they have the same in
             several pictures; others get one by their names. By default those that there are,
             sorted. The first 8 colours are told apart by all eyes; up to 24 are darker and lighter
-            ones of the same kinds, and then they come again.
+            ones of the same kinds, and then they come again. Elements keep their own colours, and
+            those that are named stand in the legend, too.
         select
             What is drawn: an expression such as ``"element == 'O' and z > 3"``, or an array (n,) of
             bool.

@@ -75,7 +75,8 @@ class Coloring(NamedTuple):
     legend
         What colours stand for, if they are of elements or categories: names and colours.
     categories
-        Those that there are, in the order of their colours, if these are of categories.
+        Those that there are, in the order of their colours, if these are of categories; or the
+        elements of the legend.
     """
 
     colors: Bytes
@@ -123,7 +124,7 @@ def color_particles(
         color = known[0] if known else PLAIN
     if isinstance(color, str):
         if color == "element" and color in particles.columns and not asked:
-            return _of_elements(particles["element"][rows], colors)
+            return _of_elements(particles["element"][rows], colors, categories or ())
         called = column_called(color, particles.columns)
         if called in particles.columns or color in POSITION:
             return _of_column(called, particles[called], rows, scaled, categories)
@@ -156,13 +157,15 @@ def faded(colors: Bytes, kept: NDArray[np.bool_], background: "AnyColor") -> Byt
     return np.where(kept[:, None], each, pale).astype(np.uint8)
 
 
-def _of_elements(symbols: NDArray[Any], colors: str) -> Coloring:
-    """Return the colours of elements."""
+def _of_elements(symbols: NDArray[Any], colors: str, known: Sequence[Any]) -> Coloring:
+    """Return the colours of elements; those that are known stand in the legend, too."""
     numbers = atomic_numbers(symbols)
+    others = atomic_numbers([symbol for symbol in known if symbol in SYMBOLS])
     table = colors_of(SYMBOLS, colors)
     table[np.flatnonzero(table.min(axis=1) > LIGHTEST)] = LIGHTEST
-    legend = [(SYMBOLS[k], _rgb(table[k])) for k in np.unique(numbers).tolist()]
-    return Coloring(table[numbers], None, legend)
+    shown = np.union1d(numbers, others).tolist()
+    legend = [(SYMBOLS[k], _rgb(table[k])) for k in shown]
+    return Coloring(table[numbers], None, legend, [SYMBOLS[k] for k in shown])
 
 
 def _one_for_each(given: Any, count: int) -> NDArray[Any] | None:  # noqa: ANN401

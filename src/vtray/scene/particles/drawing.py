@@ -119,7 +119,7 @@ class Drawn:
         The style.
     categories : sequence or None
         The names or integers that have a colour each, in the order of the palette, if such were
-        coloured.
+        coloured; or the elements of the legend.
     """
 
     spheres: Spheres
