@@ -157,6 +157,21 @@ def test_nothing_is_left_where_nothing_is_done(tmp_path: Path) -> None:
     assert contents(tmp_path) == {}
 
 
+@pytest.mark.parametrize("is_there", [False, True])
+def test_no_folder_is_left_for_numbered_pictures(tmp_path: Path, is_there: bool) -> None:
+    folder = tmp_path / "made"
+    if is_there:
+        folder.mkdir()
+    dark = make(0)
+    dark.lights = [vtray.Light((0, 0, 9), 1e306)]
+    for scenes in ([3], [dark]):
+        with pytest.raises((vtray.SceneError, vtray.RenderError)):
+            vtray.animate(scenes, folder / "%d.png")
+        assert folder.exists() == is_there
+    vtray.animate([make(0)], folder / "%d.png")
+    assert [*contents(folder)] == ["0.png"]
+
+
 def test_damaged_picture(ended: Path) -> None:
     (ended.parent / ENDED / "000002.png").write_bytes(b"")
     with pytest.raises(OutputError, match=r"000002.png: .*; remove it to go on"):

@@ -174,6 +174,7 @@ class Done:
     def _hold(self) -> FileLock:
         """Make the folder, and hold it against other runs."""
         folder, record = self.output.folder, self.output.record
+        self._stays = self.output.format is None and folder.is_dir()
         try:
             folder.mkdir(exist_ok=True)
             return FileLock(record.with_name(f"{record.name}{LOCK}"))
@@ -196,8 +197,8 @@ class Done:
         return False
 
     def _leave_folder(self) -> None:
-        """Remove the folder of a movie, unless something is in it."""
-        if self.output.format is not None:
+        """Remove the folder, unless something is in it, or it was there for numbered pictures."""
+        if not self._stays:
             with contextlib.suppress(OSError):
                 self.output.folder.rmdir()
 

@@ -1,6 +1,7 @@
 """Where a movie goes: a file, or numbered pictures; and where these are until it is whole."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
@@ -131,9 +132,8 @@ class Output:
             if is_annotated:
                 check_annotated_format(self.name(0), bits)
             check_format(self.name(0), bits, aov)
-            if not self.folder.is_dir():
-                self._make_folder()
-            check_writable(self.name(0))
+            with self._folder_made():
+                check_writable(self.name(0))
             return
         if aov or (bits is not None and number_of(bits) != 8):
             what = "aov" if aov else f"bits {bits}"
@@ -162,11 +162,20 @@ class Output:
             )
             raise OutputError(message)
 
-    def _make_folder(self) -> None:
-        """Make the folder of numbered pictures, if that is all that is missing."""
+    @contextmanager
+    def _folder_made(self) -> Iterator[None]:
+        """Have the folder of numbered pictures within, if that is all that is missing."""
+        if self.folder.is_dir():
+            yield
+            return
         try:
             self.folder.mkdir()
         except OSError as error:
             reason = (error.strerror or str(error)).lower()
             message = f"{self.path}: the folder {self.folder} cannot be made: {reason}"
             raise OutputError(message) from None
+        try:
+            yield
+        finally:  # it is made again for the first picture
+            with suppress(OSError):
+                self.folder.rmdir()
