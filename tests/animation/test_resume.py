@@ -131,6 +131,16 @@ def test_other_movies(more: dict[str, object], message: str, ended: Path) -> Non
     assert after == before
 
 
+def test_one_picture_of_another_movie(tmp_path: Path) -> None:
+    path = tmp_path / "movie.gif"
+    with pytest.raises(vtray.SceneError):
+        vtray.animate([make(0), 3], path)
+    with pytest.raises(OutputError, match="its 1 picture was made with size 12x9, not 4x3; do"):
+        vtray.animate(make, path, frames=2, resume=True, size=(4, 3))
+    with pytest.raises(OutputError, match="its 1 picture is of other scenes, as 000000.png is;"):
+        vtray.animate(make, path, frames=[4, 5], resume=True)
+
+
 def test_folders_that_are_not_ours(ended: Path) -> None:
     record = ended.parent / ENDED / "movie.json"
     told = json.loads(record.read_text())

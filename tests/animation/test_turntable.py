@@ -160,7 +160,7 @@ def test_cameras_go_around_what_is_upright() -> None:
         ({"sample": 4}, TypeError, r"turntable\(\) argument 'sample' is unknown"),
         ({"sampels": 4}, TypeError, "argument 'sampels' is unknown; did you mean \"samples\""),
         ({"degree": 4}, TypeError, "argument 'degree' is unknown; did you mean \"degrees\""),
-        ({"scene": vtray.Scene()}, SceneError, "there are no spheres; expected at least one"),
+        ({"scene": vtray.Scene()}, SceneError, "nothing has an end; expected at least one"),
     ],
 )
 def test_errors(

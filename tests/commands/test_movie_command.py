@@ -80,20 +80,34 @@ def test_frames_without_particles(tmp_path: Path, capfd: pytest.CaptureFixture[s
     assert cli.run([*size, "--frames", ":", "--legend", str(path), str(there)]) == 0
     assert capfd.readouterr() == ("", "")
     before, some, after = pictures(there.parent)
-    assert (before == 255).all()
-    assert (after == 255).all()
-    assert (some < 255).any()
+    assert (before == after).all()  # the legend alone, which is that of all
+    assert (before < 255).any()
+    assert (some != before).any()
     # The scale of colours is that of the frames with particles.
     colors = []
     for limits in ([], ["--clim=5,6"]):
         there = tmp_path / f"scale{len(limits)}" / "%d.png"
         options = [*size, "--frames", ":", "--color", "x", *limits]
         assert cli.run([*options, str(path), str(there)]) == 0
-        colors.append(pictures(there.parent)[1])
+        before, some, after = pictures(there.parent)
+        assert (before == 255).all()
+        assert (after == 255).all()
+        colors.append(some)
     assert (colors[0] == colors[1]).all()
     only = ["--frames", ":", "--select", "x > 9", str(path), str(tmp_path / "none.gif")]
     assert cli.run(only) == 1
     assert capfd.readouterr().err == "Error: frames: expected particles, got none\n"
+
+
+@compiled_only
+def test_select_of_none(run: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    there = str(run.with_name("made") / "%d.png")
+    size = ["--size", "16x12", "--samples", "1", "-t1"]
+    assert cli.run([*size, "--select", "x > 9", str(run), there]) == 0
+    words = "none of the particles in the frames that were looked at; the cell alone is shown"
+    assert capfd.readouterr().err == f"Warning: {run}: --select: {words}\n"
+    assert cli.run([*size, "--select", "x > 1.5", str(run), there]) == 0
+    assert capfd.readouterr().err == ""
 
 
 @compiled_only

@@ -388,7 +388,10 @@ def test_resized_by_two_keeps_every_digit() -> None:
 
 ZERO = "expected numbers x, y and z that are not all zero, got (0.0, 0.0, 0.0)"
 PARALLEL = "expected a direction that is not parallel to"
-NOTHING = "there are no spheres; expected at least one, as planes have no edge"
+NOTHING = (
+    "nothing has an end; expected at least one sphere, cylinder, cone or point, "
+    "as planes have no edge"
+)
 ARRAY = "expected an array of numbers of shape (n, 3), got shape"
 ORIGIN = (0, 0, 0)
 FAR = (0, 0, 9)

@@ -171,7 +171,7 @@ def test_lights_stand_as_around_the_objects_written_out() -> None:
 def test_copies_at_no_place_are_none() -> None:
     none = Copies(Sphere((0, 0, 0), 1), [])
     for subject in (none, Scene(None, [], [none]), Copies(Spheres([], 1), [(0, 0, 0)])):
-        with pytest.raises(SceneError, match=r"Camera.fit: there are no spheres"):
+        with pytest.raises(SceneError, match=r"Camera.fit: nothing has an end"):
             Camera.fit(subject)
     ball = Sphere((1, 2, 3), 1)
     assert Camera.fit(Scene(None, [], [none, ball])) == Camera.fit(Scene(None, [], [ball]))

@@ -194,7 +194,7 @@ def test_what_is_missing(name: str) -> None:
     words = f"there is no camera to place lights around; {remedy}"
     assert str(caught.value) == f"lights.{name}: {words}"
     scene.camera = scene_of().camera
-    with pytest.raises(SceneError, match=rf"^lights\.{name}: there are no spheres; expected at"):
+    with pytest.raises(SceneError, match=rf"^lights\.{name}: nothing has an end; expected at"):
         makers(name)(scene)
 
 

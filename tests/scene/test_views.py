@@ -180,6 +180,13 @@ def test_orbit_keeps_views_upright() -> None:
     assert leaning.orbit(30).up == leaning.up
 
 
+def test_project_of_what_is_not_finite() -> None:
+    points = [(np.inf, 0, 0), (0, -np.inf, 0), (0, 0, np.nan), (0, 0, 0)]
+    for make in (Camera.look_at, Camera.panorama):
+        found = make((0, -9, 0), (0, 0, 0), up=(0, 0, 1)).project(points)
+        assert np.isfinite(found).all(axis=1).tolist() == [False, False, False, True]
+
+
 def test_stereo() -> None:
     camera = Camera.look_at((0, -10, 0), (0, 0, 0), up=(0, 0, 1), size=(40, 30))
     left, right = camera.stereo(0.5)

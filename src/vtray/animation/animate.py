@@ -21,7 +21,7 @@ from vtray.animation.moving import (
     way_of_part,
 )
 from vtray.animation.output import Output
-from vtray.animation.particle_scenes import Drawing, ParticleScenes, looked_at
+from vtray.animation.particle_scenes import Drawing, scenes_of
 from vtray.animation.script import Make, Script
 from vtray.animation.shooting import shoot
 from vtray.animation.shots import SceneShots, TurnedShots, camera_around
@@ -176,7 +176,9 @@ def animate(
         if opacity is not None and not is_moving(opacity):
             options["opacity"], opacity = opacity, None  # may be the name of a column
         drawing = Drawing(options, settings.get("size"), settings.get("background"))
-        make = ParticleScenes(drawing.draw, drawing.fit, looked_at(source, first), look.annotate)
+        draw, fit = drawing.draw, drawing.fit
+        select = f"{source.origin}: select"
+        make = scenes_of(source, first, draw, fit, look.annotate, film.warn, select)
     if opacity is not None:
         ways["opacity"] = way_of_opacity(opacity)
     if camera is not None:

@@ -264,8 +264,11 @@ class Done:
 
     def _other(self, words: str) -> OutputError:
         """Give the error for pictures of another movie."""
-        message = f"{self._place}: its {self.told()} {words}; do the same again, or remove it"
-        return OutputError(message)
+        verb, rest = words.split(" ", 1)
+        if len(self) == 1:
+            verb = {"were": "was", "have": "has", "are": "is"}[verb]
+        told = f"its {self.told()} {verb} {rest}"
+        return OutputError(f"{self._place}: {told}; do the same again, or remove it")
 
     def _write(self) -> None:
         content = msgspec.json.encode(self._record)

@@ -12,7 +12,7 @@ from typing import Any
 from vtray.animation.fading import Opacity
 from vtray.animation.feed import spread
 from vtray.animation.sources import Source
-from vtray.animation.stage import Shot
+from vtray.animation.stage import Shot, Warn
 from vtray.base.errors import SceneError
 from vtray.rendering.beside import MARGIN, Margin, fit_beside, has_beside
 from vtray.scene.array_holder import ArrayHolder
@@ -70,6 +70,8 @@ class ParticleScenes:
     fixed : dict
         The values of the first and the last colour, ``clim``, or the ``categories`` that have a
         colour each; nothing where colours stand for neither.
+    is_empty : bool
+        Whether there are particles, but none is drawn of the frames that were looked at.
     """
 
     def __init__(
@@ -80,12 +82,13 @@ class ParticleScenes:
         annotate: Mapping[str, Any] = MappingProxyType({}),
     ) -> None:
         self._draw = draw
+        self.is_empty = True
         shown: Any = None
         marks: Mapping[str, Any] = {}
         seen = Objects([])
         scales: list[ColorScale] = []
         categories: dict[Any, None] = {}
-        has_cell = shows_cell = False
+        has_cell = shows_cell = has_some = False
         for given, of_given in looked_at:
             with of_given:
                 particles = as_particles(given)
@@ -93,10 +96,12 @@ class ParticleScenes:
             seen.objects += scene.objects
             has_cell |= particles.cell is not None
             shows_cell |= drawn.cell is not None
+            has_some |= len(particles) > 0
             if shown is None or len(drawn.indices):
                 shown, marks = particles, of_data
             if not len(drawn.indices):
                 continue
+            self.is_empty = False
             if drawn.color_scale is not None:
                 scales.append(drawn.color_scale)
             categories.update(dict.fromkeys(drawn.categories or ()))
@@ -109,6 +114,7 @@ class ParticleScenes:
             # Names come after numbers, which they cannot be compared with.
             in_order = sorted(categories, key=lambda kind: (isinstance(kind, str), kind))
             self.fixed["categories"] = in_order
+        self.is_empty &= has_some
         last: list[Object] = []
         if all(len(item) == 0 for item in seen.objects if isinstance(item, ArrayHolder)):
             raise SceneError("frames: expected particles, got none")
@@ -144,6 +150,35 @@ def looked_at(source: Source, first: Any) -> Iterator[Looked]:  # noqa: ANN401
     numbers = spread(source.count, LOOKED_AT)
     for k, item in zip(numbers, source.some(numbers), strict=True):
         yield item, source.of_picture(k)
+
+
+def scenes_of(
+    source: Source,
+    first: Any,  # noqa: ANN401
+    draw: Draw,
+    fit: Fit,
+    annotate: Mapping[str, Any],
+    warn: Warn,
+    select: str,
+) -> ParticleScenes:
+    """Return what makes scenes of the particles of a source.
+
+    Parameters
+    ----------
+    source, first
+        Where the particles come from, and those of the first picture.
+    draw, fit, annotate
+        As for `ParticleScenes`.
+    warn
+        Called with a line where none of the particles that are looked at are drawn.
+    select
+        What may have chosen none, which the line begins with.
+    """
+    found = ParticleScenes(draw, fit, looked_at(source, first), annotate)
+    if found.is_empty:
+        words = "none of the particles in the frames that were looked at; the cell alone is shown"
+        warn(f"{select}: {words}")
+    return found
 
 
 class Drawing:

@@ -13,7 +13,7 @@ from vtray.animation.annotating import check_annotate
 from vtray.animation.cluster import check_client, connect
 from vtray.animation.film import Film
 from vtray.animation.output import Output
-from vtray.animation.particle_scenes import Objects, ParticleScenes, looked_at
+from vtray.animation.particle_scenes import Objects, scenes_of
 from vtray.animation.script import Script
 from vtray.animation.shots import around_beside, camera_around
 from vtray.animation.sources import first_of, source_of
@@ -128,5 +128,5 @@ def _go_through(options: argparse.Namespace, film: Film) -> None:
         return camera_of(subject, has_cell, options.size or SIZE, margin, **view)
 
     draw, annotate = partial(draw_data, options), film.look.annotate
-    make = ParticleScenes(draw, fit, looked_at(source, first), annotate)
+    make = scenes_of(source, first, draw, fit, annotate, film.warn, "--select")
     run(film, Script(source, first, make))

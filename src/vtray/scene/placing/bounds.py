@@ -75,8 +75,8 @@ def balls_of(subject: object, place: str) -> list[Balls]:
         found = [Balls(points.center, 0.0)]
     found = [balls for balls in found if len(balls.center) and (balls.at is None or len(balls.at))]
     if not found:
-        words = "there are no spheres; expected at least one, as planes have no edge"
-        raise SceneError(f"{place}: {words} (Camera.look_at needs none)")
+        words = "expected at least one sphere, cylinder, cone or point, as planes have no edge"
+        raise SceneError(f"{place}: nothing has an end; {words} (Camera.look_at needs none)")
     return found
 
 

@@ -169,13 +169,13 @@ def projected(camera: HasView, points: "ArrayLike") -> "NDArray[np.float64]":
         raise SceneError(f"Camera.project: points: {words}, got shape {given.shape}")
     right, down, forward = axes_of(camera)
     center = camera.center
-    x, y, z = (given[..., k] - c for k, c in enumerate((center.x, center.y, center.z)))
-    across, below, ahead = (x * a + y * b + z * c for a, b, c in (right, down, forward))
-    if camera.projection == "panorama":
-        places = np.stack(around(camera, across, below, ahead), axis=-1)
-        places[~(places[..., 2] > 0)] = np.nan
-        return places
     with np.errstate(all="ignore"):
+        x, y, z = (given[..., k] - c for k, c in enumerate((center.x, center.y, center.z)))
+        across, below, ahead = (x * a + y * b + z * c for a, b, c in (right, down, forward))
+        if camera.projection == "panorama":
+            places = np.stack(around(camera, across, below, ahead), axis=-1)
+            places[~(places[..., 2] > 0)] = np.nan
+            return places
         if camera.projection == "perspective":
             far = ahead + camera.focus
             share = camera.focus / far  # of the way from the eye, what lies before the image plane
