@@ -188,7 +188,8 @@ def _with_cut(
     # The relation to the planes is found in world space, where no camera has a say.
     here, there = Place((0.0, 0.0, 0.0), size, place.origin), (0.0, 0.0, 0.0)
     rows = clip.room.shape[0]
-    row, is_placed = clip.room[group.row % rows], group.row >= rows
+    own, is_placed = group.row % rows, group.row >= rows
+    row, is_capped = clip.room[own], clip.is_capped[own]
     begin, end = clip.begin[row], clip.begin[row + 1]
     planes, still = clip.planes, Place(there, size, there)
     room = load_room(planes, begin, end, here)
@@ -208,7 +209,7 @@ def _with_cut(
                 _relation_of(
                     load_cylinder(cylinders, slot, moved), is_placed, planes, begin, end, still
                 ),
-                clip.is_capped,
+                is_capped,
             )
             number = group.number + cylinders.number[slot]
             return action(cylinder, _verbs_of_cut_shapes(), number, arguments)
@@ -220,7 +221,7 @@ def _with_cut(
                 Solid(cone_chord, cone_outside, cone_power, cone_passage, False),
                 room,
                 _relation_of(load_cone(cones, slot, moved), is_placed, planes, begin, end, still),
-                clip.is_capped,
+                is_capped,
             )
             number = group.number + cones.number[slot]
             return action(cone, _verbs_of_cut_shapes(), number, arguments)
@@ -230,7 +231,7 @@ def _with_cut(
         Solid(sphere_chord, sphere_outside, sphere_power, sphere_passage, True),
         room,
         _relation_of(load_sphere(spheres, slot, moved), is_placed, planes, begin, end, still),
-        clip.is_capped,
+        is_capped,
     )
     return action(sphere, _verbs_of_cut_shapes(), group.number + spheres.number[slot], arguments)
 

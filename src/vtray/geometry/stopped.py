@@ -149,7 +149,7 @@ def _leads_out(world: World, clip: Clip | None, group: Group, bundle: Bundle) ->
     """Tell whether rays start on a cap and lead out of what clip planes leave of a group."""
     # An argument that is None is known to the compiler, which drops what depends on that alone.
     if clip is not None:  # noqa: SIM102
-        if clip.is_capped:
+        if clip.is_capped[group.row % clip.room.shape[0]]:
             start, room = bundle.spot.start, room_of(world, clip, group)
             wall = room_wall(room, start.point)
             bound = ROUNDING * (wall.error_scale + start.error_scale)

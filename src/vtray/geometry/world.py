@@ -176,7 +176,7 @@ class Clip(NamedTuple):
     room
         Which room the group of each row is cut by; without meaning for those that are not, (rows,).
     is_capped
-        Whether what is cut is closed.
+        Whether what is cut of the group of each row is closed, as faded shapes always are, (rows,).
     flat
         The columns of planes that are cut; None where there are none.
     """
@@ -184,7 +184,7 @@ class Clip(NamedTuple):
     planes: Columns
     begin: NDArray[np.int64]
     room: NDArray[np.int64]
-    is_capped: bool
+    is_capped: NDArray[np.bool_]
     flat: Columns | None
 
 

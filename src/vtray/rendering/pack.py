@@ -140,6 +140,7 @@ def _pack_world(objects: Sequence[Object], kept: Acceleration, unit: float, orig
     rows += [_pack_group(one, origin, unit) for one in kept.faded if not one.is_placed]
     rows += [_pack_group(one, origin, unit, room=room) for room, one in kept.faded_cut]
     rows = [row for row in rows if row.begin < row.end]
+    rows[given:] = [row._replace(is_faded=True) for row in rows[given:]]
     ends = [len(rows)]
     for placed, shapes in kept.placed_shapes:
         reach = float(np.abs(placed.shift).max())
@@ -148,7 +149,8 @@ def _pack_world(objects: Sequence[Object], kept: Acceleration, unit: float, orig
         # The same shapes where clip planes may cut them.
         cut_items = [(_room_of(kept, parts[0].place), parts) for parts in items]
         for room, parts in (*plain, *(cut_items if kept.rooms else ())):
-            rows += [_pack_group(one, origin, unit, reach, room) for one in parts]
+            group = [_pack_group(one, origin, unit, reach, room) for one in parts]
+            rows += [row._replace(is_faded=shapes is kept.faded) for row in group]
             ends.append(len(rows))
     spheres, *others = kept.columns
     cylinders, cones = (columns if columns.number.size else None for columns in others)
@@ -214,7 +216,8 @@ def _pack_clip(rooms: Rooms | None, rows: Sequence["_Row"], flat: Sequence[Colum
         return None
     room = np.array([max(row.room, 0) for row in rows], np.int64)
     columns = Columns(*map(np.concatenate, zip(*flat, strict=True))) if flat else None
-    return Clip(rooms.planes, rooms.begin, room, rooms.is_capped, columns)
+    is_capped = np.array([rooms.is_capped or row.is_faded for row in rows])
+    return Clip(rooms.planes, rooms.begin, room, is_capped, columns)
 
 
 class _Row(NamedTuple):
@@ -228,6 +231,7 @@ class _Row(NamedTuple):
     each: int
     frame: ToBoxes
     room: int = -1
+    is_faded: bool = False
 
 
 _IN_KERNELS = ToBoxes(0.0, (0.0, 0.0, 0.0), 0.0)
