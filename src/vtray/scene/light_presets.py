@@ -32,9 +32,9 @@ GOLDEN_ANGLE = 180 * (3 - math.sqrt(5))
 """In degrees: points that turn by it from one to the next never line up."""
 
 
-KEY, FILL, RIM, FRONT, AROUND = 0.32, 0.18, 0.23, 0.18, 0.46
-"""The parts of studio light: what faces the middle of them, with nothing near, shows 1, so that no
-colour is cut off; what faces the camera or the key, 0.92."""
+KEY, FILL, RIM, FRONT, AROUND = 0.342, 0.19, 0.247, 0.19, 0.494
+"""The parts of studio light: what faces the camera or the key, with nothing near, shows 0.98, and
+what faces the middle of both 1.07, as white floors do, which so are as white as what is behind."""
 
 
 def studio(scene: HasCamera, intensity: float = 1.0) -> list[AnyLight]:
@@ -42,17 +42,16 @@ def studio(scene: HasCamera, intensity: float = 1.0) -> list[AnyLight]:
 
     A large lamp, the key, is 40 degrees to the left and 45 above, a weaker one to the right fills
     its shadows, a weak one from the camera reaches whatever is seen, and one from behind draws
-    rims; ambient light shows what is deep and what is open. With an exposure of 1, the brightest
-    part of a ball, between the camera and the key, shows its own colour. Scenes without lights have
-    other settings, too: the ``settings`` of their picture as ``scene.render`` make this light the
-    same.
+    rims; ambient light shows what is deep and what is open. With an exposure of 1, surfaces that
+    face the camera or the key show their own colour. Scenes without lights have other settings,
+    too: the ``settings`` of their picture as ``scene.render`` make this light the same.
 
     Parameters
     ----------
     scene
         A scene with a camera and at least one sphere.
     intensity
-        How bright the brightest white surface is.
+        How bright the brightest white surface is, about.
 
     Returns
     -------
