@@ -196,13 +196,13 @@ def test_a_cell_is_in_all_pictures_or_in_none() -> None:
     cell = np.eye(3) * 4
     inside, outside = (vtray.Particles([(x, 1, 1)], cell=cell) for x in (1, -3))
     drawing = Drawing({}, SIZE, None)
-    make = ParticleScenes(drawing.draw, drawing.fit, [inside, inside])
+    make = ParticleScenes(drawing.draw, drawing.fit, looked_at(source_of([inside] * 2), inside))
     counts = [
         len(make(one, 0).scene.objects) for one in (inside, outside, vtray.Particles([(0, 0, 0)]))
     ]
     assert counts == [3, 3, 1]
     with pytest.warns(UserWarning, match="cell: not drawn"):
-        make = ParticleScenes(drawing.draw, drawing.fit, [outside])
+        make = ParticleScenes(drawing.draw, drawing.fit, looked_at(source_of([outside]), outside))
     assert [len(make(one, 0).scene.objects) for one in (inside, outside)] == [1, 1]
 
 
