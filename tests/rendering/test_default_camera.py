@@ -12,6 +12,7 @@ import vtray
 from conftest import once
 from vtray import SceneError
 from vtray.rendering import hierarchy
+from vtray.scene.default_camera import with_camera
 
 FLOORS = [((0, -1, 0), (0, 1, 0)), ((0, 0, -1), (0, 0, -2)), ((-4, 0, 0), (1, 0, 0))]
 
@@ -63,7 +64,7 @@ def slab(**given: Any) -> vtray.Scene:
 
 def from_the_side(scene: vtray.Scene) -> bool:
     """Tell whether a scene without a camera is seen as cells are."""
-    camera = vtray.render(scene, size=(8, 8), samples=1, tolerance=1).scene.camera
+    camera = with_camera(scene, (8, 8)).camera
     assert scene.camera is None
     return camera == vtray.Camera.fit(scene, view=(-65, 20), size=(8, 8))
 

@@ -158,7 +158,7 @@ def holds_particles(particles: "Particles", positions: NDArray[Any]) -> bool:
     for edge, along in zip(particles.cell, fractions, strict=True):
         if edge.any():
             inside &= (along >= -TOLERANCE) & (along <= 1.0 + TOLERANCE)
-    return bool(inside.sum() >= HELD * len(positions))
+    return bool(np.count_nonzero(inside) >= HELD * len(positions))
 
 
 def cell_edges(
