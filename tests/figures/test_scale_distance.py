@@ -12,7 +12,8 @@ WORDS = "{length} at {distance}"
 
 
 def taken(scene: vtray.Scene, size: tuple[int, int] = (36, 24), **camera: Any) -> vtray.Image:
-    """Return a picture of a scene from the origin along z."""
+    """Return a picture of a scene from the origin along z, in light that takes no time."""
+    scene.lights = [vtray.Light((0, 0, 0))]
     scene.camera = vtray.Camera.look_at((0, 0, 0), target=(0, 0, 1), size=size, **camera)
     return vtray.render(scene)
 
