@@ -137,20 +137,19 @@ def _pack_world(objects: Sequence[Object], kept: Acceleration, unit: float, orig
     rows = [row for row in rows if row.begin < row.end]
     given = len(rows)
     rows += [_plane_row(kind, mid, end, kept.count, room) for kind, _, mid, end, room in flats]
-    rows += [_pack_group(one, origin, unit) for one in kept.faded if not one.is_placed]
-    rows += [_pack_group(one, origin, unit, room=room) for room, one in kept.faded_cut]
+    still = [(-1, one) for one in kept.faded if not one.is_placed]
+    for room, one in (*still, *kept.faded_cut):
+        rows.append(_pack_group(one, origin, unit, room=room, is_faded=True))
     rows = [row for row in rows if row.begin < row.end]
-    rows[given:] = [row._replace(is_faded=True) for row in rows[given:]]
     ends = [len(rows)]
     for placed, shapes in kept.placed_shapes:
-        reach = float(np.abs(placed.shift).max())
+        reach, is_faded = float(np.abs(placed.shift).max()), placed is kept.faded_placed
         items = kept.items_of(shapes)
         plain = [(-1, parts) for parts in items]
         # The same shapes where clip planes may cut them.
         cut_items = [(_room_of(kept, parts[0].place), parts) for parts in items]
         for room, parts in (*plain, *(cut_items if kept.rooms else ())):
-            group = [_pack_group(one, origin, unit, reach, room) for one in parts]
-            rows += [row._replace(is_faded=shapes is kept.faded) for row in group]
+            rows += [_pack_group(one, origin, unit, reach, room, is_faded) for one in parts]
             ends.append(len(rows))
     spheres, *others = kept.columns
     cylinders, cones = (columns if columns.number.size else None for columns in others)
@@ -239,7 +238,12 @@ _IN_KERNELS = ToBoxes(0.0, (0.0, 0.0, 0.0), 0.0)
 
 
 def _pack_group(
-    shapes: Shapes, origin: Vec, unit: float, reach: float = 0.0, room: int = -1
+    shapes: Shapes,
+    origin: Vec,
+    unit: float,
+    reach: float = 0.0,
+    room: int = -1,
+    is_faded: bool = False,
 ) -> _Row:
     """Return a group.
 
@@ -253,6 +257,8 @@ def _pack_group(
         How far they are moved at the most, in world space.
     room
         The room that may cut them; -1 if none does.
+    is_faded
+        Whether some light passes them.
     """
     to_boxes = _pack_to_boxes(shapes.frame, origin, unit)
     is_far = reach > LARGEST_SHIFT / shapes.frame.scale
@@ -260,7 +266,7 @@ def _pack_group(
     end = shapes.begin + shapes.count
     each = len(shapes.source.geometry[0])
     kind = shapes.kind.shape + (CUT if room >= 0 else 0)
-    return _Row(kind, shapes.begin, end, root, shapes.first, each, to_boxes, room)
+    return _Row(kind, shapes.begin, end, root, shapes.first, each, to_boxes, room, is_faded)
 
 
 def _pack_groups(rows: list[_Row]) -> Groups:

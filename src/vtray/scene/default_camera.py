@@ -9,8 +9,6 @@ from vtray.base.errors import SceneError
 from vtray.base.exact_math import cosine, sine
 from vtray.scene.camera import Camera
 from vtray.scene.default_light import has_end
-from vtray.scene.particles.made_of import has_cell
-from vtray.scene.particles.view import USUAL
 from vtray.scene.studio import HasCamera
 
 if TYPE_CHECKING:
@@ -72,6 +70,8 @@ def _has_camera(scene: HasCamera) -> bool:
 
 def _view_of(scene: "Scene") -> dict[str, Any]:
     """Return where the camera looks, as arguments of `Camera.fit`."""
+    from vtray.scene.particles.made_of import has_cell
+    from vtray.scene.particles.view import USUAL
     from vtray.scene.placing.bounds import balls_of, middle_of, ups_of_planes
 
     floors = ups_of_planes(scene, middle_of(balls_of(scene, "Camera.fit")))

@@ -24,6 +24,10 @@ from vtray.scene.placing.look_at import NEAR, argument
 from vtray.scene.placing.panorama import around, check_flat
 from vtray.scene.vectors import Direction, Vector
 
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
 WORLD: tuple[Vec, ...] = ((0, 0, 1), (0, 1, 0), (1, 0, 0), (0, 0, -1), (0, -1, 0), (-1, 0, 0))
 """Axes of the world that a camera may stand upright on, the usual one first."""
 
@@ -32,10 +36,6 @@ STRAIGHT = 1e-9
 
 LEANING = 0.1
 """The least cosine of the angle between an axis and what is up in the picture."""
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import ArrayLike, NDArray
 
 
 class HasView(Protocol):
