@@ -153,6 +153,7 @@ class KeptFunctions(NullCache):
 _libraries: dict[str, DeviceLibrary] = {}
 _names: dict[DeviceLibrary, str] = {}
 _added: dict[str, DeviceLibrary] = {}
+_renamings: dict[JITCodeLibrary, tuple[bytes, dict[str, str]]] = {}
 
 
 def _kept_of(result: Any) -> KeptFunction:
@@ -167,7 +168,7 @@ def _kept_of(result: Any) -> KeptFunction:
         elif isinstance(each, DeviceLibrary):
             raise UnnamedError  # it could not be kept itself
         else:
-            added.append(_renamed(JITCodeLibrary._get_module_for_linking(each), module))
+            added.append(_renamed(each, module))
     parts = tuple(
         kept_part(each.name)
         for each in module.functions
@@ -185,19 +186,26 @@ def _kept_of(result: Any) -> KeptFunction:
     )
 
 
-def _renamed(added: Any, module: Any) -> bytes:
+def _renamed(added: JITCodeLibrary, module: Any) -> bytes:
     """Return what Numba has added, with names that are a hash of it, also where it is called."""
+    if added not in _renamings:
+        _renamings[added] = _renaming(JITCodeLibrary._get_module_for_linking(added))
+    code, names = _renamings[added]
+    for each in module.functions:
+        if each.is_declaration and each.name in names:
+            each.name = names[each.name]
+    return code
+
+
+def _renaming(added: Any) -> tuple[bytes, dict[str, str]]:
+    """Return what Numba has added with other names, and these for those that it had."""
     renamed = added.clone()
     digest = blake3(added.as_bitcode()).hexdigest(_DIGEST_BYTES)
-    own = [each for each in renamed.functions if not each.is_declaration]
-    callers = {each.name: each for each in module.functions if each.is_declaration}
-    for k, each in enumerate(own):
-        name = f"added.{digest}.{k}"
-        if each.name in callers:
-            callers[each.name].name = name
-        each.name = name
-    code: bytes = renamed.as_bitcode()
-    return code
+    names: dict[str, str] = {}
+    for k, each in enumerate(each for each in renamed.functions if not each.is_declaration):
+        names[each.name] = f"added.{digest}.{k}"
+        each.name = names[each.name]
+    return renamed.as_bitcode(), names
 
 
 def _library_of(name: str, kept: KeptFunction, context: Any) -> DeviceLibrary | None:

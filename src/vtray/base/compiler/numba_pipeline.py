@@ -19,34 +19,19 @@ from typing import Any
 
 import numba
 from llvmlite import binding, ir
-from numba.core import cgutils, typed_passes, untyped_passes
+from numba.core import cgutils
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
-from numba.core.compiler_machinery import PassManager
-from numba.core.typing.context import Context
+from numba.core.targetconfig import ConfigStack
 from numba.core.typing.templates import make_intrinsic_template
 
 from vtray.base.compiler.in_memory import WORD, load, word_count
+from vtray.base.compiler.known_types import remembering
+from vtray.base.compiler.numba_passes import take_all_steps
 from vtray.base.compiler.plain_calls import DeviceContext, KernelContext, context_of
 
 ENTRY = "entry"
 """The name of the entry point: ``int entry(result *, exception **, const char *words)``."""
-
-UNUSED = (
-    untyped_passes.WithLifting,
-    untyped_passes.InlineClosureLikes,
-    untyped_passes.MakeFunctionToJitFunction,
-    untyped_passes.InlineInlinables,
-    untyped_passes.FindLiterallyCalls,
-    untyped_passes.LiteralUnroll,
-    untyped_passes.LiteralPropagationSubPipelinePass,
-    typed_passes.InlineOverloads,
-    typed_passes.NopythonRewrites,
-    typed_passes.IRLegalization,
-)
-"""Passes over what kernels do without: closures, contexts, literals, expressions of arrays, and
-where variables end, which matters to who counts references."""
-
 
 RETURNED: dict[object, Any] = {
     None: numba.types.none,
@@ -68,6 +53,15 @@ class DeviceLibrary(JITCodeLibrary):
     """A function in LLVM's language, to be put into others with all that it calls."""
 
     codegen = _NoEnvironments()
+
+    def _optimize_functions(self, ll_module: binding.ModuleRef) -> None:
+        """Simplify what the module holds; Numba would ask that of all that it calls, too."""
+        ll_module.data_layout = self._codegen._data_layout  # noqa: SLF001
+        builder = self._codegen._pass_builder()  # noqa: SLF001
+        passes = builder.getFunctionPassManager()
+        for function in ll_module.functions:
+            if not function.is_declaration:
+                passes.run(function, builder)
 
     def finalize(self) -> None:
         """Leave what the function calls apart: kernels take each function once."""
@@ -166,32 +160,6 @@ class KernelLibrary(DeviceLibrary):
         return code
 
 
-class _Remembering(Context):
-    """What Numba knows of types, with what it has found of numbers and arrays remembered.
-
-    It tries all that ``+`` may mean each time it sees one, also for types that it has seen, which
-    took a tenth of all compiling.
-    """
-
-    def __init__(self, context: Context) -> None:
-        self.__dict__ = context.__dict__
-
-    def resolve_function_type(self, func: Any, args: Any, kws: Any) -> Any:  # noqa: ANN401
-        """Return the signature of a function for arguments of some types."""
-        is_plain = not kws and isinstance(func, numba.types.Function)
-        if not is_plain or not all(isinstance(kind, _REMEMBERED) for kind in args):
-            return super().resolve_function_type(func, args, kws)
-        call = func, tuple(args)
-        if call not in _signatures:
-            _signatures[call] = super().resolve_function_type(func, args, kws)
-        return _signatures[call]
-
-
-_REMEMBERED = numba.types.Number, numba.types.Boolean, numba.types.Array
-
-_signatures: dict[tuple[Any, ...], Any] = {}
-
-
 class DevicePipeline(Compiler):
     """Numba's usual way from a function in Python to one in LLVM's language."""
 
@@ -210,15 +178,13 @@ class DevicePipeline(Compiler):
     ) -> None:
         made = self.library(targetctx.codegen(), "function")
         context = context_of(self.context, targetctx)
-        super().__init__(_Remembering(typingctx), context, made, args, return_type, flags, locals)
+        known = remembering(typingctx)
+        super().__init__(known, context, made, args, return_type, flags, locals)
 
-    def define_pipelines(self) -> list[PassManager]:
-        """Return Numba's passes but those for which kernels have nothing."""
-        managers: list[PassManager] = super().define_pipelines()
-        for manager in managers:
-            manager.passes = [step for step in manager.passes if step[0] not in UNUSED]
-            manager.finalize()
-        return managers
+    def _compile_core(self) -> Any:  # noqa: ANN401
+        """Compile the function with only those of Numba's steps that kernels need."""
+        with ConfigStack().enter(self.state.flags.copy()):
+            return take_all_steps(self.state)
 
 
 class SeldomPipeline(DevicePipeline):

@@ -24,6 +24,7 @@ from numba.core.cpu import CPUContext
 
 from vtray.base.compiler.function_names import UnnamedError
 from vtray.base.compiler.kept_types import symbol_of
+from vtray.base.compiler.known_types import remembering
 from vtray.base.compiler.mode import is_kept
 
 types: Any = numba.types
@@ -133,8 +134,20 @@ class KernelContext(CPUContext):
 
     def __init__(self, context: CPUContext) -> None:
         self.__dict__.update(context.__dict__)
+        self.typing_context = remembering(context.typing_context)
         # What these call must be none of Numba's for others, nor be taken for that.
         self.cached_internal_func = {}
+
+    def refresh(self) -> None:
+        """Do nothing: Numba looks for what is new before each function, which takes its time."""
+
+    def get_function(self, fn: Any, sig: Any, _firstcall: bool = True) -> Any:
+        """Return what writes a call of a function of Numba's, or of one that is new."""
+        try:
+            return super().get_function(fn, sig, False)
+        except NotImplementedError:
+            super().refresh()
+            return super().get_function(fn, sig, False)
 
     @property
     def call_conv(self) -> PlainCalls:
@@ -198,5 +211,6 @@ _contexts: dict[type[KernelContext], KernelContext] = {}
 def context_of(kind: type[KernelContext], context: CPUContext) -> KernelContext:
     """Return what Numba knows of the machine, as a context of some kind."""
     if kind not in _contexts:
+        context.refresh()
         _contexts[kind] = kind(context)
     return _contexts[kind]

@@ -1,0 +1,71 @@
+"""What Numba has found of the types of operators and functions, remembered.
+
+It tries all that ``+`` may mean each time it sees one, also for types that it has seen: when it
+infers the types of a function, and again when it writes it. That took a sixth of all compiling.
+"""
+
+# mypy: allow-untyped-calls
+
+from functools import cache
+from typing import Any
+
+import numba
+from numba.core.datamodel.models import OpaqueModel
+from numba.core.datamodel.registry import register_default
+from numba.core.typing.context import BaseContext, Context
+
+types: Any = numba.types
+
+
+class _Remembering(Context):
+    """What Numba knows of types, with what it has found."""
+
+    def __init__(self, context: BaseContext) -> None:
+        self.__dict__ = context.__dict__
+
+    def refresh(self) -> None:
+        """Do nothing: Numba looks for what is new before each function, which takes its time."""
+
+    def resolve_function_type(self, func: Any, args: Any, kws: Any) -> Any:  # noqa: ANN401
+        """Return the signature of a function for arguments of some types."""
+        if kws or (isinstance(func, types.Type) and not isinstance(func, types.Function)):
+            return super().resolve_function_type(func, args, kws)
+        call = func, tuple(args)
+        if call not in _signatures:
+            _signatures[call] = super().resolve_function_type(func, args, kws)
+        return _signatures[call]
+
+    def resolve_value_type(self, val: Any) -> Any:  # noqa: ANN401
+        """Return the type of what is known while compiling."""
+        found = super().resolve_value_type(val)
+        return _function(found) if type(found) is types.Function else found
+
+
+class _Function(types.Function):  # type: ignore[misc]
+    """A function or operator of Numba's, with what it returns for which arguments."""
+
+    def get_call_type(self, context: Any, args: Any, kws: Any) -> Any:  # noqa: ANN401
+        """Return its signature for arguments of some types."""
+        if kws:
+            return super().get_call_type(context, args, kws)
+        call = self, tuple(args)
+        if call not in _signatures:
+            _signatures[call] = super().get_call_type(context, args, kws)
+        return _signatures[call]
+
+
+register_default(_Function)(OpaqueModel)
+
+_signatures: dict[Any, Any] = {}
+
+
+@cache
+def _function(kind: Any) -> _Function:  # noqa: ANN401
+    return _Function(kind.templates)
+
+
+@cache
+def remembering(context: BaseContext) -> Context:
+    """Return what Numba knows of types as what remembers."""
+    context.refresh()
+    return _Remembering(context)
