@@ -17,15 +17,15 @@ from numba.core.interpreter import Interpreter
 from numba.core.ir_utils import build_definitions, raise_on_unsupported_feature
 from numba.core.postproc import PostProcessor
 from numba.core.rewrites.static_getitem import RewriteConstGetitems, RewriteConstSetitems
+from numba.core.rewrites.static_raise import RewriteConstRaises
 from numba.core.ssa import reconstruct_ssa
-from numba.core.untyped_passes import RewriteDynamicRaises
 
 
 def take_all_steps(state: Any) -> Any:
     """Return what Numba's compiler returns of a function, given where it begins."""
     _read(state)
     _drop_dead_branches(state)
-    _tell_constant_indices(state)
+    _tell_constants(state)
     _assign_once(state)
     typed_passes.NopythonTypeInference().run_pass(state)
     _join_assignments(state)
@@ -47,10 +47,10 @@ def _drop_dead_branches(state: Any) -> None:
     dead_branch_prune(state.func_ir, state.args)
 
 
-def _tell_constant_indices(state: Any) -> None:
-    """Tell indices that are constants, which tuples want, from others."""
+def _tell_constants(state: Any) -> None:
+    """Tell indices that are constants, which tuples want, from others, and exceptions, too."""
     blocks = state.func_ir.blocks
-    for kind in (RewriteConstGetitems, RewriteConstSetitems):
+    for kind in (RewriteConstRaises, RewriteConstGetitems, RewriteConstSetitems):
         rewrite: Any = kind(state)
         for key, block in blocks.items():
             if rewrite.match(state.func_ir, block, state.typemap, state.calltypes):
@@ -59,7 +59,6 @@ def _tell_constant_indices(state: Any) -> None:
 
 def _assign_once(state: Any) -> None:
     """Give each assignment a variable of its own, of a type of its own."""
-    RewriteDynamicRaises().run_pass(state)
     state.func_ir = reconstruct_ssa(state.func_ir)
     state.func_ir._definitions = build_definitions(state.func_ir.blocks)  # noqa: SLF001
     dead_branch_prune(state.func_ir, state.args)

@@ -54,15 +54,6 @@ class DeviceLibrary(JITCodeLibrary):
 
     codegen = _NoEnvironments()
 
-    def _optimize_functions(self, ll_module: binding.ModuleRef) -> None:
-        """Simplify what the module holds; Numba would ask that of all that it calls, too."""
-        ll_module.data_layout = self._codegen._data_layout  # noqa: SLF001
-        builder = self._codegen._pass_builder()  # noqa: SLF001
-        passes = builder.getFunctionPassManager()
-        for function in ll_module.functions:
-            if not function.is_declaration:
-                passes.run(function, builder)
-
     def finalize(self) -> None:
         """Leave what the function calls apart: kernels take each function once."""
         self._raise_if_finalized()
