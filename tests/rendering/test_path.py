@@ -141,6 +141,17 @@ def test_mirrors_show_what_is_before_them(integrator: str) -> None:
         assert light == pytest.approx(seen)
 
 
+@once
+def test_mirrors_throw_the_light_of_suns_onto_floors() -> None:
+    """A floor at a wall that is a mirror is lit by two suns."""
+    floor = vtray.Plane((0, 0, 0), (0, 0, 1), WHITE, lambert=0.5)
+    wall = vtray.Plane((-1, 0, 0), (1, 0, 0), WHITE, material="mirror")
+    sun = vtray.Sun((-1, 0.3, -1), angle=30)
+    alone = light_of(looking_down([floor], [sun]), samples=256)
+    both = light_of(looking_down([floor, wall], [sun]), samples=4096)
+    assert both.mean() == pytest.approx(2 * alone.mean(), rel=0.02)
+
+
 def test_without_bounces_paths_see_what_direct_light_shows() -> None:
     objects = [
         vtray.Sphere((0, 0, 0.6), 0.5, (255, 99, 71)),

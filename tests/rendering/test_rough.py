@@ -50,6 +50,29 @@ def test_points_and_suns_show_what_the_formula_says(material: Material, surface:
         assert found == pytest.approx(expected, rel=4e-3)
 
 
+AXIS = MIRRORED + np.array([0.1, 0.0, 0.1])
+AXIS /= np.linalg.norm(AXIS)
+
+
+def shown_of_disc(surface: Surface, spread: float) -> Any:
+    """Return what a surface shows of a disc in the sky of radiance 1, around `AXIS`."""
+    height, angle = np.meshgrid(
+        1 - spread * (np.arange(400) + 0.5) / 400, 2 * math.pi * (np.arange(400) + 0.5) / 400
+    )
+    aside = np.sqrt(1 - height**2)
+    one = np.cross(AXIS, [1.0, 0.0, 0.0])
+    one /= np.linalg.norm(one)
+    other = np.cross(AXIS, one)
+    ways = (
+        height[..., None] * AXIS
+        + (aside * np.cos(angle))[..., None] * one
+        + (aside * np.sin(angle))[..., None] * other
+    ).reshape(-1, 3)
+    ways = ways[ways[:, 2] > 1e-6]
+    area = 2 * math.pi * spread / 160000
+    return area * scattered(surface, ways, OUT).sum(axis=0)
+
+
 @once
 @pytest.mark.parametrize(("material", "surface"), SURFACES)
 @pytest.mark.parametrize("radius", [0.05, 0.7, 3])
@@ -57,30 +80,27 @@ def test_ball_lamps_show_what_their_integral_is(
     material: Material, surface: Surface, radius: float
 ) -> None:
     """Small lamps are found by shadow rays, large ones by those that go on; together, once."""
-    axis = MIRRORED + np.array([0.1, 0.0, 0.1])
-    axis /= np.linalg.norm(axis)
-    spread = 1 - math.sqrt(1 - (radius / 5) ** 2)
-    height, angle = np.meshgrid(
-        1 - spread * (np.arange(400) + 0.5) / 400, 2 * math.pi * (np.arange(400) + 0.5) / 400
-    )
-    aside = np.sqrt(1 - height**2)
-    one = np.cross(axis, [1.0, 0.0, 0.0])
-    one /= np.linalg.norm(one)
-    other = np.cross(axis, one)
-    ways = (
-        height[..., None] * axis
-        + (aside * np.cos(angle))[..., None] * one
-        + (aside * np.sin(angle))[..., None] * other
-    ).reshape(-1, 3)
-    ways = ways[ways[:, 2] > 1e-6]
-    area = 2 * math.pi * spread / 160000
-    expected = 2.5 * area * scattered(surface, ways, OUT).sum(axis=0)
-    lamp = vtray.SphereLight(tuple(5 * axis), radius, radiance=2.5)
+    expected = 2.5 * shown_of_disc(surface, 1 - math.sqrt(1 - (radius / 5) ** 2))
+    lamp = vtray.SphereLight(tuple(5 * AXIS), radius, radiance=2.5)
     assert seen_at(material, [lamp]) == pytest.approx(expected, rel=0.02)
     # As many lamps as share shadow rays, of which one has light.
     dark = [vtray.SphereLight((k, 0, 9), 0.1, radiance=0) for k in range(30)]
     crowded = seen_at(material, [*dark[:11], lamp, *dark[11:]])
     assert crowded == pytest.approx(expected, rel=0.15)
+
+
+@once
+@pytest.mark.parametrize(("material", "surface"), SURFACES)
+@pytest.mark.parametrize("angle", [2, 8, 70])
+def test_suns_show_what_their_integral_is(
+    material: Material, surface: Surface, angle: float
+) -> None:
+    """Wide ones are met by rays that go on, too, and counted once."""
+    half = math.radians(angle) / 2
+    radiance = 0.3 / math.sin(half) ** 2
+    expected = radiance * shown_of_disc(surface, 1 - math.cos(half))
+    found = seen_at(material, [vtray.Sun(tuple(-AXIS), 0.3, angle)])
+    assert found == pytest.approx(expected, rel=0.02)
 
 
 @once

@@ -208,6 +208,33 @@ def test_mirrors_show_lamps_behind_the_camera(lamp: str) -> None:
         assert vtray.trace_pixel(image, 0, 0).light == tuple(image.linear[0, 0])
 
 
+@pytest.mark.parametrize("integrator", ["whitted", "path"])
+@pytest.mark.parametrize("material", ["mirror", Glass(1, thin=True)])
+@pytest.mark.parametrize(("angle", "shown"), [(5.01, 0.25), (40, 0.25), (4.99, 0)])
+def test_mirrors_and_glass_show_wide_suns(
+    integrator: str, material: AnyMaterial, angle: float, shown: float
+) -> None:
+    """As bright as they must be to light a floor as they do; narrow ones are as points."""
+    scene = vtray.Scene()
+    scene.add_plane((0, 0, 0), normal=(0, 0, 1), material=material)
+    sign = -1 if material == "mirror" else 1
+    scene.add_sun((0.1, 0, sign), angle=angle, intensity=0.25, color=(255, 128, 0))
+    for aside in (-0.9, 0.9, 1.1):  # of half the angle, from the middle
+        tilt = np.arctan(0.1) + aside * np.radians(angle) / 2
+        scene.camera = vtray.Camera.look_at(
+            (20 * np.sin(tilt), 0, 20 * np.cos(tilt)),
+            target=(0, 0, 0),
+            up=(0, 1, 0),
+            fov_degrees=0.01,
+            size=(2, 2),
+        )
+        image = vtray.render(scene, integrator=integrator, exposure=1)
+        radiance = (shown if aside < 1 else 0) / np.sin(np.radians(angle) / 2) ** 2
+        expected = np.broadcast_to(A([255, 128, 0]) * radiance, (2, 2, 3))
+        np.testing.assert_allclose(image.linear, expected, rtol=1e-9)
+        assert vtray.trace_pixel(image, 0, 0).light == tuple(image.linear[0, 0])
+
+
 ENDS = ((0, 0, 0.5), (0, 0, 1.5))
 
 

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.exact_math import sine
 from vtray.geometry.vector import Vec
 from vtray.rendering.pack_crowd import order_by_place
 from vtray.rendering.pack_rectangles import join_rectangles, pack_rectangle
@@ -32,7 +31,7 @@ from vtray.transport.lights.crowd import Crowd
 from vtray.transport.lights.light import Lights
 from vtray.transport.lights.rectangle import SIZE as RECTANGLE_SIZE
 from vtray.transport.lights.soft_light import AROUND, NO_SKY, RECTANGLE, SPHERE, SUN, SoftLights
-from vtray.transport.lights.surroundings import Surroundings
+from vtray.transport.lights.surroundings import Surroundings, spread_of
 from vtray.transport.lights.visible import SIZE as LAMP_SIZE
 from vtray.transport.lights.visible import VisibleLamps
 
@@ -129,7 +128,7 @@ def _pack_soft(
     for k, light in enumerate(lights):
         place: Floats | Vec = (0.0, 0.0, 0.0)
         if isinstance(light, Sun):
-            kind[k], size[k] = SUN, 2.0 * sine(light.angle / 4.0) * sine(light.angle / 4.0)
+            kind[k], size[k] = SUN, spread_of(light.angle)
             towards = unit_vector(light.direction)
             place = -towards[0], -towards[1], -towards[2]
         elif isinstance(light, SphereLight):

@@ -84,7 +84,7 @@ class Sun(Frozen, frozen=True, gc=False, tag_field="type", tag="sun"):
         shines on squarely, with nothing in between, shows 1, whatever the angle.
     angle : float, optional
         Diameter in degrees, as seen from the scene, from 0 to 180; 0.53 by default, that of the
-        sun seen from the earth. 0 gives hard shadows.
+        sun seen from the earth. 0 gives hard shadows. Mirrors and glass show suns of 5 and more.
     color : Color, optional
         Colour of the light, as for Light.
     """

@@ -1,9 +1,14 @@
-"""What rays from surfaces see that meet nothing: the light of all skies."""
+"""What rays from surfaces see that meet nothing: the light of all skies and wide suns."""
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.vector import Vec
 from vtray.transport.lights.sky import Skies
-from vtray.transport.lights.surroundings import Surroundings
+from vtray.transport.lights.surroundings import (
+    Discs,
+    Surroundings,
+    disc_count,
+    is_towards,
+)
 from vtray.transport.sampling.sky_map import light_towards
 
 
@@ -11,11 +16,12 @@ from vtray.transport.sampling.sky_map import light_towards
 def far_light(surroundings: Surroundings | None, direction: Vec, sees_lights: bool) -> Vec:
     """Return the light that comes against a unit direction from far away.
 
-    That of one colour is seen by all rays, the other only by those that see lights.
+    That of one colour is seen by all rays, all other only by those that see lights.
     """
     if surroundings is None:
         return 0.0, 0.0, 0.0
-    return _with_maps(surroundings, surroundings.skies, direction, sees_lights)
+    light = _with_maps(surroundings, surroundings.skies, direction, sees_lights)
+    return _with_discs(light, surroundings.discs, direction) if sees_lights else light
 
 
 @device
@@ -33,4 +39,17 @@ def _with_maps(
                 red += color[sky, 0] * light[0]
                 green += color[sky, 1] * light[1]
                 blue += color[sky, 2] * light[2]
+    return red, green, blue
+
+
+@device
+def _with_discs(light: Vec, discs: Discs, direction: Vec) -> Vec:
+    """Return light, and that of the suns towards which a direction leads."""
+    red, green, blue = light
+    color = discs.color
+    for sun in range(disc_count(discs)):
+        if is_towards(discs, sun, direction):
+            red += color[sun, 0]
+            green += color[sun, 1]
+            blue += color[sun, 2]
     return red, green, blue

@@ -29,12 +29,19 @@ from vtray.transport.lights.soft_light import (
     NO_SKY,
     RECTANGLE,
     SPHERE,
+    SUN,
     Aim,
     SoftLights,
     aim_at,
     soft_count,
 )
-from vtray.transport.lights.surroundings import Surroundings
+from vtray.transport.lights.surroundings import (
+    LEAST_SPREAD,
+    Discs,
+    Surroundings,
+    disc_count,
+    is_towards,
+)
 from vtray.transport.lights.visible import VisibleLamps, lamp_count, lamp_distance
 from vtray.transport.materials.facets import PI
 from vtray.transport.materials.gloss import Gloss, seen_light
@@ -301,9 +308,10 @@ def _sky_density(skies: Skies, sky: int, way: Vec, normal: Vec) -> float:
 
 @device
 def _is_met(aim: Aim, end_depth: float) -> bool:
-    """Tell whether rays that go on meet a light, too: a lamp with a size, or a sky with a map."""
+    """Tell whether rays that go on meet a light: a lamp or sun with a size, a sky with a map."""
     is_lamp = aim.kind in (SPHERE, RECTANGLE) and aim.spread > 0.0 and end_depth > 0.0
-    return is_lamp or aim.sky != NO_SKY
+    is_disc = aim.kind == SUN and aim.spread >= LEAST_SPREAD
+    return is_lamp or is_disc or aim.sky != NO_SKY
 
 
 @device
@@ -324,7 +332,7 @@ def _power(own: float, other: float) -> float:
 
 @seldom
 def light_met(lights: Lights, ray: Ray, normal: Vec, distance: float, density: float) -> Vec:
-    """Return the light of lamps and skies that a ray from a glossy surface meets, as it counts.
+    """Return the light of lamps, skies and suns that a ray from a glossy surface meets, weighed.
 
     Lamps do not stop each other's light, as they do not for shadow rays.
 
@@ -342,7 +350,7 @@ def light_met(lights: Lights, ray: Ray, normal: Vec, distance: float, density: f
     start = Start(ray.origin, ray.plane_depth, ray.error_scale)
     return add(
         _lamps_met(lights, lights.soft, lights.mirrored, ray, start, normal, distance, density),
-        _skies_met(lights.soft, lights.surroundings, ray, normal, distance, density),
+        _far_light_met(lights.soft, lights.surroundings, ray, normal, distance, density),
     )
 
 
@@ -376,7 +384,7 @@ def _lamps_met(
 
 
 @device
-def _skies_met(
+def _far_light_met(
     soft: SoftLights | None,
     surroundings: Surroundings | None,
     ray: Ray,
@@ -384,12 +392,13 @@ def _skies_met(
     distance: float,
     density: float,
 ) -> Vec:
-    """Return the light of skies that change with the direction; see `light_met`."""
+    """Return the light of suns, and of skies that change with the direction; see `light_met`."""
     if surroundings is None:
         return 0.0, 0.0, 0.0
     if soft is None:
         return 0.0, 0.0, 0.0
-    return _maps_met(soft, surroundings, surroundings.skies, ray, normal, distance, density)
+    light = _maps_met(soft, surroundings, surroundings.skies, ray, normal, distance, density)
+    return _add_discs_met(light, soft, surroundings.discs, ray, distance, density)
 
 
 @device
@@ -414,4 +423,21 @@ def _maps_met(
                 red += color[sky, 0] * light[0]
                 green += color[sky, 1] * light[1]
                 blue += color[sky, 2] * light[2]
+    return red, green, blue
+
+
+@device
+def _add_discs_met(
+    light: Vec, soft: SoftLights, discs: Discs, ray: Ray, distance: float, density: float
+) -> Vec:
+    """Return light, and that of suns; see `light_met`."""
+    red, green, blue = light
+    if distance == math.inf:
+        for sun in range(disc_count(discs)):
+            if is_towards(discs, sun, ray.direction):
+                own = 0.5 / (PI * discs.spread[sun])
+                weight = _power(density, own * _picked_share(soft))
+                red += weight * discs.color[sun, 0]
+                green += weight * discs.color[sun, 1]
+                blue += weight * discs.color[sun, 2]
     return red, green, blue
