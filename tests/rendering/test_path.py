@@ -213,6 +213,7 @@ def test_fireflies_are_cut_where_that_is_asked() -> None:
     floor = vtray.Plane((0, 0, 0), (0, 0, 1), WHITE)
     lamp = vtray.SphereLight((1.5, 0, 3), 0.4, radiance=60)
     scene = looking_down([ball, floor], [lamp], size=12)
+    scene.render = vtray.RenderSettings(exposure=1)
     plain = light_of(scene, samples=1)
     assert plain.max() > 4
     for firefly in (0.5, 3):

@@ -124,6 +124,20 @@ def test_rough_surfaces_are_shown_as_smooth_and_said_to_be() -> None:
     assert rough.linear.tobytes() == vtray.render(smooth, integrator="whitted").linear.tobytes()
 
 
+def test_what_leaves_all_else_dark_is_warned_of() -> None:
+    scene = room(("mirror", "lambert", "lambert", "lambert"), (48, 36))
+    scene.lights = [vtray.Sun((0.3, 1, -0.8), angle=20)]
+    words = r"exposure: the brightest pixel is \d+ times as bright as 99 of 100 are, which leaves "
+    with pytest.warns(UserWarning, match=words + 'these dark; give exposure="auto"'):
+        dark = vtray.render(scene, integrator="whitted")
+    assert np.mean(dark.pixels > 30) < 0.01
+    said: list[str] = []
+    for known in ({"exposure": "auto"}, {"exposure": 1}, {"lock": dark}):
+        vtray.render(scene, integrator="whitted", warn=said.append, **known)
+    vtray.render(room(("lambert",) * 4), integrator="whitted", warn=said.append)
+    assert not said
+
+
 @pytest.mark.parametrize("faded", [1, 3])
 def test_what_does_not_go_together(faded: int) -> None:
     scene = room(("mirror", "lambert", "lambert", "lambert"))

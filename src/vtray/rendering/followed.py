@@ -3,9 +3,11 @@
 from collections.abc import Iterator, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vtray.base.errors import RenderError
 from vtray.image.exposure import BRIGHTEST
+from vtray.image.white import usual_brightness
 from vtray.rendering.acceleration import Acceleration
 from vtray.rendering.bodies import has_faded
 from vtray.scene.copies import Copies
@@ -22,6 +24,9 @@ from vtray.scene.objects import Object
 from vtray.scene.scene import Scene
 from vtray.scene.settings import RenderSettings
 
+FAR_BRIGHTER = 16.0
+"""So many times as bright as nearly all pixels is what leaves these dark, an eye would say."""
+
 
 def simpler_looks(objects: Sequence[Object], settings: RenderSettings) -> str:
     """Say which materials the integrator shows as simpler ones; "" if it shows all as they are."""
@@ -34,6 +39,27 @@ def simpler_looks(objects: Sequence[Object], settings: RenderSettings) -> str:
     which = f"{' and '.join(found)} {'are' if len(found) > 1 else 'is'}"
     words = f"shown as {simpler} by the integrator {settings.integrator}"
     return f"material: {which} {words}; give integrator={better[settings.integrator]}"
+
+
+def darkness(linear: NDArray[np.float64], peak: float, settings: RenderSettings) -> str:
+    """Say that a picture is dark, as what it mirrors is far brighter than the rest; "" if not.
+
+    Parameters
+    ----------
+    linear
+        The light of the picture, (height, width, 3).
+    peak
+        Its largest channel.
+    settings
+        How it is taken.
+    """
+    if settings.integrator == "direct" or settings.exposure != "max":
+        return ""
+    usual = usual_brightness(linear)
+    if usual == 0.0 or peak <= FAR_BRIGHTER * usual:
+        return ""
+    words = f"the brightest pixel is {peak / usual:.0f} times as bright as 99 of 100 are"
+    return f'exposure: {words}, which leaves these dark; give exposure="auto"'
 
 
 def check_followed(

@@ -31,6 +31,7 @@ from vtray.rendering.fog import fitted, shapes_of
 from vtray.rendering.followed import (
     check_followed,
     check_radiances,
+    darkness,
     followed,
     shines,
     simpler_looks,
@@ -213,8 +214,8 @@ def render(
     tile
         Side of a tile in pixels.
     warn
-        Called with one line of text if there is something to see, but no light; `warnings.warn` by
-        default.
+        Called with one line of text if there is something to see, but no light, or far brighter
+        light in mirrors, which leaves all else dark; `warnings.warn` by default.
 
     Returns
     -------
@@ -237,8 +238,10 @@ def render(
     KeyboardInterrupt
         After Ctrl-C; all threads have ended by then.
     """
-    threads = _count("threads", threads if threads is not None else available_cores())
-    tile = _count("tile", tile)
+    threads, tile = (
+        _count("threads", threads if threads is not None else available_cores()),
+        _count("tile", tile),
+    )
     _check_calls(progress, on_update, update_seconds, warn)
     if lock is not None:
         locked_white(lock, exposure, stops)
@@ -290,6 +293,7 @@ def render(
     with growth or nullcontext():
         traced = tracer.light(settings, white, keep=keep_lights)
     clock.lap("trace")
+    _tell(warn, darkness(traced.film.linear, traced.peak, settings) if lock is None else "")
     stats = {
         "rays": traced.rays,
         "nodes": kept.nodes,
