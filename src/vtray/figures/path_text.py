@@ -54,8 +54,8 @@ def _describe_met(ray: PathRay, tree: TracedRays) -> list[str]:
     if ray.parent is not None and max(ray.met) > 0.0:
         of = tree.path[ray.parent]
         is_weighed = of.shown is None and of.choice is not None and of.choice.density is not None
-        what = "of skies" if ray.lamp is None else "of the lamp"
-        what = "of lamps and skies, weighed against shadow rays" if is_weighed else what
+        what = "of skies and suns" if ray.lamp is None else "of the lamp"
+        what = "of lamps, skies and suns, weighed against shadow rays" if is_weighed else what
         lines.append(f"  adds       {vector_text(ray.met)} {what}")
     return lines
 
