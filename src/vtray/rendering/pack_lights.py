@@ -10,6 +10,7 @@ from vtray.geometry.vector import Vec
 from vtray.rendering.pack_crowd import order_by_place
 from vtray.rendering.pack_rectangles import join_rectangles, pack_rectangle
 from vtray.rendering.pack_skies import changes_color, pack_skies
+from vtray.rendering.pack_surroundings import towards_sun
 from vtray.scene.colors.color_light import light_of
 from vtray.scene.colors.tone_map_names import ToneMapName
 from vtray.scene.light_types import (
@@ -24,7 +25,6 @@ from vtray.scene.light_types import (
     falls_off,
     strength_of,
 )
-from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.vectors import Vector
 from vtray.transport.camera_rays import CameraFrame
 from vtray.transport.lights.crowd import Crowd
@@ -129,8 +129,7 @@ def _pack_soft(
         place: Floats | Vec = (0.0, 0.0, 0.0)
         if isinstance(light, Sun):
             kind[k], size[k] = SUN, spread_of(light.angle)
-            towards = unit_vector(light.direction)
-            place = -towards[0], -towards[1], -towards[2]
+            place = towards_sun(light)
         elif isinstance(light, SphereLight):
             kind[k], size[k] = SPHERE, light.radius / unit
             place = points_of([light.location], unit)[0] - origin

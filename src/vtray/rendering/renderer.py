@@ -238,10 +238,8 @@ def render(
     KeyboardInterrupt
         After Ctrl-C; all threads have ended by then.
     """
-    threads, tile = (
-        _count("threads", threads if threads is not None else available_cores()),
-        _count("tile", tile),
-    )
+    threads = _count("threads", threads if threads is not None else available_cores())
+    tile = _count("tile", tile)
     _check_calls(progress, on_update, update_seconds, warn)
     if lock is not None:
         locked_white(lock, exposure, stops)
@@ -294,12 +292,6 @@ def render(
         traced = tracer.light(settings, white, keep=keep_lights)
     clock.lap("trace")
     _tell(warn, darkness(traced.film.linear, traced.peak, settings) if lock is None else "")
-    stats = {
-        "rays": traced.rays,
-        "nodes": kept.nodes,
-        "depth": kept.tree_depth,
-        "memory": kept.memory,
-    }
     relighting = (
         Relighting(kept, traced.kept, int(settings.samples), threads)
         if packed.arrays.world.faded is None and packed.arrays.materials.patterns is None
@@ -328,7 +320,13 @@ def render(
     # Kernels are loaded when they are first called; that is no part of the build.
     clock.seconds["build"] -= loading
     clock.seconds["compile"] += loading
-    image.stats = {**clock.seconds, **stats}
+    image.stats = {
+        **clock.seconds,
+        "rays": traced.rays,
+        "nodes": kept.nodes,
+        "depth": kept.tree_depth,
+        "memory": kept.memory,
+    }
     return image
 
 

@@ -1,13 +1,14 @@
 """What rays from surfaces see that meet nothing: the light of all skies and wide suns."""
 
 from vtray.base.compiler.compiled import device
-from vtray.geometry.vector import Vec
+from vtray.geometry.vector import Vec, add
 from vtray.transport.lights.sky import Skies
 from vtray.transport.lights.surroundings import (
     Discs,
     Surroundings,
     disc_count,
     is_towards,
+    light_of_disc,
 )
 from vtray.transport.sampling.sky_map import light_towards
 
@@ -45,11 +46,7 @@ def _with_maps(
 @device
 def _with_discs(light: Vec, discs: Discs, direction: Vec) -> Vec:
     """Return light, and that of the suns towards which a direction leads."""
-    red, green, blue = light
-    color = discs.color
     for sun in range(disc_count(discs)):
         if is_towards(discs, sun, direction):
-            red += color[sun, 0]
-            green += color[sun, 1]
-            blue += color[sun, 2]
-    return red, green, blue
+            light = add(light, light_of_disc(discs, sun))
+    return light

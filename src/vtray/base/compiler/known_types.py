@@ -6,6 +6,7 @@ infers the types of a function, and again when it writes it. That took a sixth o
 
 # mypy: allow-untyped-calls
 
+from collections.abc import Callable
 from functools import cache
 from typing import Any
 
@@ -30,10 +31,7 @@ class _Remembering(Context):
         """Return the signature of a function for arguments of some types."""
         if kws or (isinstance(func, types.Type) and not isinstance(func, types.Function)):
             return super().resolve_function_type(func, args, kws)
-        call = func, tuple(args)
-        if call not in _signatures:
-            _signatures[call] = super().resolve_function_type(func, args, kws)
-        return _signatures[call]
+        return _once((func, *args), super().resolve_function_type, func, args, kws)
 
     def resolve_value_type(self, val: Any) -> Any:  # noqa: ANN401
         """Return the type of what is known while compiling."""
@@ -48,15 +46,19 @@ class _Function(types.Function):  # type: ignore[misc]
         """Return its signature for arguments of some types."""
         if kws:
             return super().get_call_type(context, args, kws)
-        call = self, tuple(args)
-        if call not in _signatures:
-            _signatures[call] = super().get_call_type(context, args, kws)
-        return _signatures[call]
+        return _once((self, *args), super().get_call_type, context, args, kws)
 
 
 register_default(_Function)(OpaqueModel)
 
-_signatures: dict[Any, Any] = {}
+_signatures: dict[tuple[Any, ...], Any] = {}
+
+
+def _once(call: tuple[Any, ...], find: Callable[..., Any], *arguments: Any) -> Any:  # noqa: ANN401
+    """Return what is remembered of a call of a function; what is not, is found first."""
+    if call not in _signatures:
+        _signatures[call] = find(*arguments)
+    return _signatures[call]
 
 
 @cache

@@ -7,7 +7,7 @@ which matters to who counts references.
 """
 
 # ruff: noqa: ANN401
-# mypy: allow-untyped-calls, disable-error-code="misc"
+# mypy: allow-untyped-calls
 
 from typing import Any
 

@@ -41,6 +41,7 @@ from vtray.transport.lights.surroundings import (
     Surroundings,
     disc_count,
     is_towards,
+    light_of_disc,
 )
 from vtray.transport.lights.visible import VisibleLamps, lamp_count, lamp_distance
 from vtray.transport.materials.facets import PI
@@ -292,7 +293,13 @@ def _lamp_density(aim: Aim, way: Vec, normal: Vec) -> float:
         return 1.0 / angle if aim.share > 0.0 else 0.0
     if aim.spread == ALL_AROUND:
         return max(dot(way, normal), 0.0) / PI
-    return 0.5 / (PI * aim.spread) if aim.spread > 0.0 else math.inf
+    return _cone_density(aim.spread) if aim.spread > 0.0 else math.inf
+
+
+@device
+def _cone_density(spread: float) -> float:
+    """Return the density of directions that are all as likely within a cone."""
+    return 0.5 / (PI * spread)
 
 
 @device
@@ -431,13 +438,10 @@ def _add_discs_met(
     light: Vec, soft: SoftLights, discs: Discs, ray: Ray, distance: float, density: float
 ) -> Vec:
     """Return light, and that of suns; see `light_met`."""
-    red, green, blue = light
     if distance == math.inf:
         for sun in range(disc_count(discs)):
             if is_towards(discs, sun, ray.direction):
-                own = 0.5 / (PI * discs.spread[sun])
+                own = _cone_density(discs.spread[sun])
                 weight = _power(density, own * _picked_share(soft))
-                red += weight * discs.color[sun, 0]
-                green += weight * discs.color[sun, 1]
-                blue += weight * discs.color[sun, 2]
-    return red, green, blue
+                light = add(light, scale(weight, light_of_disc(discs, sun)))
+    return light

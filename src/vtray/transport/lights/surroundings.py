@@ -76,6 +76,12 @@ def disc_count(discs: Discs) -> int:
 
 
 @device
+def light_of_disc(discs: Discs, sun: int) -> Vec:
+    """Return the light of a sun."""
+    return discs.color[sun, 0], discs.color[sun, 1], discs.color[sun, 2]
+
+
+@device
 def is_towards(discs: Discs, sun: int, direction: Vec) -> bool:
     """Tell whether a unit direction leads to a sun."""
     middle = discs.middle
