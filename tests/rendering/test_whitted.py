@@ -162,6 +162,25 @@ def test_what_shines_is_no_brighter_than_a_double_holds(material: AnyMaterial) -
     assert image.pixels.max() == 255
 
 
+def test_discs_of_suns_are_no_brighter_than_a_double_holds() -> None:
+    scene = vtray.Scene()
+    scene.add_plane((0, 0, 0), normal=(0, 0, 1), material="mirror")
+    scene.camera = vtray.Camera.look_at(
+        (0, 0, 9), target=(0, 0, 0), up=(0, 1, 0), fov_degrees=1, size=(2, 2)
+    )
+    scene.lights = [vtray.Sun((0, 0, -1), angle=5, intensity=6.5e300)]
+    words = r"^lights: in mirrors, suns are as bright as 3\.4\d+e\+303, expected at most 1\.37"
+    for integrator in ("whitted", "path"):
+        with pytest.raises(vtray.RenderError, match=words):
+            vtray.render(scene, integrator=integrator)
+    vtray.render(scene, integrator="direct", warn=str)
+    scene.lights = [vtray.Sun((0, 0, -1), angle=5, intensity=2.5e300)]
+    image = vtray.render(scene, integrator="whitted", samples=9)
+    assert np.isfinite(image.linear).all()
+    assert image.linear.min() > 1e305
+    assert image.pixels.max() == 255
+
+
 @pytest.mark.parametrize(
     ("kind", "value", "message"),
     [

@@ -10,6 +10,7 @@ from vtray.image.exposure import BRIGHTEST
 from vtray.image.white import usual_brightness
 from vtray.rendering.acceleration import Acceleration
 from vtray.rendering.bodies import has_faded
+from vtray.rendering.pack_surroundings import disc_radiance, is_disc
 from vtray.scene.copies import Copies
 from vtray.scene.materials import (
     Blend,
@@ -91,6 +92,11 @@ def check_radiances(scene: Scene) -> None:
             words = f"expected at most {BRIGHTEST:g}, got {material.radiance:g}"
             message = f"material.radiance: {words}; give a lower one, and more exposure"
             raise RenderError(message)
+    discs = sum(map(disc_radiance, filter(is_disc, scene.lights)))
+    if discs > BRIGHTEST:
+        words = f"in mirrors, suns are as bright as {discs:g}, expected at most {BRIGHTEST:g}"
+        message = f"lights: {words}; give lower intensities, and more exposure"
+        raise RenderError(message)
 
 
 def shines(scene: Scene) -> bool:
