@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from vtray.base.compiler import compiled, object_code, parts
-from vtray.base.compiler.compiled import Device, Kernel, Part
+from vtray.base.compiler.compiled import Device, Kernel, Part, compile_ahead, was_compiled
 from vtray.base.compiler.elf_loader import IS_KNOWN
 from vtray.base.compiler.native_call import UnsupportedError
 
@@ -114,6 +114,39 @@ def test_kernels_share_a_part(
     made.clear()
     use(two_kernels())
     assert made == []
+
+
+def test_ahead_only_the_kernel_is_compiled(
+    made: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path / "kernels")
+    first, second = kernels = two_kernels()
+    arguments = NUMBERS.copy(), WEIGHTS, True, 10.0
+    assert not was_compiled(first)
+    for _ in range(2):
+        compile_ahead(first, *arguments)
+        assert (made, list(tmp_path.glob("kernels/*.kernel"))) == (["scaled"], [])
+    use(kernels)
+    assert sorted(made) == ["add_up", "clear", "scaled", "unscaled"]
+    assert was_compiled(first)
+    assert was_compiled(second)
+    # What is loaded, or on disk, is not compiled again; what cannot be kept is not begun.
+    compile_ahead(first, *arguments)
+    compile_ahead(two_kernels()[0], *arguments)
+    monkeypatch.setattr(object_code, "cache_folder", lambda: None)
+    compile_ahead(two_kernels()[0], *arguments)
+    compile_ahead(two_kernels()[0], "no number")
+    assert len(made) == 4
+
+
+def test_what_fails_ahead_is_told_by_the_call(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object) -> None:
+        raise ValueError
+
+    monkeypatch.setattr(compiled, "compile_object", fail)
+    first, _ = two_kernels()
+    compile_ahead(first, NUMBERS.copy(), WEIGHTS, True, 10.0)
+    assert first._ahead == {}
 
 
 def test_new_kernel_finds_the_part_of_another(made: list[str], tmp_path: Path) -> None:

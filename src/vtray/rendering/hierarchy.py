@@ -47,6 +47,9 @@ The crossing was measured at 115 spheres with one light and at 200 with 64. The 
 are faster through a hierarchy wherever there can be one.
 """
 
+SOON = 1_000_000
+"""Up to so many shapes are put together a second time within some hundredths of a second."""
+
 
 def accelerate(
     scene: Scene,
@@ -84,6 +87,19 @@ def accelerate(
     clipped = clip_shapes(whole, rooms, [rooms.room_of(k) for k in bounded] if rooms.of else [])
     scene.__dict__[_CLIPPED] = whole, clipped
     return clipped
+
+
+def without_hierarchy(scene: Scene) -> Acceleration | None:
+    """Return what `accelerate` does without clip planes, but of the same types with no hierarchy.
+
+    None where that takes long or builds one: where there are copies, faded or very many shapes.
+    """
+    items = [item for item in scene.objects if not isinstance(item, (Plane, Stars))]
+    wholes = _wholes(items, number_objects(items), MAX_SPHERES)
+    is_simple = not any(part.place >= 0 or _faded(part).count for part in wholes)
+    if is_simple and sum(part.count for part in wholes) <= SOON:
+        return _make(items, MAX_SPHERES, b"", 1, None)
+    return None
 
 
 def _accelerate_whole(scene: Scene, threads: int, progress: Progress | None) -> Acceleration:

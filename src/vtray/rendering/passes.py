@@ -15,7 +15,7 @@ from vtray.geometry.shapes import cone, cylinder, sphere
 from vtray.geometry.world import World
 from vtray.image.white import white_of
 from vtray.rendering.edge_pixels import edge_pixels
-from vtray.rendering.engines.engine import Engine, trace_to
+from vtray.rendering.engines.engine import Engine, begin_compiling, trace_to
 from vtray.rendering.engines.threads import Threads
 from vtray.rendering.growth import DRAFT_TILE, Growth, draft_camera
 from vtray.scene.settings import RenderSettings
@@ -381,6 +381,18 @@ def _thickest(world: World) -> float:
 
 def compile_kernels(scene: SceneArrays, settings: RenderSettings, more: Sequence[str] = ()) -> None:
     """Compile what is needed to trace a scene, or load it from disk; see `Tracer.light`."""
+    trace_to(*_first_pass(scene, settings, more), Tile(0, 0, 0, 0))
+
+
+def begin_kernels(scene: SceneArrays, settings: RenderSettings, more: Sequence[str] = ()) -> None:
+    """Begin to compile the same, before other kernels that this process compiles meanwhile."""
+    begin_compiling(*_first_pass(scene, settings, more))
+
+
+def _first_pass(
+    scene: SceneArrays, settings: RenderSettings, more: Sequence[str]
+) -> tuple[Film, SceneArrays, Sampling]:
+    """Return a film of no size, the scene, and the rays of the middles of pixels."""
     has_samples = settings.samples > 1
     scene = scene if has_samples else with_pinhole(scene)
     soft = scene.lights.soft
@@ -388,5 +400,4 @@ def compile_kernels(scene: SceneArrays, settings: RenderSettings, more: Sequence
     noise = None if soft is None else Noise(math.inf, by_light=True)
     (fans, paths), _ = rays_from_surfaces(settings, noise)
     lens = lens_points(scene.camera, int(settings.samples))
-    rays = middle_rays(before_samples=has_samples, fans=fans, paths=paths, lens=lens)
-    trace_to(film, scene, rays, Tile(0, 0, 0, 0))
+    return film, scene, middle_rays(before_samples=has_samples, fans=fans, paths=paths, lens=lens)

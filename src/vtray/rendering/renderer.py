@@ -23,6 +23,8 @@ from vtray.image.denoise import load_library
 from vtray.image.exposure import check_brightness
 from vtray.image.image import Image
 from vtray.image.white import known_white, locked_white
+from vtray.rendering.acceleration import Acceleration
+from vtray.rendering.ahead import compile_ahead
 from vtray.rendering.clipping import is_nothing_left
 from vtray.rendering.darkroom import Darkroom
 from vtray.rendering.denoising import Denoising
@@ -54,6 +56,7 @@ from vtray.scene.files.scene_file import Warn
 from vtray.scene.light_types import AnyLight, gives_light, strength_of
 from vtray.scene.scene import Camera, Scene
 from vtray.scene.settings import FilterName, IntegratorName, RenderSettings, overridden
+from vtray.scene.style import Style
 
 Progress = Callable[[str, int, int], None]
 
@@ -253,7 +256,7 @@ def render(
     _tell(warn, *_problems(shown, settings, keep_lights=keep_lights))
     _check(shown, settings, is_shown=on_update is not None)
     clock, loaded = Stopwatch(), loading_seconds()
-    kept = accelerate(given, threads, _step_of(progress, "build"), style)
+    kept = _accelerated(given, shown, settings, style, threads, progress)
     loading = loading_seconds() - loaded
     check_followed(kept, scene.objects, settings, keep_lights=keep_lights)
     _tell(warn, NOTHING_LEFT if is_nothing_left(kept) else "")
@@ -328,6 +331,19 @@ def render(
         "memory": kept.memory,
     }
     return image
+
+
+def _accelerated(
+    given: Scene,
+    shown: Scene,
+    settings: RenderSettings,
+    style: Style,
+    threads: int,
+    progress: Progress | None,
+) -> Acceleration:
+    """Return what is kept with a scene, which is given, for the picture of it that is shown."""
+    compile_ahead(shown, settings, style)
+    return accelerate(given, threads, _step_of(progress, "build"), style)
 
 
 def _growth(

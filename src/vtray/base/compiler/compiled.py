@@ -14,6 +14,7 @@ Kernels are compiled once per machine: `object_code` keeps them on disk and load
 imported only to compile, and where a kernel cannot be called without it, of which `canary` warns.
 """
 
+import contextlib
 import os
 import threading
 import time
@@ -33,6 +34,7 @@ from vtray.base.compiler.canary import (
     warn_of_slow_starts,
 )
 from vtray.base.compiler.function_names import full_name
+from vtray.base.compiler.kernel_folder import cache_folder
 from vtray.base.compiler.mode import is_for_kernels
 from vtray.base.compiler.native_call import (
     NativeCall,
@@ -44,6 +46,7 @@ from vtray.base.compiler.native_call import (
     unpinned,
 )
 from vtray.base.compiler.object_code import (
+    ObjectCode,
     compile_object,
     link,
     object_file,
@@ -140,6 +143,25 @@ def before_compiling(tell: Callable[[bool], object] | None) -> None:
         Called, from any thread, with whether what is compiled is kept for later processes.
     """
     _waiting[:] = [tell] if tell else []
+
+
+def was_compiled(function: Callable[..., object]) -> bool:
+    """Tell whether a kernel is on disk, for whatever types; also if none can be, or nothing is."""
+    folder = cache_folder() if isinstance(function, Kernel) else None
+    if folder is None:
+        return True
+    start = f"{full_name(uncompiled(function))}-"
+    return any(name.startswith(start) for name in os.listdir(folder))
+
+
+def compile_ahead(function: Callable[..., object], *arguments: object) -> None:
+    """Compile a kernel before its turn, so that other processes can begin with its parts.
+
+    Nothing is run. Meanwhile this process may compile other kernels; the first call makes the parts
+    that are still missing.
+    """
+    if isinstance(function, Kernel):
+        function.compile_ahead(arguments)
 
 
 def uncompiled(function: Function) -> Function:
@@ -296,6 +318,7 @@ class Kernel(Device):
         super().__init__(function)
         # For each tuple of types; None where it is Numba that calls the code.
         self._native: dict[Types, NativeCall | None] = {}
+        self._ahead: dict[Types, ObjectCode] = {}
 
     def __call__(self, *arguments: object) -> object:  # noqa: D102
         try:
@@ -312,6 +335,19 @@ class Kernel(Device):
         if native is None:
             return self._dispatcher(*unpinned(arguments))
         return native(words)
+
+    def compile_ahead(self, arguments: tuple[object, ...]) -> None:
+        """Compile what Python calls, if it is new and can be kept, without its parts."""
+        with contextlib.suppress(UnsupportedError), _COMPILING:
+            types, _ = unpack(arguments)
+            file = self._file(types)
+            is_known = types in self._native or types in self._ahead
+            if not is_known and file and not file.exists():
+                start = time.perf_counter()
+                # Whatever goes wrong, the call says it.
+                with contextlib.suppress(Exception):
+                    self._ahead[types] = self._compiled(arguments, is_kept=True)
+                _loading[0] += time.perf_counter() - start
 
     def _load(self, types: Types, arguments: tuple[object, ...]) -> NativeCall | None:
         """Return what calls the machine code, None if Numba does."""
@@ -340,15 +376,20 @@ class Kernel(Device):
         compiled = read_object_code(file) if file else None
         parts = load_parts(compiled) if compiled else None
         if compiled is None or parts is None:
-            if _waiting:
-                _waiting.pop()(file is not None)
-            if file:
-                get_help()
-            compiled = _in_thread(compile_object, self._function, arguments, _OPTIONS)
+            ahead = self._ahead.pop(types, None)
+            compiled = ahead or self._compiled(arguments, is_kept=file is not None)
             parts = _in_thread(make_parts, compiled)
             if file:
                 write_object_code(file, compiled)
         return caller(link(compiled, parts), compiled.layout)
+
+    def _compiled(self, arguments: tuple[object, ...], *, is_kept: bool) -> ObjectCode:
+        """Compile what Python calls; if it is kept, other processes begin with its parts."""
+        if _waiting:
+            _waiting.pop()(is_kept)
+        if is_kept:
+            get_help()
+        return _in_thread(compile_object, self._function, arguments, _OPTIONS)
 
     def _compile_for_python(self, arguments: tuple[object, ...]) -> bool:
         """Compile the function as Numba calls it; tell whether it is compiled at all."""

@@ -1,11 +1,12 @@
 """What an engine is: it traces the tiles of a picture, with whatever it has to work with."""
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.base.compiler.compiled import compile_ahead
 from vtray.base.pool import Progress
 from vtray.base.tiles import Tile
 from vtray.geometry.packets.packet import new_packet
@@ -94,10 +95,19 @@ def trace(scene: SceneArrays, plan: Plan, tile: Tile) -> tuple[Film, Cast]:
 
 def trace_to(film: Film, scene: SceneArrays, sampling: Sampling, tile: Tile) -> Cast:
     """Trace one tile on its own, to a film that there is."""
+    return Cast(*trace_tile(*_arguments(film, scene, sampling, tile)))
+
+
+def begin_compiling(film: Film, scene: SceneArrays, sampling: Sampling) -> None:
+    """Compile what traces tiles before its turn; its parts are left to other processes."""
+    compile_ahead(trace_tile, *_arguments(film, scene, sampling, Tile(0, 0, 0, 0)))
+
+
+def _arguments(film: Film, scene: SceneArrays, sampling: Sampling, tile: Tile) -> tuple[Any, ...]:
+    """Return what traces one tile, in memory of its own."""
     sharing = sharing_lights(scene.lights.crowd)
     packet, work = new_packet(), new_workspace(scene.world, sharing, depth_of(scene))
-    go_on = np.zeros(1, np.bool_)
-    return Cast(*trace_tile(scene, sampling, *tile, film, packet, work, go_on))
+    return scene, sampling, *tile, film, packet, work, np.zeros(1, np.bool_)
 
 
 def paste(tile: Tile, part: Film, marks: NDArray[np.bool_], film: Film) -> None:
