@@ -138,6 +138,17 @@ def test_what_leaves_all_else_dark_is_warned_of() -> None:
     assert not said
 
 
+@pytest.mark.parametrize("kind", ["mirror", "lambert"])
+def test_samples_are_no_brighter_than_is_asked(kind: str) -> None:
+    scene = room((kind, "lambert", "lambert", "lambert"), (12, 9))
+    plain = vtray.render(scene, integrator="whitted").linear
+    image = vtray.render(scene, integrator="whitted", firefly=0.25)
+    peak = np.maximum(plain.max(axis=2, keepdims=True), 1e-9)
+    assert (peak > 100).any()
+    assert image.linear == pytest.approx(plain * np.minimum(1, 0.25 * 255 / peak))
+    assert vtray.trace_pixel(image, 6, 8).light == pytest.approx(image.linear[8, 6])
+
+
 @pytest.mark.parametrize("faded", [1, 3])
 def test_what_does_not_go_together(faded: int) -> None:
     scene = room(("mirror", "lambert", "lambert", "lambert"))

@@ -127,8 +127,9 @@ def pack_looks(parts: Sequence[MadeOf], rows: Rows, unit: float, scene: Scene) -
     """
     integrator = scene.render.integrator
     materials = [material for one in parts for material in one.materials]
-    is_matt = all(isinstance(material, Lambert) for material in materials)
-    if integrator == "direct" or (integrator == "whitted" and is_matt):
+    is_plain = all(isinstance(material, Lambert) for material in materials)
+    is_plain &= scene.render.firefly == "off"
+    if integrator == "direct" or (integrator == "whitted" and is_plain):
         return None
     looks = [_look_of(material, unit) for material in materials_by_row(parts)]
     after = len(materials)
@@ -178,10 +179,9 @@ def _absorbs(material: Material) -> bool:
 
 
 def _brightest(scene: Scene) -> float:
-    """Return the brightest light of a path, 255 for white."""
+    """Return the brightest light of a sample, 255 for white."""
     firefly = scene.render.firefly
-    is_cut = scene.render.integrator == "path" and firefly != "off"
-    return 255.0 * float(firefly) if is_cut else math.inf
+    return math.inf if firefly == "off" else 255.0 * float(firefly)
 
 
 def _albedos(looks: Sequence[tuple[int, list[float]]]) -> Floats | None:

@@ -163,9 +163,9 @@ def render(
     depth
         Over how many surfaces light is followed, from 0 to 64; 8 by default.
     firefly
-        The brightest light that one path may bring to a pixel with ``integrator="path"``, 1 for
-        white: specks of light become darker, and so does the picture, which is then biased.
-        ``"off"`` by default.
+        The brightest light that one sample may bring to a pixel with ``integrator="whitted"`` and
+        ``"path"``, 1 for white: specks of light become darker, and so does the picture, which is
+        then biased; edges of bright things become smooth. ``"off"`` by default.
     edge_samples
         Rays for each pixel whose samples differ much, if that is more than `samples`: for one pixel
         of sixteen at the most, those that differ most. 16 is the default of scenes whose lights

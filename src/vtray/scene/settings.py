@@ -138,7 +138,7 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
     depth: Annotated[Depth, Option("N", "over how many surfaces light is followed")] = DEPTH
     firefly: Annotated[
         Firefly,
-        Option("off|NUMBER", "the brightest light of one path, 1 for white: less grain, too dark"),
+        Option("off|NUMBER", "the brightest light of one sample, 1 for white: less grain, too dark"),
     ] = "off"
     edge_samples: Annotated[
         Samples, Option("N", "rays for the pixels whose samples differ most, if that is more")
@@ -224,8 +224,9 @@ class RenderSettings(
     depth : int
         Over how many surfaces light is followed at the most, from 0 to 64; 8 by default.
     firefly : "off" or float
-        The brightest channel that one path of `integrator="path"` may bring to a pixel, > 0, 1 for
-        white: specks of light become darker, and so does the picture. "off" by default.
+        The brightest channel that one sample may bring to a pixel by "whitted" and "path", > 0, 1
+        for white: specks of light become darker, and so does the picture; edges of bright things
+        become smooth. "off" by default.
     edge_samples : int
         Rays for each pixel whose samples differ much, if that is more than `samples`, from 1 to
         65536: for one pixel of sixteen at the most, those that differ most. In direct light, where
