@@ -149,6 +149,21 @@ def test_samples_are_no_brighter_than_is_asked(kind: str) -> None:
     assert vtray.trace_pixel(image, 6, 8).light == pytest.approx(image.linear[8, 6])
 
 
+@pytest.mark.parametrize("samples", [1, 4])
+@pytest.mark.parametrize("integrator", ["whitted", "path"])
+def test_lamps_that_are_seen_are_no_brighter_either(integrator: str, samples: int) -> None:
+    scene = room(("lambert",) * 4, (12, 9))
+    scene.lights = [vtray.SphereLight((0, 2, 1.5), 0.7, radiance=40, visible=True)]
+    settings: dict[str, Any] = {"integrator": integrator, "samples": samples, "exposure": 1}
+    x, y = 6, 3
+    assert vtray.render(scene, **settings).linear[y, x].max() == 40 * 255
+    image = vtray.render(scene, firefly=1.5, **settings)
+    told = vtray.trace_pixel(image, x, y)
+    for light in (image.linear[y, x], image.emission[y, x], told.light):
+        assert max(light) == pytest.approx(1.5 * 255)
+    assert image.linear.max() < 1.5001 * 255
+
+
 @pytest.mark.parametrize("faded", [1, 3])
 def test_what_does_not_go_together(faded: int) -> None:
     scene = room(("mirror", "lambert", "lambert", "lambert"))

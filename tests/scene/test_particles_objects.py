@@ -140,6 +140,30 @@ def test_tables_that_are_yet_to_be_worked_out() -> None:
             take(table)
 
 
+class Sparse:
+    """What the sparse arrays of SciPy have."""
+
+    dtype, shape = np.dtype(float), (2, 3)
+
+    def toarray(self) -> Any:
+        return np.ones(self.shape)
+
+
+def test_sparse_arrays_are_not_taken() -> None:
+    remedy = r"got a sparse array of dtype float64 and shape \(2, 3\); give what its toarray\(\) "
+    for take in (
+        vtray.Particles,
+        lambda array: vtray.Scene().add_spheres(array, 1),
+        lambda array: vtray.Scene().add_spheres(np.eye(3), array),
+    ):
+        with pytest.raises(SceneError, match=remedy):
+            take(Sparse())
+
+
+def test_a_table_without_rows_has_no_dtype() -> None:
+    assert len(vtray.Scene().add_spheres(pd.DataFrame(columns=["x", "y", "z"]), 1)) == 0
+
+
 def test_fields_of_records_are_columns() -> None:
     fields = [("x", "i4"), ("y", "f4"), ("z", "f8"), ("element", "S1")]
     records = np.array([(0, 1, 2, b"O")], fields)

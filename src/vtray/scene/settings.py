@@ -138,7 +138,7 @@ class Settings(msgspec.Struct, frozen=True, gc=False):
     depth: Annotated[Depth, Option("N", "over how many surfaces light is followed")] = DEPTH
     firefly: Annotated[
         Firefly,
-        Option("off|NUMBER", "the brightest light of one sample, 1 for white: less grain, too dark"),
+        Option("off|NUMBER", "the brightest light of a sample, 1 for white: less grain, too dark"),
     ] = "off"
     edge_samples: Annotated[
         Samples, Option("N", "rays for the pixels whose samples differ most, if that is more")

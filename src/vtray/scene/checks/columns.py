@@ -152,6 +152,8 @@ def array_words(column: Column, count: object = "n") -> str:
 
 def _to_array(found: Any, column: Column, place: str) -> AnyArray:  # noqa: ANN401
     """Return an array of numbers."""
+    import numpy as np
+
     given: Any = msgspec.structs.astuple(found) if isinstance(found, msgspec.Struct) else found
     remedy = remedy_for(given, column.table)
     words = f"{place}: expected {array_words(column)}"
@@ -160,7 +162,7 @@ def _to_array(found: Any, column: Column, place: str) -> AnyArray:  # noqa: ANN4
     try:
         array: AnyArray = converted(given, column.table if column.row else ())
         if column.row:  # tables whose columns differ, or lack entries, are arrays of objects
-            array = without_objects(array)
+            array = without_objects(array) if array.size else array.astype(np.float64)
     except UNCONVERTED as error:
         got = show_unconverted(given, error)
     else:

@@ -16,6 +16,9 @@ RED_GREEN_BLUE = ("r", "g", "b")
 _HELD = ("atoms", "particles")
 """Attributes in which universes of MDAnalysis and data of OVITO have what has places."""
 
+_MADE_BY = ("collect", "toarray")
+"""Methods that make a table or an array of Polars' lazy tables and SciPy's sparse arrays."""
+
 UNCONVERTED = (ValueError, TypeError, RuntimeError, OverflowError, BufferError)
 """What is raised by what cannot become an array: rows of different length, arrays on a GPU."""
 
@@ -61,13 +64,19 @@ def array_of(
     SceneError
         It is one of these.
     """
-    got = "" if not is_masked(given) else show_array(given)
+    is_refused = is_masked(given) or has_to_be_made(given)
+    got = show_array(given) if is_refused else ""
     if not got:
         try:
             return without_objects(converted(given, names))
         except UNCONVERTED as error:
             got = show_unconverted(given, error)
     raise SceneError(f"{place}: {words}, got {got}{remedy_for(given, ())}")
+
+
+def has_to_be_made(given: object) -> bool:
+    """Tell whether something becomes an array only on demand: a lazy table, or a sparse array."""
+    return not hasattr(given, "__array__") and any(hasattr(given, name) for name in _MADE_BY)
 
 
 def converted(given: Any, names: Sequence[str] = ()) -> "NDArray[Any]":  # noqa: ANN401
@@ -100,7 +109,8 @@ def show_array(given: Any) -> str:  # noqa: ANN401
     if _columns(given):
         return _table(given)
     if hasattr(given, "dtype") and hasattr(given, "shape"):
-        return f"an array of dtype {given.dtype} and shape {given.shape}"
+        kind = "a sparse array" if hasattr(given, "toarray") else "an array"
+        return f"{kind} of dtype {given.dtype} and shape {given.shape}"
     from vtray.scene.checks.scene_words import show
 
     return show(given)
@@ -123,8 +133,9 @@ def remedy_for(given: Any, columns: tuple[str, ...]) -> str:  # noqa: ANN401
     """
     if is_masked(given):
         return "; leave out what is masked, or give array.filled(...)"
-    if not hasattr(given, "__array__") and hasattr(given, "collect"):
-        return "; give what its collect() returns"
+    for name in _MADE_BY:
+        if has_to_be_made(given) and hasattr(given, name):
+            return f"; give what its {name}() returns"
     if columns and _columns(given):
         from vtray.scene.checks.scene_words import quoted
 
