@@ -11,6 +11,7 @@ import pytest
 from examples import one_sphere
 
 import vtray
+from conftest import JIT
 from vtray.commands import cli
 from vtray.rendering import renderer
 
@@ -206,7 +207,7 @@ def soft_scene() -> vtray.Scene:
     scene.add_plane((0, 0, 0), (0, 0, 1))
     scene.lights = [vtray.SphereLight((-2, -3, 4), 1), vtray.SphereLight((3, -2, 4), 1, 0.3)]
     scene.add_light(vtray.Sky(0.4))
-    scene.camera = vtray.Camera.look_at((0, -6, 3), (0, 0, 0.8), size=(12, 9))
+    scene.camera = vtray.Camera.look_at((0, -6, 3), (0, 0, 0.8), size=(12, 9) if JIT else (6, 5))
     return scene
 
 

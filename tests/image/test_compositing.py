@@ -2,18 +2,18 @@
 
 from typing import Any
 
-import numba
 import numpy as np
 import pytest
 from pictures import SCENE, hand_made
 
 import vtray
+from conftest import JIT
 from vtray.image.compositing import composite
 from vtray.image.exposure import develop
 from vtray.scene.style import Fog, Outline, Style
 
 BACKGROUNDS = ["black", "transparent", vtray.Color(90, 60, 30), vtray.Color(255, 255, 255)]
-SIZE = (12, 11) if numba.config.DISABLE_JIT else (70, 67)
+SIZE = (70, 67) if JIT else (12, 11)
 PEAKS = [1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7]
 SHARES = [0.0, 0.1, 0.5, 1 / 3, 0.9999999, 1.0]
 
@@ -67,7 +67,7 @@ def test_all_at_once_is_step_by_step(
         expected = develop(
             image.with_sky, white, background, lambda: image.alpha, 2, 8, image.overlays
         )
-        for threads in (1, 3):
+        for threads in (1, 3) if JIT else (3,):
             found = composite(
                 image.linear, white, background, lambda: image._covered, image._drawn, threads
             )

@@ -289,7 +289,7 @@ def test_drawings_show_the_rays_that_go_on(integrator: str) -> None:
     pytest.importorskip("matplotlib")
     image = rendered(all_materials(), integrator)
     drawn = 0
-    for x, y in some_pixels(5 if JIT else 2):
+    for x, y in some_pixels(5 if JIT else 3):
         tree = vtray.trace_pixel(image, x, y)
         words = words_in(tree)
         goes_on = len(tree.path) > 1

@@ -125,7 +125,7 @@ def test_rough_surfaces_are_shown_as_smooth_and_said_to_be() -> None:
 
 
 def test_what_leaves_all_else_dark_is_warned_of() -> None:
-    scene = room(("mirror", "lambert", "lambert", "lambert"), (48, 36))
+    scene = room(("mirror", "lambert", "lambert", "lambert"), (32, 24))
     scene.lights = [vtray.Sun((0.3, 1, -0.8), angle=20)]
     words = r"exposure: the brightest pixel is \d+ times as bright as 99 of 100 are, which leaves "
     with pytest.warns(UserWarning, match=words + 'these dark; give exposure="auto"'):
@@ -327,7 +327,7 @@ def test_ends_of_glass_may_be_swapped(integrator: str) -> None:
         scene.add_plane((0, 0, 0), normal=(0, 0, 1), color="red", material=Emissive(1))
         scene.add_cylinder(*ends, 0.4, material=Glass(1.33, absorption=(0.2, 0, 0)))
         scene.lights = []
-        scene.camera = vtray.Camera.fit(scene, view="iso", size=(16, 12))
+        scene.camera = vtray.Camera.fit(scene, view="iso", size=(16, 12) if JIT else (8, 6))
         return vtray.render(scene, integrator=integrator, depth=8, samples=2)
 
     one, other = (0.2, -0.3, 0.4), (-0.3, 0.5, 1.6)

@@ -274,5 +274,5 @@ def test_floors_have_no_horizon() -> None:
     scene = vtray.Scene()
     scene.add_plane((0, 0, 0), normal=(0, 0, 1))
     scene.add_sphere((0, 0, 1), 1)
-    image = vtray.render(scene, size=(20, 15))
+    image = vtray.render(scene, size=(8, 6))
     assert (image.ids[..., 0] >= 0).all()
