@@ -17,12 +17,18 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from vtray.base.compiler import helpers
+from vtray.transport.materials import albedo
 
 JIT = not numba.config.DISABLE_JIT
 CONFORMANCE = Path(__file__).parents[2] / "shared" / "conformance"
 
 # The workers that run the tests keep all cores busy.
 helpers.MOST = 0
+
+# Without the compiler, each table of what a rough surface mirrors takes half a second, and is as
+# good to half a percent with fewer points.
+if not JIT:
+    albedo.POINTS, albedo.STEP = 233, 144
 
 # What pytest and Numba keep is much, and never dead: looking through it often takes a tenth of all.
 gc.set_threshold(50_000, 20, 100)
