@@ -61,7 +61,7 @@ def test_what_is_far_away_is_found_and_hides_light(
 
     def render() -> vtray.Image:
         scene = make()
-        scene.camera = vtray.Camera.look_at(eye, target, up=(0, 0, 1), size=(40, 30))
+        scene.camera = vtray.Camera.look_at(eye, target, up=(0, 0, 1), size=(24, 18))
         scene.lights = LIGHTS[lights]
         return vtray.render(scene, samples=2, exposure=1.0)
 

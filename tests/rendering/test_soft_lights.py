@@ -89,12 +89,12 @@ def test_samples_near_each_other_tell_what_each_alone_would(kind: str) -> None:
     image = render(scene, integrator="whitted", samples=samples, filter="box", tolerance=TOLERANCE)
     hits = 0
     for y in range(1, SIZE[1], 2 * STEP):
-        for x in range(1, SIZE[0], STEP):
+        for x in range(1, SIZE[0], STEP + 2):
             told = [vtray.trace_pixel(image, x, y, k) for k in range(samples)]
             mean = np.mean([tree.light for tree in told], axis=0)
             assert mean == pytest.approx(image.linear[y, x], rel=1e-12, abs=1e-12)
             hits += told[0].hit is not None
-    assert hits > 10
+    assert hits > 7
 
 
 @compiled_only
@@ -112,7 +112,7 @@ def test_threads_and_tiles_change_nothing(samples: int) -> None:
 def test_pixels_asked_together_tell_what_each_alone_would(kind: str) -> None:
     scene = scene_of(kind)
     scene.lights = vtray.lights.studio(scene)
-    images = [vtray.render(scene, size=(150, 110), samples=4, tile=tile) for tile in (64, 7, 1)]
+    images = [vtray.render(scene, size=(90, 66), samples=4, tile=tile) for tile in (64, 7, 1)]
     assert 0.1 < (images[0].samples == 4).mean() < 0.9
     for image in images[1:]:
         np.testing.assert_array_equal(image.samples, images[0].samples)

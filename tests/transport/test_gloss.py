@@ -93,7 +93,7 @@ def test_directions_are_as_dense_as_said(material: Material, cosine: float) -> N
     ]
     kept = [one for one in drawn if one.density > 0]
     found = np.bincount(cells(np.array([one.way for one in kept])), minlength=64)
-    fine = 160
+    fine = 96
     ways = [
         direction((k + 0.5) / fine, 2 * math.pi * (j + 0.5) / fine)
         for k in range(fine)
