@@ -56,7 +56,7 @@ def test_alpha_is_the_share_that_is_covered(filter_name: str) -> None:
     document = balls()
     samples = 1024 if JIT else 64
     alpha = render(document, samples=samples, filter=filter_name).alpha
-    share = covered_share(document, filter_name, 64 if JIT else 16)
+    share = covered_share(document, filter_name, 48 if JIT else 16)
     assert (alpha[share == 0] == 0).all()
     assert (alpha[share == 1] == 1).all()
     assert ((share > 0.1) & (share < 0.9)).sum() > 10
