@@ -80,7 +80,7 @@ def test_what_is_told_is_what_the_picture_shows(integrator: str, lights: int) ->
         scene.lights = [vtray.SphereLight(tuple(place), 0.2, 2) for place in places.tolist()]
     image = rendered(scene, integrator, samples=1)
     surfaces = 0
-    for x, y in some_pixels(3):
+    for x, y in some_pixels(4):
         tree = vtray.trace_pixel(image, x, y)
         assert tree.light == tuple(image.linear[y, x])
         for ray in tree.path:
@@ -88,7 +88,7 @@ def test_what_is_told_is_what_the_picture_shows(integrator: str, lights: int) ->
             surfaces += ray.hit is not None
         assert tree.path[0].hit == tree.hit
         assert tree.path[0].lights == tree.lights
-    assert surfaces > 1.3 * len(some_pixels(3))
+    assert surfaces > 1.3 * len(some_pixels(4))
 
 
 @once
