@@ -1,7 +1,6 @@
 """Other processes compile parts; whatever happens to them, the caller goes on."""
 
 import os
-import signal
 import subprocess
 import sys
 import threading
@@ -16,6 +15,7 @@ from conftest import compiled_only
 from vtray.base.compiler import helpers, parts
 from vtray.base.compiler.function_names import full_name
 from vtray.base.compiler.object_code import PART_MARK, read_object_code
+from vtray.base.signals import INTERRUPTED
 from vtray.geometry import edges, stopped
 
 ECHO = "import sys\nfor line in sys.stdin.buffer: print('met', line, '\\ndone', flush=True)"
@@ -179,21 +179,35 @@ def test_python_that_cannot_be_started(monkeypatch: pytest.MonkeyPatch, tmp_path
     assert ask("one") == []
 
 
-def test_none_outlives_who_asked(tmp_path: Path) -> None:
-    script = tmp_path / "script.py"
-    script.write_text(
-        "import time\n"
-        "from vtray.base.compiler import helpers\n"
-        "helpers.available_cores = lambda: 2\n"
-        f"helpers._PROGRAM = {SLEEP!r}\n"
-        "helpers.ask('one', b'one', print)\n"
-        "while not helpers._processes: time.sleep(0.01)\n"
-        "print(*(each.pid for each in helpers._processes))\n"
-    )
-    ended = subprocess.run([sys.executable, script], capture_output=True, check=True, timeout=20)
-    assert not ended.stderr
-    with pytest.raises(ProcessLookupError):
-        os.kill(int(ended.stdout), signal.SIG_DFL)
+ASKING = f"""
+import signal, time
+from vtray.base.compiler import helpers
+from vtray.base.signals import leave_on_signals
+leave_on_signals()
+helpers.available_cores = lambda: 2
+helpers._PROGRAM = {SLEEP!r}
+helpers.ask('one', b'one', print)
+while not helpers._processes: time.sleep(0.01)
+print(*(each.pid for each in helpers._processes), flush=True)
+"""
+
+
+@pytest.mark.parametrize(
+    ("end", "status"), [("", 0), ("signal.raise_signal(signal.SIGINT)", INTERRUPTED)]
+)
+def test_none_outlives_who_asked(end: str, status: int) -> None:
+    command = [sys.executable, "-c", ASKING + end]
+    ended = subprocess.run(command, capture_output=True, check=False, timeout=20)
+    assert (ended.returncode, ended.stderr) == (status, b"")
+    wait_until(lambda: not is_alive(int(ended.stdout)))
+
+
+def is_alive(process: int) -> bool:
+    """Tell whether a process has not ended; one that nobody has waited for yet has."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
 
 
 @compiled_only

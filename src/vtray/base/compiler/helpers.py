@@ -17,6 +17,7 @@ from concurrent.futures import Future
 
 from vtray.base.memory import COMPILER, lack_of_memory
 from vtray.base.pool import available_cores
+from vtray.base.signals import LastStep
 
 MOST = 3
 """So many at the most: there are no more parts that take long."""
@@ -39,7 +40,8 @@ _orders: queue.PriorityQueue[_Order] = queue.PriorityQueue()
 _asked: dict[str, "Future[None]"] = {}
 _lock = threading.Lock()
 _at_work: list[threading.Thread] = []
-_processes: set["subprocess.Popen[bytes]"] = set()
+_processes: dict["subprocess.Popen[bytes]", LastStep] = {}
+"""Each with what ends it should a signal end this process."""
 
 
 def get_ready() -> None:
@@ -123,7 +125,8 @@ def _started() -> "subprocess.Popen[bytes] | None":
         return None
     if not _processes:
         atexit.register(_end_all)
-    _processes.add(process)
+    _processes[process] = last = LastStep(process.kill)
+    last.__enter__()
     return process
 
 
@@ -146,7 +149,9 @@ def _end(process: "subprocess.Popen[bytes] | None") -> None:
         process.kill()
         with contextlib.suppress(OSError):
             process.communicate()
-        _processes.discard(process)
+        last = _processes.pop(process, None)
+        if last:
+            last.__exit__()
 
 
 def _end_all() -> None:
