@@ -119,6 +119,28 @@ def test_what_takes_long_is_begun_first(monkeypatch: pytest.MonkeyPatch) -> None
     assert names == ["one", "long", "longer", "two", "three"]
 
 
+@pytest.mark.usefixtures("two_cores")
+def test_who_waits_for_one_takes_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    go_on = threading.Event()
+    monkeypatch.setattr(helpers, "_PROGRAM", ECHO)
+    told: list[bytes] = []
+
+    def wait_and_tell(line: bytes) -> None:
+        assert go_on.wait(20)
+        told.append(line)
+
+    helpers.ask("one", b"one\n", wait_and_tell)
+    wait_until(helpers._asked["one"].running)
+    assert helpers.wait_for("nothing") is None
+    for name in ("two", "three", "four"):
+        helpers.ask(name, f"{name}\n".encode(), told.append)
+    helpers.leave_to_caller("three")
+    assert [helpers.wait_for("one") for _ in range(2)] == ["two", "four"]
+    threading.Timer(0.2, go_on.set).start()
+    assert helpers.wait_for("one") is None
+    assert told == [b"met b'one\\n' \n"]
+
+
 @compiled_only
 def test_parts_that_take_long_are_known_by_name() -> None:
     for function, is_long in ((stopped.stop_rays, True), (edges.has_edge, False)):

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from vtray.base.compiler import compiled, object_code, parts
+from vtray.base.compiler import compiled, helpers, object_code, parts
 from vtray.base.compiler.compiled import Device, Kernel, Part, compile_ahead, was_compiled
 from vtray.base.compiler.elf_loader import IS_KNOWN
 from vtray.base.compiler.native_call import UnsupportedError
@@ -137,6 +137,23 @@ def test_ahead_only_the_kernel_is_compiled(
     compile_ahead(two_kernels()[0], *arguments)
     compile_ahead(two_kernels()[0], "no number")
     assert len(made) == 4
+
+
+def test_while_another_process_is_at_a_part_others_are_made(
+    made: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A process is at what clears, which comes to nothing, while the other part waits twice."""
+
+    def wait_for(name: str) -> str | None:
+        return waiting.pop() if name.startswith("vtray.tests.clear") and waiting else None
+
+    first, _ = kernels = two_kernels()
+    compile_ahead(first, NUMBERS.copy(), WEIGHTS, True, 10.0)
+    waiting = [name for name in parts._origins if name.startswith("vtray.tests.add_up")] * 2
+    monkeypatch.setattr(helpers, "is_at_work_on", lambda name: "add_up" in name)
+    monkeypatch.setattr(helpers, "wait_for", wait_for)
+    use(kernels)
+    assert made == ["scaled", "add_up", "clear", "unscaled"]
 
 
 def test_what_fails_ahead_is_told_by_the_call(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -32,7 +32,9 @@ _PROGRAM = "import sys; sys.path[:] = {path!r}; from {module} import work; work(
 
 _MODULE = "vtray.base.compiler.helper"
 
-_Order = tuple[tuple[bool, int], "Future[None]", bytes, Callable[[bytes], object]]
+_POLL_SECONDS = 0.02
+
+_Order = tuple[tuple[bool, int], str, "Future[None]", bytes, Callable[[bytes], object]]
 
 _orders: queue.PriorityQueue[_Order] = queue.PriorityQueue()
 """Orders in their places, which are all different."""
@@ -73,12 +75,28 @@ def ask(name: str, order: bytes, tell: Callable[[bytes], object], *, is_long: bo
         if _at_work and name not in _asked:
             place = not is_long, len(_asked)
             _asked[name] = Future()
-            _orders.put((place, _asked[name], order, tell))
+            _orders.put((place, name, _asked[name], order, tell))
 
 
 def is_at_work_on(name: str) -> bool:
     """Tell whether one of them compiles a part now."""
     return name in _asked and _asked[name].running()
+
+
+def wait_for(name: str) -> str | None:
+    """Wait until a part is done, or another waits to be begun.
+
+    Returns
+    -------
+    str or None
+        The name of that other one, whose order is taken back; None if the part is done.
+    """
+    while is_at_work_on(name):
+        with contextlib.suppress(queue.Empty):
+            _, other, future, _, _ = _orders.get(timeout=_POLL_SECONDS)
+            if not future.cancelled() and future.cancel():
+                return other
+    return None
 
 
 def leave_to_caller(name: str) -> None:
@@ -92,7 +110,7 @@ def _serve() -> None:
     process = _started()
     while True:
         try:
-            _, future, order, tell = _orders.get(timeout=IDLE_SECONDS)
+            _, _, future, order, tell = _orders.get(timeout=IDLE_SECONDS)
         except queue.Empty:
             with _lock:
                 if not _orders.empty():

@@ -199,9 +199,15 @@ def _load(name: str) -> int | None:
 
 
 def _make(name: str) -> int:
-    """Compile a part, if no other process has; return its address."""
+    """Compile a part, if no other process has; return its address.
+
+    While another one is at it, parts are made that nobody has begun.
+    """
     from vtray.base.compiler import helpers
 
+    while (other := helpers.wait_for(name)) is not None:
+        if other not in _addresses:
+            _addresses[other] = _load(other) or _make(other)
     helpers.leave_to_caller(name)
     file = object_file(name)
     made = read_object_code(file) if file else None

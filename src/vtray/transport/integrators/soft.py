@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device, part
+from vtray.base.compiler.compiled import device, long_part
 from vtray.geometry.bits import count_bits
 from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
 from vtray.geometry.packets.batch import APART, spot_of, start_of, take_near
@@ -132,7 +132,7 @@ def sample_of(
     return column, row, first + lane % samples
 
 
-@part
+@long_part
 def add_soft_lights(
     packet: Packet,
     hits: int,

@@ -1,6 +1,6 @@
 """What many soft lights add to a hit: fans of rays that all of them share."""
 
-from vtray.base.compiler.compiled import device, part
+from vtray.base.compiler.compiled import device, long_part
 from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
 from vtray.geometry.packets.batch import start_of
 from vtray.geometry.packets.cone import CLOSED, MANY, Touching, find_touching
@@ -57,7 +57,7 @@ ASKED = 64
 """So many lights at the most are asked about edges around a hit."""
 
 
-@part
+@long_part
 def add_shared_light(
     packet: Packet,
     hits: int,
