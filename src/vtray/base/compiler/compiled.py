@@ -146,7 +146,7 @@ def before_compiling(tell: Callable[[bool], object] | None) -> None:
 
 
 def was_compiled(function: Callable[..., object]) -> bool:
-    """Tell whether a kernel is on disk, for whatever types; also if none can be, or nothing is."""
+    """Tell whether a kernel is on disk, for whatever types; True where kernels are not kept."""
     folder = cache_folder() if isinstance(function, Kernel) else None
     if folder is None:
         return True
