@@ -104,7 +104,7 @@ def _describe_sum(tree: TracedRays) -> str:
     """Return the line on the light of all rays."""
     peak = max(math.fsum(ray.light[k] for ray in tree.path) for k in range(3))
     firefly = tree.scene.render.firefly
-    is_limited = firefly != "off" and peak > 255.0 * firefly
+    is_limited = firefly != "off" and peak > 255.0 * firefly and tree.path[0].lamp is None
     limited = f", limited to a brightest channel of {255 * firefly:g}" if is_limited else ""
     return f"light        {vector_text(tree.light)}, the sum over all rays{limited}"
 

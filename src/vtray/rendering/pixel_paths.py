@@ -153,6 +153,8 @@ class _Follower:
 
     def light(self) -> Vec:
         """Return the light of all rays, no brighter than the picture shows it."""
+        if self._rays[0].lamp is not None:  # which is seen as bright as it is
+            return self._light
         peak, brightest = max(self._light), self._looks.brightest
         return uncompiled(scale)(brightest / peak if peak > brightest else 1.0, self._light)
 

@@ -63,7 +63,10 @@ def _once(call: tuple[Any, ...], find: Callable[..., Any], *arguments: Any) -> A
 
 @cache
 def _function(kind: Any) -> _Function:  # noqa: ANN401
-    return _Function(kind.templates)
+    """Return a function that remembers, and knows what Numba finds where nothing is remembered."""
+    found = _Function(kind.templates)
+    found._impl_keys = kind._impl_keys  # noqa: SLF001 - Numba has no other way to share them
+    return found
 
 
 @cache

@@ -124,7 +124,7 @@ def begin_bounces(
     ----------
     packet, lanes
         The rays of so many lanes; out: of their light, and of that of lamps that they see, is left
-        what glass around the camera leaves of it, of lamps no more than the brightest there may be.
+        what glass around the camera leaves of it.
     sheaf
         What they have in common.
     world, materials, looks
@@ -147,16 +147,7 @@ def begin_bounces(
         store(packet, GATHERED, lane, (0.0, 0.0, 0.0))
         store(packet, THROUGHPUT, lane, left)
         if numbers[PRIMITIVE + lane] < NO_PRIMITIVE:
-            light = times(left, load(packet, LIGHT, lane))
-            store(packet, LIGHT, lane, _limited(light, looks.brightest))
-
-
-@device
-def limit_lamps(packet: Packet, lanes: int, looks: Looks) -> None:
-    """Let no lamp that a ray of the camera sees be brighter than light may be."""
-    for lane in range(lanes):
-        if integers(packet)[PRIMITIVE + lane] < NO_PRIMITIVE:
-            store(packet, LIGHT, lane, _limited(load(packet, LIGHT, lane), looks.brightest))
+            store(packet, LIGHT, lane, times(left, load(packet, LIGHT, lane)))
 
 
 @device
@@ -326,7 +317,7 @@ def gather_at(packet: Packet, lane: int, light: Vec, number: int, orders: Rows) 
 def end_bounces(packet: Packet, lanes: int, brightest: float, orders: Rows) -> int:
     """Make one hit of all that each lane sees; return how many there are.
 
-    No channel is brighter than `brightest`.
+    No channel is brighter than `brightest`: what is, becomes darker as a whole.
     """
     numbers, hits = integers(packet), 0
     for lane in range(lanes):
@@ -337,18 +328,14 @@ def end_bounces(packet: Packet, lanes: int, brightest: float, orders: Rows) -> i
             numbers[SOURCE + hits] = lane
             packet[LENGTH + hits] = packet[DISTANCE + lane]
             light = load(packet, GATHERED, lane)
-            store(packet, VALUE, hits, _limited(light, brightest))
-            limit_orders(packet, lane, brightest, max(light[0], light[1], light[2]), orders)
+            peak = max(light[0], light[1], light[2])
+            store(
+                packet, VALUE, hits, scale(brightest / peak, light) if peak > brightest else light
+            )
+            limit_orders(packet, lane, brightest, peak, orders)
             packet[NOISE + hits] = packet[VARIANCE + lane]
             hits += 1
     return hits
-
-
-@device
-def _limited(light: Vec, brightest: float) -> Vec:
-    """Return light, darker as a whole where a channel of it would be brighter than that."""
-    peak = max(light[0], light[1], light[2])
-    return scale(brightest / peak, light) if peak > brightest else light
 
 
 @device

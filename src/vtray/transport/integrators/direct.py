@@ -34,7 +34,6 @@ from vtray.transport.integrators.bounces import (
     bounced_sheaf,
     end_bounces,
     follow_rays,
-    limit_lamps,
     mix_looks,
 )
 from vtray.transport.integrators.lamps import mix_lamps, see_lamps
@@ -359,7 +358,7 @@ def _light_lanes(
                 )
             see_all(packet, lanes, scene.fog)
     if looks is not None:  # noqa: SIM102
-        if linear is not None:
+        if linear is not None:  # noqa: SIM102
             if not has_width(sampling.footprint):
                 return _light_bounces(
                     packet,
@@ -376,7 +375,6 @@ def _light_lanes(
                     work,
                     stop,
                 )
-            limit_lamps(packet, lanes, looks)
     hits = _gather(packet, lanes, scene, sampling, film.mixed, work)
     keep_rays(packet, block, begin, end, first, last, work.pixels, film.kept, scene.fog)
     cast = _light_hits(
