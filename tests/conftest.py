@@ -46,10 +46,6 @@ settings.load_profile("vtray")
 
 compiled_only = pytest.mark.skipif(not JIT, reason="needs the compiler")
 once = pytest.mark.skipif(not JIT, reason="finds and reaches nothing more without the compiler")
-MEASURED_ONCE = {"figures", "geometry", "image", "rendering", "transport", "whole"}
-"""Folders whose tests run kernels: measuring which lines these reach takes three times as long as
-running them, and further cases of a test reach hardly more lines than its first."""
-
 x86_only = pytest.mark.skipif(
     platform.machine() not in {"x86_64", "AMD64"}, reason="looks for instructions of x86-64"
 )
@@ -67,23 +63,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     Of two workers, each begins with a half of all; the second, which is done sooner, then takes
     from the end of the first one's.
     """
-    if not JIT:
-        _measure_first_cases(items)
     last = [item for item in items if item.get_closest_marker("last")]
     others = [item for item in items if not item.get_closest_marker("last")]
     workers = getattr(config, "workerinput", {}).get("workercount")
     place = len(others) // 2 - len(last) if workers == 2 else len(others)
     items[:] = [*others[:place], *last, *others[place:]]
-
-
-def _measure_first_cases(items: list[pytest.Item]) -> None:
-    """Let coverage look at the first case alone of each test that runs kernels."""
-    seen = set()
-    for item in items:
-        name, folder = item.nodeid.partition("[")[0], item.path.parent.name
-        if name in seen and folder in MEASURED_ONCE:
-            item.add_marker("no_cover")
-        seen.add(name)
 
 
 @pytest.fixture
