@@ -98,12 +98,10 @@ def test_orders_are_handed_over_one_by_one(monkeypatch: pytest.MonkeyPatch) -> N
     assert ask("three") == [b"met b'three\\n' \n"]
 
 
-@pytest.mark.usefixtures("two_cores")
-def test_what_takes_long_is_begun_first(monkeypatch: pytest.MonkeyPatch) -> None:
-    # The first is at work until all others have been asked for.
-    go_on = threading.Event()
+def ask_for_one_that_waits(monkeypatch: pytest.MonkeyPatch) -> tuple[list[bytes], threading.Event]:
+    """Let the helper be at work until an event; return what it tells, and that event."""
+    told, go_on = list[bytes](), threading.Event()
     monkeypatch.setattr(helpers, "_PROGRAM", ECHO)
-    told: list[bytes] = []
 
     def wait_and_tell(line: bytes) -> None:
         assert go_on.wait(20)
@@ -111,6 +109,13 @@ def test_what_takes_long_is_begun_first(monkeypatch: pytest.MonkeyPatch) -> None
 
     helpers.ask("one", b"one\n", wait_and_tell)
     wait_until(helpers._asked["one"].running)
+    return told, go_on
+
+
+@pytest.mark.usefixtures("two_cores")
+def test_what_takes_long_is_begun_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    # The first is at work until all others have been asked for.
+    told, go_on = ask_for_one_that_waits(monkeypatch)
     for name in ("two", "long", "three", "longer"):
         helpers.ask(name, f"{name}\n".encode(), told.append, is_long=name.startswith("long"))
     go_on.set()
@@ -121,16 +126,7 @@ def test_what_takes_long_is_begun_first(monkeypatch: pytest.MonkeyPatch) -> None
 
 @pytest.mark.usefixtures("two_cores")
 def test_who_waits_for_one_takes_others(monkeypatch: pytest.MonkeyPatch) -> None:
-    go_on = threading.Event()
-    monkeypatch.setattr(helpers, "_PROGRAM", ECHO)
-    told: list[bytes] = []
-
-    def wait_and_tell(line: bytes) -> None:
-        assert go_on.wait(20)
-        told.append(line)
-
-    helpers.ask("one", b"one\n", wait_and_tell)
-    wait_until(helpers._asked["one"].running)
+    told, go_on = ask_for_one_that_waits(monkeypatch)
     assert helpers.wait_for("nothing") is None
     for name in ("two", "three", "four"):
         helpers.ask(name, f"{name}\n".encode(), told.append)
