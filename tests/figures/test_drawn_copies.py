@@ -80,7 +80,7 @@ def test_a_plane_cuts_what_it_cuts_of_copies_written_out(
     random = np.random.default_rng(1)
     scene = make()
     counts = []
-    for box in [EVERYWHERE, *random.uniform([(-3, -3), (0, 0)], [(0, 0), (3, 3)], (10, 2, 2))]:
+    for box in [EVERYWHERE, *random.uniform([(-3, -3), (0, 0)], [(0, 0), (3, 3)], (20, 2, 2))]:
         section = make_section(random)
         found, expected = cut(scene, section, box), cut_each(scene, section, box)
         for shown, wanted in zip(found, expected, strict=True):

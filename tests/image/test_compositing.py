@@ -67,7 +67,7 @@ def test_all_at_once_is_step_by_step(
         expected = develop(
             image.with_sky, white, background, lambda: image.alpha, 2, 8, image.overlays
         )
-        for threads in (1, 3) if JIT else (3,):
+        for threads in (1, 3):
             found = composite(
                 image.linear, white, background, lambda: image._covered, image._drawn, threads
             )

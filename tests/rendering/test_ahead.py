@@ -106,6 +106,11 @@ def test_not_where_a_hierarchy_would_be_built_for_it(
     assert begun[0] == []
 
 
+def test_not_where_none_is_built(begun: Ahead) -> None:
+    render(lambda scene: scene.add_spheres(PLACES[:5], 0.1))
+    assert begun[0] == []
+
+
 def test_not_where_that_takes_long(begun: Ahead, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(hierarchy, "SOON", MANY - 1)
     render(balls)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vtray
-from conftest import JIT, compiled_only, once
+from conftest import JIT, compiled_only
 from vtray.rendering.edge_pixels import BUSY, MOST, SHARP
 
 SIZE = (48, 36) if JIT else (16, 12)
@@ -30,7 +30,7 @@ def lit(color: str = "black") -> vtray.Scene:
 WHITE: dict[str, Any] = {"background": "white", "exposure": 1.0}
 
 
-@pytest.mark.parametrize("filter_name", [pytest.param("box", marks=once), "mitchell"])
+@pytest.mark.parametrize("filter_name", ["box", "mitchell"])
 @pytest.mark.parametrize("settings", [WHITE, {}, {"exposure": "auto", "background": "navy"}])
 def test_pixels_are_those_of_so_many_samples(settings: dict[str, Any], filter_name: str) -> None:
     options = {**settings, "filter": filter_name}

@@ -134,7 +134,7 @@ def apart(seed: int, view: dict) -> dict:
 
 @pytest.mark.parametrize("filter_name", ["box", "blackman-harris", "mitchell"])
 @pytest.mark.parametrize("view", CLOUD_VIEWS)
-@pytest.mark.parametrize("seed", range(2 if JIT else 1))
+@pytest.mark.parametrize("seed", range(3 if JIT else 1))
 def test_pixels_in_which_several_things_are_seen_have_samples(
     seed: int, view: dict, filter_name: str
 ) -> None:

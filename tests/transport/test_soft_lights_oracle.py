@@ -11,7 +11,7 @@ from soft_scenes import KINDS, soft_scene
 import vtray
 from conftest import once
 
-PIXELS = 2
+PIXELS = 3
 SEEDS = range(2)
 
 VIEWS = [

@@ -92,12 +92,14 @@ def accelerate(
 def without_hierarchy(scene: Scene) -> Acceleration | None:
     """Return what `accelerate` does without clip planes, but of the same types with no hierarchy.
 
-    None where that takes long or builds one: where there are copies, faded or very many shapes.
+    None where `accelerate` builds none either, and where that takes long or builds one: where there
+    are copies, faded or very many shapes.
     """
     items = [item for item in scene.objects if not isinstance(item, (Plane, Stars))]
-    wholes = _wholes(items, number_objects(items), MAX_SPHERES)
+    wholes = _wholes(items, number_objects(items), _few_of(scene))
     is_simple = not any(part.place >= 0 or _faded(part).count for part in wholes)
-    if is_simple and sum(part.count for part in wholes) <= SOON:
+    is_built = any(part.count > part.few for part in wholes)
+    if is_built and is_simple and sum(part.count for part in wholes) <= SOON:
         return _make(items, MAX_SPHERES, b"", 1, None)
     return None
 
@@ -105,7 +107,7 @@ def without_hierarchy(scene: Scene) -> Acceleration | None:
 def _accelerate_whole(scene: Scene, threads: int, progress: Progress | None) -> Acceleration:
     """Return what is kept with a scene as it is without clip planes."""
     items = [item for item in scene.objects if not isinstance(item, (Plane, Stars))]
-    few = LEAF if _has_soft_light(scene) else FEW
+    few = _few_of(scene)
     fingerprint = _fingerprint(items, threads) + few.to_bytes(8, "little")
     kept: Acceleration | None = scene.__dict__.get(_KEPT)
     if kept and kept.fingerprint == fingerprint and _are_same(kept.items, items):
@@ -116,6 +118,11 @@ def _accelerate_whole(scene: Scene, threads: int, progress: Progress | None) -> 
 
 
 _KEPT, _CLIPPED = "_acceleration", "_clipped"
+
+
+def _few_of(scene: Scene) -> int:
+    """Return up to how many shapes of a scene need no hierarchy."""
+    return LEAF if _has_soft_light(scene) else FEW
 
 
 def _has_soft_light(scene: Scene) -> bool:

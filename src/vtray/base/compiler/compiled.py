@@ -147,7 +147,7 @@ def before_compiling(tell: Callable[[bool], object] | None) -> None:
 
 def was_compiled(function: Callable[..., object]) -> bool:
     """Tell whether a kernel is on disk, for whatever types; True where kernels are not kept."""
-    folder = cache_folder() if isinstance(function, Kernel) else None
+    folder = cache_folder() if isinstance(function, Kernel) and not function.is_loaded else None
     if folder is None:
         return True
     start = f"{full_name(uncompiled(function))}-"
@@ -335,6 +335,11 @@ class Kernel(Device):
         if native is None:
             return self._dispatcher(*unpinned(arguments))
         return native(words)
+
+    @property
+    def is_loaded(self) -> bool:
+        """Whether this process has it, for whatever types."""
+        return bool(self._native)
 
     def compile_ahead(self, arguments: tuple[object, ...]) -> None:
         """Compile what Python calls, if it is new and can be kept, without its parts."""

@@ -64,7 +64,7 @@ def array_of(
     SceneError
         It is one of these.
     """
-    is_refused = is_masked(given) or has_to_be_made(given)
+    is_refused = is_masked(given) or _maker_of(given) is not None
     got = show_array(given) if is_refused else ""
     if not got:
         try:
@@ -74,9 +74,10 @@ def array_of(
     raise SceneError(f"{place}: {words}, got {got}{remedy_for(given, ())}")
 
 
-def has_to_be_made(given: object) -> bool:
-    """Tell whether something becomes an array only on demand: a lazy table, or a sparse array."""
-    return not hasattr(given, "__array__") and any(hasattr(given, name) for name in _MADE_BY)
+def _maker_of(given: object) -> str | None:
+    """Return the method that makes an array of what is one only on demand, None for all else."""
+    makers = (name for name in _MADE_BY if hasattr(given, name))
+    return None if hasattr(given, "__array__") else next(makers, None)
 
 
 def converted(given: Any, names: Sequence[str] = ()) -> "NDArray[Any]":  # noqa: ANN401
@@ -133,9 +134,8 @@ def remedy_for(given: Any, columns: tuple[str, ...]) -> str:  # noqa: ANN401
     """
     if is_masked(given):
         return "; leave out what is masked, or give array.filled(...)"
-    for name in _MADE_BY:
-        if has_to_be_made(given) and hasattr(given, name):
-            return f"; give what its {name}() returns"
+    if maker := _maker_of(given):
+        return f"; give what its {maker}() returns"
     if columns and _columns(given):
         from vtray.scene.checks.scene_words import quoted
 
