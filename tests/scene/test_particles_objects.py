@@ -162,6 +162,9 @@ def test_sparse_arrays_are_not_taken() -> None:
 
 def test_a_table_without_rows_has_no_dtype() -> None:
     assert len(vtray.Scene().add_spheres(pd.DataFrame(columns=["x", "y", "z"]), 1)) == 0
+    for kind in (complex, bool, str):  # others have one that is no number's
+        with pytest.raises(SceneError, match=r"^add_spheres: positions: expected an array of num"):
+            vtray.Scene().add_spheres(np.zeros((0, 3), kind), 1)
 
 
 def test_fields_of_records_are_columns() -> None:

@@ -162,7 +162,8 @@ def _to_array(found: Any, column: Column, place: str) -> AnyArray:  # noqa: ANN4
     try:
         array: AnyArray = converted(given, column.table if column.row else ())
         if column.row:  # tables whose columns differ, or lack entries, are arrays of objects
-            array = without_objects(array) if array.size else array.astype(np.float64)
+            is_empty = array.dtype == object and array.size == 0
+            array = array.astype(np.float64) if is_empty else without_objects(array)
     except UNCONVERTED as error:
         got = show_unconverted(given, error)
     else:
