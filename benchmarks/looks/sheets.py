@@ -3,7 +3,7 @@
     python benchmarks/looks/sheets.py FOLDER [NAME ...]
 
 Writes FOLDER/NAME.jpg for each set of particles: OVITO on the left, vtray on the right, and tells
-how long each took. OVITO is that of `make peers`.
+how long each took. OVITO is that of `make peers`, and wants a driver for Vulkan (CONTRIBUTING.md).
 """
 
 import math
@@ -36,7 +36,7 @@ def main() -> None:
         with tempfile.TemporaryDirectory() as temporary:
             theirs, seconds = render_with_ovito(particles, scene.camera, Path(temporary))
         start = time.perf_counter()
-        image = vtray.render(scene, samples=16)
+        image = vtray.render(scene)
         print(f"{name}: OVITO {seconds} s, vtray {time.perf_counter() - start:.2f} s")
         both = np.hstack([theirs, image.pixels])
         Image.fromarray(both).save(Path(folder) / f"{name}.jpg", quality=92)
@@ -61,7 +61,7 @@ def render_with_ovito(
     )
     script = Path(__file__).with_name("ovito_look.py")
     command = [python_of_peers(), script, folder / "particles.npz", folder / "picture.png"]
-    done = subprocess.run(command, check=True, capture_output=True, text=True)
+    done = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True)
     with Image.open(folder / "picture.png") as picture:
         return np.asarray(picture.convert("RGB")), done.stdout.split()[-1]
 
