@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 import vtray
-from conftest import compiled_only
+from conftest import compiled_only, once
 from vtray.animation import output as outputs
 from vtray.animation.movie_names import ALONE
 from vtray.animation.particle_scenes import Drawing, ParticleScenes, looked_at
@@ -343,6 +343,7 @@ def test_settings_that_are_none_are_not_given(tmp_path: Path) -> None:
     assert (first == third).all()
 
 
+@once
 def test_numbers_of_numpy(tmp_path: Path) -> None:
     how: dict[str, Any] = {"size": (4, 3), "threads": 1}
     keys = {np.int64(0): ball().camera, np.int64(2): ball().camera.orbit(10, about=(0, 0, 0))}

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray.animation import cluster as cluster_module
 from vtray.animation.stored import Stored
 from vtray.base.errors import RenderError, SceneError
@@ -90,6 +90,7 @@ def both(folder: Path, client: Any, scenes: Any, **options: Any) -> list[dict[st
     return [here, take(scenes, folder / "there" / "%d.png", client=client, **options)]
 
 
+@once
 def test_the_same_bytes(tmp_path: Path, client: Any) -> None:
     here, there = both(tmp_path, client, make, frames=COUNT)
     assert len(here) == COUNT
@@ -112,6 +113,7 @@ def test_particles_travel_where_the_file_is_not_seen(
     assert here == there
 
 
+@once
 def test_the_same_turntable(tmp_path: Path, client: Any) -> None:
     scene = make(3)
     for name, given in (("here.gif", None), ("there.gif", client)):
@@ -119,6 +121,7 @@ def test_the_same_turntable(tmp_path: Path, client: Any) -> None:
     assert (tmp_path / "here.gif").read_bytes() == (tmp_path / "there.gif").read_bytes()
 
 
+@once
 def test_a_worker_that_dies(tmp_path: Path, client: Any) -> None:
     killed = []
 

@@ -8,6 +8,7 @@ import pytest
 from PIL import Image
 
 import vtray
+from conftest import once
 from vtray.animation import gif_file
 from vtray.animation.feed import spread
 from vtray.animation.times import ends_of
@@ -35,6 +36,7 @@ def stills(tmp_path_factory: pytest.TempPathFactory) -> list[np.ndarray]:
     return [np.asarray(Image.open(folder / f"{k:03d}.png")).astype(int) for k in range(COUNT)]
 
 
+@once
 def test_numbered_pictures_are_renders(stills: list[np.ndarray]) -> None:
     for k, still in enumerate(stills):
         assert (vtray.render(make(k)).pixels == still).all()
@@ -55,6 +57,7 @@ def test_mp4(stills: list[np.ndarray], tmp_path: Path) -> None:
     assert [item.name for item in tmp_path.iterdir()] == ["a.mp4"]
 
 
+@once
 @pytest.mark.parametrize(("ending", "near"), [("gif", 8), ("webp", 0)])
 def test_gif_and_webp(ending: str, near: int, stills: list[np.ndarray], tmp_path: Path) -> None:
     path = vtray.animate(make, tmp_path / f"a.{ending}", frames=COUNT, fps=30)

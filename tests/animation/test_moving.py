@@ -40,6 +40,7 @@ def plane_at(k: int) -> vtray.ClipPlane:
     return vtray.ClipPlane((1, 0, 0), distance=-1 + 2 * share)
 
 
+@once
 def test_pictures_are_stills_with_the_same_planes(tmp_path: Path) -> None:
     keys = {0: (1, 0, 0, -1), 4: (1, 0, 0, 1)}
     ways: list[Any] = [keys, plane_at]
@@ -52,6 +53,7 @@ def test_pictures_are_stills_with_the_same_planes(tmp_path: Path) -> None:
             assert (found == still.pixels).all()
 
 
+@once
 def test_keyframes_say_how_many_pictures_there_are(tmp_path: Path) -> None:
     scene = balls()
     vtray.animate(scene, tmp_path / "%d.png", clip={2: (1, 0, 0, 1)}, opacity={0: 1, 3: 0.5})
@@ -85,6 +87,7 @@ def test_slabs_grow() -> None:
     assert way_of_part("slice", keys)(1) == vtray.Slice((0, 0, 1), 2, 1)
 
 
+@once
 def test_pictures_are_stills_with_the_same_opacities(tmp_path: Path) -> None:
     keys = {0: 1.0, 2: (0.5, 1.0), 4: (0.0, 1.0)}
     vtray.animate(balls(), tmp_path / "%d.png", opacity=keys, exposure=1.0)

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import vtray
-from conftest import compiled_only
+from conftest import compiled_only, once
 from vtray.base.errors import OutputError
 
 COUNT = 6
@@ -56,6 +56,7 @@ def in_one_go(folder: Path, name: str) -> dict[str, bytes]:
     return contents(folder)
 
 
+@once
 def test_goes_on_to_the_same_bytes(ended: Path) -> None:
     made = []
 
@@ -68,6 +69,7 @@ def test_goes_on_to_the_same_bytes(ended: Path) -> None:
     assert contents(ended.parent) == in_one_go(ended.parent / "whole", "movie.gif")
 
 
+@once
 def test_later_pictures_that_are_done_stay(ended: Path) -> None:
     whole = in_one_go(ended.parent / "whole", "%d.png")
     folder = ended.parent / ENDED
@@ -84,6 +86,7 @@ def test_later_pictures_that_are_done_stay(ended: Path) -> None:
     assert ended.read_bytes() == in_one_go(ended.parent / "again", "movie.gif")["movie.gif"]
 
 
+@once
 def test_numbered_pictures_go_on_too(tmp_path: Path) -> None:
     path = tmp_path / "made" / "%d.png"
     with pytest.raises(ZeroDivisionError):
@@ -95,6 +98,7 @@ def test_numbered_pictures_go_on_too(tmp_path: Path) -> None:
     vtray.animate(make, path, frames=2, resume=True)  # nothing is left to go on from
 
 
+@once
 def test_pictures_of_a_run_before_do_not_count(tmp_path: Path) -> None:
     path = tmp_path / "made" / "%d.png"
     vtray.animate(lambda k: make(k, dark=True), path, frames=COUNT)
@@ -104,6 +108,7 @@ def test_pictures_of_a_run_before_do_not_count(tmp_path: Path) -> None:
     assert contents(path.parent) == in_one_go(tmp_path / "whole", "%d.png")
 
 
+@once
 def test_nothing_to_go_on_from(tmp_path: Path) -> None:
     vtray.animate(make, tmp_path / "movie.gif", frames=COUNT, resume=True)
     assert contents(tmp_path) == in_one_go(tmp_path / "whole", "movie.gif")

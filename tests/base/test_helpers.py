@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from machine_code import code_in
 
-from conftest import compiled_only
+from conftest import compiled_only, once
 from vtray.base.compiler import helpers, parts
 from vtray.base.compiler.function_names import full_name
 from vtray.base.compiler.object_code import PART_MARK, read_object_code
@@ -144,6 +144,7 @@ def test_parts_that_take_long_are_known_by_name() -> None:
         assert parts._is_long(f"{full_name(function)}{PART_MARK}0123456789abcdef") == is_long
 
 
+@once
 @pytest.mark.usefixtures("two_cores")
 @pytest.mark.parametrize("program", ["raise SystemExit(1)", "print('nonsense')", "syntax error"])
 def test_one_that_fails_leaves_the_part_to_the_caller(

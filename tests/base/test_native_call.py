@@ -72,6 +72,7 @@ def native(kernel: Kernel) -> bool:
     return bool(kernel._native) and None not in kernel._native.values()
 
 
+@once
 @pytest.mark.parametrize("factor", [2.0, 3, True, np.float32(0.5), np.int32(4), np.float64(1.5)])
 def test_nested_arguments(factor: object) -> None:
     kernel = Kernel(sum_grid)
@@ -105,6 +106,7 @@ def test_values_come_back(value: object) -> None:
     assert (type(result), result) == (type(value), value)
 
 
+@once
 @pytest.mark.parametrize(
     "dtype", ["b1", "i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "f4", "f8"]
 )
@@ -140,6 +142,7 @@ def test_types_tell_what_must_be_compiled_anew() -> None:
         assert unpack([one])[0] == unpack([other])[0]
 
 
+@once
 @pytest.mark.parametrize("order", ["rows", "columns", "parts", "nothing", "frozen"])
 def test_arrays_of_any_order(order: str) -> None:
     square = np.arange(36.0).reshape(6, 6)

@@ -11,6 +11,7 @@ from numba.core.bytecode import FunctionIdentity
 from numba.core.compiler import Compiler
 from numba.core.typing.context import Context
 
+from conftest import once
 from vtray.base.compiler import known_types
 from vtray.base.compiler.compiled import Device
 from vtray.base.compiler.numba_pipeline import DevicePipeline
@@ -54,6 +55,7 @@ def compiled(monkeypatch: pytest.MonkeyPatch, limit: float | None) -> ObjectCode
     return compile_part(nearest, types, OPTIONS, "nearest-part")
 
 
+@once
 @pytest.mark.parametrize("limit", [None, 2.0])
 def test_steps_that_are_left_out_change_nothing(
     monkeypatch: pytest.MonkeyPatch, limit: float | None

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from conftest import once
 from vtray.base.compiler import compiled, helpers, object_code, parts
 from vtray.base.compiler.compiled import Device, Kernel, Part, compile_ahead, was_compiled
 from vtray.base.compiler.elf_loader import IS_KNOWN
@@ -202,6 +203,7 @@ def test_where_nothing_is_kept(made: list[str], monkeypatch: pytest.MonkeyPatch)
     assert sorted(made) == sorted(["add_up", "clear", "scaled", "unscaled"] * 2)
 
 
+@once
 def test_numba_compiles_a_part_as_any_function(monkeypatch: pytest.MonkeyPatch) -> None:
     use(two_kernels())  # so that device functions are compiled that call parts by their names
 

@@ -61,6 +61,7 @@ mean_, positive_, moved_, corners_ = Device(mean), Device(positive), Device(move
 clear_, third_, apart_ = Device(clear), Device(third), Seldom(corners)
 
 
+@once
 @pytest.mark.usefixtures("way")
 def test_values_of_all_kinds_go_both_ways() -> None:
     values = np.array([[1.0, 2.0], [3.0, 6.0]])

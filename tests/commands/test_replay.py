@@ -11,7 +11,7 @@ import pytest
 from examples import one_sphere
 
 import vtray
-from conftest import JIT
+from conftest import JIT, once
 from vtray.commands import cli
 from vtray.rendering import renderer
 
@@ -216,6 +216,7 @@ def keep(**settings: object) -> vtray.Image:
     return vtray.render(soft_scene(), tolerance=0.01, keep_lights=True, **settings)
 
 
+@once
 @pytest.mark.parametrize("changed", ["not", "lights", "colours"])
 def test_picture_whose_lights_were_kept_is_made_again(
     changed: str, small: Path, capfd: pytest.CaptureFixture[str]

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from PIL import Image as PillowImage
 
 import vtray
+from conftest import once
 from vtray.base import memory
 from vtray.figures.comparison import DiffError, read_picture
 
@@ -26,6 +27,7 @@ def noise(seed: int, height: int = 9, width: int = 13, channels: int = 3) -> Pix
     return np.random.default_rng(seed).integers(0, 256, (height, width, channels), np.uint8)
 
 
+@once
 @given(st.integers(0, 1000), st.integers(1, 9), st.integers(1, 9), st.sampled_from([2, 9, 255]))
 def test_figures_are_those_of_plain_numpy(seed: int, height: int, width: int, steps: int) -> None:
     a = noise(seed, height, width)

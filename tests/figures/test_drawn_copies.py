@@ -11,6 +11,7 @@ from test_drawn_shapes import make_section
 from written_out import write_out
 
 import vtray
+from conftest import once
 from vtray.figures.drawn import objects
 from vtray.figures.drawn.cylinders import DrawnCylinders
 from vtray.figures.drawn.objects import MOST_CUTS, _near, cut_shapes, placed_shapes
@@ -71,6 +72,7 @@ def spread() -> vtray.Scene:
     return placed([balls, sticks], random.uniform(-4, 4, (6, 3)))
 
 
+@once
 @pytest.mark.parametrize("make", [molecules, spread])
 @pytest.mark.parametrize("pairs", [objects.PAIRS, 40, 1])
 def test_a_plane_cuts_what_it_cuts_of_copies_written_out(

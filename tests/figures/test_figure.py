@@ -137,6 +137,7 @@ def test_no_pixel_is_changed(image: vtray.Image, dpi: float | None, flat: bool) 
     np.testing.assert_array_equal(area(figure, figure.axes[0]), expected)
 
 
+@once
 @pytest.mark.parametrize(("size", "zoom"), [((3, 2), 100), ((299, 3), 2), ((301, 2), 1)])
 def test_small_pictures_have_squares_for_pixels(size: tuple[int, int], zoom: int) -> None:
     image = vtray.render(helix(size=size))
@@ -155,6 +156,7 @@ def test_saved_file_and_notebook_have_the_pixels_too(image: vtray.Image, tmp_pat
         np.testing.assert_array_equal(np.asarray(read.convert("RGB")), canvas(figure))
 
 
+@once
 @pytest.mark.parametrize("name", ["viridis", "coolwarm", "tab10"])
 def test_colour_bar_has_the_colours_of_matplotlib(name: str) -> None:
     image = vtray.render(helix(name))
@@ -174,6 +176,7 @@ def test_colour_bar_has_the_colours_of_matplotlib(name: str) -> None:
         assert near.min() <= 1
 
 
+@once
 def test_colour_bar_of_a_flat_figure_shows_each_colour_in_all_light() -> None:
     image = vtray.render(helix())
     figure = image.figure(flat=True)
@@ -216,6 +219,7 @@ def test_each_scale_has_a_bar(image: vtray.Image) -> None:
     assert len(image.figure(colorbar=True).axes) == 2
 
 
+@once
 def test_scales_of_copies_have_bars_once() -> None:
     scene = helix()
     heat = {"color": [1.0, 3.0], "cmap": "magma"}
@@ -230,6 +234,7 @@ def test_scales_of_copies_have_bars_once() -> None:
     assert [axes.get_ylim() for axes in figure.axes[1:]] == [(1, 3), (-2, 3.5)]
 
 
+@once
 @pytest.mark.parametrize("limits", [(0, 1), (-1e-9, 3e-9), (0, 1e7), (99.99, 100.01), (-5, 250)])
 def test_marks_of_colour_bars_are_true_and_fit(limits: tuple[float, float]) -> None:
     scene = helix()
@@ -257,6 +262,7 @@ def project(scene: vtray.Scene, point: Array) -> Array:
     return place + np.array(camera.size) / 2
 
 
+@once
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 @pytest.mark.parametrize("at", [(0.3, -0.2, 6), (4, 5, 20)])
 def test_scale_bar_is_as_long_as_what_it_says(projection: str, at: Sequence[float]) -> None:

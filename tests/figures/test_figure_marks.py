@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import vtray
+from conftest import once
 from vtray.figures.annotations import Annotations
 from vtray.figures.figure import make_figure
 from vtray.figures.ink import DARK, LIGHT
@@ -49,6 +50,7 @@ def legend(made: Any) -> Any:
     return found
 
 
+@once
 @pytest.mark.parametrize(
     "arguments", [{}, {"width": 3.5, "fontsize": 7}, {"width": 3.5, "fontsize": 7, "dpi": 300}]
 )

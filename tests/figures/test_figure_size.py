@@ -54,6 +54,7 @@ def read(data: bytes) -> Array:
         return np.asarray(picture.convert("RGB"))
 
 
+@once
 def test_figure_for_a_paper_in_one_call(image: vtray.Image) -> None:
     figure = image.figure(
         width=3.5, dpi=300, fontsize=7, colorbar="energy (eV)", scalebar="nm", title="A helix"
@@ -68,6 +69,7 @@ def test_figure_for_a_paper_in_one_call(image: vtray.Image) -> None:
     assert read(saved(figure, "png", dpi=100)).shape[1] == 350
 
 
+@once
 @pytest.mark.parametrize("width", [3.3, 3.5, 7.1])
 def test_width_alone_keeps_each_pixel(image: vtray.Image, width: float) -> None:
     figure = image.figure(width=width, flat=True, colorbar="energy", title="A helix")
@@ -87,6 +89,7 @@ def test_width_and_resolution_are_kept(image: vtray.Image, width: float, dpi: fl
     assert box.height == pytest.approx(box.width * SIZE[1] / SIZE[0], abs=0.5)
 
 
+@once
 def test_pixels_are_mixed_where_they_do_not_agree(image: vtray.Image) -> None:
     figure = image.figure(width=3.5, dpi=300)
     shown = area(figure, figure.axes[0])

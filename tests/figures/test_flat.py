@@ -94,6 +94,7 @@ def read_back(colors: Array, pixels: Array) -> Array:
     return apart.argmin(axis=1)
 
 
+@once
 @pytest.mark.parametrize(("name", "most"), READABLE.items())
 def test_values_are_read_back_in_all_light(name: str, most: int) -> None:
     colors = table(name)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import vtray
+from conftest import once
 from vtray.figures.scale_bar import ScaleBar, scale_bar
 
 WORDS = "{length} at {distance}"
@@ -31,6 +32,7 @@ def bar_of(image: vtray.Image) -> ScaleBar:
     return bar
 
 
+@once
 def test_a_ball_measures_its_diameter() -> None:
     scene = vtray.Scene()
     scene.add_sphere((0, 0, 9), 1.83)

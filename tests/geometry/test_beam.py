@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from machine_code import instructions_in
 
-from conftest import compiled_only
+from conftest import compiled_only, once
 from vtray.base.compiler.compiled import Kernel
 from vtray.base.compiler.object_code import compile_object
 from vtray.geometry.bvh.boxes import Bounds
@@ -88,6 +88,7 @@ def first_meeting(apex: Vec, way: Vec, low: Vec, high: Vec) -> float:
     return float(enter) if enter <= leave else np.inf
 
 
+@once
 @given(
     vectors(COORDINATES),
     vectors(WIDTHS),

@@ -11,7 +11,7 @@ from hypothesis.extra import numpy as arrays_of
 from sphere_trees import Built
 from sphere_trees import build_spheres as build
 
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray.geometry.bvh import build as bvh_build
 from vtray.geometry.bvh import key_sort
 from vtray.geometry.bvh import split as bvh_split
@@ -129,6 +129,7 @@ def assert_equal_trees(one: Built, two: Built) -> None:
     assert (one.leaves.data == two.leaves.data).all()
 
 
+@once
 @pytest.mark.parametrize("name", CLOUDS)
 @pytest.mark.parametrize("count", [1, 2, 3, 8, 9, 64, COUNT])
 def test_tree(name: str, count: int) -> None:
@@ -141,6 +142,7 @@ def test_large_tree(name: str) -> None:
     check(*columns(name, 20_000, 3))
 
 
+@once
 @pytest.mark.parametrize("name", CLOUDS)
 def test_is_the_same_for_any_number_of_threads(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     # Small tasks, so that a small cloud takes all paths of a large one.

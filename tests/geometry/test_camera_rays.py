@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from conftest import once
 from vtray.scene.placing.directions import camera_axes, unit, view_axes
 from vtray.scene.scene import Direction
 from vtray.transport.camera_rays import CameraFrame, camera_ray
@@ -59,6 +60,7 @@ def test_axes_are_turned_by_the_smallest_rotation(normal: tuple[float, float, fl
     np.testing.assert_allclose(axes, (rotation @ np.eye(3)).T, atol=1e-14)
 
 
+@once
 @pytest.mark.parametrize("angle", [1.0, 1e-3, 1e-6, 2e-9])
 @pytest.mark.parametrize("normal", NORMALS)
 def test_view_axes_are_square_however_near_up_is(

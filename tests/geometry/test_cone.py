@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vtray
-from conftest import JIT
+from conftest import JIT, once
 from vtray import Scene
 from vtray.geometry.between import is_occluded
 from vtray.geometry.packets.cone import (
@@ -94,6 +94,7 @@ def _is_blocked(cone: Cone, aim: Aim, u: float, v: float, world: World, stack: S
     return is_occluded(world, segment, stack)
 
 
+@once
 @pytest.mark.parametrize("kind", ["few", "many", "bonds", "copies"])
 def test_what_a_cone_from_a_spot_finds_is_all_that_those_from_its_points_touch(kind: str) -> None:
     scene, random = scene_of(kind), np.random.default_rng(6)

@@ -6,6 +6,7 @@ from random import Random
 import numpy as np
 import pytest
 
+from conftest import once
 from vtray.geometry.packets.shaft import outside_shaft
 
 Vec = tuple[float, float, float]
@@ -28,6 +29,7 @@ def nearest_approach(center: Vec, light: Vec, box_center: Vec, box_half: Vec) ->
     return float(np.sqrt(((arm - part[:, None] * way) ** 2).sum(axis=1)).min())
 
 
+@once
 @pytest.mark.parametrize("seed", range(200))
 def test_sphere_outside_the_shaft_is_met_by_no_shadow_ray(seed: int) -> None:
     random = Random(seed)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import vtray
+from conftest import once
 from vtray.geometry.packets.occlusion import (
     Target,
     block_by_planes,
@@ -82,6 +83,7 @@ def segment_of(packet: Any, lane: int, target: Target) -> Segment:
     return Segment(start, target.place, plane_depth, target.plane_depth, scale, target.error_scale)
 
 
+@once
 @pytest.mark.parametrize("spread", [0.0, 1e-15, 1e-3, 0.3])
 def test_points_that_face_a_light(spread: float) -> None:
     random = np.random.default_rng(1)
@@ -106,6 +108,7 @@ def test_points_that_face_a_light(spread: float) -> None:
     assert {(True, False), (False, True)} <= seen
 
 
+@once
 @pytest.mark.parametrize("spread", [0.0, 1e-15, 1e-3, 0.3])
 def test_points_that_a_plane_hides(spread: float) -> None:
     random = np.random.default_rng(2)
@@ -134,6 +137,7 @@ def test_points_that_a_plane_hides(spread: float) -> None:
     assert 1 in outcomes
 
 
+@once
 @pytest.mark.parametrize("radius", [1e-3, 1.0, 1e6])
 def test_a_sphere_hides_no_point_on_it_that_faces_the_light(radius: float) -> None:
     random = np.random.default_rng(3)

@@ -11,6 +11,7 @@ from examples import one_sphere
 from pictures import HandMade, hand_made, read_exr
 
 import vtray
+from conftest import once
 from vtray.commands import options
 from vtray.image.aovs import AOVS, Aov, aov_of
 from vtray.image.formats.exr_file import write_exr
@@ -19,6 +20,7 @@ from vtray.image.formats.npz_file import write_npz
 from vtray.image.formats.picture import How
 
 
+@once
 @pytest.mark.parametrize("name", AOVS)
 def test_arrays_are_as_the_table_says(name: str) -> None:
     document = one_sphere()

@@ -19,6 +19,7 @@ from pictures import hand_made, png_chunks, read_exr
 from PIL import Image as PillowImage
 
 import vtray
+from conftest import once
 from vtray.image.formats.image_format import FORMATS, check_format
 
 BACKGROUNDS = ["black", "transparent", (10, 20, 30)]
@@ -231,6 +232,7 @@ BAD = [
 ]
 
 
+@once
 @pytest.mark.parametrize(("name", "options", "picture", "message"), BAD)
 def test_what_cannot_be(
     name: str, options: dict, picture: dict, message: str, tmp_path: Path

@@ -12,7 +12,7 @@ from hypothesis import given
 from strategies import crowd, may_be_dark, scenes
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 
 SLANTED = {"up": xyz(0.3, -1, 0.2), "projection": "orthographic"}
 
@@ -31,6 +31,7 @@ def assert_seen(image: vtray.Image, seen: oracle.Seen) -> None:
     np.testing.assert_array_equal(image.alpha, seen.ids >= 0)
 
 
+@once
 @may_be_dark
 @given(scenes())
 def test_equals_oracle(document: dict) -> None:
@@ -59,6 +60,7 @@ def test_equals_oracle_for_orthographic_pixels_of_any_size(seed: int, pixel: flo
     assert_seen(render(load(document), ALWAYS), oracle.look(document))
 
 
+@once
 @pytest.mark.parametrize("few", [ALWAYS, NEVER])
 @pytest.mark.parametrize("view", [{}, SLANTED])
 def test_ids_count_the_spheres_of_each_object(view: dict, few: int) -> None:

@@ -8,6 +8,7 @@ import pytest
 from examples import light, plane, scene, sphere
 
 import vtray
+from conftest import once
 from vtray.image.white import Exposed, known_white, locked_white, usual_brightness, white_of
 from vtray.scene.settings import RenderSettings
 
@@ -66,6 +67,7 @@ def test_auto_cuts_off_the_brightest() -> None:
     assert np.array_equal(image.expose().pixels, render().pixels)
 
 
+@once
 @pytest.mark.parametrize("exposure", ["max", "auto", 0.75])
 def test_stops_double_the_light(exposure: Any) -> None:
     plain = render(exposure=exposure)

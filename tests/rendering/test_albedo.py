@@ -25,6 +25,7 @@ def two_balls(**settings: object) -> vtray.Scene:
 OWN = np.array([255, 128, 0]) / 510, np.array([51, 102, 204]) / 255
 
 
+@once
 @pytest.mark.parametrize("integrator", ["direct", "path"])
 @pytest.mark.parametrize("samples", [1, 4])
 def test_albedo_is_color_times_lambert(integrator: str, samples: int) -> None:
@@ -106,6 +107,7 @@ def test_light_over_albedo_is_the_same_for_all_colors() -> None:
     )
 
 
+@once
 @pytest.mark.parametrize("integrator", ["direct", "path"])
 def test_how_many_rays_each_pixel_has(integrator: str) -> None:
     scene = two_balls()

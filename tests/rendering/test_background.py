@@ -51,6 +51,7 @@ def covered_share(document: dict, filter_name: str, grid: int) -> np.ndarray:
     return share
 
 
+@once
 @pytest.mark.parametrize("filter_name", FORMULAS)
 def test_alpha_is_the_share_that_is_covered(filter_name: str) -> None:
     document = balls()
@@ -85,6 +86,7 @@ def test_alpha_is_1_before_a_wall(samples: int) -> None:
     assert (transparent.pixels[..., 3] == 255).all()
 
 
+@once
 @pytest.mark.parametrize("exposure", ["max", 0.7, 4])
 @pytest.mark.parametrize("samples", [1, 5])
 def test_empty_pixels_have_exactly_the_background(samples: int, exposure: object) -> None:

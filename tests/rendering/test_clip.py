@@ -15,7 +15,7 @@ from single_rays import lit_pixel
 from written_out import write_out
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.packet import CAP
 from vtray.geometry.packets.stack import new_stack
@@ -91,6 +91,7 @@ def test_what_is_rendered_is_a_scene(given: Any) -> None:
         vtray.render(given)
 
 
+@once
 @pytest.mark.parametrize("cap", [False, True, (255, 255, 0)])
 @pytest.mark.parametrize(
     ("planes", "kinds", "camera"),
@@ -167,6 +168,7 @@ def test_copies_are_cut_as_if_written_out(cap: bool) -> None:
     assert set(np.unique(image.copies)) > {-1}
 
 
+@once
 @pytest.mark.skipif(JIT, reason="needs kernels of its own, which take long to compile")
 def test_copies_of_what_fades_beside_what_does_not_are_cut_as_if_written_out() -> None:
     scene = load(crowd(5, 1, "sphere", **VIEW))

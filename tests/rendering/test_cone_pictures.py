@@ -10,7 +10,7 @@ from examples import cone, cylinder, light, plane, scene, sphere
 from hierarchies import ALWAYS, NEVER, render
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 
 Scene = dict[str, Any]
 
@@ -36,6 +36,7 @@ def copse(seed: int, count: int, **camera: Any) -> Scene:
     return scene(objects, [light(5, -5, 0), light(-3, 1, 3, intensity=0.4)], **camera)
 
 
+@once
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 def test_is_near_the_oracle(projection: str) -> None:
     document = copse(1, 10 if JIT else 3, projection=projection, **(SIZE if JIT else SMALL))
@@ -47,6 +48,7 @@ def test_is_near_the_oracle(projection: str) -> None:
         np.testing.assert_array_equal(getattr(image, name), getattr(other, name))
 
 
+@once
 @pytest.mark.parametrize(
     "item",
     [

@@ -14,7 +14,7 @@ from strategies import cylinder_scenes, may_be_dark
 from written_out import write_out
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.stack import new_stack
 from vtray.geometry.world import NO_TREE
@@ -91,6 +91,7 @@ def copied_scenes(draw: st.DrawFn) -> vtray.Scene:
     return vtray.Scene(scene.camera, scene.lights, objects)
 
 
+@once
 @may_be_dark
 @settings(max_examples=100 if JIT else 10)
 @given(copied_scenes(), st.sampled_from([None, ALWAYS, NEVER]))
@@ -135,6 +136,7 @@ def list_of_colors(count: int) -> np.ndarray[Any, Any]:
     return np.stack([np.arange(count) % 256, np.full(count, 9), np.full(count, 200)], axis=1)
 
 
+@once
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 @pytest.mark.parametrize("by", [0.0, 1e6, -12345.678])
 @pytest.mark.parametrize(("shapes", "copies"), [(1, 1), (4, 40), (300, 30)] if JIT else [(2, 6)])

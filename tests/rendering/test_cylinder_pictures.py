@@ -16,7 +16,7 @@ from plain import trace_pixel as trace_plainly
 from strategies import cylinder_scenes, may_be_dark, thicket
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.stack import new_stack
 from vtray.rendering import hierarchy
@@ -41,6 +41,7 @@ def assert_same(one: vtray.Image, other: vtray.Image) -> None:
     assert one.stats["rays"] == other.stats["rays"]
 
 
+@once
 @may_be_dark
 @settings(max_examples=50 if JIT else 10)
 @given(cylinder_scenes())
@@ -52,6 +53,7 @@ def test_is_near_the_oracle(document: Scene) -> None:
     assert_same(render(load(document), ALWAYS), image)
 
 
+@once
 @pytest.mark.parametrize("view", [{}, ORTHOGRAPHIC])
 @pytest.mark.parametrize("by", [0.0, 1e6])
 @pytest.mark.parametrize("seed", range(2 if JIT else 1))
@@ -65,6 +67,7 @@ def test_is_near_the_oracle_among_many_things(seed: int, by: float, view: Scene)
     assert_same(render(load(document), ALWAYS), image)
 
 
+@once
 @pytest.mark.parametrize("view", [{}, ORTHOGRAPHIC])
 @pytest.mark.parametrize("by", [0.0, 1e6, -12345.678])
 @pytest.mark.parametrize("way", [(0, 1, 0), (0.6, 0.8, 0), (0.3, -0.5, 0.7), (0, 0.01, 1)])
@@ -127,6 +130,7 @@ STRAIGHT: dict[str, tuple[tuple[float, ...], float, float, float, Scene]] = {
 """Along which axis cylinders lie, from where to where, their radii, and how they are seen."""
 
 
+@once
 @pytest.mark.parametrize("by", [0.0, 1e3])
 @pytest.mark.parametrize("name", STRAIGHT)
 def test_no_speckle_along_straight_edges(name: str, by: float) -> None:
@@ -155,6 +159,7 @@ def test_no_speckle_along_straight_edges(name: str, by: float) -> None:
         assert (np.count_nonzero(np.diff(columns, axis=0), axis=0) <= 1).all()
 
 
+@once
 @pytest.mark.parametrize("exponent", [-980, -600, -60, 60, 600, 980])
 def test_is_the_same_at_any_size(exponent: int) -> None:
     document = thicket(2, 20 if JIT else 3)
@@ -306,6 +311,7 @@ def test_halves_meet_in_the_middle() -> None:
     assert (image.linear[..., 2][hit] > 0).all()
 
 
+@once
 def test_ids_tell_object_and_index() -> None:
     size = (30, 12) if JIT else (6, 3)
     camera = vtray.Camera((0, 0, 0), (0, 0, 1), 5, size, (6 / size[0], 2 / size[1]))
@@ -327,6 +333,7 @@ def test_ids_tell_object_and_index() -> None:
             assert tuple(row[0].tolist()) == (objects.index(wall), 0)
 
 
+@once
 @pytest.mark.parametrize("few", [ALWAYS, NEVER])
 def test_at_the_same_distance_kinds_have_an_order(few: int) -> None:
     """Spheres, then cylinders, then planes, and within a kind the order of the scene."""

@@ -116,6 +116,7 @@ def test_hierarchies_stay_with_the_scene(monkeypatch: pytest.MonkeyPatch) -> Non
     assert vtray.render(scene, size=(16, 12)).pixels.tobytes() == first.pixels.tobytes()
 
 
+@once
 def test_pixels_of_the_picture_are_told() -> None:
     image = vtray.render(flat(), size=(40, 30))
     light = vtray.trace_pixel(image, 20, 15).light

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vtray
-from conftest import JIT
+from conftest import JIT, once
 from vtray import render
 
 SIZE = (32, 24) if JIT else (12, 9)
@@ -36,6 +36,7 @@ def test_it_has_the_studio_its_own_colors_and_white_behind() -> None:
     assert (image.linear[seen].min(axis=0) > 0.1 * color).all()
 
 
+@once
 def test_copies_and_pickles_have_it_too() -> None:
     scene = balls()
     render(scene)
@@ -80,6 +81,7 @@ def test_planes_alone_are_lit_evenly_and_nothing_not_at_all() -> None:
     np.testing.assert_array_equal(render(scene).pixels[3, 4], [0x80, 0x40, 0x20])
 
 
+@once
 def test_files_keep_the_light_that_was_seen(tmp_path: Path) -> None:
     scene = balls()
     image = render(scene)
@@ -94,6 +96,7 @@ def test_files_keep_the_light_that_was_seen(tmp_path: Path) -> None:
     assert not scene.lights
 
 
+@once
 def test_it_goes_with_the_camera() -> None:
     scene = balls()
     first = render(scene).scene.lights
@@ -101,6 +104,7 @@ def test_it_goes_with_the_camera() -> None:
     assert render(scene).scene.lights != first
 
 
+@once
 def test_single_rays_see_the_same() -> None:
     scene = balls()
     image = render(scene)

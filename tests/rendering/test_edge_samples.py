@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray.rendering.edge_pixels import BUSY, MOST, SHARP
 
 SIZE = (48, 36) if JIT else (16, 12)
@@ -30,6 +30,7 @@ def lit(color: str = "black") -> vtray.Scene:
 WHITE: dict[str, Any] = {"background": "white", "exposure": 1.0}
 
 
+@once
 @pytest.mark.parametrize("filter_name", ["box", "mitchell"])
 @pytest.mark.parametrize("settings", [WHITE, {}, {"exposure": "auto", "background": "navy"}])
 def test_pixels_are_those_of_so_many_samples(settings: dict[str, Any], filter_name: str) -> None:
@@ -68,6 +69,7 @@ def allowed(share: float) -> float:
     return float(np.interp(share, [MOST, BUSY], [MOST, 0]))
 
 
+@once
 @pytest.mark.parametrize("count", [3, 12, 20, 200] if JIT else [3, 20])
 def test_fewer_have_more_the_more_there_are(count: int) -> None:
     random = np.random.default_rng(1)
@@ -83,6 +85,7 @@ def test_fewer_have_more_the_more_there_are(count: int) -> None:
         assert sharp > BUSY
 
 
+@once
 @pytest.mark.parametrize("color", ["black", "white"])
 @pytest.mark.parametrize("background", ["black", "white", "transparent"])
 def test_what_is_behind_counts(color: str, background: str) -> None:
@@ -103,6 +106,7 @@ def test_few_differences_count_for_nothing() -> None:
     assert bright.samples.max() == 16
 
 
+@once
 @pytest.mark.parametrize(
     "options",
     [
@@ -127,6 +131,7 @@ def test_none_through_a_lens() -> None:
     assert (image.samples == 4).all()
 
 
+@once
 def test_in_default_light() -> None:
     scene = lit("red")
     scene.lights = vtray.Scene().lights

@@ -34,6 +34,7 @@ def share_at(depth: np.ndarray, start: float, end: float) -> np.ndarray:
     return np.where(np.isfinite(depth), share, 0.0)
 
 
+@once
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 @pytest.mark.parametrize("background", ["black", "#204060", "transparent"])
 @pytest.mark.parametrize("color", [None, (9, 99, 199)])

@@ -16,7 +16,7 @@ from examples import light, plane, scene, sphere
 from soft_scenes import soft_scene
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray.base import pool
 from vtray.base.pool import Progress
 from vtray.base.tiles import Tile
@@ -88,6 +88,7 @@ def assert_same(one: vtray.Image, other: vtray.Image) -> None:
     np.testing.assert_array_equal(one.alpha, other.alpha)
 
 
+@once
 @pytest.mark.parametrize("samples", [1, 4])
 @pytest.mark.parametrize("background", ["black", "transparent"])
 def test_parts_get_better_and_the_whole_is_the_same(
@@ -174,6 +175,7 @@ def test_draft_has_the_view_of_the_picture(often: None) -> None:
     assert all(np.diff(np.flatnonzero(row)).max(initial=0) <= STEP for row in across)
 
 
+@once
 def test_pictures_come_seldom_where_they_take_long() -> None:
     times: list[tuple[float, float]] = []
 

@@ -12,7 +12,7 @@ from clouds import cloud
 from hierarchies import ALWAYS, render
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray.geometry.bvh import build as bvh_build
 from vtray.rendering import hierarchy as acceleration
 from vtray.rendering import renderer
@@ -84,6 +84,7 @@ BUILD: dict[str, Callable[[vtray.Scene], object]] = {
 }
 
 
+@once
 @pytest.mark.parametrize("change", BUILD)
 def test_other_objects_need_a_new_build(change: str) -> None:
     scene = scene_of(WALL, vtray.Spheres(**arrays()), BALL)
@@ -117,6 +118,7 @@ CHANGES: dict[str, Callable[[dict[str, np.ndarray]], object]] = {
 }
 
 
+@once
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize("count", [100, 4096, 8192])
 @pytest.mark.parametrize("change", CHANGES)
@@ -170,6 +172,7 @@ def test_equal_scenes_do_not_share() -> None:
     assert accelerate(one) is not accelerate(two)
 
 
+@once
 @pytest.mark.parametrize(
     "duplicate", [copy.copy, copy.deepcopy, lambda scene: pickle.loads(pickle.dumps(scene))]
 )
@@ -230,6 +233,7 @@ def test_progress_of_building(monkeypatch: pytest.MonkeyPatch) -> None:
     assert told == sorted(told)
 
 
+@once
 def test_an_error_while_building_leaves_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = scene_of(cloud("uniform", 500, 1))
     threads = threading.active_count()

@@ -52,6 +52,7 @@ def light_by_oracle(document: Any, samples: int, filter_name: str) -> np.ndarray
     return mean(seen.linear, places.weights)
 
 
+@once
 @pytest.mark.parametrize("samples", [2, 65] if JIT else [5])
 @pytest.mark.parametrize(
     ("lens", "camera"),
@@ -74,6 +75,7 @@ def test_picture_is_that_of_an_independent_renderer(lens: Any, camera: Any, samp
 LENS = {"radius": 0.8, "focus_distance": 16}
 
 
+@once
 @pytest.mark.parametrize("integrator", ["direct", "whitted", "path"])
 def test_zero_radius_is_a_pinhole(integrator: str) -> None:
     options = {"samples": 4, "integrator": integrator}
@@ -91,6 +93,7 @@ def test_one_ray_a_pixel_sees_all_sharp_and_says_so() -> None:
     assert np.array_equal(image.linear, render(seen_through(None)).linear)
 
 
+@once
 def test_same_bytes_on_any_threads_and_tiles_and_with_any_hierarchy() -> None:
     document = seen_through(LENS)
     one = render(document, samples=5, threads=1)

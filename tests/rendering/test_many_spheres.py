@@ -15,7 +15,7 @@ from plain import NOTHING, trace_pixel
 from strategies import crowd, may_be_dark, scenes
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray.commands.explain import explain_pixel
 from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.stack import new_stack
@@ -40,6 +40,7 @@ def assert_same(scene: vtray.Scene, **options: Any) -> vtray.Image:
     return image
 
 
+@once
 @may_be_dark
 @given(scenes())
 def test_equals_oracle(scene: dict) -> None:
@@ -125,6 +126,7 @@ def view(spheres: vtray.Spheres, seed: int, **camera: Any) -> vtray.Scene:
 COUNT = 700 if JIT else 12
 
 
+@once
 @pytest.mark.parametrize("seed", range(8 if JIT else 1))
 @pytest.mark.parametrize("name", CLOUDS)
 def test_equals_brute_force(name: str, seed: int) -> None:
@@ -193,6 +195,7 @@ def test_of_coincident_spheres_the_first_is_seen(few: int) -> None:
         np.testing.assert_array_equal(image.linear, expected.linear)
 
 
+@once
 @pytest.mark.parametrize("name", ["uniform", "float32", "same_place_and_radius"])
 def test_arrays_are_the_same_as_single_spheres_and_as_a_file(name: str, tmp_path: Path) -> None:
     spheres = cloud(name, COUNT // 3, 5)
@@ -210,6 +213,7 @@ def test_arrays_are_the_same_as_single_spheres_and_as_a_file(name: str, tmp_path
     np.testing.assert_array_equal(assert_same(several).linear, expected.linear)
 
 
+@once
 @pytest.mark.parametrize("count", [0, 1, 2, 23, 24, 25, 26])
 def test_any_number_of_spheres(count: int) -> None:
     spheres = cloud("uniform", 26, 3)

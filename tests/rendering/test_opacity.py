@@ -8,7 +8,7 @@ import oracle_layers
 import pytest
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray.rendering.guides import Guiding
 from vtray.rendering.hierarchy import accelerate
 from vtray.scene.fingerprint import scene_hash
@@ -45,6 +45,7 @@ def differing(image: vtray.Image, light: Any, cover: Any) -> int:
     return int(np.count_nonzero(~(is_light & np.isclose(image.alpha, cover, atol=1e-4))))
 
 
+@once
 @pytest.mark.parametrize("seed", range(12 if JIT else 2))
 def test_light_is_that_of_the_oracle(seed: int) -> None:
     scene = random_scene(seed)
@@ -167,6 +168,7 @@ def test_depth_and_ids_are_those_of_what_is_opaque_enough() -> None:
     assert image.depth[middle] == pytest.approx(np.sqrt(153) - 1.0, abs=0.2)
 
 
+@once
 @pytest.mark.parametrize("seed", range(12 if JIT else 4))
 def test_albedo_is_that_of_the_oracle(seed: int) -> None:
     scene = random_scene(seed)
@@ -189,6 +191,7 @@ def test_albedo_has_as_much_of_each_layer_as_is_seen(samples: int) -> None:
     assert image.albedo[middle] == pytest.approx([0.24, 0, 0.35])
 
 
+@once
 def test_guides_have_the_normals_of_what_ids_show() -> None:
     scene = vtray.Scene(camera(), [vtray.Light((4, -9, 8), 1.0)], [])
     scene.add_plane((0, 0, 0), (0, -1, 0.3), opacity=0.3)
@@ -280,6 +283,7 @@ def test_what_clip_planes_leave_of_a_body_is_closed() -> None:
     assert np.count_nonzero(~is_same.all(axis=-1)) <= (30 if JIT else 8)
 
 
+@once
 def test_cut_bodies_are_closed_without_a_cap_too() -> None:
     scene = cut_scene(0.7)
     del scene.objects[-2]  # the opaque ball is open

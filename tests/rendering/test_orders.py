@@ -142,6 +142,7 @@ def test_lamps_behind_layers_are_dimmed_by_them() -> None:
     assert lit.min() < 0.7 * lit.max()
 
 
+@once
 def test_what_is_seen_to_shine_is_emission() -> None:
     ball = vtray.Sphere((0, 0, 0), 0.6, (255, 51, 0), material=Emissive(2.5))
     for integrator in ("whitted", "path"):
@@ -161,6 +162,7 @@ def test_the_sky_behind_is_no_part(integrator: str) -> None:
     assert not image.emission.any()
 
 
+@once
 @pytest.mark.parametrize("samples", [1, 4])
 def test_what_shines_on_a_plane_is_direct(samples: int) -> None:
     floor = vtray.Plane((0, 0, 0), (0, 0, 1), (255, 128, 0), 0.5)
@@ -184,6 +186,7 @@ def hollow_ball(share: float, size: int = 4) -> vtray.Scene:
     return scene
 
 
+@once
 @pytest.mark.parametrize("share", [0.25, 0.75])
 @pytest.mark.parametrize("depth", [0, 1, 7] if JIT else [0, 1])
 def test_a_hollow_ball_is_lit_by_a_series(share: float, depth: int) -> None:

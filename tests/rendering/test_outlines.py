@@ -38,6 +38,7 @@ def ring(x: float, y: float, radius: float, width: float) -> np.ndarray:
     return np.clip(width / 2 + 0.5 - off, 0.0, min(width, 1.0))
 
 
+@once
 @pytest.mark.parametrize("width", [0.5, 1.0, 2.5])
 @pytest.mark.parametrize("samples", [1, 4])
 def test_a_ball_has_a_circle_around_it(width: float, samples: int) -> None:
@@ -48,6 +49,7 @@ def test_a_ball_has_a_circle_around_it(width: float, samples: int) -> None:
     assert abs(drawn.sum() / expected.sum() - 1) < 0.02
 
 
+@once
 def test_samples_do_not_change_lines() -> None:
     found = world(sphere((0, 0, 5), 1), sphere((0.7, 0.4, 5), 0.8), plane((0, 0, 9), (0, 1, -5)))
     np.testing.assert_array_equal(lines_of(found), lines_of(found, samples=4))
@@ -66,6 +68,7 @@ def test_all_threads_and_tiles_draw_the_same(projection: str) -> None:
         np.testing.assert_array_equal(image.pixels, expected.pixels)
 
 
+@once
 def test_lines_between_objects_and_particles() -> None:
     # Two balls that meet in the plane x = 0, where no distance jumps.
     centers, radius = [(-0.5, 0, 5), (0.5, 0, 5)], 0.8
@@ -117,6 +120,7 @@ def test_lines_are_as_wide_at_the_sides_of_the_picture() -> None:
     assert (narrow.max(axis=0) == drawn.max()).all()
 
 
+@once
 @pytest.mark.skipif(JIT, reason="its kernels take half a minute to compile")
 def test_lines_around_bodies_from_within() -> None:
     scene = vtray.Scene(lights=[vtray.Light((0, 0, 0), 1)])
@@ -164,6 +168,7 @@ def test_lines_are_laid_over_the_picture(background: str) -> None:
     assert np.abs(found_pixels - expected).max() <= 2
 
 
+@once
 def test_other_lights_and_colours_have_the_same_lines(tmp_path: Path) -> None:
     found = world(sphere((0, 0, 5), 0.8), sphere((0.5, 0.5, 7), 0.9))
     found.style = Style(outline=2)
@@ -191,6 +196,7 @@ def test_a_pixel_is_explained() -> None:
     assert vtray.trace_pixel(image, SIZE // 2, y).exposed.drawn is None
 
 
+@once
 def test_eye_dome_lighting_as_it_is_told() -> None:
     found = world(plane((0, 0, 8), (0.2, 0, -1)), sphere((0, 0, 6), 1), sphere((1.5, 1, 3), 0.6))
     plain = vtray.render(found, exposure=1.0)

@@ -78,6 +78,7 @@ def test_what_shines_lights_what_is_near(height: float) -> None:
     assert found == pytest.approx([4 * factor, 4 * factor * 128 / 255, 0], rel=0.05)
 
 
+@once
 def test_what_shines_is_seen_as_bright_as_it_is() -> None:
     ball = vtray.Sphere((0, 0, 0), 3, (255, 51, 0), material=Emissive(2.5))
     for integrator in ("whitted", "path"):
@@ -112,6 +113,7 @@ def test_glass_as_thin_as_air_changes_nothing() -> None:
     assert through.mean() == pytest.approx(without.mean(), rel=0.05)
 
 
+@once
 def test_metal_mirrors_what_its_measured_indices_say() -> None:
     """Of light that falls squarely: ((n - 1)**2 + k**2) / ((n + 1)**2 + k**2)."""
     from vtray.scene.metals import METALS
@@ -162,6 +164,7 @@ def test_without_bounces_paths_see_what_direct_light_shows() -> None:
     assert light_of(scene, depth=0) == pytest.approx(direct, abs=0.02)
 
 
+@once
 @pytest.mark.parametrize("samples", [1, 4])
 def test_threads_and_tiles_change_nothing(samples: int) -> None:
     objects = [
@@ -197,6 +200,7 @@ def test_more_samples_are_less_noisy() -> None:
     assert other.tobytes() != light_of(scene, samples=4, depth=4).tobytes()
 
 
+@once
 def test_materials_may_change_from_render_to_render() -> None:
     ball = vtray.Sphere((0, 0, 0), 3, (255, 51, 0))
     scene = looking_down([ball], [vtray.Sky(1)])
@@ -207,6 +211,7 @@ def test_materials_may_change_from_render_to_render() -> None:
     assert colors == pytest.approx([1, 0.25, 1])
 
 
+@once
 def test_fireflies_are_cut_where_that_is_asked() -> None:
     """A lamp in a mirror on which a matt floor lies: some paths are far brighter than the mean."""
     ball = vtray.Sphere((0, 0, 0.5), 0.5, WHITE, material="mirror")

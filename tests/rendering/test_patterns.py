@@ -105,6 +105,7 @@ def cell(along: float, length: float, size: float, times: int) -> tuple[int, flo
     return math.floor(number), abs(number - round(number))
 
 
+@once
 @pytest.mark.parametrize("kind", ["checker", "around", "along"])
 @pytest.mark.parametrize("shape", SHAPES)
 def test_colors_are_where_formulas_say(shape: str, kind: str) -> None:
@@ -172,6 +173,7 @@ def shown(place: tuple[float, float, float, float], size: float | None) -> np.nd
     return color
 
 
+@once
 @pytest.mark.parametrize("size", [None, 0.9])
 @pytest.mark.parametrize("shape", SHAPES)
 def test_pictures_are_where_formulas_say(shape: str, size: float | None) -> None:
@@ -333,6 +335,7 @@ def test_edges_of_colors_get_samples() -> None:
     assert (image.samples[image.ids[..., 0] >= 0] == 6).all()
 
 
+@once
 def test_any_threads_tell_the_same() -> None:
     scene = scene_of(all_shapes(vtray.Checker(size=0.3)))
     one, two = (vtray.render(scene, samples=3, threads=n, warn=[].append) for n in (1, 2))

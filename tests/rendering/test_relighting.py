@@ -105,6 +105,7 @@ def many(samples: int) -> tuple[vtray.Scene, dict]:
     return vtray.Scene(camera, lights, [wall, spheres, ball]), {"samples": samples}
 
 
+@once
 @pytest.mark.parametrize("samples", [1, 3])
 def test_values_become_colors_as_in_a_new_scene(samples: int) -> None:
     world, how = many(samples)
@@ -275,6 +276,7 @@ def test_without_lights_or_objects() -> None:
         vtray.render(load(scene([], [])), keep_lights=True).recolor(0, "red")
 
 
+@once
 def test_pictures_of_the_same_rays_share_surfaces_and_hold_no_other_picture() -> None:
     image = vtray.render(vtray.loads(json.dumps(one_sphere())), size=(8, 6), keep_lights=True)
     other = image.relight([2.0]).expose(1.5)

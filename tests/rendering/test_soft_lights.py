@@ -204,6 +204,7 @@ def test_a_sphere_that_nothing_hides_shines_as_its_middle(radius: float) -> None
     assert share(soft) == pytest.approx(share(scene), rel=2e-3)
 
 
+@once
 @pytest.mark.parametrize(
     ("light", "point"),
     [

@@ -102,6 +102,7 @@ def test_errors_of_samples_are_what_seeds_differ_by() -> None:
     assert (ratio > 0.6).mean() > 0.98
 
 
+@once
 def test_hard_lights_have_no_error_and_changed_pictures_none_that_is_known() -> None:
     scene = scene_of([vtray.Light((3, -4, 9))])
     image = render(scene)

@@ -77,6 +77,7 @@ def test_known_light(tonemap: Any) -> None:
     assert image.linear == pytest.approx(255 * grey)
 
 
+@once
 @pytest.mark.parametrize("tonemap", ENCODED)
 def test_white_furnace_stays_white(tonemap: Any) -> None:
     scene = wall("white", vtray.Sky())
@@ -90,6 +91,7 @@ def test_white_furnace_stays_white(tonemap: Any) -> None:
     assert (image.expose(1, stops=12).pixels == 255).all()
 
 
+@once
 def test_color_of_light_is_decoded() -> None:
     tint = vtray.Color(188, 100, 255)
     lights = [
@@ -144,6 +146,7 @@ def test_stars_are_added_to_a_background(tonemap: Any) -> None:
     assert blue[4, 6, 2] >= 90
 
 
+@once
 @pytest.mark.parametrize("samples", [1, 4])
 @pytest.mark.parametrize("tonemap", ENCODED)
 def test_background_has_exactly_its_color(samples: int, tonemap: Any) -> None:
@@ -193,6 +196,7 @@ def test_caps_are_decoded() -> None:
     assert (image.pixels[2, 3] == (200, 100, 7)).all()
 
 
+@once
 @pytest.mark.parametrize("tonemap", ENCODED)
 def test_relit_and_recolored_as_a_new_render(tonemap: Any) -> None:
     for more in ({}, {"opacity": 0.5}):
@@ -256,6 +260,7 @@ def test_light_is_stored_as_it_is(tmp_path: Path) -> None:
         assert found == pytest.approx(expected, rel=1e-6)
 
 
+@once
 def test_same_on_any_threads_and_tiles() -> None:
     given = {"tonemap": "agx", "samples": 4, "background": "navy"}
     given["size"] = (70, 90) if JIT else (18, 22)

@@ -115,6 +115,7 @@ def outlines(ax: Any) -> list[Any]:
     return sorted((path.vertices for path in paths), key=lambda xy: (len(xy), *np.round(xy[0], 6)))
 
 
+@once
 @pytest.mark.parametrize("pixel", [(18, 13), (12, 15), (14, 9), (25, 15), (7, 25)])
 def test_drawings_are_those_of_copies_written_out(pixel: tuple[int, int]) -> None:
     scene = molecules(size=(36, 27))

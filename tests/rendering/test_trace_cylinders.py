@@ -5,6 +5,7 @@ import pytest
 from test_trace_pixel import floor_pixel, lit_floor, marks, texts
 
 import vtray
+from conftest import once
 
 pytest.importorskip("matplotlib", reason="needs the extra vtray[figure]")
 
@@ -38,6 +39,7 @@ def test_what_blocks_has_the_color_of_its_half(
     assert "adds       nothing: objects[1], cylinder 1, is in the way" in str(tree)
 
 
+@once
 @pytest.mark.parametrize(("column", "color"), [(22, RED), (42, BLUE)])
 def test_what_is_hit_has_the_color_of_its_half(column: int, color: tuple[int, int, int]) -> None:
     scene = floor_with(vtray.Cylinder((30, 0, 5), (30, 9, 5), 1), bond(-9, 9))
@@ -78,6 +80,7 @@ def test_drawing_of_a_cylinder_cut_along() -> None:
         assert half.get_facecolor()[:3] == pytest.approx(np.array(color) / 255)
 
 
+@once
 def test_box_of_a_drawing_includes_the_cylinder_that_is_hit() -> None:
     item = vtray.Cylinder((-1, -3, 5), (1, 0.5, 5), 0.4)
     scene = floor_with(item)
@@ -94,6 +97,7 @@ def test_box_of_a_drawing_includes_the_cylinder_that_is_hit() -> None:
         assert (places < (high, top)).all()
 
 
+@once
 @pytest.mark.parametrize(
     "item",
     [

@@ -433,6 +433,7 @@ def lines_from_hit(ax: Any) -> list[np.ndarray]:
     return [np.array([path.vertices[-1] for path in item.get_paths()]) for item in collections]
 
 
+@once
 @pytest.mark.parametrize("kind", SOFT)
 def test_drawing_of_a_light_that_is_no_point(kind: str) -> None:
     tree = vtray.trace_pixel(softly_lit(POINT, SOFT[kind]), *floor_pixel())
@@ -473,6 +474,7 @@ def test_drawing_of_lights_of_which_nothing_arrives() -> None:
     assert "lights[0], sun: blocked by 2 surfaces" in texts(ax)
 
 
+@once
 def test_the_light_that_adds_most_chooses_the_drawing() -> None:
     weak, strong = vtray.Light((3, -2, 5), 0.1), vtray.Ambient(2.0)
     tree = vtray.trace_pixel(softly_lit(weak, strong), *floor_pixel())
@@ -529,6 +531,7 @@ def test_orthographic_rays_start_side_by_side() -> None:
     np.testing.assert_allclose(pixel, (5, 0), atol=1e-12)
 
 
+@once
 def test_text_of_pictures_with_settings() -> None:
     world = lit_floor()
     x, y = floor_pixel()

@@ -95,6 +95,7 @@ def test_matt_scenes_are_those_of_the_direct_integrator() -> None:
     assert direct.linear.tobytes() == whitted.linear.tobytes()
 
 
+@once
 @pytest.mark.parametrize("samples", [1, 4])
 def test_threads_and_tiles_change_nothing(samples: int) -> None:
     scene = room(("mirror", "glass", "lambert", "lambert"), (40, 30) if JIT else (10, 8))
@@ -224,6 +225,7 @@ def test_wrong_indices(ior: Any) -> None:
         Glass(ior)
 
 
+@once
 def test_mirrors_show_skies() -> None:
     """A mirror ball in an empty sky looks like the sky, tinted; so does glass as thin as air."""
     scene = vtray.Scene()
@@ -265,6 +267,7 @@ def test_mirrors_show_lamps_behind_the_camera(lamp: str) -> None:
         assert vtray.trace_pixel(image, 0, 0).light == tuple(image.linear[0, 0])
 
 
+@once
 @pytest.mark.parametrize("integrator", ["whitted", "path"])
 @pytest.mark.parametrize("material", ["mirror", Glass(1, thin=True)])
 @pytest.mark.parametrize(("angle", "shown"), [(5.01, 0.25), (40, 0.25), (4.99, 0)])
@@ -318,6 +321,7 @@ def test_glass_between_flat_caps(kind: str, ends: Any) -> None:
     np.testing.assert_allclose(image.linear[1, 1] / 255, light, rtol=1e-5)
 
 
+@once
 @pytest.mark.parametrize("integrator", ["whitted", "path"])
 def test_ends_of_glass_may_be_swapped(integrator: str) -> None:
     def taken(*ends: tuple[float, float, float]) -> vtray.Image:

@@ -138,6 +138,7 @@ def test_edges_in_one_plane() -> None:
         find_bonds(Particles([(0, 0, 0)], cell=[[1, 0, 0], [1, 1, 0], [2, 1, 0]]), cutoff=1)
 
 
+@once
 @pytest.mark.parametrize("axes", [[0], [1], [2], [0, 1, 2]])
 @pytest.mark.parametrize("far", [1e7, -1e12, 1e300])
 def test_particles_that_are_lost_cost_nothing(far: float, axes: list[int]) -> None:

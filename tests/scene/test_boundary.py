@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import vtray
+from conftest import once
 from vtray.base.errors import SceneError
 from vtray.scene.copies import Copies
 from vtray.scene.cylinders import Cylinders
@@ -120,6 +121,7 @@ def standing(objects: Any, kind: str) -> list[tuple[float, ...]]:
     return sorted(found)
 
 
+@once
 @pytest.mark.parametrize("written_out", [True, False])
 @pytest.mark.parametrize("times", [(1, 1, 1), (2, 1, 3)])
 @pytest.mark.parametrize("tolerance", [True, 0.35])

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scene_text import TEXT, changed, message_of, replaced
 
+from conftest import once
 from vtray.base.errors import VtrayError
 from vtray.scene.files.scene_file import loads
 from vtray.scene.scene import Scene
@@ -227,6 +228,7 @@ VALUES = st.recursive(
 )
 
 
+@once
 @given(st.sampled_from(PLACES), VALUES, st.booleans())
 def test_any_value_anywhere_gives_a_scene_or_an_error(
     place: str, value: object, ascii_only: bool

@@ -79,6 +79,7 @@ def directions() -> st.SearchStrategy[tuple[float, float, float]]:
     return st.tuples(part, part, part).filter(lambda v: math.hypot(*v) > 0.1)
 
 
+@once
 @given(
     seed=st.integers(0, 10**6),
     count=st.integers(1, 12),

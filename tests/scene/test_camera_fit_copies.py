@@ -121,6 +121,7 @@ def test_sphere_around_copies(seed: int, expanded: int) -> None:
     assert radius == pytest.approx(reach, rel=1e-15)
 
 
+@once
 @pytest.mark.parametrize("kind", ["box", "ball", "shell", "same"])
 @pytest.mark.parametrize("other", ["box", "ball", "shell", "same"])
 def test_the_farthest_pair_of_many_is_found(

@@ -154,6 +154,7 @@ def test_fit_takes_all_kinds_of_objects() -> None:
     assert places[:, :2].max() - places[:, :2].min() == pytest.approx(299, rel=1e-2)
 
 
+@once
 @pytest.mark.parametrize("direction", [(0, 0, -1), (1, 2, -1)])
 def test_fit_of_many_cylinders(direction: Any, monkeypatch: Any) -> None:
     """What is worked out piece by piece, of few chosen among many, is the same to the last bit."""

@@ -21,6 +21,7 @@ from hypothesis import strategies as st
 from PIL import ImageColor
 
 import vtray
+from conftest import once
 from vtray import Color, ColorScale, Scene, SceneError
 from vtray.base.extras import pip_install
 from vtray.colors import to_rgb
@@ -84,6 +85,7 @@ def test_one_color(color: Any, rgb: Any) -> None:
     assert settings.background == ("black" if rgb == (0, 0, 0) else Color(*rgb))
 
 
+@once
 @pytest.mark.parametrize("name", [*mpl.colors.CSS4_COLORS, *mpl.colors.TABLEAU_COLORS, *"bgrcmykw"])
 def test_names_are_those_of_matplotlib(name: str) -> None:
     expected = np.floor(np.array(mpl.colors.to_rgb(name)) * 255 + 0.5)

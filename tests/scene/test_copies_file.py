@@ -19,6 +19,7 @@ from test_spheres import CAMERA, COUNT, columns
 from written_out import written_out, written_out_file
 
 import vtray
+from conftest import once
 from vtray import (
     Copies,
     Cylinder,
@@ -395,6 +396,7 @@ def test_unknown_keys_of_dictionaries() -> None:
 # ---- there and back
 
 
+@once
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     document=copied_scenes(),

@@ -19,6 +19,7 @@ from test_spheres import BYTE, CAMERA, COUNT
 from test_spheres import columns as columns_of_spheres
 
 import vtray
+from conftest import once
 from vtray import Cylinder, Cylinders, Light, OutputError, Scene, SceneError, Spheres
 from vtray.scene.files.scene_file import load, loads
 from vtray.scene.files.schema import scene_schema
@@ -369,6 +370,7 @@ ONE_CYLINDER = st.fixed_dictionaries(
 )
 
 
+@once
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(many=st.lists(many_cylinders(), max_size=2), single=st.lists(ONE_CYLINDER, max_size=2))
 def test_files_and_dictionaries_give_the_same_scene(

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from strategies import scenes
 
 import vtray
-from conftest import compiled_only
+from conftest import compiled_only, once
 from vtray.scene.fingerprint import PIECE, hash_arrays, scene_hash
 
 CAMERA = vtray.Camera((0, 0, 0), (0, 0, 1), 1, (4, 3), (0.1, 0.1))
@@ -38,6 +38,7 @@ def many(count: int = 50, **arrays: object) -> vtray.Scene:
     return vtray.Scene(CAMERA, [vtray.Light((1, 2, 3), 0.7)], objects)
 
 
+@once
 @given(document=scenes())
 def test_saved_and_loaded_again_it_is_the_same(
     document: dict, tmp_path_factory: pytest.TempPathFactory
@@ -157,6 +158,7 @@ def test_numbers_that_keep_sum_and_checksum_are_told() -> None:
     assert hash_arrays([words], 1) != before
 
 
+@once
 def test_another_process_finds_the_same() -> None:
     code = (
         "import sys; sys.path[:] = sys.argv[1:]\n"

@@ -93,6 +93,7 @@ def test_settings_in_default_light_are_those_that_were_set_and_else_smooth() -> 
     assert settings_of(scene) == vt.RenderSettings()
 
 
+@once
 def test_a_picture_in_default_light_has_smooth_edges_unless_it_is_said_otherwise() -> None:
     scene = vt.Scene(camera_at())
     scene.add_sphere((0, 0, 0), 5 * PIXEL, color="black")

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import vtray
+from conftest import once
 from vtray.base.errors import SceneError
 from vtray.scene.particles import drawing
 from vtray.scene.particles.hydrogen_bonds import Criterion, find_hydrogen_bonds
@@ -47,6 +48,7 @@ def by_loops(particles: Particles, length: float, angle: float) -> set[tuple[int
     return found
 
 
+@once
 @pytest.mark.parametrize(
     ("cell", "length", "angle"),
     [(np.eye(3) * 6.0, 2.5, 120.0), (SKEW, 2.5, 120.0), (SKEW, 3.2, 150.0)],

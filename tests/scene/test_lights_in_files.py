@@ -13,6 +13,7 @@ from scene_text import TEXT, changed, message_of, read, replaced
 from strategies import colors, directions, places
 
 import vtray
+from conftest import once
 from vtray import Ambient, Color, Gradient, Light, RectangleLight, Sky, SphereLight, Sun
 from vtray.scene.checks.json_tree import JsonTree
 from vtray.scene.checks.scene_check import FileChecker
@@ -93,6 +94,7 @@ READ: list[tuple[dict[str, Any], AnyLight]] = [
 ]
 
 
+@once
 @pytest.mark.parametrize(("written", "light"), READ)
 def test_what_is_read(written: dict[str, Any], light: object) -> None:
     for others in ([], [POINT], [{"type": "sky"}], [POINT, {"type": "sky"}]):
@@ -194,6 +196,7 @@ BAD: list[tuple[object, str, str]] = [
 ]
 
 
+@once
 @pytest.mark.parametrize(("light", "place", "problem"), BAD)
 def test_what_is_refused(light: object, place: str, problem: str) -> None:
     for others in ([], [POINT], [{"type": "sky"}], [POINT, {"type": "sky"}]):
@@ -318,6 +321,7 @@ def all_lights() -> st.SearchStrategy[dict[str, Any]]:
     )
 
 
+@once
 @given(written=st.lists(all_lights(), max_size=6))
 def test_lights_saved_and_loaded_again_are_the_same(
     written: list[dict[str, Any]], tmp_path_factory: pytest.TempPathFactory
@@ -353,6 +357,7 @@ def spoilt_lights(draw: st.DrawFn) -> list[dict[str, Any]]:
     return lights
 
 
+@once
 @given(written=spoilt_lights())
 def test_a_quick_look_finds_what_a_close_one_finds(written: list[dict[str, Any]]) -> None:
     text = lit_by(*written)

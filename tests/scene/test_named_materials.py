@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import vtray
+from conftest import once
 from vtray.scene.fingerprint import scene_hash
 from vtray.scene.materials import MaterialName
 
@@ -66,6 +67,7 @@ def test_are_as_if_written_where_they_are_named() -> None:
     assert vtray.load_dict(given) == vtray.load_dict(plain)
 
 
+@once
 def test_are_those_of_blends_too() -> None:
     blend = {"type": "blend", "first": "ruby", "second": "chrome", "weight": 0.25}
     given = scene(blend, "speckled")
@@ -77,6 +79,7 @@ def test_are_those_of_blends_too() -> None:
     jsonschema.validate(given, json.loads(SCHEMA.read_text(encoding="utf-8")))
 
 
+@once
 def test_blends_of_the_table_may_name_others() -> None:
     given = scene("wet", "mixed")
     given["materials"]["wet"] = {"type": "blend", "first": "water", "second": "chrome"}

@@ -17,6 +17,7 @@ from scene_text import ABSENT, TEXT, changed, message_of, read, replaced
 from strategies import directions, scenes
 
 import vtray
+from conftest import once
 from vtray import Camera, Color, Direction, RenderSettings, Scene, SceneError
 from vtray.scene.checks.json_tree import JsonTree
 from vtray.scene.files.scene_file import loads
@@ -304,6 +305,7 @@ def spheres_in_dictionaries() -> st.SearchStrategy[dict[str, Any]]:
     return st.builds(make, st.integers(0, 9), st.sampled_from(["f4", "f8"]), st.booleans())
 
 
+@once
 @given(
     scenes(),
     st.none() | directions(),

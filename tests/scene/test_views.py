@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import vtray
+from conftest import once
 from vtray import Camera, SceneError, Vector
 from vtray.scene.placing.bounds import Balls
 from vtray.scene.placing.moved import axes_of
@@ -270,6 +271,7 @@ def test_sheets_are_seen_from_their_near_edges(
     assert around @ np.cross(*edges) == pytest.approx(0, abs=1e-9)
 
 
+@once
 def test_floors_have_no_horizon() -> None:
     scene = vtray.Scene()
     scene.add_plane((0, 0, 0), normal=(0, 0, 1))

@@ -152,6 +152,7 @@ def test_pixels_in_which_several_things_are_seen_have_samples(
         assert not (several & ~marks_of(document, filter=filter_name, few=few)).any()
 
 
+@once
 def test_empty_pixels_and_the_inside_of_things_have_no_samples() -> None:
     ball = sphere((0, 0, 5), 1)
     document = scene([ball], [light(0, 0, 0)], size=[64, 48], resolution=[0.025, 0.025])
@@ -249,6 +250,7 @@ def test_few_samples_of_each_filter(scattered: dict, filter_name: str, samples: 
         assert_sampled(document, samples, filter_name, seed)
 
 
+@once
 @pytest.mark.parametrize("filter_name", ["box", "gaussian"])
 def test_pixels_with_another_thing_or_shadow_in_reach_have_samples(
     scattered: dict, filter_name: str
@@ -273,6 +275,7 @@ def test_pixels_with_another_thing_or_shadow_in_reach_have_samples(
     assert not (beside & ~marks_of(document, filter=filter_name)).any()
 
 
+@once
 def test_seed_chooses_the_places(scattered: dict) -> None:
     document = scattered | {"camera": scattered["camera"] | ({} if JIT else {"size": [9, 7]})}
     one, again, other = (render(document, samples=4, seed=seed) for seed in (5, 5, 6))

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from machine_code import instructions_in
 
-from conftest import JIT, compiled_only, x86_only
+from conftest import JIT, compiled_only, once, x86_only
 from vtray.base.compiler.compiled import Kernel, kernel, uncompiled
 from vtray.base.compiler.object_code import compile_object
 from vtray.transport.sampling.fans import (
@@ -102,6 +102,7 @@ def test_fans_are_blocks_of_sobols_sequence(fan: int, samples: int) -> None:
     np.testing.assert_array_equal(numbers % fan, numbers[:1].repeat(samples, axis=0))
 
 
+@once
 @pytest.mark.parametrize("fan", FANS)
 @given(keys=KEYS)
 def test_runs_share_a_cell(fan: int, keys: tuple[int, int]) -> None:
@@ -114,6 +115,7 @@ def test_runs_share_a_cell(fan: int, keys: tuple[int, int]) -> None:
         assert len(set(map(tuple, block.tolist()))) == fan // RUN
 
 
+@once
 @pytest.mark.parametrize("fan", FANS)
 @given(keys=KEYS)
 def test_runs_that_follow_share_larger_cells(fan: int, keys: tuple[int, int]) -> None:

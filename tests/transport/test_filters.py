@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from filter_formulas import FORMULAS, Formula
 
+from conftest import once
 from vtray.transport.sampling.filters import FILTERS, filter_places, place_in_filter
 from vtray.transport.sampling.sobol import scrambled, sobol_points
 
@@ -64,6 +65,7 @@ def test_the_sign_changes_where_the_filter_does(name: str) -> None:
         assert formula(x) >= 0 if x <= FILTERS[name].positive else formula(x) < 0
 
 
+@once
 @pytest.mark.parametrize("frequency", [0.0, 0.25, 0.5, 1.0, 1.75])
 @pytest.mark.parametrize("name", FORMULAS)
 def test_samples_measure_what_the_filter_does(name: str, frequency: float) -> None:

@@ -6,6 +6,7 @@ from itertools import product
 import numpy as np
 import pytest
 
+from conftest import once
 from vtray.base.compiler.compiled import uncompiled
 from vtray.geometry.vector import dot
 from vtray.transport.lights.spherical_rectangle import (
@@ -47,6 +48,7 @@ def edges(seen: SphericalRectangle) -> tuple[float, float, float, float]:
     return seen.left, seen.right, seen.bottom, seen.top
 
 
+@once
 @pytest.mark.parametrize(("middle", "half"), some_rectangles())
 def test_directions_fill_a_rectangle_evenly(
     middle: tuple[float, float, float], half: tuple[float, float]

@@ -13,7 +13,7 @@ from plain import NOTHING, trace_pixel
 from strategies import crowd, may_be_dark, scenes
 
 import vtray
-from conftest import CONFORMANCE, JIT, compiled_only
+from conftest import CONFORMANCE, JIT, compiled_only, once
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
 
@@ -29,6 +29,7 @@ def read_png(path: object) -> np.ndarray:
         return np.asarray(image.convert("RGB")).astype(int)
 
 
+@once
 @may_be_dark
 @given(scenes())
 def test_equals_oracle(scene: dict) -> None:
@@ -46,6 +47,7 @@ def test_equals_oracle_with_hundreds_of_objects(seed: int) -> None:
     np.testing.assert_array_equal(linear, oracle.render(scene))
 
 
+@once
 @pytest.mark.parametrize("seed", range(3))
 def test_equals_the_plain_path(seed: int) -> None:
     scene = load(crowd(seed, spheres=60 if JIT else 5))
@@ -88,6 +90,7 @@ def numbers(document: object) -> list[tuple[Any, Any]]:
     return found
 
 
+@once
 @may_be_dark
 @given(scenes(), st.data())
 def test_any_number_gives_an_image_or_an_error(scene: dict, data: st.DataObject) -> None:
