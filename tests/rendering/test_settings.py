@@ -132,3 +132,28 @@ def test_new_settings_are_checked_in_code() -> None:
 def test_every_setting_has_a_default_and_can_be_written() -> None:
     assert Settings() == Settings(**msgspec.structs.asdict(Settings()))
     assert tuple(kinds_of(Settings)) == Settings.__struct_fields__ == NAMES
+
+
+def test_code_may_write_an_integrator_as_files_do() -> None:
+    given = {"type": "path", "depth": 12}
+    assert RenderSettings(integrator=given) == RenderSettings(integrator="path", depth=12)
+    assert RenderSettings(depth=3).replace(integrator={"type": "whitted"}) == RenderSettings(
+        integrator="whitted", depth=3
+    )
+    assert given == {"type": "path", "depth": 12}
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"type": "way"}, 'RenderSettings.integrator: expected "direct", "whitted" or "path"'),
+        ({"type": "path", "depth": 99}, "RenderSettings.depth: must be ≤ 64, got 99"),
+        ({"type": "path", "size": 1}, "RenderSettings.integrator: expected"),
+        ({"depth": 1}, "RenderSettings.integrator: expected"),
+    ],
+)
+def test_an_integrator_that_is_not_as_in_files_is_refused(
+    given: dict[str, object], message: str
+) -> None:
+    with pytest.raises(vtray.SceneError, match=re.escape(message)):
+        RenderSettings(integrator=given)

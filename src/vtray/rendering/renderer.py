@@ -1,6 +1,6 @@
 """From a scene to its picture: the steps in their order."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from functools import partial
 from typing import Any, Literal, Protocol
@@ -90,7 +90,7 @@ def render(
     denoise: bool | None = None,
     stops: float | None = None,
     tonemap: ToneMapName | None = None,
-    integrator: IntegratorName | None = None,
+    integrator: IntegratorName | Mapping[str, object] | None = None,
     depth: int | None = None,
     firefly: Literal["off"] | float | None = None,
     edge_samples: int | None = None,

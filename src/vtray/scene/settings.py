@@ -174,7 +174,10 @@ def _whole(value: object, kind: Any) -> Any:  # noqa: ANN401
 
 
 class _CheckedSettings(Checked):
-    """Makes construction in code take a background in all ways to write a colour."""
+    """Makes construction in code take a background in all ways to write a colour.
+
+    It takes an integrator as scene files do, too.
+    """
 
     def _convert(cls, values: dict[str, Any]) -> None:  # noqa: N805
         """Convert what is given."""
@@ -182,6 +185,10 @@ class _CheckedSettings(Checked):
         is_kept = isinstance(background, str) and background in get_args(get_args(Background)[0])
         if background is not None and not is_kept:
             values["background"] = Color(*to_rgb(background, f"{cls.__name__}.background"))
+        integrator: Any = values.get("integrator")
+        if isinstance(integrator, Mapping) and {"type"} <= {*integrator} <= {"type", "depth"}:
+            values.update({**integrator, "integrator": integrator["type"]})
+            del values["type"]
 
 
 class RenderSettings(
@@ -220,7 +227,8 @@ class RenderSettings(
     integrator : str
         What light is followed: "direct", that which comes from lights straight to what is seen;
         "whitted", also over mirrors, metal and glass; "path", all light, by paths that go on at
-        random from whatever they meet, which takes many samples.
+        random from whatever they meet, which takes many samples. Code may write it with a depth, as
+        scene files do: ``{"type": "path", "depth": 12}``.
     depth : int
         Over how many surfaces light is followed at the most, from 0 to 64; 8 by default.
     firefly : "off" or float
@@ -247,7 +255,7 @@ class RenderSettings(
             denoise: bool = False,
             stops: float = 0.0,
             tonemap: ToneMapName = "linear",
-            integrator: IntegratorName = "direct",
+            integrator: IntegratorName | Mapping[str, object] = "direct",
             depth: int = 8,
             firefly: Literal["off"] | float = "off",
             edge_samples: int = 1,
