@@ -69,6 +69,7 @@ def test_an_equals_sign_after_a_space_belongs_to_the_option() -> None:
     [
         (["a.npz", "--axes"], "a.npz: this format is not for pixels alone; .png, "),
         (["a.png", "--bits", "16", "--axes"], "a.png: annotations: expected 8 bits with them, got"),
+        (["a.png", "--color-bar"], "--color-bar: colours stand for no values, as scene files hold"),
         (["a.png", "--color-bar=E"], "colorbar: expected True or False, as no object has a cmap"),
         (["a.png", "--title", "A" * 40, "--size", "12x9"], "annotations: there is no room in a"),
     ],

@@ -2,6 +2,7 @@
 
 import json
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -291,3 +292,59 @@ def test_what_cannot_be_had_is_refused() -> None:
 def test_focus_and_resolution_say_nothing() -> None:
     one, other = document(), document(focus=1e-5, resolution=[3, 1e9])
     assert np.array_equal(render(one).linear, render(other).linear)
+
+
+def rolled(picture: Callable[[tuple[int, int, int]], np.ndarray]) -> int:
+    """Return how far a picture is at the most from that of who looks the other way."""
+    one, other = (picture(target).astype(int) for target in ((0, 0, 1), (0, 0, -1)))
+    return np.abs(np.roll(one, one.shape[1] // 2, axis=1) - other).max()
+
+
+@pytest.mark.parametrize(
+    "style",
+    [
+        {},
+        {"outline": 2},
+        {"outline": 5, "samples": 4},
+        {"outline": vtray.Outline(normals=True)},
+        {"eye_dome": (3, 8)},
+    ],
+    ids=str,
+)
+def test_what_is_drawn_goes_on_at_the_other_edge(style: dict[str, Any]) -> None:
+    def picture(target: tuple[int, int, int]) -> np.ndarray:
+        scene = vtray.Scene(lights=[vtray.Ambient(distance=1e-9)])
+        scene.add_cylinder((0.5, -9, -5), (0.5, 9, -5), 0.5)  # whose left edge is at the seam
+        scene.add_cylinder((-5, -9, -5), (2, 9, -5), 0.3)
+        scene.add_sphere((0.02, 3, -6), 0.7)
+        scene.add_plane((0, -4, 0), (0, 1, 0))
+        scene.camera = vtray.Camera.panorama((0, 0, 0), target, size=(96, 48))
+        return vtray.render(scene, exposure=0.8, background="white", **style).pixels
+
+    # Places of samples are of the picture, not of the world.
+    assert rolled(picture) <= (1 if style.get("samples", 1) == 1 else 40)
+
+
+def test_small_panoramas_have_lines_wider_than_themselves() -> None:
+    scene = vtray.Scene(camera=vtray.Camera.panorama((0, 0, 0), (0, 0, 1), size=(2, 1)))
+    scene.add_sphere((0, 0, 3), 1)
+    assert vtray.render(scene, outline=9, eye_dome=(2, 30)).pixels.shape == (1, 2, 3)
+
+
+def test_figures_have_no_scale_bar_unless_one_is_asked_for() -> None:
+    pytest.importorskip("matplotlib")
+    scene = vtray.Scene(camera=vtray.Camera.panorama((0, 0, 0), (0, 0, 1), size=(40, 20)))
+    scene.add_sphere((0, 0, 3), 1)
+    image = vtray.render(scene)
+    assert image.figure() is not None
+    with pytest.raises(vtray.VtrayError, match="scalebar: lengths differ"):
+        image.figure(scalebar="nm")
+
+
+@pytest.mark.parametrize("point", [(0, 5, 0), (0, -5, 0), (0, 0, -5), (1e-12, 0, -5)])
+def test_labels_at_all_edges_are_shown(point: tuple[float, ...]) -> None:
+    scene = vtray.Scene(camera=vtray.Camera.panorama((0, 0, 0), (0, 0, 5), size=(300, 150)))
+    scene.add_sphere((0, 0, 9), 1)
+    image = vtray.render(scene, background="white")
+    marked = image.annotated(labels=[("X", point)], fontsize=8)
+    assert (marked.pixels != image.pixels).any()

@@ -147,7 +147,10 @@ def test_code_may_write_an_integrator_as_files_do() -> None:
     ("given", "message"),
     [
         ({"type": "way"}, 'RenderSettings.integrator: expected "direct", "whitted" or "path"'),
-        ({"type": "path", "depth": 99}, "RenderSettings.depth: must be ≤ 64, got 99"),
+        (
+            {"type": "path", "depth": 99},
+            "RenderSettings.depth: expected an integer from 0 to 64, got 99",
+        ),
         ({"type": "path", "size": 1}, "RenderSettings.integrator: expected"),
         ({"depth": 1}, "RenderSettings.integrator: expected"),
     ],

@@ -510,3 +510,25 @@ def test_rows_are_no_columns() -> None:
         WATER[:2]  # type: ignore[index]
     with pytest.raises(SceneError, match="rename them, as in table.rename"):
         drawn({"px": [0.0], "py": [0.0], "pz": [0.0]})
+
+
+def test_light_may_be_a_column_by_the_name_of_the_file() -> None:
+    particles = vtray.Particles(np.eye(3), columns={"charge": np.array([1.0, 2.0, 3.0])})
+    one, other = vtray.Scene(), vtray.Scene()
+    one.add_particles(particles, emission="q")
+    other.add_particles(particles, emission="charge")
+    assert np.array_equal(one.objects[0].emission, other.objects[0].emission)
+
+
+def test_dates_are_names() -> None:
+    days = np.array(["2020-01-01", "2021-01-01", "2020-01-01"], "datetime64[s]")
+    drawn = vtray.Scene().add_particles(
+        vtray.Particles(np.eye(3), columns={"when": days}), color="when"
+    )
+    assert [name for name, _ in drawn.legend] == ["2020-01-01T00:00:00", "2021-01-01T00:00:00"]
+
+
+@pytest.mark.parametrize("length", [0, -1, float("inf")])
+def test_lengths_of_bonds_that_cannot_be(length: float) -> None:
+    with pytest.raises(SceneError, match=r"bonds: expected a length > 0, got"):
+        vtray.Scene().add_particles(np.eye(3), bonds=length)

@@ -222,6 +222,9 @@ def test_project_behind_the_image_plane_is_nothing() -> None:
     np.testing.assert_allclose(found[1], [(2, 2, 10), (3, 2, math.sqrt(104))])
     with pytest.raises(SceneError, match=r"^Camera.project: points: .* got shape \(2,\)"):
         camera.project((1, 2))
+    for wrong in (np.ma.masked_equal([[1, 2, 3]], 2), np.ones((1, 3)) * 1j, [["a", "b", "c"]]):
+        with pytest.raises(SceneError, match=r"^Camera.project: points: .*, got an array"):
+            camera.project(wrong)
     with pytest.raises(SceneError, match="^Camera.project: points: expected numbers of shape"):
         camera.project((1, 2, 10**400))
 

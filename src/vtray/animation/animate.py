@@ -159,10 +159,15 @@ def animate(
     ways = {name: way_of_part(name, part) for name, part in parts.items()}
     last = last_of(camera=camera, opacity=opacity, **parts)
     is_file = isinstance(scenes, (str, os.PathLike))
+    if is_file:
+        inputs: list[Any] = [scenes, reading.get("trajectory")]
+        film.output.check_spares(inputs)
     if reading and not is_file:
         message = f"{next(iter(reading))}: expected the name of a trajectory beside it"
         raise SceneError(message)
     source = source_of(scenes, frames, reading, None if last is None else last + 1)
+    if not is_file and source.count is not None:
+        _check_count("frames", source.count)
     first, source = first_of(source)
     if isinstance(first, Scene):
         if options:
@@ -276,9 +281,7 @@ def go_around(
     """
     length, angle = _number("seconds", seconds), _number("degrees", degrees, positive=False)
     pictures = length * film.fps
-    if not pictures <= LONGEST + 0.5:
-        words = f"expected at most {LONGEST} pictures, got {pictures:.15g}"
-        raise SceneError(f"seconds: {words}")
+    _check_count("seconds", pictures)
     count = max(round(pictures), 1)
     if lights not in ("turn", "still"):
         raise SceneError(f"lights: expected 'turn' or 'still', got {show(lights)}")
@@ -350,6 +353,13 @@ def _pivot(scene: Scene) -> Vec:
         return middle_in(scene, "")
     except SceneError:
         return 0.0, 0.0, 0.0
+
+
+def _check_count(name: str, pictures: float) -> None:
+    """Raise SceneError if there are too many pictures for any movie."""
+    if not pictures <= LONGEST + 0.5:
+        words = f"expected at most {LONGEST} pictures, got {pictures:.15g}"
+        raise SceneError(f"{name}: {words}")
 
 
 def _number(name: str, value: object, *, positive: bool = True) -> float:

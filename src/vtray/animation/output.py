@@ -1,6 +1,7 @@
 """Where a movie goes: a file, or numbered pictures; and where these are until it is whole."""
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+import os
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import MappingProxyType
@@ -11,7 +12,7 @@ from vtray.animation.gif_file import write_gif
 from vtray.animation.movie_names import NUMBER, is_numbered
 from vtray.animation.mp4_file import find_ffmpeg, write_mp4
 from vtray.animation.webp_file import write_webp
-from vtray.base.atomic_file import check_writable
+from vtray.base.atomic_file import check_spares, check_writable
 from vtray.base.errors import OutputError
 from vtray.base.number import number_of
 from vtray.image.formats.image_format import check_annotated_format, check_format
@@ -150,6 +151,34 @@ class Output:
         if self.path.suffix.lower() == ".mp4":
             find_ffmpeg(self.path)
         check_writable(self.path)
+
+    def check_spares(self, inputs: Iterable[str | os.PathLike[str] | None]) -> None:
+        """Raise OutputError if the movie, or a picture of it, would destroy a file that is read.
+
+        Parameters
+        ----------
+        inputs
+            The files; None for one that there is not.
+        """
+        for given in inputs:
+            if given is None:
+                continue
+            source = Path(given)
+            for name in dict.fromkeys((source, Path(os.path.realpath(source)))):
+                written = self._written_as(name)
+                if written is not None:
+                    remedy = "choose another name for the movie"
+                    check_spares(written, [source], "is what the movie is made from", remedy)
+
+    def _written_as(self, name: Path) -> Path | None:
+        """Return what is written, if that may be a file of a name; None if it cannot."""
+        if self.format is not None:
+            return self.path
+        found = NUMBER.search(self.path.name)
+        assert found is not None  # noqa: S101 - that is how it is known to be numbered
+        before, after = self.path.name[: found.start()], self.path.name[found.end() :]
+        digits = name.name.removeprefix(before).removesuffix(after)
+        return self.name(int(digits)) if digits.isascii() and digits.isdigit() else None
 
     def check_background(self, background: object) -> None:
         """Raise OutputError if a background is transparent, and the format cannot hold that."""

@@ -97,7 +97,11 @@ def source_of(
     if callable(scenes):
         return _of_function(scenes, frames)
     if isinstance(scenes, Sequence):
-        numbers = which_frames(frames, lambda: len(scenes)) if len(scenes) else []
+        count = len(scenes)
+        numbers = which_frames(frames, lambda: count) if count else []
+        if len(numbers) and max(numbers) >= count:
+            words = f"there are {count} frames; expected {-count} to {count - 1}"
+            raise SceneError(f"frame {max(numbers)}: {words}")
         return _listed(lambda number: scenes[number], numbers)
     if isinstance(scenes, Iterable):
         if frames is not None:

@@ -13,7 +13,7 @@ from vtray.base.input_file import open_input
 from vtray.base.memory import BYTES_PER_PIXEL_AND_MORE, check_memory, check_memory_of_start
 from vtray.base.signals import LastStep
 from vtray.commands import data_options
-from vtray.commands.annotation_options import annotations_of
+from vtray.commands.annotation_options import annotations_of, value_of
 from vtray.commands.command import SUCCESS, print_note, print_result, run_command
 from vtray.commands.growing import Growing, check_preview, check_preview_of
 from vtray.commands.movie_options import makes_movie
@@ -52,7 +52,7 @@ def _run(options: argparse.Namespace) -> int:
         return SUCCESS
     told = _take_over(options)
     if options.pixel is None:
-        _check_output(options)
+        _check_output(options, is_data)
     check_memory_of_start()
     clock = Stopwatch()
     scene, of_data = _load_data(options) if is_data else (_load(options), {})
@@ -107,7 +107,7 @@ def _compare(told: "Provenance", scene: "Scene", options: argparse.Namespace) ->
         _warn(f"{options.replay}: {difference}", options)
 
 
-def _check_output(options: argparse.Namespace) -> None:
+def _check_output(options: argparse.Namespace, is_data: bool) -> None:
     """Raise OutputError, before any work is done, if the output cannot be written."""
     from vtray.base.atomic_file import check_spares, check_writable
     from vtray.image.formats.image_format import check_annotated_format, check_format
@@ -117,8 +117,8 @@ def _check_output(options: argparse.Namespace) -> None:
     if annotations_of(options):
         check_annotated_format(output, options.bits)
     check_writable(output)
-    remedy = "choose another name for the image"
-    check_spares(output, [scene], "is the scene file itself", remedy)
+    what = f"is the {'data' if is_data else 'scene'} file itself"
+    check_spares(output, [scene], what, "choose another name for the image")
     check_preview(options)
 
 
@@ -136,6 +136,18 @@ def _check_picture(scene: "Scene", options: argparse.Namespace) -> None:
     width, height = map(int, size)
     check_memory(width, height, least=BYTES_PER_PIXEL_AND_MORE if how.aov else least)
     check_preview_of(scene, options)
+    if value_of(options, "colorbar") is True:
+        _check_color_bar(scene)
+
+
+def _check_color_bar(scene: "Scene") -> None:
+    """Raise SceneError if a colour bar would have nothing to show."""
+    from vtray.figures.color_bar import color_scales
+    from vtray.scene.stars import Stars
+
+    if not color_scales(scene.objects) and not any(isinstance(k, Stars) for k in scene.objects):
+        message = "--color-bar: colours stand for no values, as scene files hold colours alone"
+        raise SceneError(message)
 
 
 @contextlib.contextmanager

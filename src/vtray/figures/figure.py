@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from vtray.base.extras import need
@@ -50,6 +51,8 @@ def make_figure(
 ) -> "Figure":
     """Return an image as a figure; see `vtray.Image.figure`."""
     matplotlib = need("matplotlib", "figure", "Image.figure")
+    if wanted.scalebar is True and image.scene.camera.projection == "panorama":
+        wanted = replace(wanted, scalebar=False)  # it is the default, and no length is right there
     width = None if width is None else check_number("width", width)
     dpi = None if dpi is None else check_dpi(dpi)
     sizes = (

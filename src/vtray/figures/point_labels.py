@@ -66,7 +66,9 @@ def shown_labels(image: Subject, labels: "LabelsGiven", *, hide: bool) -> list[L
     height, width = image.linear.shape[:2]
     with np.errstate(invalid="ignore"):
         inside = (column >= -0.5) & (column < width - 0.5) & (row >= -0.5) & (row < height - 0.5)
-    nearest = 0.0 if camera.projection == "panorama" else camera.focus
+    nearest = camera.focus
+    if camera.projection == "panorama":  # which shows all directions, those at its edges, too
+        inside, nearest = np.isfinite(column), 0.0
     shown = np.flatnonzero(inside & (depth > nearest))
     if hide and len(shown):
         shown = shown[~_hidden(image, points[shown], column[shown], row[shown], depth[shown])]
@@ -103,7 +105,10 @@ def _hidden(
     image: Subject, points: Floats, column: Floats, row: Floats, depth: Floats
 ) -> NDArray[np.bool_]:
     """Tell of points that are in the picture which are behind something, (n,)."""
-    across, down = (np.floor(place + 0.5).astype(np.intp) for place in (column, row))
+    across, down = (
+        np.minimum(np.floor(place + 0.5).astype(np.intp), size - 1)
+        for place, size in zip((column, row), reversed(image.depth.shape), strict=True)
+    )
     seen = depth_along_view(image.scene.camera, image.depth)[down, across]
     hidden: NDArray[np.bool_] = seen < depth
     for k in np.flatnonzero(hidden):

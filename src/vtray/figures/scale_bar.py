@@ -69,7 +69,7 @@ def scale_bar(image: Subject, scalebar: object, at: "ArrayLike | None") -> Scale
         return None
     camera = image.scene.camera
     if camera.projection == "panorama":
-        message = "scalebar: lengths differ from place to place in a panorama; leave it out"
+        message = "scalebar: lengths differ from place to place in a panorama; give False"
         raise FigureError(message)
     own = isinstance(scalebar, str) and "{length}" in scalebar
     unit = "" if own or scalebar is True else str(scalebar)

@@ -396,7 +396,8 @@ class Image(Rendered):
             In perspective, things look smaller the farther away they are: the bar is right for
             those at one distance (see `at`), and ``≈`` before its length says so. A text with
             ``{length}`` in it replaces all that, and can say the distance, which is measured along
-            the camera's view: ``"{length} nm at a distance of {distance} nm"``.
+            the camera's view: ``"{length} nm at a distance of {distance} nm"``. Panoramas have
+            none.
         title
             What to write above the picture.
         time, frame

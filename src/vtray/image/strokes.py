@@ -10,6 +10,12 @@ from vtray.base.compiler.compiled import device, kernel
 Shares = NDArray[np.float32]
 
 
+@device
+def reach_of_strokes(width: float) -> int:
+    """Return how many pixels from a cell lines of a width in pixels may reach."""
+    return int(0.5 * width + 0.5) + 1
+
+
 @kernel
 def draw_strokes(
     primitive: NDArray[np.int32],
@@ -49,7 +55,7 @@ def draw_strokes(
         Scratch memory, (5, 4) and (width,).
     """
     height, columns = primitive.shape
-    reach = int(0.5 * width + 0.5) + 1
+    reach = reach_of_strokes(width)
     lines[top:bottom] = 0.0
     for y in range(max(top - reach - 1, 0), min(bottom + reach, height - 1)):
         _mark_cells(part, y, columns - 1, marks)

@@ -9,6 +9,7 @@ from vtray.image.eye_dome import shade_rows, surroundings
 from vtray.rendering.outlines import draw_outlines, pixel_size
 from vtray.rendering.pack import Packed
 from vtray.rendering.passes import Tracer
+from vtray.rendering.seam import cut, seam_margin, widened
 from vtray.scene.scene import Scene
 from vtray.scene.style import EyeDome, Outline, Style
 from vtray.transport.film import Film, new_film
@@ -94,11 +95,15 @@ class Drawing:
         film = self._surfaces() if self._looks_apart else film
         strength, around = float(self._eye_dome.strength), surroundings(self._eye_dome.radius)
         size, growth = pixel_size(self._scene.camera, self._packed)
-        shade = np.empty(film.distance.shape, np.float32)
+        # One more, since what nothing is seen in looks as what is beside it.
+        reach = int(np.abs(around[:, 0]).max()) + 1
+        margin = seam_margin(self._scene.camera, film.distance.shape[1], reach)
+        distance = widened(film.distance, margin)
+        shade = np.empty(distance.shape, np.float32)
 
         def shade_tile(top: int) -> None:
             bottom = min(top + TILE, len(shade))
-            shade_rows(film.distance, size, growth, around, strength, top, bottom, shade)
+            shade_rows(distance, size, growth, around, strength, top, bottom, shade)
 
         run_tasks(range(0, max(len(shade), 1), TILE), lambda: shade_tile, self._threads)
-        return shade
+        return cut(shade, margin)

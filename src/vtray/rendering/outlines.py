@@ -1,6 +1,7 @@
 """Lines around what is seen: which, where, and how much of each pixel they hide."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,15 +11,17 @@ from vtray.base.pool import run_tasks
 from vtray.base.tiles import TILE, Tile, split_into_tiles
 from vtray.geometry.packets.packet import new_packet
 from vtray.geometry.packets.workspace import new_workspace
-from vtray.image.strokes import draw_strokes
+from vtray.image.strokes import draw_strokes, reach_of_strokes
 from vtray.rendering.numbering import number_objects
 from vtray.rendering.pack import Packed
+from vtray.rendering.seam import cut, seam_margin, widened
 from vtray.scene.camera import Camera
 from vtray.scene.placing.panorama import pixel_angle
 from vtray.scene.scene import Scene
 from vtray.scene.style import Outline
 from vtray.transport.integrators.outlines import (
     STEPS,
+    WINDOW,
     Pen,
     Scratch,
     Seen,
@@ -26,7 +29,7 @@ from vtray.transport.integrators.outlines import (
     find_normals,
     new_crossings,
 )
-from vtray.transport.scene_arrays import without_light
+from vtray.transport.scene_arrays import SceneArrays, without_light
 
 JUMP = 0.01
 """The least jump of distance that has a line, in parts of the larger side of what the picture shows
@@ -64,9 +67,12 @@ def draw_outlines(
     threads
         How many threads to use at the most.
     """
+    reach = reach_of_strokes(outline.width) + WINDOW + 1
+    margin = seam_margin(scene.camera, seen.primitive.shape[1], reach)
+    seen = _widened(seen, margin)
     height, width = seen.primitive.shape
     crossings = new_crossings(height, width, has_fog=packed.arrays.fog is not None)
-    arrays = pinned(without_light(packed.arrays))
+    arrays = pinned(_widened_camera(without_light(packed.arrays), margin))
     fog, pen = pinned(packed.arrays.fog), pinned(_pen_of(outline, scene, packed))
     pixels, found = pinned(seen), pinned(crossings)
     tiles = split_into_tiles(width, height) or [Tile(0, 0, 0, 0)]
@@ -95,7 +101,19 @@ def draw_outlines(
         )
 
     run_tasks(range(0, max(height, 1), TILE), lambda: draw, threads)
-    return lines
+    return cut(lines, margin)
+
+
+def _widened(seen: Seen, margin: int) -> Seen:
+    """Return what pixels see with so many columns more on both sides."""
+    parts: list[Any] = [part if part is None else widened(part, margin) for part in seen]
+    return Seen(*parts)
+
+
+def _widened_camera(arrays: SceneArrays, margin: int) -> SceneArrays:
+    """Return a scene whose picture has so many columns more on both sides."""
+    camera = arrays.camera
+    return arrays._replace(camera=camera._replace(width=camera.width + 2 * margin))
 
 
 def _pen_of(outline: Outline, scene: Scene, packed: Packed) -> Pen:

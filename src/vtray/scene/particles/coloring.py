@@ -213,6 +213,8 @@ def _of_column(
     categories: Sequence[Any] | None,
 ) -> Coloring:
     """Return the colours of what a column holds, or an array without a name: one for each."""
+    if values.dtype.kind in "mM":
+        values = values.astype(np.str_)  # dates and times stand for themselves, as names do
     may_be_colors = name == "color" or (not name and categories is None)
     if may_be_colors and (values.ndim == 2 or _has_colors(values)):
         return _of_values(values, len(values), rows, scaled)

@@ -441,6 +441,8 @@ def _bonds_of(particles: Particles, bonds: Any) -> Bonds:  # noqa: ANN401
             raise SceneError('bonds: "file" are those that are known, and there are none')
         return bonds_between(particles, particles.bonds)
     if is_number(bonds):
+        if not 0.0 < number_of(bonds) < np.inf:
+            raise SceneError(f"bonds: expected a length > 0, got {show(bonds)}")
         return find_bonds(particles, cutoff=number_of(bonds))
     return bonds_between(particles, bonds)
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from vtray.base.errors import SceneError
 from vtray.scene.checks.scene_words import show
 from vtray.scene.particles.coloring import Coloring, columns_like
+from vtray.scene.particles.column_names import column_called
 from vtray.scene.particles.particles import POSITION
 from vtray.scene.stars import Stars
 
@@ -100,7 +101,8 @@ def shining(
     """
     given = emission
     if isinstance(emission, str):
-        if emission not in particles.columns and emission not in POSITION:
+        called = column_called(emission, particles.columns)
+        if called not in particles.columns and emission not in POSITION:
             words = f"expected a number or the name of a column, got {show(emission)}"
             raise SceneError(f"emission: {words}; {columns_like(emission, particles)}")
         given = particles[emission]

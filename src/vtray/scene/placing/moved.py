@@ -160,13 +160,18 @@ def projected(camera: HasView, points: "ArrayLike") -> "NDArray[np.float64]":
     """Return where points are in a picture, as `Camera.project` does."""
     import numpy as np
 
+    from vtray.scene.checks.given_array import array_of, show_array
+
+    place, words = "Camera.project: points", "expected numbers of shape (n, 3)"
+    found = array_of(points, place, words)
     try:
-        given = np.asarray(points, np.float64)
+        given = np.asarray(found, None if found.dtype.kind == "c" else np.float64)
     except (TypeError, ValueError, OverflowError):
-        raise SceneError("Camera.project: points: expected numbers of shape (n, 3)") from None
+        given = found
+    if given.dtype != np.float64:
+        raise SceneError(f"{place}: {words}, got {show_array(found)}")
     if given.ndim == 0 or given.shape[-1] != 3:
-        words = "expected numbers of shape (n, 3)"
-        raise SceneError(f"Camera.project: points: {words}, got shape {given.shape}")
+        raise SceneError(f"{place}: {words}, got shape {given.shape}")
     right, down, forward = axes_of(camera)
     center = camera.center
     with np.errstate(all="ignore"):
