@@ -1,5 +1,7 @@
 """Files of data but XYZ: beside what the libraries themselves read."""
 
+import subprocess
+import sys
 import tracemalloc
 import warnings
 from pathlib import Path
@@ -815,3 +817,17 @@ def test_elements_of_names_in_pdb(
     lines = [ATOM.format(k, name, residue, k, k) for k, (name, residue) in enumerate(atoms, 1)]
     path.write_text("\n".join(lines))
     assert vtray.read(path)["element"].tolist() == elements.split()
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="counts the threads of Linux")
+def test_no_thread_holds_a_parquet_file_when_python_ends(tmp_path: Path) -> None:
+    file = tmp_path / "points.parquet"
+    pa.parquet.write_table(pa.table(dict.fromkeys("xyz", np.zeros(3))), file)
+    code = (
+        "import os, pyarrow.parquet, vtray, numpy\n"
+        "before = len(os.listdir('/proc/self/task'))\n"
+        f"vtray.read({str(file)!r})\n"
+        "print(len(os.listdir('/proc/self/task')) - before)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "0\n"
