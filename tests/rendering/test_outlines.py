@@ -9,7 +9,8 @@ import pytest
 from examples import cylinder, light, plane, scene, sphere
 
 import vtray
-from conftest import JIT, once
+from conftest import JIT, compiled_only, once
+from vtray.base.compiler.compiled import Device
 from vtray.scene.style import Outline, Style
 
 SIZE = 40 if JIT else 30
@@ -252,3 +253,16 @@ def test_lines_around_what_is_found_in_another_way() -> None:
     halves = drawn[: SIZE // 2 - 1], drawn[SIZE // 2 + 2 :]
     assert min(half.sum() for half in halves) == 0.0
     assert drawn.sum() == pytest.approx(8.3 * (np.pi + 2), rel=0.05)
+
+
+@compiled_only
+def test_python_calls_no_function_of_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(self: Device, *arguments: object) -> None:
+        raise AssertionError(self)  # it would load the compiler, which takes a second
+
+    monkeypatch.setattr(Device, "__call__", refuse)
+    given = vtray.Scene(lights=[vtray.Light((0, 9, 0))])
+    given.add_sphere((0, 0, 3), 1)
+    given.camera = vtray.Camera.panorama((0, 0, 0), (0, 0, 1), size=(16, 8))
+    image = vtray.render(given, outline=Outline(normals=True), eye_dome=True, fog=True)
+    assert image.pixels.any()

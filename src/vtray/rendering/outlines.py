@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import pinned
+from vtray.base.compiler.compiled import pinned, uncompiled
 from vtray.base.pool import run_tasks
 from vtray.base.tiles import TILE, Tile, split_into_tiles
 from vtray.geometry.packets.packet import new_packet
@@ -67,7 +67,7 @@ def draw_outlines(
     threads
         How many threads to use at the most.
     """
-    reach = reach_of_strokes(outline.width) + WINDOW + 1
+    reach = uncompiled(reach_of_strokes)(float(outline.width)) + WINDOW + 1
     margin = seam_margin(scene.camera, seen.primitive.shape[1], reach)
     seen = _widened(seen, margin)
     height, width = seen.primitive.shape
