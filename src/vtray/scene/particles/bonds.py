@@ -394,5 +394,5 @@ def _ends(column: Floats, most: float) -> tuple[float, float]:
 def _too_many() -> SceneError:
     """Give the error for bonds that are far longer than the particles are apart."""
     words = f"there are more than {MOST_BONDS} bonds for each particle"
-    remedy = "radii of elements are in ångström; give the longest bond as cutoff"
-    return SceneError(f"find_bonds: {words}; {remedy}")
+    remedy = "radii of elements are in ångström; give the longest bond, or a shorter one"
+    return SceneError(f"bonds: {words}; {remedy}")
