@@ -5,6 +5,7 @@ import copy
 import json
 import subprocess
 import sys
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -611,3 +612,14 @@ def test_what_holds_for_unknown_values_too(extra: str, message: str) -> None:
     with pytest.raises(SceneError) as caught:
         loads(text, "room.json", warn=lambda _: None)
     assert message in str(caught.value)
+
+
+@pytest.mark.parametrize("half", [Fraction(1, 2), np.longdouble(0.5), np.float32(0.5)])
+def test_numbers_of_all_kinds_are_those_of_python(half: Any) -> None:
+    scene = vtray.Scene()
+    made = scene.add_sphere(np.array([half, 1, 2]), half)
+    assert made == vtray.Sphere((0.5, 1.0, 2.0), 0.5)
+    for number in (made.radius, made.center.x):
+        assert type(number) is float
+    with pytest.raises(vtray.SceneError, match="samples: expected an integer"):
+        vtray.RenderSettings(samples=half)

@@ -9,11 +9,13 @@ import functools
 import math
 import typing
 from collections.abc import Callable
+from numbers import Real
 from typing import Any
 
 import msgspec
 
 from vtray.base.errors import SceneError
+from vtray.base.number import number_of
 from vtray.scene.checks.given_array import RED_GREEN_BLUE, remedy_for_name
 from vtray.scene.checks.json_tree import CLEAN, Members, Tree, Written
 from vtray.scene.checks.limits import FieldError, limits_alone, may_be_infinite
@@ -214,13 +216,15 @@ def from_code(found: Any, kind: Kind, place: str) -> Any:  # noqa: ANN401
     # NumPy is not imported here; its arrays and scalars turn into Python's with tolist.
     if hasattr(found, "tolist"):
         found = found.tolist()
+    if not isinstance(found, (int, float)) and isinstance(found, Real):
+        found = number_of(found)  # a fraction, or one that is longer than a double
     structs = struct_kinds(kind)
     if structs:
         return _struct_from_code(found, structs, kind, place)
     origin = origin_of(kind)
     if origin not in (list, tuple):
-        is_number = not isinstance(found, float) or math.isfinite(found) or may_be_infinite(kind)
-        if not is_number:
+        is_right = not isinstance(found, float) or math.isfinite(found) or may_be_infinite(kind)
+        if not is_right:
             raise SceneError(f"{place}: expected a finite number, got {found!r}")
         return _convert_leaf(found, kind, place)
     if not isinstance(found, (list, tuple)):
