@@ -162,7 +162,7 @@ def animate(
     if is_file:
         inputs: list[Any] = [scenes, reading.get("trajectory")]
         film.output.check_spares(inputs)
-    if reading and not is_file:
+    elif reading:
         message = f"{next(iter(reading))}: expected the name of a trajectory beside it"
         raise SceneError(message)
     source = source_of(scenes, frames, reading, None if last is None else last + 1)

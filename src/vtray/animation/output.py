@@ -102,13 +102,15 @@ class Output:
     def name(self, k: int) -> Path:
         """Return the file of a picture, by its number from 0."""
         if self.format is None:
-            found = NUMBER.search(self.path.name)
-            assert found is not None  # noqa: S101 - that is how it is known to be numbered
-            return (
-                self.folder
-                / f"{self.path.name[: found.start()]}{found[0] % k}{self.path.name[found.end() :]}"
-            )
+            before, number, after = self._parts()
+            return self.folder / f"{before}{number % k}{after}"
         return self.folder / f"{k:06d}.png"
+
+    def _parts(self) -> tuple[str, str, str]:
+        """Return what stands before the number of a picture, how that is written, and the rest."""
+        found = NUMBER.search(self.path.name)
+        assert found is not None  # noqa: S101 - that is how it is known to be numbered
+        return self.path.name[: found.start()], found[0], self.path.name[found.end() :]
 
     def check(
         self,
@@ -174,9 +176,7 @@ class Output:
         """Return what is written, if that may be a file of a name; None if it cannot."""
         if self.format is not None:
             return self.path
-        found = NUMBER.search(self.path.name)
-        assert found is not None  # noqa: S101 - that is how it is known to be numbered
-        before, after = self.path.name[: found.start()], self.path.name[found.end() :]
+        before, _, after = self._parts()
         digits = name.name.removeprefix(before).removesuffix(after)
         return self.name(int(digits)) if digits.isascii() and digits.isdigit() else None
 

@@ -13,6 +13,7 @@ from vtray.animation.stored import Stored
 from vtray.base.errors import SceneError
 from vtray.base.number import is_integer
 from vtray.scene.checks.json_tree import short
+from vtray.scene.readers.frames import frame_number
 from vtray.scene.readers.read import is_slow, numbers_of, read_frames
 from vtray.scene.readers.which_frames import which_frames
 from vtray.scene.scene import Scene
@@ -99,9 +100,8 @@ def source_of(
     if isinstance(scenes, Sequence):
         count = len(scenes)
         numbers = which_frames(frames, lambda: count) if count else []
-        if len(numbers) and max(numbers) >= count:
-            words = f"there are {count} frames; expected {-count} to {count - 1}"
-            raise SceneError(f"frame {max(numbers)}: {words}")
+        if len(numbers):
+            frame_number(max(numbers), count)  # raises an error if there is none
         return _listed(lambda number: scenes[number], numbers)
     if isinstance(scenes, Iterable):
         if frames is not None:

@@ -33,8 +33,8 @@ def widened(pixels: Pixels, margin: int) -> Pixels:
     """Return pixels, (height, width, ...), with so many columns more on both sides."""
     if not margin:
         return pixels
-    width = pixels.shape[1]
-    wide: Pixels = np.take(pixels, np.arange(-margin, width + margin) % width, axis=1)
+    columns = np.arange(-margin, pixels.shape[1] + margin)
+    wide: Pixels = np.take(pixels, columns, axis=1, mode="wrap")
     return wide
 
 
