@@ -40,8 +40,8 @@ def _light(random: Random, scene: Scene) -> Scene:
     if kind == "sky":
         return {"type": "sky", "radiance": float(random.uniform(0, 1))}
     if kind == "ambient":
-        distance = float(size * random.choice(SIZES[1:]))
-        is_near = distance > 0 and random.random() < 0.8
+        distance = float(size * random.choice(SIZES))
+        is_near = random.random() < 0.8
         return {"type": "ambient", **power, **({"distance": distance} if is_near else {})}
     place, radius = _place(random, scene, size)
     if power and random.random() < 0.3:

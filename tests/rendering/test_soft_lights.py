@@ -40,6 +40,7 @@ def soft_lights() -> list[Any]:
         vtray.Sky(0.3, (255, 200, 180), vtray.Gradient(), up=(0, 0.2, 1)),
         vtray.Sky(0.1, image=spotted(), rotation=-70),
         vtray.Ambient(0.3, distance=0.7),
+        vtray.Ambient(0.1, distance=0, color=(255, 208, 160)),
     ]
 
 
@@ -124,7 +125,7 @@ def test_pixels_asked_together_tell_what_each_alone_would(kind: str) -> None:
 def test_relit_and_recolored_pictures_are_those_rendered_anew(samples: int) -> None:
     options: dict[str, Any] = {"samples": samples, "keep_lights": True}
     image = render(scene_of("copies" if samples == 1 else "bonds"), **options)
-    relit = image.relight([0.1, 0.9, 0.0, 2.0, 0.3, 5.0, 0.0, 0.5, 0.7, 0.1, 0.2])
+    relit = image.relight([0.1, 0.9, 0.0, 2.0, 0.3, 5.0, 0.0, 0.5, 0.7, 0.1, 0.2, 0.4])
     np.testing.assert_array_equal(relit.linear, render(relit.scene, **options).linear)
     assert not np.array_equal(relit.linear, image.linear)
     colored = image.recolor(1, "purple")
@@ -366,3 +367,60 @@ def test_samples_decide_without_those_of_other_pixels(kind: str) -> None:
     for image in images[1:]:
         np.testing.assert_array_equal(image.linear, images[0].linear)
         np.testing.assert_array_equal(image.error, images[0].error)
+
+
+@pytest.mark.parametrize("samples", [1, 4])
+@pytest.mark.parametrize("opacity", [None, 0.5])
+def test_nothing_keeps_off_ambient_light_of_no_distance(
+    samples: int, opacity: float | None
+) -> None:
+    scene = vtray.Scene(lights=[vtray.Ambient(0.25, distance=0, color=(255, 204, 153))])
+    random = np.random.default_rng(5)
+    scene.add_spheres(random.uniform(-1, 1, (40, 3)), 0.3, color="#c0d0e0", opacity=opacity)
+    scene.camera = vtray.Camera.fit(scene, size=SIZE)
+    settings = {"samples": samples, "exposure": 1.0}
+    image = render(scene, **settings)
+    if opacity is None:
+        expected = 0.25 * np.array([0xC0, 0xD0, 0xE0]) * np.array([255, 204, 153]) / 255
+        np.testing.assert_allclose(image.linear.max(axis=(0, 1)), expected, rtol=1e-12)
+    # As with rays, which nothing can be in the way of.
+    scene.lights = [vtray.Ambient(0.25, distance=1e-9, color=(255, 204, 153))]
+    asked = render(scene, **settings)
+    np.testing.assert_array_equal(asked.linear, image.linear)
+    assert image.stats["rays"] < asked.stats["rays"]
+
+
+@once
+@pytest.mark.parametrize("integrator", ["direct", "whitted", "path"])
+def test_what_is_everywhere_is_seen_in_mirrors_and_ends_paths(integrator: str) -> None:
+    scene = vtray.Scene(lights=[vtray.Ambient(0.5, distance=0), vtray.Ambient(0.5)])
+    scene.add_sphere((0, 0, 0), 1, material="mirror", color="white")
+    scene.camera = vtray.Camera.fit(scene, size=SMALL)
+    image = render(scene, integrator=integrator, exposure=1.0, warn=str)
+    seen = image.linear[image.ids[..., 0] == 0]
+    np.testing.assert_allclose(seen, 255, rtol=1e-12)
+
+
+@once
+def test_paths_take_what_is_everywhere_for_a_sky() -> None:
+    scene = vtray.Scene()
+    scene.add_spheres([(0, 0, 0), (1.9, 0, 0), (1, 1, 1)], 1, color="#c0d0e0")
+    scene.camera = vtray.Camera.fit(scene, size=SMALL)
+    images = []
+    for distance in (0, math.inf):
+        scene.lights = [vtray.Ambient(0.5, distance)]
+        images.append(render(scene, integrator="path", samples=4, exposure=1.0))
+    np.testing.assert_array_equal(images[0].linear, images[1].linear)
+    assert images[0].linear.any()
+
+
+@once
+def test_pixels_tell_that_all_arrives_of_what_is_everywhere() -> None:
+    scene = vtray.Scene(lights=[vtray.Ambient(0.5, distance=0)])
+    scene.add_sphere((0, 0, 0), 1)
+    scene.camera = vtray.Camera.fit(scene, size=SMALL)
+    traced = vtray.trace_pixel(scene, SMALL[0] // 2, SMALL[1] // 2)
+    (way,) = traced.lights
+    assert way.rays == ()
+    assert way.arrives
+    assert "ambient: all of it arrives, 1 of its light" in str(traced)

@@ -102,6 +102,40 @@ def test_errors_of_samples_are_what_seeds_differ_by() -> None:
     assert (ratio > 0.6).mean() > 0.98
 
 
+@compiled_only
+def test_samples_cast_fewer_rays_to_weak_lights_for_the_same_error() -> None:
+    rays: list[float] = []
+    off: list[float] = []
+    for strength in (1.0, 0.3):
+        scene = scene_of([vtray.Ambient(strength), vtray.Ambient(1.0 - strength, distance=0)])
+        settings = {"samples": 4, "exposure": 1.0}
+        long = render(scene, tolerance=1e-3, **settings)
+        image = render(scene, tolerance=0.012, **settings)
+        seen = np.isfinite(image.depth)
+        rays.append(image.stats["rays"])
+        off.append(float(np.sqrt(np.mean((image.linear - long.linear)[seen] ** 2))))
+    assert rays[1] < rays[0] / 4
+    assert off[1] < off[0]
+
+
+@once
+def test_fans_to_weak_lights_have_fewer_rays_where_that_is_known() -> None:
+    def halvings(lights: list[Any], **settings: Any) -> int:
+        image = render(scene_of(lights), samples=4, tolerance=0.012, **settings)
+        assert image.noise is not None
+        return image.noise.halvings
+
+    weak = [vtray.Ambient(0.5, color=(153, 102, 0)), vtray.Ambient(distance=0)]
+    assert halvings([vtray.Ambient(0.3)], exposure=1.0) == 3
+    assert halvings(weak, exposure=1.0) == 3
+    assert halvings([*weak, SUN], exposure=1.0) == 0
+    assert halvings(weak, exposure=3.0) == 0  # as 0.9 of white
+    assert halvings([vtray.Ambient(9)], exposure=1.0) == 0
+    # A sky of many colours may be brighter than its radiance says; kept lights may become so.
+    assert halvings([vtray.Sky(0.3, gradient=vtray.Gradient())], exposure=1.0) == 0
+    assert halvings([vtray.Ambient(0.3)], exposure=1.0, keep_lights=True) == 0
+
+
 @once
 def test_hard_lights_have_no_error_and_changed_pictures_none_that_is_known() -> None:
     scene = scene_of([vtray.Light((3, -4, 9))])

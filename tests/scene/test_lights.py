@@ -146,9 +146,9 @@ def test_what_may_be_left_out() -> None:
         ),
         (lambda: Sky(color="red"), "Sky.color: expected Color or three numbers, got 'red'"),  # type: ignore[arg-type]
         (lambda: Ambient(-1), "Ambient.intensity: expected a number ≥ 0, got -1"),
-        (lambda: Ambient(distance=0), "Ambient.distance: expected a number > 0, got 0"),
-        (lambda: Ambient(distance=NAN), "Ambient.distance: expected a number > 0, got nan"),
-        (lambda: Ambient(distance=-INF), "Ambient.distance: expected a number > 0, got -inf"),
+        (lambda: Ambient(distance=-1e-9), "Ambient.distance: expected a number ≥ 0, got -1e-09"),
+        (lambda: Ambient(distance=NAN), "Ambient.distance: expected a number ≥ 0, got nan"),
+        (lambda: Ambient(distance=-INF), "Ambient.distance: expected a number ≥ 0, got -inf"),
         (lambda: Scene().add_light((1, 2, 3), -1), "Light.intensity: expected a number ≥ 0"),
         (lambda: Scene().add_light("x"), "add_light: location: expected Vector or three"),  # type: ignore[call-overload]
         (lambda: Scene().add_light((1, 2, 3), color="rde"), "add_light: color: "),
@@ -158,7 +158,7 @@ def test_what_may_be_left_out() -> None:
         (lambda: Scene().add_sphere_light((0, 0, 0), -1), "SphereLight.radius: expected a number"),
         (lambda: Scene().add_sky(-1), "Sky.radiance: expected a number ≥ 0, got -1"),
         (lambda: Scene().add_sky(color=7), "add_sky: color: "),  # type: ignore[arg-type]
-        (lambda: Scene().add_ambient(distance=0), "Ambient.distance: expected a number > 0"),
+        (lambda: Scene().add_ambient(distance=-1), "Ambient.distance: expected a number ≥ 0"),
         (
             lambda: Scene().add_light(Sky(), 2),  # type: ignore[call-overload]
             "add_light: expected a light alone, or the location, intensity and color of a point, "

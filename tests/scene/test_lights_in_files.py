@@ -91,6 +91,7 @@ READ: list[tuple[dict[str, Any], AnyLight]] = [
     ({"type": "ambient"}, Ambient(1, math.inf)),
     ({"type": "ambient", "intensity": 0, "distance": 7}, Ambient(0, 7)),
     ({"type": "ambient", "distance": 5e-324, "color": WHITE}, Ambient(distance=5e-324)),
+    ({"type": "ambient", "distance": 0}, Ambient(distance=0)),
 ]
 
 
@@ -190,9 +191,9 @@ BAD: list[tuple[object, str, str]] = [
         "expected an integer from 0 to 255, got 0.5",
     ),
     ({"type": "sky", "rotation": "left"}, "rotation", 'expected a finite number, got "left"'),
-    ({"type": "ambient", "distance": 0}, "distance", "expected a number > 0, got 0"),
-    ({"type": "ambient", "distance": None}, "distance", "expected a number > 0, got null"),
-    ({"type": "ambient", "distance": "inf"}, "distance", 'expected a number > 0, got "inf"'),
+    ({"type": "ambient", "distance": -1}, "distance", "expected a number ≥ 0, got -1"),
+    ({"type": "ambient", "distance": None}, "distance", "expected a number ≥ 0, got null"),
+    ({"type": "ambient", "distance": "inf"}, "distance", 'expected a number ≥ 0, got "inf"'),
 ]
 
 
@@ -303,7 +304,7 @@ def all_lights() -> st.SearchStrategy[dict[str, Any]]:
 
     place = {"location": places(10.0)}
     angle = st.sampled_from([0, 0.53, 180]) | st.floats(0, 180)
-    radius, distance = st.floats(0, 1e9), st.floats(0, 1e300, exclude_min=True)
+    radius, distance = st.floats(0, 1e9), st.floats(0, 1e300)
     point = {**place, "intensity": strength}
     return st.one_of(
         st.fixed_dictionaries(point, optional={"type": st.just("point"), "color": color}),

@@ -196,7 +196,8 @@ class ShadowFan:
         all sides, the normal of the hit.
     rays
         The rays. With one sample a pixel, those of the picture. Many lights share them: then there
-        are none if the light as a whole is known to arrive or not, or if it can bring little.
+        are none if the light as a whole is known to arrive or not, or if it can bring little. To
+        ambient light of distance 0, which nothing keeps off, there are none.
     share
         How much of the light arrives: the mean weight of its rays, 0 for those that do not. Of a
         sky whose colour changes with the direction, the mean over red, green and blue.

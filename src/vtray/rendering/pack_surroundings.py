@@ -72,5 +72,10 @@ def towards_sun(sun: Sun) -> Vec:
 def is_even(light: AnyLight) -> bool:
     """Tell whether a light comes from everywhere in one colour, however far away that is."""
     if isinstance(light, Ambient):
-        return math.isinf(light.distance)
+        return math.isinf(light.distance) or is_everywhere(light)
     return isinstance(light, Sky) and not changes_color(light)
+
+
+def is_everywhere(light: AnyLight) -> bool:
+    """Tell whether nothing keeps off a light, which takes no rays."""
+    return isinstance(light, Ambient) and light.distance == 0

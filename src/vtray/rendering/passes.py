@@ -21,6 +21,7 @@ from vtray.rendering.growth import DRAFT_TILE, Growth, draft_camera
 from vtray.scene.settings import RenderSettings
 from vtray.transport.film import Film, new_film
 from vtray.transport.light_buffer import KeptLight, new_kept_light
+from vtray.transport.lights.light import strongest_of
 from vtray.transport.sampling.fans import (
     Fans,
     Noise,
@@ -225,7 +226,10 @@ class Tracer:
     def _noise_of_light(self, error: float, settings: RenderSettings) -> Noise:
         """Return how noisy light may be that is not kept to be changed."""
         are_shared = self._scene.lights.crowd is not None
-        return Noise(error, True, are_shared, halvings_for(settings.tolerance))
+        tolerance = settings.tolerance
+        if not are_shared and math.isfinite(error):
+            tolerance = max(tolerance, error / (strongest_of(self._scene.lights) or math.inf))
+        return Noise(error, True, are_shared, halvings_for(tolerance))
 
     def _about_white(self, settings: RenderSettings) -> float:
         """Return the light that becomes white in some pixels, with as few rays as there can be."""

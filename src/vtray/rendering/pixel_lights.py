@@ -17,7 +17,7 @@ from vtray.geometry.vector import Vec, scale, sub
 from vtray.geometry.world import body_count
 from vtray.rendering.numbering import Numbering
 from vtray.rendering.pack import Packed
-from vtray.rendering.pack_surroundings import is_even
+from vtray.rendering.pack_surroundings import is_even, is_everywhere
 from vtray.rendering.pixel_surfaces import as_vec, find_blocker, rgb
 from vtray.scene.colors.color_light import light_of
 from vtray.scene.light_types import (
@@ -137,7 +137,7 @@ def trace_fans(
         lamp = trace_lamp(*known, spent, seed, *scratch)
         components = uncompiled(component_count)(soft, len(ways))
         rays: list[FanRay] = []
-        for number in range(lamp.fans):
+        for number in range(0 if is_everywhere(light) else lamp.fans):
             trace_fan(*known, number, seed, *scratch)
             rays += [
                 fan_ray(lit, light, SpreadRay(fan, ray, start, length, components), int(blocker))

@@ -250,7 +250,7 @@ class AddingLights:
         intensity
             Strength, ≥ 0: a white surface with nothing near shows 1 at intensity 1.
         distance
-            How far away something still darkens a surface, in scene units, > 0.
+            How far away something still darkens a surface, in scene units, ≥ 0; at 0 nothing does.
         color
             Colour of the light, in any of the ways of `vtray.colors.to_rgb`.
 

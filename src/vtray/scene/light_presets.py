@@ -32,19 +32,21 @@ GOLDEN_ANGLE = 180 * (3 - math.sqrt(5))
 """In degrees: points that turn by it from one to the next never line up."""
 
 
-KEY, FILL, RIM, FRONT, AROUND = 0.342, 0.19, 0.247, 0.19, 0.494
-"""The parts of studio light: what faces the camera or the key, with nothing near, shows 0.98, and
-what faces the middle of both 1.07, as white floors do, which so are as white as what is behind."""
+KEY, FILL, RIM, FRONT, AROUND, BOUNCED = 0.33, 0.17, 0.27, 0.33, 0.24, 0.20
+"""The parts of studio light: what faces the camera, with nothing near, shows 1.05, what faces the
+key 0.98, and what faces the middle of both 1.10. In hollows and packings, where little comes from
+around, colours are told apart by what has bounced and what comes from the front."""
 
 
 def studio(scene: HasCamera, intensity: float = 1.0) -> list[AnyLight]:
     """Return the light of a studio: soft, and from all sides; that of scenes without lights.
 
     A large lamp, the key, is 40 degrees to the left and 45 above, a weaker one to the right fills
-    its shadows, a weak one from the camera reaches whatever is seen, and one from behind draws
-    rims; ambient light shows what is deep and what is open. With an exposure of 1, surfaces that
-    face the camera or the key show their own colour. Scenes without lights have other settings,
-    too: the ``settings`` of their picture as ``scene.render`` make this light the same.
+    its shadows, one from the camera reaches whatever is seen, and one from behind draws rims;
+    ambient light shows what is deep and what is open, and some of it, in place of what bounces, is
+    in all hollows, too. With an exposure of 1, surfaces that face the camera or the key show their
+    own colour. Scenes without lights have other settings, too: the ``settings`` of their picture as
+    ``scene.render`` make this light the same.
 
     Parameters
     ----------
@@ -56,7 +58,7 @@ def studio(scene: HasCamera, intensity: float = 1.0) -> list[AnyLight]:
     Returns
     -------
     list
-        Four `Sun`, so that a floor is lit evenly as far as it goes, and an `Ambient`.
+        Four `Sun`, so that a floor is lit evenly as far as it goes, and two `Ambient`.
 
     Raises
     ------
@@ -70,6 +72,7 @@ def studio(scene: HasCamera, intensity: float = 1.0) -> list[AnyLight]:
         studio.sun(direction(50, 15), 40.0, FILL * strength),
         studio.sun(direction(140, 40), 20.0, RIM * strength),
         studio.sun(direction(0, 0), 10.0, FRONT * strength),
+        Ambient(BOUNCED * strength, distance=0),
         Ambient(AROUND * strength),
     ]
 

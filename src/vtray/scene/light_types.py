@@ -280,8 +280,10 @@ class Ambient(Frozen, frozen=True, gc=False, tag_field="type", tag="ambient"):
         Strength, ≥ 0, 1 by default: a white, fully scattering surface with nothing near shows 1 in
         ambient light of intensity 1.
     distance : float, optional
-        How far away something still darkens a surface, in scene units, > 0. By default it is
-        infinite, for which a file leaves it out.
+        How far away something still darkens a surface, in scene units, ≥ 0. By default it is
+        infinite, for which a file leaves it out. At 0 nothing does: light that is the same
+        everywhere, and takes no rays, in place of what has bounced many times; `path`, which
+        follows that, takes it as infinite.
     color : Color, optional
         Colour of the light, as for Light.
     """

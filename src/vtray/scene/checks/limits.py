@@ -38,7 +38,7 @@ FlatProjection = Literal["perspective", "orthographic"]
 Margin = Annotated[float, Meta(ge=0, lt=0.5, description="a number from 0 to less than 0.5")]
 AngularSize = Annotated[float, Meta(ge=0, le=180, description="a number of degrees from 0 to 180")]
 # Infinite only in code: JSON has no infinity.
-Reach = Annotated[float, Meta(gt=0, description="a number > 0", extra={"may_be_infinite": True})]
+Reach = Annotated[float, Meta(ge=0, description="a number ≥ 0", extra={"may_be_infinite": True})]
 FieldOfView = Annotated[float, Meta(gt=0, lt=180, description="a number of degrees > 0 and < 180")]
 # The end, in the words of Python and of JavaScript: a $ of Python's may stand before a newline.
 END = r"(?![\s\S])"

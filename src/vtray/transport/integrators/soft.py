@@ -50,6 +50,7 @@ from vtray.transport.lights.soft_light import (
     is_above,
     is_below,
     is_cone,
+    is_everywhere,
     longest_ray,
     middle_share,
     soft_count,
@@ -70,8 +71,8 @@ from vtray.transport.sampling.fans import Fans, fan_of, fans_of_share
 from vtray.transport.sampling.light_rays import arriving_shares, spread_fan
 from vtray.transport.scene_arrays import LitWorld
 
-DARK = (0.0, 0.0, 0.0)
-"""The shares of a light of which nothing arrives."""
+DARK, ALL = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+"""The shares of a light of which nothing arrives, and of one of which everything does."""
 
 
 class Casting(NamedTuple):
@@ -399,6 +400,11 @@ def _ask_cones(
     """
     batch, soft, world, forward = work.batch, casting.soft, casting.lit.world, casting.lit.forward
     touching = around
+    if is_everywhere(seen.aim):
+        for k in range(count):
+            hit = batch.hit[batch.active[k]]
+            _add_shares(packet, hit, casting, light, ALL)
+        return 0, touching, False, 0
     if not (is_cone(seen.aim) and seen.aim.spread < NARROW):
         return count, MANY, True, 0
     active, cast, is_dimmed = 0, 0, False

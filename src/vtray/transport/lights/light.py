@@ -1,5 +1,6 @@
 """The lights of a scene, and where light comes from."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +11,7 @@ from vtray.geometry.packets.occlusion import Target
 from vtray.geometry.packets.packet import NO_PRIMITIVE
 from vtray.geometry.vector import Vec, pick
 from vtray.transport.lights.crowd import Crowd
-from vtray.transport.lights.soft_light import SoftLights, component_count
+from vtray.transport.lights.soft_light import AROUND, NO_SKY, SoftLights, component_count
 from vtray.transport.lights.surroundings import Surroundings
 from vtray.transport.lights.visible import VisibleLamps
 from vtray.transport.materials.material import Material, Power, scattered
@@ -129,6 +130,22 @@ def soft_worth(lights: Lights | Powers, soft: SoftLights, light: int, material: 
         red, green, blue = scattered(material, 1.0, power)
         worth = max(worth, red, green, blue)
     return worth
+
+
+def strongest_of(lights: Lights) -> float:
+    """Return the largest channel of what any soft light adds that needs rays, at the most.
+
+    That of a sky whose colour changes is not known.
+    """
+    soft = lights.soft
+    if soft is None:
+        return 0.0
+    if (soft.sky != NO_SKY).any():
+        return math.inf
+    needs_rays = (soft.kind != AROUND) | (soft.size > 0.0)
+    rows = soft.row[needs_rays]
+    brought = lights.intensity[rows] * lights.color[rows].max(axis=1, initial=0.0)
+    return 255.0 * float(brought.max(initial=0.0))
 
 
 @device

@@ -174,6 +174,13 @@ def is_cone(aim: Aim) -> bool:
 
 
 @device
+def is_everywhere(aim: Aim) -> bool:
+    """Tell whether a light is one from all sides that nothing stops: all of it always arrives."""
+    is_around: bool = aim.kind == AROUND and aim.size == 0.0
+    return is_around
+
+
+@device
 def middle_share(aim: Aim, normal: Vec) -> float:
     """Return the share of a cone above the horizon that nothing stops: that of its middle."""
     return aim.whole * dot(normal, aim.axis)
