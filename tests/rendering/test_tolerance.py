@@ -128,6 +128,7 @@ def test_fans_to_weak_lights_have_fewer_rays_where_that_is_known() -> None:
     weak = [vtray.Ambient(0.5, color=(153, 102, 0)), vtray.Ambient(distance=0)]
     assert halvings([vtray.Ambient(0.3)], exposure=1.0) == 3
     assert halvings(weak, exposure=1.0) == 3
+    assert halvings(4 * [vtray.Ambient(0.2)], exposure=1.0) == 2  # together as one of 0.4
     assert halvings([*weak, SUN], exposure=1.0) == 0
     assert halvings(weak, exposure=3.0) == 0  # as 0.9 of white
     assert halvings([vtray.Ambient(9)], exposure=1.0) == 0

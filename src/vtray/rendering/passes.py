@@ -21,7 +21,7 @@ from vtray.rendering.growth import DRAFT_TILE, Growth, draft_camera
 from vtray.scene.settings import RenderSettings
 from vtray.transport.film import Film, new_film
 from vtray.transport.light_buffer import KeptLight, new_kept_light
-from vtray.transport.lights.light import strongest_of
+from vtray.transport.lights.light import noisy_light
 from vtray.transport.sampling.fans import (
     Fans,
     Noise,
@@ -228,7 +228,7 @@ class Tracer:
         are_shared = self._scene.lights.crowd is not None
         tolerance = settings.tolerance
         if not are_shared and math.isfinite(error):
-            tolerance = max(tolerance, error / (strongest_of(self._scene.lights) or math.inf))
+            tolerance = max(tolerance, error / (noisy_light(self._scene.lights) or math.inf))
         return Noise(error, True, are_shared, halvings_for(tolerance))
 
     def _about_white(self, settings: RenderSettings) -> float:

@@ -132,10 +132,11 @@ def soft_worth(lights: Lights | Powers, soft: SoftLights, light: int, material: 
     return worth
 
 
-def strongest_of(lights: Lights) -> float:
-    """Return the largest channel of what any soft light adds that needs rays, at the most.
+def noisy_light(lights: Lights) -> float:
+    """Return the largest channels of what soft lights add by rays, together, at the most.
 
-    That of a sky whose colour changes is not known.
+    As their errors are, they are added by their squares. What a sky adds whose colour changes is
+    not known.
     """
     soft = lights.soft
     if soft is None:
@@ -145,7 +146,7 @@ def strongest_of(lights: Lights) -> float:
     needs_rays = (soft.kind != AROUND) | (soft.size > 0.0)
     rows = soft.row[needs_rays]
     brought = lights.intensity[rows] * lights.color[rows].max(axis=1, initial=0.0)
-    return 255.0 * float(brought.max(initial=0.0))
+    return 255.0 * math.sqrt(math.fsum(brought * brought))
 
 
 @device
