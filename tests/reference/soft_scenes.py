@@ -118,5 +118,5 @@ def edges(random: Random) -> tuple[Scene, Scene]:
     """Return edges of a rectangle of any size, often along axes."""
     one, other = random.normal(size=(2, 3)) if random.random() < 0.7 else np.eye(3)[:2]
     other = other - (one @ other) / (one @ one) * one
-    sizes = random.choice([0.0, 1e-9, 0.1, 0.5, 1.5, 7.0, 50.0], 2)
+    sizes = random.choice([1e-9, 0.1, 0.5, 1.5, 7.0, 50.0], 2)
     return xyz(*(sizes[0] * one).tolist()), xyz(*(sizes[1] * other).tolist())

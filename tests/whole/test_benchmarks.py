@@ -791,7 +791,7 @@ def test_clouds_are_what_they_are_said_to_be() -> None:
         (one, radius), (two, _) = (clouds.CLOUDS[kind](1000) for _ in range(2))
         np.testing.assert_array_equal(one, two)
         assert (one.shape, radius.shape) == ((1000, 3), (1000,))
-        assert len(lights_of(clouds.make_scene(kind, 20, SMALL))) == 5
+        assert len(lights_of(clouds.make_scene(kind, 20, SMALL))) == 6
 
 
 @compiled_only

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.base.exact_math import hypotenuse
 from vtray.geometry.packets.occlusion import Target
 from vtray.geometry.packets.packet import NO_PRIMITIVE
 from vtray.geometry.vector import Vec, pick
@@ -146,7 +147,7 @@ def noisy_light(lights: Lights) -> float:
     needs_rays = (soft.kind != AROUND) | (soft.size > 0.0)
     rows = soft.row[needs_rays]
     brought = lights.intensity[rows] * lights.color[rows].max(axis=1, initial=0.0)
-    return 255.0 * math.sqrt(math.fsum(brought * brought))
+    return 255.0 * hypotenuse(0.0, *brought.tolist())
 
 
 @device
