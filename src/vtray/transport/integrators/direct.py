@@ -627,6 +627,8 @@ def _add_soft_lights(
     if soft is not None:  # noqa: SIM102 - by itself, it is known to the compiler
         if fans is not None:
             lit, samples = lit_world(scene), last - first
+            # A truth value in any case: what takes long to compile is the same for all films.
+            is_asked = False if is_wide is None else is_wide
             if crowd is not None:  # noqa: SIM102
                 if kept.cosines.shape[0] == 0:
                     return add_shared_light(
@@ -641,7 +643,7 @@ def _add_soft_lights(
                         crowd,
                         fans,
                         seed,
-                        is_wide,
+                        is_asked,
                         work,
                     )
             return add_soft_lights(
@@ -655,7 +657,7 @@ def _add_soft_lights(
                 soft,
                 fans,
                 seed,
-                is_wide,
+                is_asked,
                 is_near,
                 kept.cosines,
                 work,

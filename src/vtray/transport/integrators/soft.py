@@ -145,7 +145,7 @@ def add_soft_lights(
     soft: SoftLights,
     fans: Fans,
     seed: int,
-    is_wide: bool | None,
+    is_wide: bool,
     is_near: bool,
     cosines: NDArray[np.float64],
     work: Workspace,
@@ -165,7 +165,7 @@ def add_soft_lights(
     fans, seed
         Which rays are cast.
     is_wide
-        Whether it is asked if pixels look the same everywhere; None where it never is.
+        Whether it is asked if pixels look the same everywhere.
     is_near
         Whether hits of lanes near each other may be near each other.
     cosines
@@ -231,7 +231,7 @@ def _light_batch(
     casting: Casting,
     fans: Fans,
     light: int,
-    is_wide: bool | None,
+    is_wide: bool,
     work: Workspace,
 ) -> int:
     """Add a light to the hits of a batch, so many; return how many shadow rays were cast.
@@ -284,14 +284,14 @@ def _leave_even(
     count: int,
     casting: Casting,
     light: int,
-    is_wide: bool | None,
+    is_wide: bool,
     work: Workspace,
 ) -> int:
     """Leave those of so many hits active whose pixels look the same everywhere, if that is asked.
 
     Return how many these are.
     """
-    if not _is_asked(is_wide):
+    if not is_wide:
         return count
     active, batch = 0, work.batch
     for k in range(count):
@@ -352,7 +352,7 @@ def _leave_above(
     casting: Casting,
     first: Seen,
     light: int,
-    is_wide: bool | None,
+    is_wide: bool,
     work: Workspace,
 ) -> int:
     """Make those hits active that a light is not below; return how many these are.
@@ -362,7 +362,7 @@ def _leave_above(
     batch, active = work.batch, 0
     for member in range(count):
         hit = batch.hit[member]
-        if _is_asked(is_wide) and packet[UNEVEN + hit] != 0.0:
+        if is_wide and packet[UNEVEN + hit] != 0.0:
             continue
         aim = aim_of(packet, hit, casting.soft, light, first)
         if is_below(aim, load(packet, NORMAL, hit)):
@@ -561,25 +561,17 @@ def _keep_share(
 
 
 @device
-def _is_asked(is_wide: bool | None) -> bool:
-    """Tell whether it is asked if pixels look the same everywhere."""
-    return False if is_wide is None else is_wide
-
-
-@device
 def _is_uneven(
     packet: Packet,
     hit: int,
     casting: Casting,
     light: int,
-    is_wide: bool | None,
+    is_wide: bool,
     work: Workspace,
 ) -> bool:
     """Tell whether the pixel of a hit gets samples for a light, if that is asked, and note it."""
-    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
-        if is_wide:
-            lit, soft = casting.lit, casting.soft
-            uneven = is_lit_unevenly(packet, hit, lit, soft, light, work)
-            packet[UNEVEN + hit] = 1.0 if uneven else packet[UNEVEN + hit]
-            return uneven
-    return False
+    if not is_wide:
+        return False
+    uneven = is_lit_unevenly(packet, hit, casting.lit, casting.soft, light, work)
+    packet[UNEVEN + hit] = 1.0 if uneven else packet[UNEVEN + hit]
+    return uneven

@@ -70,7 +70,7 @@ def add_shared_light(
     crowd: Crowd,
     fans: Fans,
     seed: int,
-    is_wide: bool | None,
+    is_wide: bool,
     work: Workspace,
 ) -> int:
     """Add what all soft lights bring to the hits of a packet; return how many rays were cast.
@@ -84,7 +84,7 @@ def add_shared_light(
     fans, seed
         Which rays are cast.
     is_wide
-        Whether it is asked if pixels look the same everywhere; None where it never is.
+        Whether it is asked if pixels look the same everywhere.
     work
         Scratch memory.
     """
@@ -111,7 +111,7 @@ def _light_hit(
     crowd: Crowd,
     fans: Fans,
     seed: int,
-    is_wide: bool | None,
+    is_wide: bool,
     work: Workspace,
 ) -> int:
     """Add what all soft lights bring to a hit; return how many shadow rays were cast."""
@@ -223,7 +223,7 @@ def _is_uneven(
     lit: LitWorld,
     soft: SoftLights,
     crowd: Crowd,
-    is_wide: bool | None,
+    is_wide: bool,
     shared: Shared,
     work: Workspace,
 ) -> bool:
@@ -232,19 +232,18 @@ def _is_uneven(
     That is one for each of ``ASKED`` equal parts of all light: each that brings as much as a part,
     and of lights near each other that bring so much together at least one.
     """
-    if is_wide is not None:  # noqa: SIM102 - by itself, it is known to the compiler
-        if is_wide:
-            uneven: bool = packet[UNEVEN + hit] != 0.0
-            count = soft_count(soft)
-            parts = ASKED / max(shared.sums[count], LEAST)
-            for place in range(count):
-                if uneven:
-                    break
-                if int(shared.sums[place] * parts) < int(shared.sums[place + 1] * parts):
-                    uneven = is_lit_unevenly(packet, hit, lit, soft, crowd.order[place], work)
-            packet[UNEVEN + hit] = 1.0 if uneven else 0.0
-            return uneven
-    return False
+    if not is_wide:
+        return False
+    uneven: bool = packet[UNEVEN + hit] != 0.0
+    count = soft_count(soft)
+    parts = ASKED / max(shared.sums[count], LEAST)
+    for place in range(count):
+        if uneven:
+            break
+        if int(shared.sums[place] * parts) < int(shared.sums[place + 1] * parts):
+            uneven = is_lit_unevenly(packet, hit, lit, soft, crowd.order[place], work)
+    packet[UNEVEN + hit] = 1.0 if uneven else 0.0
+    return uneven
 
 
 LEAST = 1e-300
