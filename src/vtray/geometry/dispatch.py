@@ -125,20 +125,20 @@ def with_any(world: World, group: Group, slot: int, action: Action, arguments: A
             plane_unroll,
         )
         return action(plane, verbs, group.number + world.planes.number[slot], arguments)
-    return with_bounded(world, group, slot, action, arguments)
+    return with_bounded(world.solids, group, slot, action, arguments)
 
 
 @device
 def with_bounded(
-    world: World | Solids,
+    solids: Solids,
     group: Group,
     slot: int,
     action: Action,
     arguments: Any,  # noqa: ANN401
 ) -> Any:  # noqa: ANN401
     """Return what an action returns for a shape of a group that is none of whole planes."""
-    spheres, cylinders, cones = world.spheres, world.cylinders, world.cones
-    return _with_one_of(spheres, cylinders, cones, world.clip, group, slot, action, arguments)
+    spheres, cylinders, cones = solids.spheres, solids.cylinders, solids.cones
+    return _with_one_of(spheres, cylinders, cones, solids.clip, group, slot, action, arguments)
 
 
 @device

@@ -134,7 +134,7 @@ def _stop_by_all(bundle: Bundle, world: World, stack: Stack) -> None:
     """Mark the rays that anything stops, but for those that are marked already."""
     for row in range(group_count(world)):
         group = load_group(world, row)
-        if group.kind >= CUT and _leads_out(world, world.clip, group, bundle):
+        if group.kind >= CUT and _leads_out(world, world.solids.clip, group, bundle):
             continue
         if group.root == NO_TREE:
             for slot in range(group.begin, group.end):
@@ -285,7 +285,7 @@ def _stop_by_leaf(
     for slot in range(begin, end):
         stack.slot[count] = slot
         of_ball = bundle, group.kind, group.to_boxes.ratio, balls, count
-        count += with_bounded(world, group, slot, see_ball, of_ball) if is_worth_it else 1
+        count += with_bounded(world.solids, group, slot, see_ball, of_ball) if is_worth_it else 1
     for k in range(count):
         near = rays & ~stopped
         if is_worth_it:
@@ -294,9 +294,9 @@ def _stop_by_leaf(
         if near != NONE:
             slot, slack = stack.slot[k], 0.0
             if group.kind != SPHERE and bundle.spot.extent > 0.0:
-                slack = with_bounded(world, group, slot, _slack_towards, bundle.spot)
+                slack = with_bounded(world.solids, group, slot, _slack_towards, bundle.spot)
             arguments = bundle, group.kind, near, slack
-            stopped |= with_bounded(world, group, slot, _hidden_rays, arguments)
+            stopped |= with_bounded(world.solids, group, slot, _hidden_rays, arguments)
     return stopped
 
 

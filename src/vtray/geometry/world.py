@@ -188,6 +188,27 @@ class Clip(NamedTuple):
     flat: Columns | None
 
 
+class Solids(NamedTuple):
+    """The shapes of a world that are no whole planes, and what cuts them.
+
+    What depends on these alone is compiled once for worlds that differ in other things, and what
+    only passes them on once for all worlds.
+
+    Attributes
+    ----------
+    spheres, cylinders, cones
+        The columns of each kind; None for cylinders and for cones where there are none, so that no
+        code is compiled for them.
+    clip
+        What clip planes leave; None where there are none, likewise.
+    """
+
+    spheres: Columns
+    cylinders: Columns | None
+    cones: Columns | None
+    clip: Clip | None
+
+
 class World(NamedTuple):
     """What rays can meet.
 
@@ -199,53 +220,33 @@ class World(NamedTuple):
     ----------
     groups
         The groups.
-    planes, spheres, cylinders, cones
-        The columns of each kind; None for cylinders and for cones where there are none, so that no
-        code is compiled for them.
+    planes, spheres
+        The columns of these kinds.
+    solids
+        Those of all that are no whole planes, and what cuts them.
     bvh
         The nodes of all hierarchies.
     places
-        Where those groups stand that are placed; None where there are none, likewise.
+        Where those groups stand that are placed; None where there are none, so that no code is
+        compiled for them.
     given
         How many groups stand where they are given: the first ones, without faded shapes.
     faded
         The faded shapes; None where there are none, likewise.
     scale, origin
         What leads from world space to the kernels', as in `Place`.
-    clip
-        What clip planes leave; None where there are none, likewise.
     """
 
     groups: Groups
     planes: Columns
     spheres: Columns
-    cylinders: Columns | None
-    cones: Columns | None
+    solids: Solids
     bvh: Bvh
     places: Places | None
     given: int
     faded: Faded | None
     scale: float
     origin: Vec
-    clip: Clip | None = None
-
-
-class Solids(NamedTuple):
-    """The shapes of a world that are no whole planes, and what cuts them; as in `World`.
-
-    What depends on these alone is compiled once for worlds that differ in other things.
-    """
-
-    spheres: Columns
-    cylinders: Columns | None
-    cones: Columns | None
-    clip: Clip | None
-
-
-@device
-def solids_of(world: World) -> Solids:
-    """Return the shapes of a world that are no whole planes."""
-    return Solids(world.spheres, world.cylinders, world.cones, world.clip)
 
 
 class Group(NamedTuple):

@@ -22,6 +22,7 @@ from vtray.geometry.world import (
     Groups,
     Hierarchy,
     Places,
+    Solids,
     ToBoxes,
     World,
 )
@@ -46,7 +47,7 @@ from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.scene import Camera, Plane, Scene
 from vtray.scene.style import Style
 from vtray.transport.camera_rays import CameraFrame, TurnFrame
-from vtray.transport.materials.material import Materials
+from vtray.transport.materials.material import Materials, Paints
 from vtray.transport.scene_arrays import SceneArrays
 
 Floats = NDArray[np.float64]
@@ -163,15 +164,18 @@ def _pack_world(objects: Sequence[Object], kept: Acceleration, unit: float, orig
         _pack_groups(rows),
         whole,
         spheres,
-        cylinders,
-        cones,
+        Solids(
+            spheres,
+            cylinders,
+            cones,
+            _pack_clip(kept.rooms, rows, [flat for _, flat, _ in cut]),
+        ),
         kept.bvh if has_trees else no_bvh(),
         places,
         given,
         None if bodies is None else Faded(given, ends[0], faded_places, bodies, Style().solid_from),
         1.0 / unit,
         origin,
-        _pack_clip(kept.rooms, rows, [flat for _, flat, _ in cut]),
     )
 
 
@@ -465,12 +469,14 @@ def _pack_materials(
         end_step[k],
         lambert_row[k] + begin * lambert_step[k],
         lambert_step[k],
-        joined([*colors, *ends], np.uint8),
-        light_of_numbers(scene.render.tonemap),
-        joined(lamberts, np.float64),
-        _cap_color(kept.rooms, scene.render.tonemap),
+        Paints(
+            joined([*colors, *ends], np.uint8),
+            light_of_numbers(scene.render.tonemap),
+            joined(lamberts, np.float64),
+            _cap_color(kept.rooms, scene.render.tonemap),
+            pack_patterns(made, rows, unit, scene),
+        ),
         pack_looks(made, rows, unit, scene),
-        pack_patterns(made, rows, unit, scene),
     )
 
 

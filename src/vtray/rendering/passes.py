@@ -376,10 +376,11 @@ def _with_coverage(film: Film) -> Film:
 def _thickest(world: World) -> float:
     """Return the radius of the thickest solid, in the kernels' space."""
     radii = [world.spheres.data[3 :: sphere.SIZE]]
-    if world.cylinders is not None:
-        radii.append(world.cylinders.data[6 :: cylinder.SIZE])
-    if world.cones is not None:
-        radii += [world.cones.data[6 :: cone.SIZE], world.cones.data[7 :: cone.SIZE]]
+    solids = world.solids
+    if solids.cylinders is not None:
+        radii.append(solids.cylinders.data[6 :: cylinder.SIZE])
+    if solids.cones is not None:
+        radii += [solids.cones.data[6 :: cone.SIZE], solids.cones.data[7 :: cone.SIZE]]
     return max(float(of_kind.max(initial=0.0)) for of_kind in radii) * world.scale
 
 

@@ -80,7 +80,7 @@ def hit_of(pixel: Pixel, traced: TracedPixel, before: float = 0.0) -> Hit:
 
 def _pattern_of(packed: Packed, primitive: int) -> Pattern | None:
     """Return the pattern of a primitive."""
-    patterns = packed.arrays.materials.patterns
+    patterns = packed.arrays.materials.paints.patterns
     if patterns is None:
         return None
     row = uncompiled(pattern_of)(packed.arrays.materials, patterns, primitive)

@@ -297,7 +297,7 @@ def render(
     _tell(warn, darkness(traced.film.linear, traced.peak, settings) if lock is None else "")
     relighting = (
         Relighting(kept, traced.kept, int(settings.samples), threads)
-        if packed.arrays.world.faded is None and packed.arrays.materials.patterns is None
+        if packed.arrays.world.faded is None and packed.arrays.materials.paints.patterns is None
         else rerendering
     )
     denoising = Denoising(

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from vtray.base.compiler.compiled import device, part
+from vtray.base.compiler.compiled import device, part, passing_on
 from vtray.geometry.dispatch import with_any
 from vtray.geometry.packets.coherence import CLUSTER, cluster_hits, list_hits
 from vtray.geometry.packets.packet import (
@@ -43,6 +43,7 @@ from vtray.geometry.shapes.unrolled import Unrolled, Upright
 from vtray.geometry.shapes.verbs import Shape, Verbs
 from vtray.geometry.vector import Vec, add, dot, scale, sub
 from vtray.geometry.world import Group, World, has_trees, load_group
+from vtray.transport.materials.look import Looks
 from vtray.transport.materials.material import Material, Materials, load_material, pattern_of
 from vtray.transport.materials.pattern import PLAIN, Patterns, pattern_color, upright_of
 
@@ -97,7 +98,7 @@ def _surface(
     return verbs.surface(shape, point, error_scale)
 
 
-@device
+@part
 def comes_from_within(packet: Packet, hit: int, lane: int, world: World) -> bool:
     """Tell whether a ray meets a surface from within."""
     row, slot = split_met(integers(packet)[MET + lane])
@@ -143,7 +144,7 @@ def material_at(
     """
     own = load_material(materials, primitive, half)
     return _with_pattern(
-        world, materials, materials.patterns, own, primitive, half, row, slot, point
+        world, materials, materials.paints.patterns, own, primitive, half, row, slot, point
     )
 
 
@@ -196,6 +197,7 @@ def _half_of(surface: Surface) -> int:
 
 
 @part
+@passing_on(Looks)
 def gather_interactions(
     packet: Packet,
     lanes: int,
@@ -256,7 +258,7 @@ def _fetch(
     if has_width(footprint):
         bend = bend_at(surface, point)
         # Where colours change, no part of a surface is even.
-        is_even = not _has_pattern(materials, materials.patterns, primitive)
+        is_even = not _has_pattern(materials, materials.paints.patterns, primitive)
         packet[BEND + hit] = bend if is_even else math.inf
     # What all rays have in common is added later.
     own = 0.0 if sheaf.bounced is None else ray.error_scale

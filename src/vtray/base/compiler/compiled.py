@@ -33,6 +33,7 @@ from vtray.base.compiler.canary import (
     sing,
     warn_of_slow_starts,
 )
+from vtray.base.compiler.elf_loader import NOTHING
 from vtray.base.compiler.function_names import full_name
 from vtray.base.compiler.kernel_folder import cache_folder
 from vtray.base.compiler.mode import is_for_kernels
@@ -57,10 +58,13 @@ from vtray.base.compiler.object_code import (
 from vtray.base.compiler.parts import (
     compile_sooner,
     get_help,
+    learn,
     load_parts,
     make_parts,
     new_name,
+    with_names,
 )
+from vtray.base.compiler.unseen import pass_on
 from vtray.base.errors import RenderError
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -122,6 +126,23 @@ def long_part(function: Function) -> Function:
     if not _is_off():
         compile_sooner(function)
     return part(function)
+
+
+def passing_on(*classes: type) -> Callable[[Function], Function]:
+    """Compile a kernel or part once, whatever is in tuples that it hands to parts as they are.
+
+    Parameters
+    ----------
+    classes
+        Those of the tuples, which have named items and hold an array in any case. Into these, the
+        function and what it calls must not look; parts may.
+    """
+
+    def decorate(function: Function) -> Function:
+        pass_on(function, classes)
+        return function
+
+    return decorate
 
 
 def kernel(function: Function) -> Function:
@@ -384,17 +405,25 @@ class Kernel(Device):
             ahead = self._ahead.pop(types, None)
             compiled = ahead or self._compiled(arguments, is_kept=file is not None)
             parts = _in_thread(make_parts, compiled)
+            if parts is None:
+                compiled = self._compiled(arguments, is_kept=file is not None, is_anew=True)
+                parts = _in_thread(make_parts, compiled)
             if file:
-                write_object_code(file, compiled)
-        return caller(link(compiled, parts), compiled.layout)
+                write_object_code(file, with_names(compiled))
+        return caller(link(compiled, parts or NOTHING), compiled.layout)
 
-    def _compiled(self, arguments: tuple[object, ...], *, is_kept: bool) -> ObjectCode:
+    def _compiled(
+        self, arguments: tuple[object, ...], *, is_kept: bool, is_anew: bool = False
+    ) -> ObjectCode:
         """Compile what Python calls; if it is kept, other processes begin with its parts."""
         if _waiting:
             _waiting.pop()(is_kept)
         if is_kept:
             get_help()
-        return _in_thread(compile_object, self._function, arguments, _OPTIONS)
+        compiled = _in_thread(compile_object, self._function, arguments, _OPTIONS, is_anew)
+        if is_kept:
+            _in_thread(learn, compiled)
+        return compiled
 
     def _compile_for_python(self, arguments: tuple[object, ...]) -> bool:
         """Compile the function as Numba calls it; tell whether it is compiled at all."""

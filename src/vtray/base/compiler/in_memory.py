@@ -4,7 +4,8 @@ A scene is a tuple of tuples of some seventy arrays. Numba hands over such a tup
 writes code that takes it apart and puts it together in each function that it goes through, which is
 more than half of all that LLVM is given. So a tuple with named items that holds arrays is an
 address to machine code: that of its words, which lie one after the other as `native_call` has put
-them there, and from where an item is loaded when it is asked for.
+them there, and from where an item is loaded when it is asked for. An item that is such a tuple
+itself is the address of its own words, so that all others lie where they do whatever is in it.
 
 Nobody writes to these words while a kernel runs, and LLVM is told so. What a kernel itself makes of
 a class is a value, as ever.
@@ -13,6 +14,7 @@ a class is a value, as ever.
 # ruff: noqa: ANN401
 # mypy: allow-untyped-calls, allow-untyped-decorators
 
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numba
@@ -22,6 +24,8 @@ from numba.core.datamodel.models import PrimitiveModel
 from numba.core.extending import lower_getattr_generic
 from numba.core.typing.templates import AttributeTemplate
 from numba.extending import infer_getattr, register_model
+
+from vtray.base.compiler.function_names import full_name
 
 types: Any = numba.types
 
@@ -39,32 +43,49 @@ class InMemory(numba.types.Type):
 
     Attributes
     ----------
-    fields
-        The names of its items.
+    made_by
+        Its class.
     items
-        Their types.
+        The types of its items.
+    fields
+        Their names.
     places
         The words at which they begin.
     size
         How many words there are.
     """
 
-    def __init__(self, kind: Any) -> None:
-        self.fields: tuple[str, ...] = kind.fields
-        self.items = tuple(map(in_memory, kind.types))
-        sizes = [word_count(item) for item in self.items]
+    def __init__(self, made_by: Any, items: tuple[Any, ...]) -> None:
+        self.made_by, self.items = made_by, items
+        self.fields: tuple[str, ...] = made_by._fields
+        sizes = [_item_words(item) for item in items]
         self.places = [sum(sizes[:k]) for k in range(len(sizes))]
         self.size = sum(sizes)
         # Names of functions hold those of their arguments, and some would be thousands long.
-        digest = blake3(str(kind).encode()).hexdigest(_NAME_BYTES)
-        super().__init__(f"{kind.instance_class.__name__}-{digest}")
+        whole = ", ".join([full_name(made_by), *map(str, items)])
+        super().__init__(f"{made_by.__name__}-{blake3(whole.encode()).hexdigest(_NAME_BYTES)}")
+
+
+class Unseen(numba.types.Type):
+    """A tuple with named items that lies in memory, to code that does not look into it.
+
+    Attributes
+    ----------
+    made_by
+        Its class.
+    """
+
+    def __init__(self, made_by: Any) -> None:
+        self.made_by = made_by
+        super().__init__(f"{full_name(made_by)}-unseen")
 
 
 @register_model(InMemory)
+@register_model(Unseen)
 class _Address(PrimitiveModel):
     """What such a tuple is to machine code."""
 
-    def __init__(self, manager: Any, kind: InMemory) -> None:
+    def __init__(self, manager: Any, kind: InMemory | Unseen) -> None:
         super().__init__(manager, kind, WORD.as_pointer())
 
 
@@ -81,8 +102,63 @@ class _Items(AttributeTemplate):
 
 def in_memory(kind: Any) -> Any:
     """Return the type of an argument of a kernel, given what Numba says of its value."""
-    is_named = isinstance(kind, types.BaseNamedTuple)
-    return InMemory(kind) if is_named and _has_array(kind) else kind
+    if isinstance(kind, types.BaseNamedTuple) and _has_array(kind):
+        return InMemory(kind.instance_class, tuple(map(in_memory, kind.types)))
+    return kind
+
+
+def hidden(kind: Any, classes: frozenset[str]) -> Any:
+    """Return a type as it is to code that does not look into tuples of some classes."""
+    if isinstance(kind, InMemory):
+        if full_name(kind.made_by) in classes:
+            return Unseen(kind.made_by)
+        return InMemory(kind.made_by, tuple(hidden(item, classes) for item in kind.items))
+    items = [hidden(item, classes) for item in kind.types] if _is_tuple(kind) else []
+    return _tuple_of(items, kind) if items else kind
+
+
+def shown(kind: Any, seen: Mapping[str, Any], classes: frozenset[str]) -> Any:
+    """Return a type as it is to code that looks into all tuples but those of some classes.
+
+    Parameters
+    ----------
+    kind
+        What it is to code that calls this one.
+    seen
+        The types of the tuples that are unseen there, by the names of their classes.
+    classes
+        Those into which this code does not look.
+
+    Raises
+    ------
+    KeyError
+        One of them is not in `seen`.
+    """
+    if isinstance(kind, Unseen):
+        name = full_name(kind.made_by)
+        return kind if name in classes else hidden(seen[name], classes)
+    if isinstance(kind, InMemory):
+        return InMemory(kind.made_by, tuple(shown(item, seen, classes) for item in kind.items))
+    items = [shown(item, seen, classes) for item in kind.types] if _is_tuple(kind) else []
+    return _tuple_of(items, kind) if items else kind
+
+
+def has_unseen(kind: Any, classes: frozenset[str]) -> bool:
+    """Tell whether a type holds unseen tuples, beside those of some classes."""
+    if isinstance(kind, Unseen):
+        return full_name(kind.made_by) not in classes
+    items = kind.items if isinstance(kind, InMemory) else kind.types if _is_tuple(kind) else ()
+    return any(has_unseen(item, classes) for item in items)
+
+
+def tuples_in(kind: Any) -> Iterator[InMemory]:
+    """Yield the types of all tuples in memory that a type holds, and itself if it is one."""
+    items = kind.types if _is_tuple(kind) else ()
+    if isinstance(kind, InMemory):
+        yield kind
+        items = kind.items
+    for item in items:
+        yield from tuples_in(item)
 
 
 def word_count(kind: Any) -> int:
@@ -92,6 +168,11 @@ def word_count(kind: Any) -> int:
     if isinstance(kind, types.BaseTuple):
         return sum(word_count(item) for item in kind.types)
     return _SHAPE + 2 * int(kind.ndim) if isinstance(kind, types.Array) else 1
+
+
+def _item_words(kind: Any) -> int:
+    """Return how many words an item of a tuple in memory takes."""
+    return 1 if isinstance(kind, InMemory | Unseen) else word_count(kind)
 
 
 def load(context: Any, builder: Any, kind: Any, place: Any) -> Any:
@@ -115,7 +196,10 @@ def load(context: Any, builder: Any, kind: Any, place: Any) -> Any:
 @lower_getattr_generic(InMemory)
 def _load_item(context: Any, builder: Any, kind: InMemory, place: Any, name: str) -> Any:
     number = kind.fields.index(name)
-    return load(context, builder, kind.items[number], _moved(builder, place, kind.places[number]))
+    item, at = kind.items[number], _moved(builder, place, kind.places[number])
+    if isinstance(item, InMemory | Unseen):
+        return _load_word(builder, WORD.as_pointer(), at)
+    return load(context, builder, item, at)
 
 
 def _load_array(context: Any, builder: Any, kind: Any, place: Any) -> Any:
@@ -147,8 +231,17 @@ def _load_word(builder: Any, kind: Any, place: Any) -> Any:
     return loaded
 
 
+def _is_tuple(kind: Any) -> bool:
+    return isinstance(kind, types.BaseTuple)
+
+
+def _tuple_of(items: list[Any], kind: Any) -> Any:
+    """Return the type of a tuple with other items than one has that is no tuple in memory."""
+    return types.BaseTuple.from_types(tuple(items), getattr(kind, "instance_class", None))
+
+
 def _has_array(kind: Any) -> bool:
     """Tell whether a type holds an array, maybe deep within."""
-    if isinstance(kind, types.BaseTuple):
+    if _is_tuple(kind):
         return any(map(_has_array, kind.types))
     return isinstance(kind, types.Array)

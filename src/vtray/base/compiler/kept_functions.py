@@ -42,7 +42,8 @@ from vtray.base.compiler.object_code import (
     read_struct,
     write_struct,
 )
-from vtray.base.compiler.parts import KeptPart, kept_part, know_part
+from vtray.base.compiler.parts import kept_part, know_part
+from vtray.base.compiler.unseen import KeptPart
 
 _DIGEST_BYTES = 12
 

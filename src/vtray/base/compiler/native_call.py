@@ -3,7 +3,9 @@
 A function that Numba has compiled is an ``int f(result *, exception **, arguments...)``. Tuples are
 taken apart into their members, and so are arrays: two pointers of Numba's own (null here), number
 of items, bytes of an item, address, then the shape and the strides. Each of these is a word of
-eight bytes in memory, from where the entry point takes them (`numba_pipeline`).
+eight bytes in memory, from where the entry point takes them (`numba_pipeline`). Tuples with named
+items that hold arrays, and are items of such a tuple themselves, are in words of their own, and
+their address is a word (`in_memory`).
 
 References
 ----------
@@ -40,6 +42,9 @@ _SUCCESS = {0, -2}
 """What a function may return; -2 stands for None."""
 
 _WORD_BYTES = 8
+_ARRAY = "["
+"""What is in the type of an array alone."""
+
 _int = struct.Struct("q").pack
 _address = struct.Struct("Q").pack
 _float = struct.Struct("d").pack
@@ -79,6 +84,18 @@ NativeCall = Callable[[Words], object]
 """Calls machine code with the words of its arguments."""
 
 
+class _Block(bytes):
+    """Words one after the other, which hold the addresses of others that live as long."""
+
+    held: Words
+
+
+class _Place(bytes):
+    """The address of words."""
+
+    block: _Block
+
+
 class Pinned:
     """An argument taken apart once, for many calls; see `pinned`."""
 
@@ -86,7 +103,7 @@ class Pinned:
 
     def __init__(self, value: object) -> None:
         (self.type,), words = unpack([value])
-        self.words = b"".join(words)
+        self.words = _block_of(words)
         self.value = value
 
 
@@ -160,7 +177,10 @@ def _unpack(value: object, types: list[str], words: Words) -> None:
     elif isinstance(value, tuple):
         types.append(f"{kind.__module__}.{kind.__qualname__}(")
         for item in value:
-            _unpack(item, types, words)
+            if isinstance(item, tuple) and hasattr(kind, "_fields"):
+                _unpack_item(item, types, words)
+            else:
+                _unpack(item, types, words)
         types.append(")")
     elif kind is float:
         types.append("f8,")
@@ -176,6 +196,30 @@ def _unpack(value: object, types: list[str], words: Words) -> None:
         words.append(value.tobytes().ljust(_WORD_BYTES, b"\0"))
     else:
         raise UnsupportedError
+
+
+def _unpack_item(value: "tuple[object, ...]", types: list[str], words: Words) -> None:
+    """Append the type of an item of a tuple with named items, and its words or their address."""
+    own: list[str] = []
+    parts: Words = []
+    _unpack(value, own, parts)
+    types += own
+    is_in_memory = hasattr(value, "_fields") and any(_ARRAY in kind for kind in own)
+    words += [_place_of(_block_of(parts))] if is_in_memory else parts
+
+
+def _block_of(words: Words) -> _Block:
+    """Return words one after the other."""
+    block = _Block(b"".join(words))
+    block.held = [word for word in words if type(word) is not bytes]
+    return block
+
+
+def _place_of(block: _Block) -> _Place:
+    """Return the address of words."""
+    place = _Place(_address(np.frombuffer(block, np.uint8).__array_interface__["data"][0]))
+    place.block = block
+    return place
 
 
 def _unpack_array(array: "np.ndarray[Any, Any]", types: list[str], words: Words) -> None:

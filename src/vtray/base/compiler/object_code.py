@@ -26,11 +26,20 @@ import msgspec
 from blake3 import blake3
 
 from vtray.base.compiler.elf_loader import NOTHING, load
-from vtray.base.compiler.function_names import OWN
+from vtray.base.compiler.function_names import OWN, full_name
 from vtray.base.compiler.kernel_folder import SUFFIX, cache_folder, read_kept
 from vtray.base.compiler.mode import compiling
 from vtray.base.compiler.native_call import Layout, TupleLayout
 from vtray.base.compiler.processor import processor
+from vtray.base.compiler.unseen import (
+    KeptPart,
+    Unsaid,
+    all_unseen,
+    is_open,
+    open_parts,
+    unsaid_of,
+    unseen_by,
+)
 from vtray.base.memory import check_memory_of_compiler, check_memory_of_start
 from vtray.base.own_files import write_own
 
@@ -46,6 +55,7 @@ PART_MARK = "-"
 """What is in the name of a part, and of no function of C."""
 
 _HASH_BYTES = 32
+_KEY_BYTES = 12
 
 _OBJECTS_TO_COLLECT = 20_000
 """How many more objects there may be, while Numba compiles, before Python looks for dead ones.
@@ -59,7 +69,7 @@ _number = count()
 
 
 class ObjectCode(msgspec.Struct, frozen=True):
-    """A compiled kernel.
+    """A compiled kernel, or a part.
 
     Attributes
     ----------
@@ -71,12 +81,19 @@ class ObjectCode(msgspec.Struct, frozen=True):
         An object file of this machine.
     parts
         The names of the parts that it calls.
+    open_parts
+        What is known of those among them that are open.
+    key, names
+        Of a kernel, what is unsaid in all of them.
     """
 
     symbol: str
     layout: str | TupleLayout
     code: bytes
     parts: tuple[str, ...] = ()
+    open_parts: tuple[KeptPart, ...] = ()
+    key: str = ""
+    names: dict[str, str] = {}
 
 
 def object_name(function: str, types: str) -> str:
@@ -124,9 +141,12 @@ def write_struct(file: Path, content: msgspec.Struct) -> None:
 
 
 def compile_object(
-    function: Callable[..., object], arguments: tuple[object, ...], options: Mapping[str, Any]
+    function: Callable[..., object],
+    arguments: tuple[object, ...],
+    options: Mapping[str, Any],
+    is_anew: bool = False,
 ) -> ObjectCode:
-    """Compile a kernel with Numba.
+    """Compile a kernel with Numba, if it was not yet for arguments that are the same to it.
 
     Parameters
     ----------
@@ -136,31 +156,65 @@ def compile_object(
         Values of the types that it is compiled for.
     options
         Numba's.
+    is_anew
+        Whether it is compiled in any case.
     """
     check_memory_of_compiler()
     import numba
 
-    from vtray.base.compiler.in_memory import in_memory
+    from vtray.base.compiler.in_memory import hidden, in_memory
     from vtray.base.compiler.numba_pipeline import ENTRY
 
     typeof: Any = numba.typeof
     types = tuple(in_memory(typeof(argument)) for argument in arguments)
-    result = _compile(function, types, options)
+    unseen, unsaid = unseen_by(function), _unsaid_in(types)
+    own = tuple(hidden(kind, unseen) for kind in types)
+    name = object_name(full_name(function), ", ".join(map(str, own)))
+    file = object_file(name) if unseen else None
+    found = read_object_code(file) if file and not is_anew else None
+    if found:
+        return msgspec.structs.replace(found, key=unsaid.key)
+    result = _compile(function, own, options, unsaid)
     code = result.library.object_code(result.fndesc, result.target_context)
-    return ObjectCode(ENTRY, _layout(result.signature.return_type), code, _parts_in(result))
+    made = ObjectCode(ENTRY, _layout(result.signature.return_type), code, _parts_in(result))
+    made = msgspec.structs.replace(made, open_parts=_open_parts(made), key=unsaid.key)
+    if file:
+        write_object_code(file, made)
+    return made
 
 
 def compile_part(
-    function: Callable[..., object], types: tuple[Any, ...], options: Mapping[str, Any], name: str
+    function: Callable[..., object],
+    types: tuple[Any, ...],
+    options: Mapping[str, Any],
+    name: str,
+    unsaid: Unsaid | None = None,
 ) -> ObjectCode:
     """Compile a part with Numba, for arguments of some of its types."""
-    result = _compile(function, types, options)
+    result = _compile(function, types, options, unsaid)
     code = result.library.part_code(result.fndesc.llvm_func_name, name)
-    return ObjectCode(name, _layout(result.signature.return_type), code, _parts_in(result))
+    made = ObjectCode(name, _layout(result.signature.return_type), code, _parts_in(result))
+    return msgspec.structs.replace(made, open_parts=_open_parts(made))
+
+
+def _unsaid_in(types: tuple[Any, ...]) -> Unsaid:
+    """Return what some types say that code may not see."""
+    from vtray.base.compiler.in_memory import tuples_in
+
+    unseen = all_unseen()
+    found = {full_name(kind.made_by): kind for own in types for kind in tuples_in(own)}
+    found = {name: kind for name, kind in sorted(found.items()) if name in unseen}
+    text = ", ".join(f"{name} {kind}" for name, kind in found.items())
+    unsaid = unsaid_of(blake3(text.encode()).hexdigest(_KEY_BYTES) if found else "")
+    unsaid.types = found
+    return unsaid
 
 
 def _compile(
-    function: Callable[..., object], types: tuple[Any, ...], options: Mapping[str, Any]
+    function: Callable[..., object],
+    types: tuple[Any, ...],
+    options: Mapping[str, Any],
+    unsaid: Unsaid | None,
 ) -> Any:  # noqa: ANN401
     """Return Numba's result for a function of its own in memory."""
     import numba
@@ -171,7 +225,7 @@ def _compile(
     unwrapped: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     compiler: Any = numba.njit(function, pipeline_class=KernelPipeline, **options, **unwrapped)
     is_own = function.__module__.startswith(OWN)
-    with compiling(is_kept=is_own), _fewer_collections(), _unwatched():
+    with compiling(is_own, unsaid), _fewer_collections(), _unwatched():
         compiler.compile(types)
     return compiler.overloads[types]
 
@@ -179,6 +233,11 @@ def _compile(
 def _parts_in(result: Any) -> tuple[str, ...]:  # noqa: ANN401
     """Return the names of the parts that compiled code calls."""
     return tuple(sorted(name for name in result.library.called() if PART_MARK in name))
+
+
+def _open_parts(code: ObjectCode) -> tuple[KeptPart, ...]:
+    """Return what is known of the open parts that newly compiled code calls."""
+    return tuple(open_parts[name] for name in code.parts if is_open(name))
 
 
 @contextlib.contextmanager

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import msgspec
 
 from vtray.base.compiler.function_names import UnnamedError, full_name
-from vtray.base.compiler.mode import compiling, is_kept
+from vtray.base.compiler.mode import compiling, is_kept, unsaid_now
 from vtray.base.compiler.object_code import (
     PART_MARK,
     ObjectCode,
@@ -27,6 +27,15 @@ from vtray.base.compiler.object_code import (
     object_name,
     read_object_code,
     write_object_code,
+)
+from vtray.base.compiler.unseen import (
+    OPEN,
+    KeptPart,
+    Unsaid,
+    is_open,
+    open_parts,
+    unsaid_of,
+    unseen_by,
 )
 
 
@@ -38,30 +47,31 @@ class Origin(NamedTuple):
     types: tuple[Any, ...]
 
 
-class KeptPart(msgspec.Struct, frozen=True):
-    """The same for other processes.
+class Order(msgspec.Struct, frozen=True):
+    """What another process is told of a part.
 
     Attributes
     ----------
-    name
-        That of the part.
-    module, function, options
-        The module of the part in Python, its name there, and Numba's options.
-    types
-        Numba's types of the arguments, pickled.
+    part
+        The part.
+    key, types
+        What is unsaid where it is called; the types are pickled.
     """
 
-    name: str
-    module: str
-    function: str
-    options: dict[str, Any]
+    part: KeptPart
+    key: str
     types: bytes
 
 
 _long: set[str] = set()
 _origins: dict[str, Origin] = {}
 _kept: dict[str, KeptPart] = {}
-_addresses: dict[str, int] = {}
+_addresses: dict[tuple[str, str], int] = {}
+"""Where parts are in memory, by their names and by the key of what is unsaid in them."""
+
+_pickled: dict[str, bytes] = {}
+"""Types that are unsaid, by their keys."""
+
 _told: list[Callable[[bytes], object]] = []
 
 
@@ -77,12 +87,20 @@ def new_name(
     types
         Numba's types of the arguments.
     """
-    name = object_name(full_name(function), ", ".join(map(str, types)))
-    if name not in _origins:
-        _origins[name] = Origin(function, options, types)
-        if is_kept():
-            with contextlib.suppress(UnnamedError):
-                _call_for(kept_part(name))
+    from vtray.base.compiler.in_memory import has_unseen, hidden
+
+    unseen = unseen_by(function)
+    own = tuple(hidden(kind, unseen) for kind in types)
+    name = object_name(full_name(function), ", ".join(map(str, own)))
+    name += OPEN if any(has_unseen(kind, unseen) for kind in own) else ""
+    is_new = name not in _origins
+    _origins.setdefault(name, Origin(function, options, own))
+    if is_open(name):
+        open_parts[name] = kept_part(name)
+        _meant(name, unsaid_now())
+    elif is_new and is_kept():
+        with contextlib.suppress(UnnamedError):
+            _call_for(kept_part(name), unsaid_now())
     return name
 
 
@@ -122,16 +140,52 @@ def get_help() -> None:
 
 def know_part(part: KeptPart) -> None:
     """Take note of a part that code calls which this process has not compiled."""
-    if part.name not in _kept:
-        _kept[part.name] = part
-        _call_for(part)
+    is_new = part.name not in _kept
+    _kept.setdefault(part.name, part)
+    if is_open(part.name):
+        open_parts[part.name] = part
+        _meant(part.name, unsaid_now())
+    elif is_new:
+        _call_for(part, unsaid_now())
+
+
+def _meant(name: str, unsaid: Unsaid) -> str | None:
+    """Return the name of the part that is meant by one, None if that cannot be told."""
+    if not is_open(name):
+        return name
+    if _is_known(name) and not _is_known(unsaid.names.get(name, "")):
+        from vtray.base.compiler.in_memory import shown
+
+        function, options, types = _origin_of(name)
+        unseen = unseen_by(function)
+        with contextlib.suppress(KeyError), compiling(is_kept(), unsaid):
+            own = tuple(shown(kind, unsaid.types, unseen) for kind in types)
+            unsaid.names[name] = new_name(function, options, own)
+    return unsaid.names.get(name)
+
+
+def _is_known(name: str) -> bool:
+    """Tell whether this process could compile a part."""
+    return name in _kept or name in _origins
 
 
 def compile_kept(order: bytes) -> None:
     """Compile a part, as another process has told of it, and keep it on disk."""
-    part = msgspec.json.decode(order, type=KeptPart)
+    part, unsaid = _understood(order)
     _kept[part.name] = part
-    _compile(part.name)
+    _compile(part.name, unsaid)
+
+
+def _understood(order: bytes) -> tuple[KeptPart, Unsaid]:
+    """Return of which part another process has told, and what is unsaid in it."""
+    from vtray.base.compiler.kept_types import unpickled
+
+    told = msgspec.json.decode(order, type=Order)
+    unsaid = unsaid_of(told.key)
+    if not unsaid.types:
+        with compiling(is_kept=True):
+            unsaid.types = unpickled(told.types)
+    return told.part, unsaid
 
 
 def tell_instead(tell: Callable[[bytes], object]) -> None:
@@ -139,13 +193,16 @@ def tell_instead(tell: Callable[[bytes], object]) -> None:
     _told.append(tell)
 
 
-def _call_for(part: KeptPart) -> None:
+def _call_for(part: KeptPart, unsaid: Unsaid) -> None:
     """Let another process compile a part that is not on disk."""
     from vtray.base.compiler import helpers
+    from vtray.base.compiler.kept_types import pickled
 
     file = object_file(part.name)
     if file and not file.exists():
-        order = msgspec.json.encode(part) + b"\n"
+        if unsaid.key not in _pickled:
+            _pickled[unsaid.key] = pickled(dict(unsaid.types))
+        order = msgspec.json.encode(Order(part, unsaid.key, _pickled[unsaid.key])) + b"\n"
         if _told:
             _told[0](order)
         else:
@@ -153,7 +210,9 @@ def _call_for(part: KeptPart) -> None:
 
 
 def _know_order(order: bytes) -> None:
-    know_part(msgspec.json.decode(order, type=KeptPart))
+    part, unsaid = _understood(order)
+    with compiling(is_kept=True, unsaid=unsaid):
+        know_part(part)
 
 
 def _origin_of(name: str) -> Origin:
@@ -168,59 +227,106 @@ def _origin_of(name: str) -> Origin:
     return _origins[name]
 
 
-def make_parts(compiled: ObjectCode) -> dict[str, int]:
-    """Return the addresses of the parts that code calls; what is not on disk is compiled."""
+def learn(code: ObjectCode) -> None:
+    """Take note of the open parts of a kernel that is on disk for other arguments."""
+    with compiling(is_kept=True, unsaid=unsaid_of(code.key)):
+        for part in code.open_parts:
+            know_part(part)
+
+
+def with_names(kernel: ObjectCode) -> ObjectCode:
+    """Return a kernel with all that other processes need to load it."""
+    return msgspec.structs.replace(kernel, names=unsaid_of(kernel.key).names)
+
+
+def make_parts(kernel: ObjectCode) -> dict[str, int] | None:
+    """Return the addresses of the parts that a kernel calls; what is not on disk is compiled.
+
+    The compiler alone knows the types of the parts of what is on disk: if one is lost, return None.
+    """
+    return _addresses_of(kernel, unsaid_of(kernel.key), is_made=True)
+
+
+def load_parts(kernel: ObjectCode) -> dict[str, int] | None:
+    """Return the addresses of the parts that a kernel calls, None if one of them is not on disk."""
+    unsaid = unsaid_of(kernel.key)
+    unsaid.names.update(kernel.names)
+    return _addresses_of(kernel, unsaid, is_made=False)
+
+
+def _addresses_of(code: ObjectCode, unsaid: Unsaid, *, is_made: bool) -> dict[str, int] | None:
+    """Return the addresses of the parts that code calls, None if one of them is not to be had.
+
+    Parameters
+    ----------
+    code, unsaid
+        The code.
+    is_made
+        Whether parts that are not on disk are compiled.
+    """
     from vtray.base.compiler import helpers
 
+    if is_made:
+        for part in code.open_parts:
+            _kept.setdefault(part.name, part)
+    meant = {name: _meant(name, unsaid) for name in code.parts}
+    found: dict[str, int] = {}
     # Meanwhile, what others are at comes to an end.
-    for name in sorted(compiled.parts, key=lambda k: (helpers.is_at_work_on(k), not _is_long(k))):
-        if name not in _addresses:
-            _addresses[name] = _load(name) or _make(name)
-    return {name: _addresses[name] for name in compiled.parts}
+    for name, own in sorted(
+        meant.items(), key=lambda k: (helpers.is_at_work_on(k[1] or ""), not _is_long(k[0]))
+    ):
+        address = _address_of(own, unsaid, is_made=is_made) if own else None
+        if address is None:
+            return None
+        found[name] = address
+    return found
 
 
-def load_parts(compiled: ObjectCode) -> dict[str, int] | None:
-    """Return the addresses of the parts that code calls, None if one of them is not on disk."""
-    for name in compiled.parts:
-        if name not in _addresses:
-            address = _load(name)
-            if address is None:
-                return None
-            _addresses[name] = address
-    return {name: _addresses[name] for name in compiled.parts}
+def _address_of(name: str, unsaid: Unsaid, *, is_made: bool) -> int | None:
+    """Return the address of a part, None if it is not to be had; the rest is as above."""
+    place = name, unsaid.key
+    if place not in _addresses:
+        code, parts = _loaded(name, unsaid, is_made=False)
+        if parts is None and is_made:
+            code, parts = _made(name, unsaid)
+        if code is None or parts is None:
+            return None
+        _addresses[place] = link(code, parts)
+    return _addresses[place]
 
 
-def _load(name: str) -> int | None:
-    """Return the address of a part that is on disk with all its own parts, else None."""
+_Loaded = tuple[ObjectCode | None, dict[str, int] | None]
+
+
+def _loaded(name: str, unsaid: Unsaid, *, is_made: bool) -> _Loaded:
+    """Return a part that is on disk, and the addresses of its own parts."""
     file = object_file(name)
-    found = read_object_code(file) if file else None
-    parts = load_parts(found) if found else None
-    return None if found is None or parts is None else link(found, parts)
+    code = read_object_code(file) if file else None
+    return code, _addresses_of(code, unsaid, is_made=is_made) if code else None
 
 
-def _make(name: str) -> int:
-    """Compile a part, if no other process has; return its address.
+def _made(name: str, unsaid: Unsaid) -> _Loaded:
+    """Compile a part, if no other process has; return it with the addresses of its own parts.
 
-    While another one is at it, parts are made that nobody has begun.
+    While another one is at it, parts are compiled that nobody has begun.
     """
     from vtray.base.compiler import helpers
 
     while (other := helpers.wait_for(name)) is not None:
-        if other not in _addresses:
-            _addresses[other] = _load(other) or _make(other)
+        if (other, unsaid.key) not in _addresses:
+            _address_of(other, unsaid, is_made=True)
     helpers.leave_to_caller(name)
-    file = object_file(name)
-    made = read_object_code(file) if file else None
-    # The compiler alone knows the types of parts that are lost.
-    if made is None or not all(part in _kept or part in _origins for part in made.parts):
-        made = _compile(name)
-    return link(made, make_parts(made))
+    code, parts = _loaded(name, unsaid, is_made=True)
+    if parts is None and _is_known(name):
+        code = _compile(name, unsaid)
+        parts = _addresses_of(code, unsaid, is_made=True)
+    return code, parts
 
 
-def _compile(name: str) -> ObjectCode:
+def _compile(name: str, unsaid: Unsaid) -> ObjectCode:
     """Compile a part, and keep it on disk."""
     function, options, types = _origin_of(name)
-    made = compile_part(function, types, options, name)
+    made = compile_part(function, types, options, name, unsaid)
     file = object_file(name)
     if file:
         write_object_code(file, made)

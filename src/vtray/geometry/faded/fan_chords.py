@@ -109,14 +109,14 @@ def _collect_in_leaf(
     for slot in range(begin, end):
         stack.slot[count] = slot
         arguments = bundle, group.kind, group.to_boxes.ratio, balls, count
-        count += with_bounded(world, group, slot, see_ball, arguments)
+        count += with_bounded(world.solids, group, slot, see_ball, arguments)
     for k in range(count):
         way = balls[k], balls[WIDTH + k], balls[2 * WIDTH + k]
         near = rays & rays_along(bundle.fan, bundle.rays, way, balls[3 * WIDTH + k])
         if near != NONE:
             slot = stack.slot[k]
             arguments_of_rays = bundle, near, join_met(group.row, slot), chords
-            with_bounded(world, group, slot, _collect_rays, arguments_of_rays)
+            with_bounded(world.solids, group, slot, _collect_rays, arguments_of_rays)
 
 
 @device

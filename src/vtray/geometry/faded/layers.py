@@ -55,7 +55,7 @@ class Passed(NamedTuple):
     insides: int
 
 
-@device
+@part
 def list_layers(
     world: World, faded: Faded, ray: Ray, end: End, slot: Slot, walk: Walk, stack: Stack
 ) -> int:

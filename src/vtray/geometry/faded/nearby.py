@@ -103,8 +103,8 @@ def _touches_slots(
     base: int,  # noqa: ARG001
 ) -> bool:
     """Tell whether shapes of a range of slots do, by their balls."""
-    for slot in range(begin, end):  # noqa: SIM110 - no generators in kernels
-        if with_bounded(world, group, slot, touches_ball, tube):
+    for slot in range(begin, end):
+        if with_bounded(world.solids, group, slot, touches_ball, tube):
             return True
     return False
 

@@ -185,8 +185,8 @@ def _visit_slots(
         met = join_met(group.row, slot)
         if group.root == NO_TREE:
             with_any(world, group, slot, _collect, (band, met))
-        elif with_bounded(world, group, slot, touches_ball, band.tube):
-            with_bounded(world, group, slot, _collect, (band, met))
+        elif with_bounded(world.solids, group, slot, touches_ball, band.tube):
+            with_bounded(world.solids, group, slot, _collect, (band, met))
     return begin
 
 

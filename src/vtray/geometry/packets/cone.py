@@ -233,7 +233,7 @@ def relation_to(cone: Cone, world: World, group: Group, slot: int) -> int:
         side = plane_side(plane, cone.start.point)
         error_scale = cone.start.error_scale + plane.error_scale
         return _relation_to_plane(cone, side, dot(plane.normal, cone.axis), error_scale)
-    relation: int = with_bounded(world, group, slot, _relation_to_shape, (cone, group.kind))
+    relation: int = with_bounded(world.solids, group, slot, _relation_to_shape, (cone, group.kind))
     return relation
 
 

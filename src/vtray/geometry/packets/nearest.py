@@ -76,7 +76,7 @@ def find_starts(
         note_mixed(packet, lane, cones)
 
 
-@device
+@part
 def nearest_planes(
     packet: Packet,
     lanes: int,
@@ -91,7 +91,7 @@ def nearest_planes(
         number = group.number + world.planes.number[slot]
         met = join_met(group.row, slot)
         _take_lanes(
-            packet, 0, lanes, sheaf, met, number, plane, plane_distance, no_power, world.clip
+            packet, 0, lanes, sheaf, met, number, plane, plane_distance, no_power, world.solids.clip
         )
         if has_width(footprint):
             _note_crossings(packet, 0, lanes, sheaf, footprint, True, plane, plane_crossing)

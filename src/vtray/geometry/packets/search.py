@@ -1,6 +1,6 @@
 """What the rays of a packet meet, and what hides a light from its points, group by group."""
 
-from vtray.base.compiler.compiled import device, part
+from vtray.base.compiler.compiled import device, part, passing_on
 from vtray.geometry.packets.nearest import clear_hits, find_starts, nearest_planes, nearest_slots
 from vtray.geometry.packets.occlusion import (
     Bounds,
@@ -16,10 +16,11 @@ from vtray.geometry.packets.tree_nearest import nearest_in_group, nearest_placed
 from vtray.geometry.packets.tree_occlusion import block_by_placed, block_in_group
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import Footprint
-from vtray.geometry.world import NO_TREE, PLANE, Places, World, group_count, load_group, solids_of
+from vtray.geometry.world import NO_TREE, PLANE, Places, Solids, World, group_count, load_group
 
 
 @part
+@passing_on(Solids)
 def find_nearest(
     packet: Packet,
     lanes: int,
@@ -63,7 +64,7 @@ def find_nearest(
                     count,
                     sheaf,
                     footprint,
-                    solids_of(world),
+                    world.solids,
                     group,
                     begin,
                     end,
@@ -95,6 +96,7 @@ def _find_nearest_placed(
 
 
 @part
+@passing_on(Solids)
 def find_blocked(
     packet: Packet,
     hits: int,
@@ -115,7 +117,7 @@ def find_blocked(
                 return False
         elif group.root == NO_TREE:
             box = widened_box(packet, hits, box_of(bounds), target.is_wide)
-            block_by_few(packet, hits, box, own, solids_of(world), group, target, work.near)
+            block_by_few(packet, hits, box, own, world.solids, group, target, work.near)
         else:
             block_in_group(packet, world, group, target, work)
     _find_blocked_by_placed(packet, world, world.places, target, work)

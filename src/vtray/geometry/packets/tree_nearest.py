@@ -24,7 +24,6 @@ from vtray.geometry.world import (
     load_group,
     placed_row,
     range_of,
-    solids_of,
     to_box_space,
 )
 
@@ -76,7 +75,7 @@ def _nearest_of_leaf(
 ) -> None:
     """Let the shapes of a range of slots take lanes in which they are nearer."""
     packet, first, count, sheaf, footprint = rays
-    solids, cones = solids_of(world), work.cones
+    solids, cones = world.solids, work.cones
     nearest_slots(packet, first, count, sheaf, footprint, solids, group, begin, end, cones)
 
 

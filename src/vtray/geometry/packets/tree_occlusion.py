@@ -22,7 +22,6 @@ from vtray.geometry.world import (
     hierarchy_of_places,
     load_group,
     placed_row,
-    solids_of,
 )
 
 PATIENCE = 256
@@ -123,7 +122,7 @@ def _block_by_leaf(
 ) -> int:
     """Mark the points of a cluster that shapes of a range of slots hide."""
     packet, end, target = cluster.packet, cluster.end, cluster.target
-    solids = solids_of(world)
+    solids = world.solids
     block_by_slots(packet, begin, end, cluster.points, solids, group, first, after, target)
     return _first_open(packet, begin, end, target.is_wide)
 

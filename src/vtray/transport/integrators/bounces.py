@@ -6,7 +6,7 @@ all hits are lit alike, by the same parts as the first ones. Which rays go on is
 integrators are about.
 """
 
-from vtray.base.compiler.compiled import device, part
+from vtray.base.compiler.compiled import device, part, passing_on
 from vtray.geometry.packets.packet import (
     BEHIND,
     BEHIND_DISTANCE,
@@ -64,7 +64,7 @@ from vtray.transport.materials.look import (
     first_number,
     three_numbers,
 )
-from vtray.transport.materials.material import Materials, load_look
+from vtray.transport.materials.material import Materials, Paints, load_look
 from vtray.transport.materials.metal import metal_shares
 from vtray.transport.orders import add_in_order, limit_orders
 from vtray.transport.sampling.paths import Paths
@@ -93,8 +93,23 @@ def mix_looks(
     they meet anything.
     """
     # Arguments that are None are known to the compiler, which drops what depends on them alone.
-    if looks is None:
-        return
+    if looks is not None:
+        _mix_looks(packet, lanes, sheaf, world, materials, looks, paths, stack)
+
+
+@part
+@passing_on(Paints)
+def _mix_looks(
+    packet: Packet,
+    lanes: int,
+    sheaf: Sheaf,
+    world: World,
+    materials: Materials,
+    looks: Looks,
+    paths: Paths | None,
+    stack: Stack,
+) -> None:
+    """Set field ``MIXED``, as above, where anything is seen that is no matt surface."""
     numbers = integers(packet)
     for lane in range(lanes):
         met = numbers[PRIMITIVE + lane]
@@ -107,7 +122,8 @@ def mix_looks(
             packet[MIXED + lane] = 1.0
 
 
-@device
+@part
+@passing_on(Paints)
 def begin_bounces(
     packet: Packet,
     lanes: int,

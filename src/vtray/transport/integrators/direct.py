@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device, kernel
+from vtray.base.compiler.compiled import device, kernel, passing_on
 from vtray.geometry.packets.layer_notes import AT_ONCE
 from vtray.geometry.packets.nearest import find_mixed
 from vtray.geometry.packets.occlusion import find_close_planes
@@ -17,7 +17,7 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.search import find_nearest
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.ray import has_width
-from vtray.geometry.world import Faded
+from vtray.geometry.world import Faded, Solids
 from vtray.transport.camera_rays import cast_rays, sheaf_of
 from vtray.transport.film import (
     Film,
@@ -60,7 +60,9 @@ from vtray.transport.light_buffer import KeptLight
 from vtray.transport.lights.crowd import Crowd
 from vtray.transport.lights.light import points_of
 from vtray.transport.lights.soft_light import SoftLights
+from vtray.transport.lights.surroundings import Surroundings
 from vtray.transport.materials.look import Looks
+from vtray.transport.materials.material import Paints
 from vtray.transport.orders import (
     add_orders,
     clear_orders,
@@ -84,6 +86,7 @@ from vtray.transport.scene_arrays import SceneArrays, lit_world
 
 
 @kernel
+@passing_on(Solids, Paints, SoftLights, Surroundings)
 def trace_tile(
     scene: SceneArrays,
     sampling: Sampling,

@@ -16,7 +16,7 @@ Synthesis", SIGGRAPH 1990 (Russian roulette).
 
 from typing import NamedTuple
 
-from vtray.base.compiler.compiled import device, part
+from vtray.base.compiler.compiled import device, part, passing_on
 from vtray.geometry.packets.batch import start_of
 from vtray.geometry.packets.packet import (
     BOUNCES,
@@ -68,7 +68,7 @@ from vtray.transport.materials.look import (
     part_of_blend,
     spread_of,
 )
-from vtray.transport.materials.material import load_look
+from vtray.transport.materials.material import Paints, load_look
 from vtray.transport.materials.optics import mirrored, split_at, through_both
 from vtray.transport.sampling.paths import CHOICE, PICK, WAY, Paths, Step, path_point
 from vtray.transport.scene_arrays import SceneArrays, lit_world
@@ -111,6 +111,7 @@ class Onward(NamedTuple):
 
 
 @part
+@passing_on(Paints)
 def scatter_hits(
     packet: Packet,
     hits: int,

@@ -3,14 +3,14 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device, part
+from vtray.base.compiler.compiled import device, part, passing_on
 from vtray.geometry.faded.dimming import dim_points
 from vtray.geometry.packets.occlusion import Target, bound_points, find_sides, own_sphere
 from vtray.geometry.packets.packet import Packet
 from vtray.geometry.packets.patch import judge_patches
 from vtray.geometry.packets.search import find_blocked
 from vtray.geometry.packets.workspace import Workspace
-from vtray.geometry.world import has_trees
+from vtray.geometry.world import Solids, has_trees
 from vtray.transport.light_buffer import keep_cosines
 from vtray.transport.lights.light import Points, light_count, light_target, load_power
 from vtray.transport.lights.lighting import add_light, find_facing
@@ -19,6 +19,7 @@ from vtray.transport.scene_arrays import LitWorld
 
 
 @part
+@passing_on(Solids)
 def add_points(
     packet: Packet,
     hits: int,

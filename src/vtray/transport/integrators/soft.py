@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vtray.base.compiler.compiled import device, long_part
+from vtray.base.compiler.compiled import device, long_part, passing_on
 from vtray.geometry.bits import count_bits
 from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
 from vtray.geometry.packets.batch import APART, spot_of, start_of, take_near
@@ -31,7 +31,7 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.workspace import Pixels, Workspace
 from vtray.geometry.stopped import Bundle, stop_rays
 from vtray.geometry.vector import Vec, add
-from vtray.geometry.world import Faded
+from vtray.geometry.world import Faded, Solids
 from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
 from vtray.transport.integrators.soft_trial import (
     begin_trial,
@@ -134,6 +134,7 @@ def sample_of(
 
 
 @long_part
+@passing_on(Solids)
 def add_soft_lights(
     packet: Packet,
     hits: int,

@@ -1,6 +1,6 @@
 """What many soft lights add to a hit: fans of rays that all of them share."""
 
-from vtray.base.compiler.compiled import device, long_part
+from vtray.base.compiler.compiled import device, long_part, passing_on
 from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
 from vtray.geometry.packets.batch import start_of
 from vtray.geometry.packets.cone import CLOSED, MANY, Touching, find_touching
@@ -23,6 +23,7 @@ from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import UNKNOWN, Shared, Workspace
 from vtray.geometry.stopped import Bundle, stop_rays
 from vtray.geometry.vector import Vec, add
+from vtray.geometry.world import Solids
 from vtray.transport.integrators.soft import clear_noise, sample_of
 from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
 from vtray.transport.lights.crowd import Crowd
@@ -58,6 +59,7 @@ ASKED = 64
 
 
 @long_part
+@passing_on(Solids)
 def add_shared_light(
     packet: Packet,
     hits: int,

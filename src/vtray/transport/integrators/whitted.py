@@ -9,7 +9,7 @@ References
 Whitted, "An Improved Illumination Model for Shaded Display", Communications of the ACM 23, 1980.
 """
 
-from vtray.base.compiler.compiled import device, part
+from vtray.base.compiler.compiled import device, part, passing_on
 from vtray.geometry.packets.packet import (
     BOUNCES,
     COLOR,
@@ -27,7 +27,7 @@ from vtray.geometry.packets.packet import (
 )
 from vtray.geometry.packets.pending import Pending
 from vtray.geometry.vector import Vec, add, dot, scale
-from vtray.geometry.world import World
+from vtray.geometry.world import Solids, World
 from vtray.transport.film import Rows
 from vtray.transport.integrators.bounces import (
     mirrored_share,
@@ -50,7 +50,7 @@ from vtray.transport.materials.look import (
     nth_of_blend,
     parts_of,
 )
-from vtray.transport.materials.material import Materials, load_look
+from vtray.transport.materials.material import Materials, Paints, load_look
 from vtray.transport.materials.optics import (
     Split,
     mirrored,
@@ -65,6 +65,7 @@ a step of 255, for light that is white."""
 
 
 @part
+@passing_on(Solids, Paints)
 def split_hits(
     packet: Packet,
     hits: int,

@@ -15,6 +15,31 @@ from vtray.transport.materials.pattern import Patterns
 Integers = NDArray[np.int64]
 
 
+class Paints(NamedTuple):
+    """Colours, and all else that is seen of a matt surface.
+
+    Attributes
+    ----------
+    color
+        Colours, (rows, 3).
+    light
+        What each number of a colour is as light, 255 for white, (256,).
+    lambert
+        Lambert coefficients, (rows,).
+    cap
+        The colour of all that closes what clip planes cut, as light, negative if it is that of what
+        is cut; None where nothing is cut.
+    patterns
+        The patterns of surfaces; None where there are none.
+    """
+
+    color: NDArray[np.uint8]
+    light: NDArray[np.float64]
+    lambert: NDArray[np.float64]
+    cap: Vec | None
+    patterns: Patterns | None
+
+
 class Materials(NamedTuple):
     """What primitives are made of, by ranges of their numbers.
 
@@ -34,20 +59,10 @@ class Materials(NamedTuple):
         Those of the colours of second halves; equal to the colours where there are no halves.
     lambert_row, lambert_step
         Those of their Lambert coefficients.
-    color
-        Colours, (rows, 3).
-    light
-        What each number of a colour is as light, 255 for white, (256,).
-    lambert
-        Lambert coefficients, (rows,).
-    cap
-        The colour of all that closes what clip planes cut, as light, negative if it is that of what
-        is cut;
-        None where nothing is cut.
+    paints
+        What stands in these rows.
     looks
         How mirrors and glass look; None where there are none, or they are not shown as such.
-    patterns
-        The patterns of surfaces; None where there are none.
     """
 
     first: Integers
@@ -58,12 +73,8 @@ class Materials(NamedTuple):
     end_step: Integers
     lambert_row: Integers
     lambert_step: Integers
-    color: NDArray[np.uint8]
-    light: NDArray[np.float64]
-    lambert: NDArray[np.float64]
-    cap: Vec | None = None
-    looks: Looks | None = None
-    patterns: Patterns | None = None
+    paints: Paints
+    looks: Looks | None
 
 
 class Material(NamedTuple):
@@ -116,11 +127,11 @@ def load_material(materials: Materials, primitive: int, half: int) -> Material:
     row = materials.color_row[k] + place * materials.color_step[k]
     if half & SECOND:
         row = materials.end_row[k] + place * materials.end_step[k]
-    color, light = materials.color, materials.light
+    color, light, lambert = materials.paints.color, materials.paints.light, materials.paints.lambert
     own = light[color[row, 0]], light[color[row, 1]], light[color[row, 2]]
     return Material(
-        _cap_color(materials.cap, half, own),
-        materials.lambert[materials.lambert_row[k] + place * materials.lambert_step[k]],
+        _cap_color(materials.paints.cap, half, own),
+        lambert[materials.lambert_row[k] + place * materials.lambert_step[k]],
     )
 
 
