@@ -23,6 +23,7 @@ ECHO = "import sys\nfor line in sys.stdin.buffer: print('met', line, '\\ndone', 
 SLEEP = "import time; time.sleep(60)"
 
 PARTS = {
+    "vtray.geometry.packets.nearest.nearest_planes",
     "vtray.geometry.packets.nearest.nearest_slots",
     "vtray.geometry.packets.occlusion.block_by_few",
     "vtray.geometry.packets.occlusion.block_by_slots",

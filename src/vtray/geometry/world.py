@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.base.compiler.unseen import apart
 from vtray.geometry.bvh.tree import EMPTY, Bvh, leaf_range
 from vtray.geometry.shapes.columns import Columns, Place
 from vtray.geometry.shapes.room import Room, load_room
@@ -188,6 +189,7 @@ class Clip(NamedTuple):
     flat: Columns | None
 
 
+@apart
 class Solids(NamedTuple):
     """The shapes of a world that are no whole planes, and what cuts them.
 

@@ -134,8 +134,8 @@ def passing_on(*classes: type) -> Callable[[Function], Function]:
     Parameters
     ----------
     classes
-        Those of the tuples, which have named items and hold an array in any case. Into these, the
-        function and what it calls must not look; parts may.
+        Those of the tuples, which lie `apart`. Into these, the function and what it calls must not
+        look; parts may.
     """
 
     def decorate(function: Function) -> Function:

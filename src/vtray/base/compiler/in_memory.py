@@ -4,8 +4,8 @@ A scene is a tuple of tuples of some seventy arrays. Numba hands over such a tup
 writes code that takes it apart and puts it together in each function that it goes through, which is
 more than half of all that LLVM is given. So a tuple with named items that holds arrays is an
 address to machine code: that of its words, which lie one after the other as `native_call` has put
-them there, and from where an item is loaded when it is asked for. An item that is such a tuple
-itself is the address of its own words, so that all others lie where they do whatever is in it.
+them there, and from where an item is loaded when it is asked for. An item of a class that lies
+`apart` is the address of its own words, so that all others lie where they do whatever is in it.
 
 Nobody writes to these words while a kernel runs, and LLVM is told so. What a kernel itself makes of
 a class is a value, as ever.
@@ -26,6 +26,7 @@ from numba.core.typing.templates import AttributeTemplate
 from numba.extending import infer_getattr, register_model
 
 from vtray.base.compiler.function_names import full_name
+from vtray.base.compiler.unseen import is_apart
 
 types: Any = numba.types
 
@@ -172,7 +173,12 @@ def word_count(kind: Any) -> int:
 
 def _item_words(kind: Any) -> int:
     """Return how many words an item of a tuple in memory takes."""
-    return 1 if isinstance(kind, InMemory | Unseen) else word_count(kind)
+    return 1 if _is_apart(kind) else word_count(kind)
+
+
+def _is_apart(kind: Any) -> bool:
+    """Tell whether an item of a tuple in memory is the address of its words."""
+    return isinstance(kind, Unseen) or (isinstance(kind, InMemory) and is_apart(kind.made_by))
 
 
 def load(context: Any, builder: Any, kind: Any, place: Any) -> Any:
@@ -197,7 +203,7 @@ def load(context: Any, builder: Any, kind: Any, place: Any) -> Any:
 def _load_item(context: Any, builder: Any, kind: InMemory, place: Any, name: str) -> Any:
     number = kind.fields.index(name)
     item, at = kind.items[number], _moved(builder, place, kind.places[number])
-    if isinstance(item, InMemory | Unseen):
+    if _is_apart(item):
         return _load_word(builder, WORD.as_pointer(), at)
     return load(context, builder, item, at)
 

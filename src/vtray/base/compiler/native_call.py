@@ -3,9 +3,8 @@
 A function that Numba has compiled is an ``int f(result *, exception **, arguments...)``. Tuples are
 taken apart into their members, and so are arrays: two pointers of Numba's own (null here), number
 of items, bytes of an item, address, then the shape and the strides. Each of these is a word of
-eight bytes in memory, from where the entry point takes them (`numba_pipeline`). Tuples with named
-items that hold arrays, and are items of such a tuple themselves, are in words of their own, and
-their address is a word (`in_memory`).
+eight bytes in memory, from where the entry point takes them (`numba_pipeline`). Items of a class
+that lies `apart` are in words of their own, and their address is a word.
 
 References
 ----------
@@ -21,6 +20,8 @@ from typing import Any, cast
 
 import msgspec
 import numpy as np
+
+from vtray.base.compiler.unseen import is_apart
 
 C_TYPES: dict[str, Any] = {
     "b1": ctypes.c_bool,
@@ -42,9 +43,6 @@ _SUCCESS = {0, -2}
 """What a function may return; -2 stands for None."""
 
 _WORD_BYTES = 8
-_ARRAY = "["
-"""What is in the type of an array alone."""
-
 _int = struct.Struct("q").pack
 _address = struct.Struct("Q").pack
 _float = struct.Struct("d").pack
@@ -177,8 +175,10 @@ def _unpack(value: object, types: list[str], words: Words) -> None:
     elif isinstance(value, tuple):
         types.append(f"{kind.__module__}.{kind.__qualname__}(")
         for item in value:
-            if isinstance(item, tuple) and hasattr(kind, "_fields"):
-                _unpack_item(item, types, words)
+            if is_apart(type(item)):
+                parts: Words = []
+                _unpack(item, types, parts)
+                words.append(_place_of(_block_of(parts)))
             else:
                 _unpack(item, types, words)
         types.append(")")
@@ -196,16 +196,6 @@ def _unpack(value: object, types: list[str], words: Words) -> None:
         words.append(value.tobytes().ljust(_WORD_BYTES, b"\0"))
     else:
         raise UnsupportedError
-
-
-def _unpack_item(value: "tuple[object, ...]", types: list[str], words: Words) -> None:
-    """Append the type of an item of a tuple with named items, and its words or their address."""
-    own: list[str] = []
-    parts: Words = []
-    _unpack(value, own, parts)
-    types += own
-    is_in_memory = hasattr(value, "_fields") and any(_ARRAY in kind for kind in own)
-    words += [_place_of(_block_of(parts))] if is_in_memory else parts
 
 
 def _block_of(words: Words) -> _Block:

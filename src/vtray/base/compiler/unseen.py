@@ -9,17 +9,21 @@ code with open parts is loaded once for each of these.
 """
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, TypeVar
 
 import msgspec
 
 from vtray.base.compiler.function_names import full_name
+
+Kind = TypeVar("Kind", bound=type)
 
 OPEN = "~"
 """What ends the name of an open part, and of no other."""
 
 open_parts: dict[str, "KeptPart"] = {}
 """Those that this process knows, by their names."""
+
+_APART = "is_apart"
 
 _unseen: dict[str, frozenset[str]] = {}
 _unsaid: dict[str, "Unsaid"] = {}
@@ -66,6 +70,21 @@ class Unsaid(msgspec.Struct):
 def unsaid_of(key: str) -> Unsaid:
     """Return what is known for a key in this process."""
     return _unsaid.setdefault(key, Unsaid(key))
+
+
+def apart(kind: Kind) -> Kind:
+    """Let tuples of a class lie in words of their own, wherever they are items of another one.
+
+    What is in them may then differ, and all else lies where it does. Only tuples of such classes
+    can be passed on unseen.
+    """
+    setattr(kind, _APART, True)
+    return kind
+
+
+def is_apart(kind: type) -> bool:
+    """Tell whether tuples of a class lie in words of their own."""
+    return hasattr(kind, _APART)
 
 
 def pass_on(function: Callable[..., object], classes: tuple[type, ...]) -> None:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.base.compiler.unseen import apart
 from vtray.geometry.packets.cone import Cone
 from vtray.geometry.packets.fan import Spot, Start
 from vtray.geometry.rounding import ROUNDING
@@ -36,6 +37,7 @@ CLEARLY = 1e-9
 """By so much a cone is above the horizon, or below it, if no rounding can change that."""
 
 
+@apart
 class SoftLights(NamedTuple):
     """Lights that are no points; columns are (n,).
 

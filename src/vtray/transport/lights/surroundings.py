@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.base.compiler.unseen import apart
 from vtray.base.exact_math import sine
 from vtray.geometry.vector import Vec, dot
 from vtray.transport.lights.sky import Skies
@@ -39,6 +40,7 @@ class Discs(NamedTuple):
     color: NDArray[np.float64]
 
 
+@apart
 class Surroundings(NamedTuple):
     """The light from far away.
 

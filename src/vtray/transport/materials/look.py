@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.base.compiler.unseen import apart
 from vtray.geometry.vector import Vec
 
 MATT, MIRROR, GLASS, METAL, EMISSIVE, PLASTIC, BLEND = range(7)
@@ -34,6 +35,7 @@ Albedos = NDArray[np.float64]
 """What rough surfaces and coats mirror, as `albedo.albedo_at` reads it."""
 
 
+@apart
 class Looks(NamedTuple):
     """How surfaces look, by the ranges of `Materials`.
 

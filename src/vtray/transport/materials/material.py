@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
+from vtray.base.compiler.unseen import apart
 from vtray.geometry.packets.packet import CAP, SECOND
 from vtray.geometry.vector import Vec
 from vtray.transport.materials.lambert import lambert_light
@@ -15,6 +16,7 @@ from vtray.transport.materials.pattern import Patterns
 Integers = NDArray[np.int64]
 
 
+@apart
 class Paints(NamedTuple):
     """Colours, and all else that is seen of a matt surface.
 
