@@ -64,6 +64,7 @@ NUMBERS, WEIGHTS = np.array([1.0, 2.0, 4.0]), (np.array([1.0, 0.5, 0.25]), 2.0)
 def two_kernels() -> tuple[Kernel, Kernel]:
     """Return two kernels that have a part in common, as a new process would."""
     parts._addresses.clear()
+    parts._unkept.clear()
     return Kernel(scaled), Kernel(unscaled)
 
 

@@ -118,7 +118,7 @@ def forgotten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def begin_anew(monkeypatch: pytest.MonkeyPatch) -> None:
     """Forget what a new process would not know."""
-    for name in ("_addresses", "_origins", "_kept"):
+    for name in ("_addresses", "_unkept", "_origins", "_kept"):
         monkeypatch.setattr(parts, name, {})
     monkeypatch.setattr(unseen, "_unsaid", {})
     for known in (parts.open_parts, object_code.open_parts):
@@ -153,6 +153,14 @@ def test_only_what_looks_into_a_tuple_is_compiled_again(
     assert made == []
     see_that_it_travels("small", "bags")
     assert made == ["weigh"]
+
+
+def test_where_nothing_is_kept_parts_are_compiled_once(
+    made: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(object_code, "cache_folder", lambda: None)
+    see_that_it_travels("boxes", "bags", "small")
+    assert (made.count("haul"), made.count("weigh")) == (1, 3)
 
 
 def test_code_that_looks_into_it_calls_what_does_not(made: list[str]) -> None:

@@ -69,6 +69,9 @@ _kept: dict[str, KeptPart] = {}
 _addresses: dict[tuple[str, str], int] = {}
 """Where parts are in memory, by their names and by the key of what is unsaid in them."""
 
+_unkept: dict[str, ObjectCode] = {}
+"""Parts that cannot be kept on disk, by their names."""
+
 _pickled: dict[str, bytes] = {}
 """Types that are unsaid, by their keys."""
 
@@ -264,22 +267,28 @@ def _addresses_of(code: ObjectCode, unsaid: Unsaid, *, is_made: bool) -> dict[st
     is_made
         Whether parts that are not on disk are compiled.
     """
-    from vtray.base.compiler import helpers
-
     if is_made:
         for part in code.open_parts:
             _kept.setdefault(part.name, part)
-    meant = {name: _meant(name, unsaid) for name in code.parts}
     found: dict[str, int] = {}
-    # Meanwhile, what others are at comes to an end.
-    for name, own in sorted(
-        meant.items(), key=lambda k: (helpers.is_at_work_on(k[1] or ""), not _is_long(k[0]))
-    ):
+    for name in _in_turn(code, unsaid) if is_made else code.parts:
+        own = _meant(name, unsaid)
         address = _address_of(own, unsaid, is_made=is_made) if own else None
         if address is None:
             return None
         found[name] = address
     return found
+
+
+def _in_turn(code: ObjectCode, unsaid: Unsaid) -> list[str]:
+    """Return the parts that code calls; last those that others are at, which come to an end."""
+    from vtray.base.compiler import helpers
+
+    def place(name: str) -> tuple[bool, bool, str]:
+        own = _meant(name, unsaid) or name
+        return helpers.is_at_work_on(own), not _is_long(own), name
+
+    return sorted(code.parts, key=place)
 
 
 def _address_of(name: str, unsaid: Unsaid, *, is_made: bool) -> int | None:
@@ -299,9 +308,9 @@ _Loaded = tuple[ObjectCode | None, dict[str, int] | None]
 
 
 def _loaded(name: str, unsaid: Unsaid, *, is_made: bool) -> _Loaded:
-    """Return a part that is on disk, and the addresses of its own parts."""
+    """Return a part that is there, and the addresses of its own parts."""
     file = object_file(name)
-    code = read_object_code(file) if file else None
+    code = read_object_code(file) if file else _unkept.get(name)
     return code, _addresses_of(code, unsaid, is_made=is_made) if code else None
 
 
@@ -324,10 +333,12 @@ def _made(name: str, unsaid: Unsaid) -> _Loaded:
 
 
 def _compile(name: str, unsaid: Unsaid) -> ObjectCode:
-    """Compile a part, and keep it on disk."""
+    """Compile a part, and keep it."""
     function, options, types = _origin_of(name)
     made = compile_part(function, types, options, name, unsaid)
     file = object_file(name)
     if file:
         write_object_code(file, made)
+    else:
+        _unkept[name] = made
     return made
