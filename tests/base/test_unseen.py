@@ -121,8 +121,9 @@ def begin_anew(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("_addresses", "_unkept", "_origins", "_kept"):
         monkeypatch.setattr(parts, name, {})
     monkeypatch.setattr(unseen, "_unsaid", {})
-    for known in (parts.open_parts, object_code.open_parts):
-        known.clear()
+    open_parts: dict[str, unseen.KeptPart] = {}
+    for module in (parts, object_code):
+        monkeypatch.setattr(module, "open_parts", open_parts)
 
 
 @pytest.fixture
