@@ -118,12 +118,12 @@ def forgotten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def begin_anew(monkeypatch: pytest.MonkeyPatch) -> None:
     """Forget what a new process would not know."""
-    for name in ("_addresses", "_unkept", "_origins", "_kept"):
+    for name in ("_addresses", "_unkept", "_origins"):
         monkeypatch.setattr(parts, name, {})
     monkeypatch.setattr(unseen, "_unsaid", {})
-    open_parts: dict[str, unseen.KeptPart] = {}
+    kept_parts: dict[str, unseen.KeptPart] = {}
     for module in (parts, object_code):
-        monkeypatch.setattr(module, "open_parts", open_parts)
+        monkeypatch.setattr(module, "kept_parts", kept_parts)
 
 
 @pytest.fixture

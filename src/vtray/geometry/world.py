@@ -223,7 +223,7 @@ class World(NamedTuple):
     groups
         The groups.
     planes, spheres
-        The columns of these kinds.
+        The columns of these kinds, which all worlds have, for code that does not look into others.
     solids
         Those of all that are no whole planes, and what cuts them.
     bvh

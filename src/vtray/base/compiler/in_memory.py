@@ -14,7 +14,7 @@ a class is a value, as ever.
 # ruff: noqa: ANN401
 # mypy: allow-untyped-calls, allow-untyped-decorators
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numba
@@ -110,12 +110,9 @@ def in_memory(kind: Any) -> Any:
 
 def hidden(kind: Any, classes: frozenset[str]) -> Any:
     """Return a type as it is to code that does not look into tuples of some classes."""
-    if isinstance(kind, InMemory):
-        if full_name(kind.made_by) in classes:
-            return Unseen(kind.made_by)
-        return InMemory(kind.made_by, tuple(hidden(item, classes) for item in kind.items))
-    items = [hidden(item, classes) for item in kind.types] if _is_tuple(kind) else []
-    return _tuple_of(items, kind) if items else kind
+    if isinstance(kind, InMemory) and full_name(kind.made_by) in classes:
+        return Unseen(kind.made_by)
+    return _with_items(kind, lambda item: hidden(item, classes))
 
 
 def shown(kind: Any, seen: Mapping[str, Any], classes: frozenset[str]) -> Any:
@@ -138,27 +135,21 @@ def shown(kind: Any, seen: Mapping[str, Any], classes: frozenset[str]) -> Any:
     if isinstance(kind, Unseen):
         name = full_name(kind.made_by)
         return kind if name in classes else hidden(seen[name], classes)
-    if isinstance(kind, InMemory):
-        return InMemory(kind.made_by, tuple(shown(item, seen, classes) for item in kind.items))
-    items = [shown(item, seen, classes) for item in kind.types] if _is_tuple(kind) else []
-    return _tuple_of(items, kind) if items else kind
+    return _with_items(kind, lambda item: shown(item, seen, classes))
 
 
 def has_unseen(kind: Any, classes: frozenset[str]) -> bool:
     """Tell whether a type holds unseen tuples, beside those of some classes."""
     if isinstance(kind, Unseen):
         return full_name(kind.made_by) not in classes
-    items = kind.items if isinstance(kind, InMemory) else kind.types if _is_tuple(kind) else ()
-    return any(has_unseen(item, classes) for item in items)
+    return any(has_unseen(item, classes) for item in _items_of(kind))
 
 
 def tuples_in(kind: Any) -> Iterator[InMemory]:
     """Yield the types of all tuples in memory that a type holds, and itself if it is one."""
-    items = kind.types if _is_tuple(kind) else ()
     if isinstance(kind, InMemory):
         yield kind
-        items = kind.items
-    for item in items:
+    for item in _items_of(kind):
         yield from tuples_in(item)
 
 
@@ -237,17 +228,24 @@ def _load_word(builder: Any, kind: Any, place: Any) -> Any:
     return loaded
 
 
-def _is_tuple(kind: Any) -> bool:
-    return isinstance(kind, types.BaseTuple)
+def _items_of(kind: Any) -> tuple[Any, ...]:
+    """Return the types of the items of a tuple, none for all else."""
+    if isinstance(kind, InMemory):
+        return kind.items
+    return tuple(kind.types) if isinstance(kind, types.BaseTuple) else ()
 
 
-def _tuple_of(items: list[Any], kind: Any) -> Any:
-    """Return the type of a tuple with other items than one has that is no tuple in memory."""
-    return types.BaseTuple.from_types(tuple(items), getattr(kind, "instance_class", None))
+def _with_items(kind: Any, change: Callable[[Any], Any]) -> Any:
+    """Return the type of a tuple with other items, as it is for all else."""
+    items = tuple(map(change, _items_of(kind)))
+    if isinstance(kind, InMemory):
+        return InMemory(kind.made_by, items)
+    made_by = getattr(kind, "instance_class", None)
+    return types.BaseTuple.from_types(items, made_by) if items else kind
 
 
 def _has_array(kind: Any) -> bool:
     """Tell whether a type holds an array, maybe deep within."""
-    if _is_tuple(kind):
+    if isinstance(kind, types.BaseTuple):
         return any(map(_has_array, kind.types))
     return isinstance(kind, types.Array)

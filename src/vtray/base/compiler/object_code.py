@@ -36,7 +36,7 @@ from vtray.base.compiler.unseen import (
     Unsaid,
     all_unseen,
     is_open,
-    open_parts,
+    kept_parts,
     unsaid_of,
     unseen_by,
 )
@@ -237,7 +237,7 @@ def _parts_in(result: Any) -> tuple[str, ...]:  # noqa: ANN401
 
 def _open_parts(code: ObjectCode) -> tuple[KeptPart, ...]:
     """Return what is known of the open parts that newly compiled code calls."""
-    return tuple(open_parts[name] for name in code.parts if is_open(name))
+    return tuple(kept_parts[name] for name in code.parts if is_open(name))
 
 
 @contextlib.contextmanager

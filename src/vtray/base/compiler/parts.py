@@ -33,7 +33,7 @@ from vtray.base.compiler.unseen import (
     KeptPart,
     Unsaid,
     is_open,
-    open_parts,
+    kept_parts,
     unsaid_of,
     unseen_by,
 )
@@ -65,7 +65,6 @@ class Order(msgspec.Struct, frozen=True):
 
 _long: set[str] = set()
 _origins: dict[str, Origin] = {}
-_kept: dict[str, KeptPart] = {}
 _addresses: dict[tuple[str, str], int] = {}
 """Where parts are in memory, by their names and by the key of what is unsaid in them."""
 
@@ -99,7 +98,7 @@ def new_name(
     is_new = name not in _origins
     _origins.setdefault(name, Origin(function, options, own))
     if is_open(name):
-        open_parts[name] = kept_part(name)
+        kept_part(name)
         _meant(name, unsaid_now())
     elif is_new and is_kept():
         with contextlib.suppress(UnnamedError):
@@ -127,11 +126,11 @@ def kept_part(name: str) -> KeptPart:
     """
     from vtray.base.compiler.kept_types import pickled
 
-    if name not in _kept:
+    if name not in kept_parts:
         function, options, types = _origins[name]
         module, called = function.__module__, function.__qualname__
-        _kept[name] = KeptPart(name, module, called, dict(options), pickled(types))
-    return _kept[name]
+        kept_parts[name] = KeptPart(name, module, called, dict(options), pickled(types))
+    return kept_parts[name]
 
 
 def get_help() -> None:
@@ -143,10 +142,9 @@ def get_help() -> None:
 
 def know_part(part: KeptPart) -> None:
     """Take note of a part that code calls which this process has not compiled."""
-    is_new = part.name not in _kept
-    _kept.setdefault(part.name, part)
+    is_new = part.name not in kept_parts
+    kept_parts.setdefault(part.name, part)
     if is_open(part.name):
-        open_parts[part.name] = part
         _meant(part.name, unsaid_now())
     elif is_new:
         _call_for(part, unsaid_now())
@@ -169,13 +167,13 @@ def _meant(name: str, unsaid: Unsaid) -> str | None:
 
 def _is_known(name: str) -> bool:
     """Tell whether this process could compile a part."""
-    return name in _kept or name in _origins
+    return name in kept_parts or name in _origins
 
 
 def compile_kept(order: bytes) -> None:
     """Compile a part, as another process has told of it, and keep it on disk."""
     part, unsaid = _understood(order)
-    _kept[part.name] = part
+    kept_parts[part.name] = part
     _compile(part.name, unsaid)
 
 
@@ -223,7 +221,7 @@ def _origin_of(name: str) -> Origin:
     from vtray.base.compiler.kept_types import unpickled
 
     if name not in _origins:
-        kept = _kept[name]
+        kept = kept_parts[name]
         part: Any = getattr(import_module(kept.module), kept.function)
         with compiling(is_kept=True):
             _origins[name] = Origin(part.__wrapped__, kept.options, unpickled(kept.types))
@@ -269,7 +267,7 @@ def _addresses_of(code: ObjectCode, unsaid: Unsaid, *, is_made: bool) -> dict[st
     """
     if is_made:
         for part in code.open_parts:
-            _kept.setdefault(part.name, part)
+            kept_parts.setdefault(part.name, part)
     found: dict[str, int] = {}
     for name in _in_turn(code, unsaid) if is_made else code.parts:
         own = _meant(name, unsaid)

@@ -20,7 +20,7 @@ Kind = TypeVar("Kind", bound=type)
 OPEN = "~"
 """What ends the name of an open part, and of no other."""
 
-open_parts: dict[str, "KeptPart"] = {}
+kept_parts: dict[str, "KeptPart"] = {}
 """Those that this process knows, by their names."""
 
 _APART = "is_apart"
