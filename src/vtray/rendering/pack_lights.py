@@ -80,8 +80,8 @@ def pack_lights(
     ordered = *hard, *soft
     parts = [part for light in ordered for part in _components_of(light, tonemap)]
     are_mirrored = surroundings is not None
-    are_rare = are_mirrored or any(map(_is_rare, soft))
-    packed = _pack_soft(soft, len(hard), origin, unit, up, tonemap, are_rare) if soft else None
+    are_seen = are_mirrored or any(isinstance(light, Lamp) and light.visible for light in soft)
+    packed = _pack_soft(soft, len(hard), origin, unit, up, tonemap) if soft else None
     return Lights(
         x,
         y,
@@ -91,7 +91,7 @@ def pack_lights(
         points=len(hard) if hard or not soft else None,
         soft=packed,
         crowd=_pack_crowd(packed) if packed else None,
-        visible=_pack_lamps(soft, packed, only_visible=True) if packed else None,
+        visible=_pack_lamps(soft, packed, only_visible=True) if packed and are_seen else None,
         mirrored=_pack_lamps(soft, packed) if packed and are_mirrored else None,
         surroundings=surroundings,
         intensity=np.array([intensity for intensity, _ in parts], float),
@@ -115,7 +115,6 @@ def _pack_soft(
     unit: float,
     up: Vec,
     tonemap: ToneMapName,
-    are_rare: bool,
 ) -> SoftLights:
     """Return the arrays of the lights that are no points; `first` is the row of the first."""
     x, y, z, size, error_scale = np.zeros((5, len(lights)))
@@ -146,6 +145,7 @@ def _pack_soft(
     skies = [light for light in lights if isinstance(light, Sky) and changes_color(light)]
     changes = np.array([changes_color(light) for light in lights])
     counts = np.where(changes, 3, 1)
+    are_rare = bool(rectangles or skies)
     return SoftLights(
         kind,
         x,
@@ -162,16 +162,6 @@ def _pack_soft(
     )
 
 
-def _is_rare(light: AnyLight) -> bool:
-    """Tell whether a light needs code that most scenes do not.
-
-    All such code is compiled together, which takes a tenth longer, so that a scene with a
-    rectangle and one with a picture for a sky share a kernel.
-    """
-    is_seen = isinstance(light, Lamp) and light.visible
-    return is_seen or isinstance(light, RectangleLight) or changes_color(light)
-
-
 def _pack_crowd(soft: SoftLights) -> Crowd | None:
     """Return what is known of many soft lights; None where there are few."""
     if len(soft.kind) <= FEW:
@@ -181,13 +171,12 @@ def _pack_crowd(soft: SoftLights) -> Crowd | None:
 
 def _pack_lamps(
     lights: Sequence[AnyLight], soft: SoftLights, *, only_visible: bool = False
-) -> VisibleLamps | None:
-    """Return the lamps among the soft lights, or those that the camera sees; None if none are rare.
+) -> VisibleLamps:
+    """Return the lamps among the soft lights, or those that the camera sees.
 
     A lamp without a size is met by no ray.
     """
-    if soft.rectangles is None:
-        return None
+    rectangles = soft.rectangles or join_rectangles(len(lights), {})
     rows = [
         k
         for k, light in enumerate(lights)
@@ -198,7 +187,7 @@ def _pack_lamps(
     for row, k in zip(data, seen, strict=True):
         row[:3] = soft.x[k], soft.y[k], soft.z[k]
         row[3] = soft.size[k]
-        row[4:] = soft.rectangles.data[RECTANGLE_SIZE * k : RECTANGLE_SIZE * (k + 1)]
+        row[4:] = rectangles.data[RECTANGLE_SIZE * k : RECTANGLE_SIZE * (k + 1)]
     return VisibleLamps(soft.row[seen], data.reshape(-1), soft.error_scale[seen], seen)
 
 

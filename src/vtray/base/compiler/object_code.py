@@ -225,7 +225,7 @@ def _compile(
     unwrapped: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     compiler: Any = numba.njit(function, pipeline_class=KernelPipeline, **options, **unwrapped)
     is_own = function.__module__.startswith(OWN)
-    with compiling(is_own, unsaid), _fewer_collections(), _unwatched():
+    with compiling(is_own, unsaid), _fewer_collections(), _unwatched(), _unpainted():
         compiler.compile(types)
     return compiler.overloads[types]
 
@@ -372,3 +372,27 @@ def _numba_version() -> str:
     if numba is None or numba.origin is None:
         return "none"
     return Path(numba.origin).with_name("_version.py").read_text()
+
+
+@contextlib.contextmanager
+def _unpainted() -> Iterator[None]:
+    """Let Numba's errors have no colours.
+
+    It makes and drops one for each overload that does not fit. Where colorama is installed, to
+    paint them all is a twentieth of all compiling.
+    """
+    from numba.core import errors
+
+    painter: Any = errors
+    usual, painter._termcolor_inst = painter._termcolor_inst, _NoColors()  # noqa: SLF001
+    try:
+        yield
+    finally:
+        painter._termcolor_inst = usual  # noqa: SLF001
+
+
+class _NoColors:
+    """Leaves text as it is, whatever it is for."""
+
+    def __getattr__(self, _purpose: str) -> Callable[[str], str]:
+        return str

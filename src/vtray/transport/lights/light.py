@@ -44,7 +44,8 @@ class Lights(NamedTuple):
     crowd
         The lights among which fans of rays are shared; None where each light has its own.
     visible
-        Those that the camera sees; None where `SoftLights.skies` is, or there are no soft lights.
+        Those that the camera sees; None where it sees none and no ray goes on from mirrors, so that
+        no code is compiled for them.
     mirrored
         All lamps with a size, which rays from mirrors may meet; None where there are no such rays.
     surroundings
