@@ -134,6 +134,14 @@ def has_width(footprint: Footprint | None) -> bool:
 
 
 @device
+def some_footprint(footprint: Footprint | None) -> Footprint:
+    """Return a footprint, without width for None, for code that is the same for both."""
+    if footprint is None:
+        return Footprint(0.0, 0.0)
+    return footprint
+
+
+@device
 def width_at(footprint: Footprint | None, distance: float) -> float:
     """Return how far from a ray its pixel's part of the scene reaches at a distance."""
     if footprint is None:

@@ -86,9 +86,10 @@ class Film(NamedTuple):
         bodies that of all layers, for films without `linear`.
     orders
         Linear light that surfaces scattered not at all, once, and more often: three channels for
-        each, (height, width, 9).
+        each, (height, width, 9). Arrays of no length say that it is not wanted; so it is with
+        `kept`: both share their code with films that have none.
     kept
-        What is kept of all rays to change lights and colours afterwards; never None.
+        What is kept of all rays to change lights and colours afterwards.
     """
 
     left: int
@@ -105,7 +106,7 @@ class Film(NamedTuple):
     met: Rows
     half: Rows
     albedo: Rows
-    orders: Rows
+    orders: NDArray[np.float64]
     kept: KeptLight
 
 
@@ -130,7 +131,7 @@ def new_film(width: int, height: int, *wanted: str, left: int = 0, top: int = 0)
         met=rows("met", np.int64),
         half=rows("half", np.int8),
         albedo=rows("albedo", np.float64, 3),
-        orders=rows("orders", np.float64, 9),
+        orders=np.empty((height, width, 9) if "orders" in wanted else (0, 0, 9)),
         kept=nothing_kept(has_fog="fog" in wanted),
     )
 

@@ -31,6 +31,7 @@ from vtray.geometry.packets.packet import (
     Sheaf,
     integers,
     load,
+    load_own_ray,
     load_ray,
     split_met,
     start_apart,
@@ -203,7 +204,8 @@ def gather_interactions(
     lanes: int,
     samples: int,
     sheaf: Sheaf,
-    footprint: Footprint | None,
+    are_own: bool,
+    footprint: Footprint,
     world: World,
     materials: Materials,
     forward: Vec,
@@ -213,17 +215,18 @@ def gather_interactions(
     """Bring the hits of a packet together, as interactions with no light yet; return how many.
 
     Where there are hierarchies, they are in clusters. Field ``SOURCE`` says where each came from.
-    Field ``BEND`` is set if the footprint has a width.
+    Field ``BEND`` is set if the footprint has a width. What rays have in common, in a `sheaf` of
+    the camera's type, holds where they do not have all in fields of their own (`are_own`).
     """
     if has_trees(world):
         hits = cluster_hits(packet, lanes, CLUSTER * min(samples, OCTET), work)
     else:
         hits = list_hits(packet, lanes, work)
     for hit in range(hits):
-        _fetch(packet, hit, work.order[hit], sheaf, footprint, world, materials)
+        _fetch(packet, hit, work.order[hit], sheaf, are_own, footprint, world, materials)
     # A loop of its own, only so is it vectorised.
     for hit in range(hits):
-        origin = load(packet, START, hit) if start_apart(sheaf) else sheaf.origin
+        origin = load(packet, START, hit) if start_apart(sheaf) or are_own else sheaf.origin
         direction, length = load(packet, TOWARDS, hit), packet[LENGTH + hit]
         point = add(origin, scale(length, direction))
         is_round = packet[CURVED + hit] > 0.0
@@ -242,14 +245,16 @@ def _fetch(
     hit: int,
     lane: int,
     sheaf: Sheaf,
-    footprint: Footprint | None,
+    are_own: bool,
+    footprint: Footprint,
     world: World,
     materials: Materials,
 ) -> None:
     """Bring together what a hit is made of."""
     numbers = integers(packet)
     row, slot = split_met(numbers[MET + lane])
-    ray, distance = load_ray(packet, sheaf, lane), packet[DISTANCE + lane]
+    ray = load_own_ray(packet, lane) if are_own else load_ray(packet, sheaf, lane)
+    distance = packet[DISTANCE + lane]
     point, error_scale = ray_point(ray, distance), ray.error_scale + distance
     surface = surface_at(world, load_group(world, row), slot, point, error_scale)
     store(packet, NORMAL, hit, surface.pole)
@@ -261,10 +266,10 @@ def _fetch(
         is_even = not _has_pattern(materials, materials.paints.patterns, primitive)
         packet[BEND + hit] = bend if is_even else math.inf
     # What all rays have in common is added later.
-    own = 0.0 if sheaf.bounced is None else ray.error_scale
+    own = ray.error_scale if are_own else 0.0
     packet[ERROR_SCALE + hit] = surface.error_scale + own
     store(packet, TOWARDS, hit, ray.direction)
-    if start_apart(sheaf):
+    if start_apart(sheaf) or are_own:
         store(packet, START, hit, ray.origin)
     packet[LENGTH + hit] = distance
     half = _half_of(surface)

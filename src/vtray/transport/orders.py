@@ -2,14 +2,16 @@
 
 Not at all: a lamp that is seen, or a surface that shines. Once: light of lamps and skies from the
 first surface, be that matt, glossy, a mirror or glass. Or more often. What an order has of the
-light of a lane is added up beside it. Nothing is compiled where that is not asked: an argument that
-is None is known to the compiler, which drops what depends on that alone.
+light of a lane is added up beside it, where that is asked. The code is the same for all films.
 
 References
 ----------
 Heckbert, "Adaptive Radiosity Textures for Bidirectional Ray Tracing", SIGGRAPH 1990 (paths of light
 as words: emission is LE, direct is L.E, indirect is L..+E).
 """
+
+import numpy as np
+from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.packets.packet import (
@@ -30,7 +32,7 @@ from vtray.geometry.packets.packet import (
 )
 from vtray.geometry.packets.workspace import Pixels, Sums
 from vtray.geometry.vector import Vec, add
-from vtray.transport.film import Rows, place_of
+from vtray.transport.film import place_of
 from vtray.transport.fog import FogFrame, lane_share
 
 MOST = 2
@@ -40,10 +42,21 @@ ROWS = 9
 """Numbers of a lane: three channels for each order."""
 
 
+OrderRows = NDArray[np.float64]
+"""What a film holds of them, (height, width, ``ROWS``); of no size where they are not wanted."""
+
+
 @device
-def clear_orders(packet: Packet, lanes: int, orders: Rows) -> None:
+def are_wanted(orders: OrderRows) -> bool:
+    """Tell whether light is added in its order, too."""
+    wanted: bool = orders.shape[0] > 0
+    return wanted
+
+
+@device
+def clear_orders(packet: Packet, lanes: int, orders: OrderRows) -> None:
     """Begin with no light in any order, and no surface between the lanes and the camera."""
-    if orders is None:
+    if not are_wanted(orders):
         return
     numbers = integers(packet)
     for lane in range(lanes):
@@ -53,18 +66,18 @@ def clear_orders(packet: Packet, lanes: int, orders: Rows) -> None:
 
 
 @device
-def add_in_order(packet: Packet, lane: int, light: Vec, number: int, orders: Rows) -> None:
+def add_in_order(packet: Packet, lane: int, light: Vec, number: int, orders: OrderRows) -> None:
     """Add light that was scattered so often to that of a lane."""
-    if orders is None:
+    if not are_wanted(orders):
         return
     field = EMISSION + 3 * LANES * min(number, MOST)
     store(packet, field, lane, add(load(packet, field, lane), light))
 
 
 @device
-def order_hits(packet: Packet, hits: int, orders: Rows) -> None:
+def order_hits(packet: Packet, hits: int, orders: OrderRows) -> None:
     """Add the light of hits to that of their lanes: their surfaces have scattered it, too."""
-    if orders is None:
+    if not are_wanted(orders):
         return
     numbers = integers(packet)
     for hit in range(hits):
@@ -74,9 +87,9 @@ def order_hits(packet: Packet, hits: int, orders: Rows) -> None:
 
 
 @device
-def order_lamps(packet: Packet, lanes: int, orders: Rows) -> None:
+def order_lamps(packet: Packet, lanes: int, orders: OrderRows) -> None:
     """Set the light of the lanes in which a lamp is seen."""
-    if orders is None:
+    if not are_wanted(orders):
         return
     numbers = integers(packet)
     for lane in range(lanes):
@@ -85,9 +98,11 @@ def order_lamps(packet: Packet, lanes: int, orders: Rows) -> None:
 
 
 @device
-def limit_orders(packet: Packet, lane: int, brightest: float, peak: float, orders: Rows) -> None:
+def limit_orders(
+    packet: Packet, lane: int, brightest: float, peak: float, orders: OrderRows
+) -> None:
     """Let all orders of a lane become darker alike if its peak is brighter than it may be."""
-    if orders is None:
+    if not are_wanted(orders):
         return
     if peak > brightest:
         for row in range(ROWS):
@@ -95,10 +110,11 @@ def limit_orders(packet: Packet, lane: int, brightest: float, peak: float, order
 
 
 @device
-def veil_orders(packet: Packet, lanes: int, orders: Rows, fog: FogFrame | None) -> None:
+def veil_orders(packet: Packet, lanes: int, orders: OrderRows, fog: FogFrame | None) -> None:
     """Take from all orders of the light of surfaces what fog hides of it, as `fog.veil` does."""
-    if orders is not None:  # noqa: SIM102
-        if fog is not None:
+    # An argument that is None is known to the compiler, which drops what depends on that alone.
+    if fog is not None:  # noqa: SIM102
+        if are_wanted(orders):
             for lane in range(lanes):
                 clear = 1.0 - lane_share(packet, lane, fog)
                 for row in range(ROWS):
@@ -106,9 +122,9 @@ def veil_orders(packet: Packet, lanes: int, orders: Rows, fog: FogFrame | None) 
 
 
 @device
-def clear_sums_of_orders(sums: Sums, pixels: int, orders: Rows) -> None:
+def clear_sums_of_orders(sums: Sums, pixels: int, orders: OrderRows) -> None:
     """Start to add up the orders of the samples of some pixels."""
-    if orders is None:
+    if not are_wanted(orders):
         return
     for k in range(pixels):
         for row in range(ROWS):
@@ -116,9 +132,9 @@ def clear_sums_of_orders(sums: Sums, pixels: int, orders: Rows) -> None:
 
 
 @device
-def add_orders(packet: Packet, lanes: int, samples: int, sums: Sums, orders: Rows) -> None:
+def add_orders(packet: Packet, lanes: int, samples: int, sums: Sums, orders: OrderRows) -> None:
     """Add the orders of the samples of a packet to their pixels, as `film.add_samples` does."""
-    if orders is None:
+    if not are_wanted(orders):
         return
     for k in range(lanes // samples):
         for row in range(ROWS):
@@ -130,10 +146,10 @@ def add_orders(packet: Packet, lanes: int, samples: int, sums: Sums, orders: Row
 
 @device
 def write_sums_of_orders(
-    block: Block, begin: int, end: int, pixels: Pixels, sums: Sums, orders: Rows
+    block: Block, begin: int, end: int, pixels: Pixels, sums: Sums, orders: OrderRows
 ) -> None:
     """Write the orders of pixels of a block's list to the film, as `film.write_pixels` does."""
-    if orders is None:
+    if not are_wanted(orders):
         return
     for k in range(end - begin):
         at, column = place_of(block, pixels[begin + k])
@@ -143,10 +159,10 @@ def write_sums_of_orders(
 
 @device
 def write_orders(
-    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, orders: Rows
+    packet: Packet, block: Block, begin: int, end: int, pixels: Pixels, orders: OrderRows
 ) -> None:
     """Write the orders of pixels with one ray to the film, as `film.write_middles` does."""
-    if orders is None:
+    if not are_wanted(orders):
         return
     for lane in range(end - begin):
         at, column = place_of(block, pixels[begin + lane])

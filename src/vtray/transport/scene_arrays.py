@@ -39,10 +39,33 @@ class LitWorld(NamedTuple):
     powers: Powers
 
 
+class PathWorld(NamedTuple):
+    """What paths need of a scene, whatever kind of camera it has.
+
+    Attributes
+    ----------
+    world, lights, materials
+        Those of the scene.
+    forward
+        The unit direction in which the camera looks.
+    """
+
+    world: World
+    lights: Lights
+    materials: Materials
+    forward: Vec
+
+
 @device
 def lit_world(scene: SceneArrays) -> LitWorld:
     """Return what lights need of a scene."""
     return LitWorld(scene.world, scene.camera.forward, powers_of(scene.lights))
+
+
+@device
+def path_world(scene: SceneArrays) -> PathWorld:
+    """Return what paths need of a scene."""
+    return PathWorld(scene.world, scene.lights, scene.materials, scene.camera.forward)
 
 
 def without_light(scene: SceneArrays) -> SceneArrays:

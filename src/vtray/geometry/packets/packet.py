@@ -293,17 +293,35 @@ def store(packet: Packet, field: int, lane: int, vector: Vec) -> None:
 
 
 @device
+def has_own(sheaf: Sheaf) -> bool:
+    """Tell whether rays have all that is in `Ray` in fields of their own."""
+    return sheaf.bounced is not None
+
+
+@device
+def in_common(sheaf: Sheaf) -> Sheaf:
+    """Return what rays have in common, for code that is told by itself which have their own."""
+    return Sheaf(sheaf.origin, sheaf.extent, sheaf.plane_depth, sheaf.error_scale, None)
+
+
+@device
+def load_own_ray(packet: Packet, lane: int) -> Ray:
+    """Return a lane's ray, all of which is in fields of its own."""
+    return Ray(
+        load(packet, ORIGIN, lane),
+        load(packet, DIRECTION, lane),
+        packet[START_DEPTH + lane],
+        packet[FORWARD + lane],
+        packet[START_SCALE + lane],
+        packet[START_BOUND + lane],
+    )
+
+
+@device
 def load_ray(packet: Packet, sheaf: Sheaf, lane: int) -> Ray:
     """Return a lane's ray, which starts exactly where it says."""
     if sheaf.bounced is not None:
-        return Ray(
-            load(packet, ORIGIN, lane),
-            load(packet, DIRECTION, lane),
-            packet[START_DEPTH + lane],
-            packet[FORWARD + lane],
-            packet[START_SCALE + lane],
-            packet[START_BOUND + lane],
-        )
+        return load_own_ray(packet, lane)
     origin = load(packet, ORIGIN, lane) if start_apart(sheaf) else sheaf.origin
     return Ray(
         origin,

@@ -117,6 +117,8 @@ class Workspace(NamedTuple):
         The rays that go on from what the lanes meet.
     table, owner, member, size
         The hash table of what is hit: a number for each, what it is, which lanes hit it, how many.
+    unasked
+        Stands for light in orders where nobody asks for it, (0, 0, 9).
     """
 
     near: NDArray[np.bool_]
@@ -142,6 +144,7 @@ class Workspace(NamedTuple):
     owner: NDArray[np.int64]
     member: NDArray[np.int64]
     size: NDArray[np.int64]
+    unasked: NDArray[np.float64]
 
 
 def curve_of_block() -> Pixels:
@@ -192,4 +195,5 @@ def new_workspace(world: World, sharing: int = 0, bounces: int = -1) -> Workspac
         owner=integers(LANES),
         member=integers(LANES),
         size=integers(LANES),
+        unasked=np.zeros((0, 0, 9)),
     )

@@ -48,7 +48,6 @@ from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.geometry.world import World
 from vtray.transport.far_light import far_light
-from vtray.transport.film import Rows
 from vtray.transport.glass_around import leave_glass
 from vtray.transport.integrators.glossy_light import light_met
 from vtray.transport.integrators.lamps import lamp_beyond
@@ -66,7 +65,7 @@ from vtray.transport.materials.look import (
 )
 from vtray.transport.materials.material import Materials, Paints, load_look
 from vtray.transport.materials.metal import metal_shares
-from vtray.transport.orders import add_in_order, limit_orders
+from vtray.transport.orders import OrderRows, add_in_order, limit_orders
 from vtray.transport.sampling.paths import Paths
 
 
@@ -185,7 +184,9 @@ def mirrored_share(looks: Looks, look: Look, cosine: float, seen: Vec, tinted: V
 
 
 @device
-def shine(packet: Packet, lane: int, looks: Looks, look: Look, tinted: Vec, orders: Rows) -> None:
+def shine(
+    packet: Packet, lane: int, looks: Looks, look: Look, tinted: Vec, orders: OrderRows
+) -> None:
     """Add the light of what shines to that of a lane; `tinted` is as for `mirrored_share`."""
     light = scale(255.0 * first_number(looks, look), tinted)
     gather_at(packet, lane, light, integers(packet)[BOUNCES + lane], orders)
@@ -251,13 +252,13 @@ def follow_rays(
     pending: Pending,
     most: int,
     work: Workspace,
-    orders: Rows,
+    orders: OrderRows,
 ) -> int:
     """Let the next ray of each lane that meets a surface take the lane; return how many rays go.
 
     The light of lamps that are met instead, or of skies, is added to that of the lane. What rays
     meet after more than `most` surfaces is not followed. Light is added in its order, too, where
-    `orders` is not None.
+    `orders` are wanted.
     """
     numbers, cast = integers(packet), 0
     for lane in range(lanes):
@@ -312,7 +313,7 @@ def _gather_met(
     hit: Hit,
     density: float,
     bounces: int,
-    orders: Rows,
+    orders: OrderRows,
 ) -> None:
     """Add the light of lamps and skies that shadow rays find, too, to that of a lane, in part."""
     # An argument that is None is known to the compiler, which drops what depends on that alone.
@@ -323,14 +324,14 @@ def _gather_met(
 
 
 @device
-def gather_at(packet: Packet, lane: int, light: Vec, number: int, orders: Rows) -> None:
+def gather_at(packet: Packet, lane: int, light: Vec, number: int, orders: OrderRows) -> None:
     """Add light to that of a lane: surfaces have scattered it so often."""
     store(packet, GATHERED, lane, add(load(packet, GATHERED, lane), light))
     add_in_order(packet, lane, light, number, orders)
 
 
 @device
-def end_bounces(packet: Packet, lanes: int, brightest: float, orders: Rows) -> int:
+def end_bounces(packet: Packet, lanes: int, brightest: float, orders: OrderRows) -> int:
     """Make one hit of all that each lane sees; return how many there are.
 
     No channel is brighter than `brightest`: what is, becomes darker as a whole.

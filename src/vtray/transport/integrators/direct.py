@@ -13,10 +13,12 @@ from vtray.geometry.packets.packet import (
     PART,
     Block,
     Packet,
+    has_own,
+    in_common,
 )
 from vtray.geometry.packets.search import find_nearest
 from vtray.geometry.packets.workspace import Workspace
-from vtray.geometry.ray import has_width
+from vtray.geometry.ray import has_width, some_footprint
 from vtray.geometry.world import Faded, Solids
 from vtray.transport.camera_rays import cast_rays, sheaf_of
 from vtray.transport.film import (
@@ -64,6 +66,7 @@ from vtray.transport.lights.surroundings import Surroundings
 from vtray.transport.materials.look import Looks
 from vtray.transport.materials.material import Paints
 from vtray.transport.orders import (
+    OrderRows,
     add_orders,
     clear_orders,
     clear_sums_of_orders,
@@ -82,7 +85,7 @@ from vtray.transport.sampling.adaptive import (
 from vtray.transport.sampling.fans import Fans
 from vtray.transport.sampling.paths import Paths, seed_of_step
 from vtray.transport.sampling.pixel_samples import Sampling, list_pixels, place_samples
-from vtray.transport.scene_arrays import SceneArrays, lit_world
+from vtray.transport.scene_arrays import SceneArrays, lit_world, path_world
 
 
 @kernel
@@ -172,6 +175,7 @@ def _trace_pixels(
             film.linear,
             film.albedo,
             film.mixed,
+            film.orders,
             work,
         )
         clear_orders(packet, lanes, film.orders)
@@ -261,6 +265,7 @@ def _meet(
     linear: Rows,
     albedo: Rows,
     mixed: Rows,
+    orders: OrderRows,
     work: Workspace,
 ) -> None:
     """Cast the rays of a packet, and find what they meet first."""
@@ -274,7 +279,7 @@ def _meet(
     # Arguments that are None are known to the compiler, which drops what depends on that alone.
     if faded is not None:  # noqa: SIM102
         if linear is None:
-            _gather_albedos(packet, lanes, scene, faded, sampling, albedo, mixed, work)
+            _gather_albedos(packet, lanes, scene, faded, sampling, albedo, mixed, orders, work)
             choose_surfaces(packet, lanes, sheaf, scene.world, faded, work)
     if mixed is not None:
         note_seen(packet, lanes)
@@ -304,6 +309,7 @@ def _gather_albedos(
     sampling: Sampling,
     albedo: Rows,
     mixed: Rows,
+    orders: OrderRows,
     work: Workspace,
 ) -> None:
     """Add up what share of light all that lanes see sends on, layer by layer, if it is wanted."""
@@ -315,7 +321,7 @@ def _gather_albedos(
         listed = list_lanes(packet, lanes, skipped, sheaf, scene.world, faded, work)
         waiting = listed
         while waiting > 0:
-            waiting -= take_round(packet, lanes, lanes, skipped, work.layers, None, None)
+            waiting -= take_round(packet, lanes, lanes, skipped, work.layers, None, orders)
             hits = _gather(packet, lanes, scene, sampling, mixed, work)
             weigh_colors(packet, hits)
             gather_albedos(packet, hits)
@@ -454,7 +460,7 @@ def _light_bounces(
             cast += scatter_hits(
                 packet,
                 hits,
-                scene,
+                path_world(scene),
                 looks,
                 last - first,
                 first,
@@ -489,8 +495,9 @@ def _light_bounces(
             packet,
             lanes,
             sampling.rays,
-            sheaf,
-            sampling.footprint,
+            in_common(sheaf),
+            True,
+            some_footprint(sampling.footprint),
             world,
             materials,
             forward,
@@ -515,13 +522,14 @@ def _gather(
     work: Workspace,
 ) -> int:
     """Bring what the rays of a packet hit together; return how many hits."""
-    footprint = sampling.footprint
+    sheaf, footprint = sheaf_of(scene.camera), sampling.footprint
     hits = gather_interactions(
         packet,
         lanes,
         sampling.rays,
-        sheaf_of(scene.camera),
-        footprint,
+        in_common(sheaf),
+        has_own(sheaf),
+        some_footprint(footprint),
         scene.world,
         scene.materials,
         scene.camera.forward,

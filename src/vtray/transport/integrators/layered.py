@@ -45,9 +45,8 @@ from vtray.geometry.ray import Footprint, growth_of, width_at
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import add, scale
 from vtray.geometry.world import Faded, World, load_body
-from vtray.transport.film import Rows
 from vtray.transport.fog import FogFrame, lane_share
-from vtray.transport.orders import add_in_order
+from vtray.transport.orders import OrderRows, add_in_order
 
 
 @device
@@ -191,13 +190,13 @@ def take_round(
     skipped: int,
     layers: Layers,
     fog: FogFrame | None,
-    orders: Rows,
+    orders: OrderRows,
 ) -> int:
     """Let the next of what is listed take some lanes, or what is behind the last of it.
 
     Of so many lanes together, these are the ones in which that is nearer than on average: so what
-    takes them is near each other, and so are the shadow rays from there. With `orders`, the light
-    of lamps that are seen is added in its order, too.
+    takes them is near each other, and so are the shadow rays from there. The light of lamps that
+    are seen is added in its order, too, if that is wanted.
 
     Parameters
     ----------
@@ -207,7 +206,7 @@ def take_round(
     skipped, layers
         After how many layers of each lane the list begins, and the list.
     fog, orders
-        What takes its share of all that is seen, and where light goes by its order, if asked.
+        What takes its share of all that is seen, and where light goes by its order.
 
     Returns
     -------
@@ -230,7 +229,9 @@ def take_round(
 
 
 @device
-def _take(packet: Packet, lane: int, layers: Layers, fog: FogFrame | None, orders: Rows) -> None:
+def _take(
+    packet: Packet, lane: int, layers: Layers, fog: FogFrame | None, orders: OrderRows
+) -> None:
     """Let the next of what is listed of a lane take it, or what is behind the last."""
     numbers = integers(packet)
     k = numbers[NEXT_LAYER + lane]

@@ -39,7 +39,6 @@ from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.vector import Vec, dot, scale
 from vtray.geometry.warps import cosine_direction
-from vtray.transport.film import Rows
 from vtray.transport.integrators.bounces import (
     gather_at,
     mirrored_share,
@@ -50,6 +49,7 @@ from vtray.transport.integrators.bounces import (
 from vtray.transport.integrators.glossy_light import light_gloss
 from vtray.transport.integrators.soft import sample_of
 from vtray.transport.interaction import comes_from_within
+from vtray.transport.lights.light import powers_of
 from vtray.transport.lights.surroundings import has_even_light
 from vtray.transport.materials.frosted import Passed, chance_of, pass_facet
 from vtray.transport.materials.gloss import Gloss, gloss_of, scatter_gloss
@@ -70,8 +70,9 @@ from vtray.transport.materials.look import (
 )
 from vtray.transport.materials.material import Paints, load_look
 from vtray.transport.materials.optics import mirrored, split_at, through_both
+from vtray.transport.orders import OrderRows
 from vtray.transport.sampling.paths import CHOICE, PICK, WAY, Paths, Step, path_point
-from vtray.transport.scene_arrays import SceneArrays, lit_world
+from vtray.transport.scene_arrays import LitWorld, PathWorld
 
 MIRRORED, REFRACTED, SCATTERED = range(3)
 """How light goes on from a surface."""
@@ -115,7 +116,7 @@ class Onward(NamedTuple):
 def scatter_hits(
     packet: Packet,
     hits: int,
-    scene: SceneArrays,
+    scene: PathWorld,
     looks: Looks,
     samples: int,
     first: int,
@@ -124,7 +125,7 @@ def scatter_hits(
     paths: Paths,
     seed: int,
     work: Workspace,
-    orders: Rows,
+    orders: OrderRows,
 ) -> int:
     """Let a ray go on from each hit, and weigh the colours of hits by what is seen.
 
@@ -141,7 +142,7 @@ def scatter_hits(
     work
         Scratch memory; out: the rays that wait.
     orders
-        Not None if light is added in its order, too.
+        Where light is added in its order, too, if that is wanted.
 
     Returns
     -------
@@ -185,14 +186,14 @@ def scatter_hits(
                 onward.sees_lights,
                 onward.within,
                 onward.density,
-                scene.camera.forward,
+                scene.forward,
                 work.pending,
             )
     return cast
 
 
 @device
-def look_at(packet: Packet, lane: int, scene: SceneArrays, looks: Looks, step: Step) -> Look:
+def look_at(packet: Packet, lane: int, scene: PathWorld, looks: Looks, step: Step) -> Look:
     """Return how what the ray of a lane met looks to a path: a blend as one of both materials."""
     look = load_look(scene.materials, looks, integers(packet)[PRIMITIVE + lane])
     return _of_blend(looks, looks.albedos, look, step)
@@ -225,7 +226,7 @@ def is_glossy(looks: Looks, albedos: Albedos | None, look: Look) -> bool:
 def onward_from(
     packet: Packet,
     hit: int,
-    scene: SceneArrays,
+    scene: PathWorld,
     looks: Looks,
     look: Look,
     color: Vec,
@@ -286,7 +287,7 @@ def _from_gloss(
     packet: Packet,
     hit: int,
     lane: int,
-    scene: SceneArrays,
+    scene: PathWorld,
     looks: Looks,
     albedos: Albedos | None,
     look: Look,
@@ -302,9 +303,8 @@ def _from_gloss(
         return Onward(direction, seen, True, within, 0.0, 1.0, MIRRORED, (0.0, 0.0, 0.0), 0)
     u, v = path_point(step, WAY)
     gloss, start = gloss_at(packet, hit, looks, albedos, look, tint), start_of(packet, hit)
-    light, cast = light_gloss(
-        looks, albedos, gloss, start, lit_world(scene), scene.lights, step, stack
-    )
+    lit = LitWorld(scene.world, scene.forward, powers_of(scene.lights))
+    light, cast = light_gloss(looks, albedos, gloss, start, lit, scene.lights, step, stack)
     onward = scatter_gloss(looks, albedos, gloss, u, v, chance)
     is_sharp, is_base = onward.density == 0.0, not chance < gloss.chance
     return Onward(

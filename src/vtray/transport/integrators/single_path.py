@@ -27,6 +27,7 @@ from vtray.geometry.packets.packet import (
     THROUGHPUT,
     Block,
     Packet,
+    in_common,
     integers,
     join_met,
     load,
@@ -38,6 +39,7 @@ from vtray.geometry.packets.pending import Waiting, pop_ray, push_ray
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.packets.workspace import Workspace
 from vtray.geometry.queries import NOTHING, nearest_hit
+from vtray.geometry.ray import some_footprint
 from vtray.geometry.vector import Vec, scale
 from vtray.transport.camera_rays import sample_ray
 from vtray.transport.integrators.bounces import begin_bounces, bounced_sheaf, follow_rays, times
@@ -78,7 +80,7 @@ from vtray.transport.materials.look import (
 from vtray.transport.materials.material import Material, load_look
 from vtray.transport.sampling.paths import CHOICE, PICK, Paths, Step, path_point
 from vtray.transport.sampling.pixel_samples import Sampling, place_samples
-from vtray.transport.scene_arrays import SceneArrays
+from vtray.transport.scene_arrays import SceneArrays, path_world
 
 
 class Place(NamedTuple):
@@ -194,8 +196,9 @@ def leave_hit(
         packet,
         1,
         1,
-        bounced_sheaf(),
-        sampling.footprint,
+        in_common(bounced_sheaf()),
+        True,
+        some_footprint(sampling.footprint),
         scene.world,
         scene.materials,
         scene.camera.forward,
@@ -220,11 +223,26 @@ def _leave(
     if paths is not None:
         choice = _choose(scene, looks, paths, seed, place, packet, work)
         block = Block(place.column, place.row, 1, 1, 0, 0)
-        scatter_hits(packet, 1, scene, looks, 1, place.sample, block, 0, paths, seed, work, None)
+        scatter_hits(
+            packet,
+            1,
+            path_world(scene),
+            looks,
+            1,
+            place.sample,
+            block,
+            0,
+            paths,
+            seed,
+            work,
+            work.unasked,
+        )
         return choice
     forward, pending = scene.camera.forward, work.pending
     look = load_look(scene.materials, looks, integers(packet)[PRIMITIVE])
-    split_hits(packet, 1, scene.world, scene.materials, looks, forward, pending, looks.depth, None)
+    split_hits(
+        packet, 1, scene.world, scene.materials, looks, forward, pending, looks.depth, work.unasked
+    )
     return Choice(look.row, 1.0, False, 1.0, MIRRORED, 0.0, 1.0)
 
 
@@ -241,7 +259,7 @@ def _choose(
     """Return what `scatter_hits` is about to choose for the first hit of a packet."""
     step = _step_at(packet, paths, seed, place)
     whole = load_look(scene.materials, looks, integers(packet)[PRIMITIVE])
-    look, share = look_at(packet, 0, scene, looks, step), 1.0
+    look, share = look_at(packet, 0, path_world(scene), looks, step), 1.0
     if whole.kind == BLEND:
         second = looks.numbers[whole.row, 2]
         share = second if look.row == int(looks.numbers[whole.row, 1]) else 1.0 - second
@@ -249,7 +267,7 @@ def _choose(
         return Choice(look.row, share, False, 1.0, SCATTERED, 0.0, 0.0)
     chance, _ = path_point(step, CHOICE)
     color = load(packet, COLOR, 0)
-    onward = onward_from(packet, 0, scene, looks, look, color, step, chance, work.stack)
+    onward = onward_from(packet, 0, path_world(scene), looks, look, color, step, chance, work.stack)
     goes_on = chance_to_go_on(onward.seen, step.number)
     has_coat = is_glossy(looks, looks.albedos, look)
     return Choice(look.row, share, has_coat, onward.chance, onward.how, onward.density, goes_on)
@@ -437,5 +455,5 @@ def follow_ray(scene: SceneArrays, looks: Looks, packet: Packet, work: Workspace
     passes = (1.0, 1.0, 1.0)
     if waiting.within != EMPTY:
         passes = transmitted(three_numbers(looks, waiting.within, 1), distance)
-    follow_rays(packet, 1, scene.world, lights, looks, pending, looks.depth, work, None)
+    follow_rays(packet, 1, scene.world, lights, looks, pending, looks.depth, work, work.unasked)
     return Followed(waiting, distance, lamp, passes)

@@ -28,7 +28,6 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.pending import Pending
 from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.geometry.world import Solids, World
-from vtray.transport.film import Rows
 from vtray.transport.integrators.bounces import (
     mirrored_share,
     push_from,
@@ -58,6 +57,7 @@ from vtray.transport.materials.optics import (
     split_at,
     through_both,
 )
+from vtray.transport.orders import OrderRows
 
 LEAST = 2.0**-10
 """Rays of which no channel would be seen by more than that are not followed: less than a quarter of
@@ -75,7 +75,7 @@ def split_hits(
     forward: Vec,
     pending: Pending,
     most: int,
-    orders: Rows,
+    orders: OrderRows,
 ) -> None:
     """Let the rays that go on from hits wait, and weigh the colours of hits by what is seen.
 
@@ -92,7 +92,7 @@ def split_hits(
     most
         How many bounces there are at the most.
     orders
-        Not None if light is added in its order, too.
+        Where light is added in its order, too, if that is wanted.
     """
     numbers = integers(packet)
     for hit in range(hits):
@@ -132,7 +132,7 @@ def _split_part(
     forward: Vec,
     pending: Pending,
     most: int,
-    orders: Rows,
+    orders: OrderRows,
 ) -> Vec:
     """Let the rays that go on from one material wait; return how much is seen of it as matt."""
     numbers = integers(packet)
