@@ -312,13 +312,15 @@ def rolled(picture: Callable[[tuple[int, int, int]], np.ndarray]) -> int:
     ids=str,
 )
 def test_what_is_drawn_goes_on_at_the_other_edge(style: dict[str, Any]) -> None:
+    size = (96, 48) if JIT else (32, 16)
+
     def picture(target: tuple[int, int, int]) -> np.ndarray:
         scene = vtray.Scene(lights=[vtray.Ambient(distance=1e-9)])
         scene.add_cylinder((0.5, -9, -5), (0.5, 9, -5), 0.5)  # whose left edge is at the seam
         scene.add_cylinder((-5, -9, -5), (2, 9, -5), 0.3)
         scene.add_sphere((0.02, 3, -6), 0.7)
         scene.add_plane((0, -4, 0), (0, 1, 0))
-        scene.camera = vtray.Camera.panorama((0, 0, 0), target, size=(96, 48))
+        scene.camera = vtray.Camera.panorama((0, 0, 0), target, size=size)
         return vtray.render(scene, exposure=0.8, background="white", **style).pixels
 
     # Places of samples are of the picture, not of the world.
@@ -343,7 +345,8 @@ def test_figures_have_no_scale_bar_unless_one_is_asked_for() -> None:
 
 @pytest.mark.parametrize("point", [(0, 5, 0), (0, -5, 0), (0, 0, -5), (1e-12, 0, -5)])
 def test_labels_at_all_edges_are_shown(point: tuple[float, ...]) -> None:
-    scene = vtray.Scene(camera=vtray.Camera.panorama((0, 0, 0), (0, 0, 5), size=(300, 150)))
+    size = (300, 150) if JIT else (80, 40)
+    scene = vtray.Scene(camera=vtray.Camera.panorama((0, 0, 0), (0, 0, 5), size=size))
     scene.add_sphere((0, 0, 9), 1)
     image = vtray.render(scene, background="white")
     marked = image.annotated(labels=[("X", point)], fontsize=8)

@@ -126,6 +126,6 @@ def paste(tile: Tile, part: Film, marks: NDArray[np.bool_], film: Film) -> None:
     traced = marks[place] if marks.size else np.ones((1, 1), np.bool_)
     for name in set(Film._fields) - {"left", "top", "kept"}:
         source, target = getattr(part, name), getattr(film, name)
-        if source is not None and target is not None:
+        if source is not None and target is not None and target.size > 0:
             where = traced[..., np.newaxis] if source.ndim > traced.ndim else traced
             np.copyto(target[place], source, where=where)
