@@ -11,7 +11,8 @@ which matters to who counts references.
 
 from typing import Any
 
-from numba.core import typed_passes
+import numba
+from numba.core import errors, ir, typed_passes
 from numba.core.analysis import dead_branch_prune, rewrite_semantic_constants
 from numba.core.interpreter import Interpreter
 from numba.core.ir_utils import build_definitions, raise_on_unsupported_feature
@@ -19,6 +20,7 @@ from numba.core.postproc import PostProcessor
 from numba.core.rewrites.static_getitem import RewriteConstGetitems, RewriteConstSetitems
 from numba.core.rewrites.static_raise import RewriteConstRaises
 from numba.core.ssa import reconstruct_ssa
+from numba.core.typeinfer import Propagate, TypeInferer
 
 
 def take_all_steps(state: Any) -> Any:
@@ -27,7 +29,7 @@ def take_all_steps(state: Any) -> Any:
     _drop_dead_branches(state)
     _tell_constants(state)
     _assign_once(state)
-    typed_passes.NopythonTypeInference().run_pass(state)
+    _find_types(state)
     _join_assignments(state)
     typed_passes.NativeLowering().run_pass(state)
     typed_passes.NoPythonBackend().run_pass(state)
@@ -62,6 +64,47 @@ def _assign_once(state: Any) -> None:
     state.func_ir = reconstruct_ssa(state.func_ir)
     state.func_ir._definitions = build_definitions(state.func_ir.blocks)  # noqa: SLF001
     dead_branch_prune(state.func_ir, state.args)
+
+
+def _find_types(state: Any) -> None:
+    """Find the type of each variable, and with it what each call calls."""
+    told: Any = errors
+    warnings = told.WarningsFixer(errors.NumbaWarning)
+    found = _TypesOfVariables(state.typingctx, state.func_ir, warnings)
+    calls: Any = state.typingctx.callstack
+    with calls.register(state.targetctx.target, found, state.func_id, state.args), warnings:
+        for k, (name, kind) in enumerate(zip(state.func_ir.arg_names, state.args, strict=True)):
+            found.seed_argument(name, k, kind)
+        found.build_constraint()
+        found.propagate()
+        state.typemap, state.return_type, state.calltypes = found.unify()
+
+
+class _TypesOfVariables(TypeInferer):
+    """What Numba finds of the types of variables, but that what is counted is no constant.
+
+    Before a loop, what it counts is a constant, which is a type of its own. Numba would compile all
+    that the loop calls for this constant, find that it changes, and compile it again.
+    """
+
+    def typeof_expr(self, inst: Any, target: Any, expr: Any) -> None:
+        """Note what the type of a variable depends on, given what is assigned to it."""
+        if expr.op != "phi":
+            super().typeof_expr(inst, target, expr)
+            return
+        for each in expr.incoming_values:
+            if each is not ir.UNDEFINED:
+                self.constraints.append(_OneOf(target.name, each.name, inst.loc))
+
+
+class _OneOf(Propagate):
+    """A variable is what another one is, unless another way led to where it is."""
+
+    def __call__(self, found: Any) -> None:
+        kind = found.typevars[self.src].type
+        if kind is not None:
+            found.typevars[self.dst].add_type(numba.types.unliteral(kind), loc=self.loc)
+        found.refine_map[self.dst] = self
 
 
 def _join_assignments(state: Any) -> None:

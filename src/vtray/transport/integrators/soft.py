@@ -247,12 +247,12 @@ def _light_batch(
     touching = _find_around(packet, active, casting, first, light, work)
     if count <= FAN // fans.rays:
         return _cast_together(packet, active, casting, fans, first, light, touching, work)
-    cast = 0
+    cast, one = 0, min(active, 1)  # a constant would be compiled for by itself
     for k in range(active):
         # Those after the first stay where they are.
         batch.active[0] = batch.active[k]
         alone = Seen(aim_from(packet, batch.hit[batch.active[0]], soft, light), True)
-        cast += _cast_together(packet, 1, casting, fans, alone, light, touching, work)
+        cast += _cast_together(packet, one, casting, fans, alone, light, touching, work)
     return cast
 
 
