@@ -2,9 +2,9 @@
 
 import gc
 import weakref
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -15,6 +15,7 @@ from conftest import compiled_only, once
 from vtray.animation import output as outputs
 from vtray.animation.movie_names import ALONE
 from vtray.animation.particle_scenes import Drawing, ParticleScenes, looked_at
+from vtray.animation.snapshots import snapshots_of
 from vtray.animation.sources import source_of
 from vtray.base.errors import OutputError, RenderError, SceneError
 from vtray.base.extras import ExtraError
@@ -56,6 +57,75 @@ def test_what_pictures_are_made_of(tmp_path: Path) -> None:
     for found in others:
         assert all((a == b).all() for a, b in zip(first, found, strict=True))
     assert called == ["", "a", "bb"]  # once each
+
+
+def in_place(as_given: Callable[[np.ndarray], Any]) -> Iterator[Any]:
+    """Give what is made of an array again and again, as a simulation writes to it."""
+    places = np.array([[0.0, 0.0, 0.0]])
+    for _ in range(3):
+        places[0, 0] += 0.5
+        yield as_given(places)
+
+
+class Given(NamedTuple):
+    positions: np.ndarray
+
+
+def scene_of(places: np.ndarray) -> vtray.Scene:
+    scene = ball()
+    scene.objects = [vtray.Spheres(places, 1.0)]
+    return scene
+
+
+@pytest.mark.parametrize("as_given", [scene_of, vtray.Particles, np.asarray, Given])
+def test_arrays_may_be_written_to_again(
+    as_given: Callable[[np.ndarray], Any], tmp_path: Path
+) -> None:
+    more = {} if as_given is scene_of else {"camera": ball().camera, "radii": 1.0}
+    for name, kept in (("a", np.asarray), ("b", np.copy)):
+        path = tmp_path / name / "%d.png"
+        vtray.animate(in_place(lambda places, kept=kept: as_given(kept(places))), path, **more)
+    found, expected = pixels(tmp_path / "a"), pixels(tmp_path / "b")
+    assert len(found) == 3
+    assert all((a == b).all() for a, b in zip(found, expected, strict=True))
+    assert (found[0] != found[2]).any()
+
+
+def test_what_moves_through_a_trajectory_is_looked_at_once_it_is_given(tmp_path: Path) -> None:
+    places = np.zeros((1, 3))
+
+    def at(k: int) -> Given:  # as MDAnalysis does: the same object, whose frame is another
+        places[0, 0] = k
+        return Given(places)
+
+    for name, make in (("a", at), ("b", lambda k: np.array([[float(k), 0.0, 0.0]]))):
+        path = tmp_path / name / "%d.png"
+        vtray.animate(make, path, frames=3, radii=1.0, samples=1, size=SIZE)
+    found, expected = pixels(tmp_path / "a"), pixels(tmp_path / "b")
+    assert all((a == b).all() for a, b in zip(found, expected, strict=True))
+
+
+def test_a_scene_may_change_from_picture_to_picture(tmp_path: Path) -> None:
+    def scenes() -> Iterator[vtray.Scene]:
+        scene = ball()
+        yield scene
+        scene.lights = [vtray.Light((0, -9, 0), 0.5)]
+        yield scene
+        scene.objects.clear()
+        yield scene
+
+    vtray.animate(scenes(), tmp_path / "%d.png")
+    assert [int(picture.max()) for picture in pixels(tmp_path)] == [255, 127, 0]
+
+
+def test_what_does_not_change_is_copied_once() -> None:
+    scene, other = ball(), ball()
+    source = snapshots_of(source_of(iter([scene, scene, other])), iter([]))
+    one, again, last = source.start(0)
+    assert one is not again
+    assert one.objects[0] is again.objects[0] is not scene.objects[0]
+    assert last.objects[0] is not one.objects[0]
+    assert one.objects[0] == scene.objects[0]
 
 
 def test_a_background_may_be_an_array(tmp_path: Path) -> None:

@@ -25,6 +25,7 @@ from vtray.animation.particle_scenes import Drawing, scenes_of
 from vtray.animation.script import Make, Script
 from vtray.animation.shooting import shoot
 from vtray.animation.shots import SceneShots, TurnedShots, camera_around
+from vtray.animation.snapshots import snapshots_of
 from vtray.animation.sources import READING, first_of, source_of
 from vtray.animation.stage import Look, Shot, Warn
 from vtray.base.errors import SceneError
@@ -168,7 +169,7 @@ def animate(
     source = source_of(scenes, frames, reading, None if last is None else last + 1)
     if not is_file and source.count is not None:
         _check_count("frames", source.count)
-    first, source = first_of(source)
+    first, source = first_of(snapshots_of(source, scenes))
     if isinstance(first, Scene):
         if options:
             name = next(iter(options))

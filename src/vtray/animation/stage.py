@@ -1,6 +1,7 @@
 """Where scenes are put to be taken: one after the other, all in the same light."""
 
 import copy
+import operator
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
@@ -21,6 +22,7 @@ from vtray.rendering.starlight import peak_of
 from vtray.scene.camera import Camera
 from vtray.scene.default_light import settings_of
 from vtray.scene.light_types import AnyLight
+from vtray.scene.objects import Object
 from vtray.scene.placing.directions import Vec
 from vtray.scene.scene import Scene
 from vtray.scene.settings import overridden
@@ -144,8 +146,9 @@ class Stage:
     def __init__(self, look: Look, common: Common) -> None:
         self.common = common
         self._look = look
-        self._last: Scene | None = None
         self._scene = Scene()
+        self._given: list[Object] = []
+        self._objects: list[Object] = []
         self._opacity: Opacity | None = None
         self._style: Mapping[str, Any] = {}
 
@@ -155,14 +158,14 @@ class Stage:
 
     def set(self, shot: Shot) -> Scene:
         """Return a scene with the camera, the lights and the opacities of a picture."""
-        # What is kept with a scene stays from one picture of it to the next.
-        is_new = self._last is not shot.scene
-        if is_new:
-            self._scene = copy.copy(shot.scene)
-        if is_new or self._opacity != shot.opacity:
-            objects = self._with_peaks(shot.scene)
-            self._scene.objects = objects if shot.opacity is None else faded(objects, shot.opacity)
-            self._last, self._opacity = shot.scene, shot.opacity
+        scene = copy.copy(shot.scene)
+        if self._opacity != shot.opacity or not _are_same(self._given, scene.objects):
+            objects = self._with_peaks(scene)
+            self._given, self._opacity = [*scene.objects], shot.opacity
+            self._objects = objects if shot.opacity is None else faded(objects, shot.opacity)
+        else:  # what is kept with a scene stays from one picture of its objects to the next
+            vars(scene).update(vars(self._scene))
+        scene.objects, self._scene = self._objects, scene
         self._style = shot.style
         self._scene.camera = shot.camera
         if shot.lights is not None:
@@ -218,6 +221,11 @@ class Stage:
             else item
             for item in scene.objects
         ]
+
+
+def _are_same(these: list[Object], those: list[Object]) -> bool:
+    """Tell whether two lists hold the same objects."""
+    return len(these) == len(those) and all(map(operator.is_, these, those))
 
 
 def common_of(first: Shot, settings: Mapping[str, Any]) -> Common:
