@@ -7,6 +7,7 @@ from typing import Any
 import numba
 import numpy as np
 import pytest
+from numba.core import errors
 from numba.core.bytecode import FunctionIdentity
 from numba.core.compiler import Compiler
 from numba.core.typing.context import Context
@@ -87,3 +88,50 @@ def test_types_are_found_once(monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(asked) == len(set(asked)) > 5
     assert compiled(monkeypatch, 2.0) == first
     assert len(asked) == len(set(asked))
+
+
+def _next(count: Any) -> Any:
+    return count + 2
+
+
+follows: Callable[..., Any] = _next
+
+
+def count_up(points: Any) -> Any:
+    """Count from a constant on, in a loop and in a branch."""
+    counted, way = 0, 1
+    for k in range(points.shape[0]):
+        counted = follows(counted)
+        if points[k] > 0.0:
+            way = 3
+        way = follows(way)
+    return counted + follows(way)
+
+
+def test_constants_that_counting_begins_with_are_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    compiled_for: list[str] = []
+    take_all = DevicePipeline._compile_core
+
+    def spy(pipeline: Any) -> Any:
+        compiled_for.extend(map(str, pipeline.state.args))
+        return take_all(pipeline)
+
+    monkeypatch.setitem(globals(), "follows", Device(_next))
+    monkeypatch.setattr(DevicePipeline, "_compile_core", spy)
+    compile_part(count_up, (numba.typeof(np.zeros(3)),), OPTIONS, "count-part")
+    assert [kind for kind in compiled_for if "array" not in kind] == ["int64"]
+
+
+def test_errors_that_nobody_sees_are_not_painted(monkeypatch: pytest.MonkeyPatch) -> None:
+    painted: list[str] = []
+
+    class Painter:
+        def __getattr__(self, _: str) -> Callable[[str], str]:
+            return lambda text: painted.append(text) or text
+
+    monkeypatch.setattr(errors, "_termcolor_inst", Painter())
+    str(errors.TypingError("seen"))
+    assert painted == ["seen"]
+    compiled(monkeypatch, 2.0)
+    assert painted == ["seen"]
+    assert isinstance(errors._termcolor_inst, Painter)
