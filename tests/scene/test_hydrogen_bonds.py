@@ -125,6 +125,14 @@ def test_dashes_are_of_what_is_drawn() -> None:
     assert len(drawn(style="licorice").hydrogen_bonds) == 6
 
 
+def test_donors_are_bound_as_is_drawn() -> None:
+    other = Particles(PAIR.positions, PAIR.columns, bonds=[(0, 2)], cell=PAIR.cell)
+    assert len(drawn(other).hydrogen_bonds) == 0
+    assert len(drawn(other, bonds=True).hydrogen_bonds) == 6
+    empty = Particles(PAIR.positions, PAIR.columns, bonds=np.zeros((0, 2), int), cell=PAIR.cell)
+    assert len(drawn(empty).hydrogen_bonds) == 6
+
+
 def test_copies_have_dashes(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(drawing, "WRITTEN_OUT", 1)
     found = drawn(replicate=(2, 1, 1), bonds=True)

@@ -174,6 +174,19 @@ def test_bonds_of_pdb(tmp_path: Path) -> None:
         vtray.Scene().add_particles(vtray.read(path), bonds="file")
 
 
+@pytest.mark.filterwarnings("ignore:Reader has no dt information")
+def test_bonds_of_pdb_by_mdanalysis_are_the_same(tmp_path: Path) -> None:
+    path = tmp_path / "a.pdb"
+    path.write_text(LIGAND.replace("   99", ""))
+    found = [vtray.read(path), vtray.read(path, trajectory=path)]
+    assert [particles.bonds.tolist() for particles in found] == [[[0, 1]], [[0, 1]]]
+    path.write_text(LIGAND.replace("   99", "").replace("HOH A   2", "LIG A   1"))
+    made = MDAnalysis.Universe(path)
+    assert len(made.bonds) == 1
+    assert vtray.read(path, trajectory=path).bonds is None
+    assert vtray.from_mdanalysis(made.atoms[:2]).bonds is None
+
+
 DUMP = """\
 ITEM: TIMESTEP
 {step}

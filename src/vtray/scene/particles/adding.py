@@ -134,7 +134,8 @@ class AddingParticles:
             donors and acceptors N, O and F, at most 2.5 Å from the hydrogen to the acceptor, with
             an angle between them at the hydrogen of at least 120 degrees [1]_. Two numbers are
             another length, in the unit of the positions, and another angle, such as
-            ``(2.2, 150)``.
+            ``(2.2, 150)``. Donors are known by the bonds of the particles, or by those of
+            `find_bonds` where there are none, or where `bonds` is True.
         emission
             Let points shine, as `Stars`: each adds so much light to the picture, a column, a
             number, or an array (n,), ≥ 0. Their colours are white unless `color` is given, the

@@ -246,7 +246,9 @@ def draw(
     times = times_of(replicate)
     rows = np.flatnonzero(chosen(particles, select, "select"))
     wanted = criterion_of(hydrogen_bonds)
-    pairs = None if wanted is None else find_hydrogen_bonds(particles, wanted)
+    pairs = None
+    if wanted is not None:
+        pairs = find_hydrogen_bonds(particles, wanted, by_distance=bonds is True)
     placed = _place(particles, name, rows, bonds, pairs, times, boundary, wrap=wrap, unwrap=unwrap)
     found = color_particles(particles, rows, **coloring)
     kept = None if highlight is None else chosen(particles, highlight, "highlight")

@@ -25,6 +25,7 @@ from vtray.scene.particles.column_names import name_columns, name_twice
 from vtray.scene.particles.elements import are_symbols, symbol_of, symbols_of
 from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.from_columns import from_columns
+from vtray.scene.particles.pairs import reach_residues
 from vtray.scene.particles.particles import Particles
 
 if TYPE_CHECKING:
@@ -116,7 +117,8 @@ def from_mdanalysis(group: Any) -> Particles:  # noqa: ANN401
     Particles
         With the columns that its topology knows: ``element``, ``name``, ``type``, ``resname``,
         ``resid``, ``segid``, ``chain``, ``charge``, ``mass``, ``radius``; with ``velocity`` and
-        ``force`` where the frame has them; with the bonds of the topology, and the cell.
+        ``force`` where the frame has them; with the bonds of the topology, for those of a PDB file
+        where they are all, and the cell.
 
     Raises
     ------
@@ -292,14 +294,21 @@ def _elements_of(columns: "dict[str, Array]") -> "Array | None":
 
 
 def _bonds_within(universe: Any, chosen: "Array") -> "Array | None":  # noqa: ANN401
-    """Return the bonds between chosen atoms, by their places among these."""
+    """Return the bonds between chosen atoms, by their places among these.
+
+    Those of PDB files, where atoms have a type of record, may be but a few of all: then None.
+    """
     import numpy as np
 
     if not hasattr(universe, "bonds"):
         return None
-    places = np.full(len(universe.atoms), -1)
+    atoms = universe.atoms
+    pairs = np.asarray(universe.bonds.indices, np.int64).reshape(-1, 2)
+    if hasattr(atoms, "record_types") and not reach_residues(pairs, np.asarray(atoms.resindices)):
+        return None
+    places = np.full(len(atoms), -1)
     places[chosen] = np.arange(len(chosen))
-    bonds: Array = places[np.asarray(universe.bonds.indices, np.int64).reshape(-1, 2)]
+    bonds: Array = places[pairs]
     within: Array = bonds[(bonds >= 0).all(axis=1)]
     return within
 

@@ -77,12 +77,16 @@ def criterion_of(given: Any) -> Criterion | None:  # noqa: ANN401
     return Criterion(length, angle)
 
 
-def find_hydrogen_bonds(particles: "Particles", criterion: Criterion = Criterion()) -> Bonds:  # noqa: B008
+def find_hydrogen_bonds(
+    particles: "Particles",
+    criterion: Criterion = Criterion(),  # noqa: B008
+    *,
+    by_distance: bool = False,
+) -> Bonds:
     """Return the hydrogen bonds of atoms: D-H...A with D and A of nitrogen, oxygen and fluorine.
 
     By default, H and A are at most 2.5 Å apart, and the angle at H is at least 120 degrees. Donors
-    are known by the bonds of the particles, or without any by `find_bonds`. In a cell that repeats,
-    bonds cross its borders.
+    are known by covalent bonds. In a cell that repeats, bonds cross its borders.
 
     Parameters
     ----------
@@ -90,6 +94,9 @@ def find_hydrogen_bonds(particles: "Particles", criterion: Criterion = Criterion
         The particles, with the column ``element``.
     criterion
         How long, and how straight.
+    by_distance
+        Whether covalent bonds are those of `find_bonds`. By default they are those of the
+        particles, and only without any those of `find_bonds`.
 
     Returns
     -------
@@ -111,7 +118,7 @@ def find_hydrogen_bonds(particles: "Particles", criterion: Criterion = Criterion
         raise SceneError("hydrogen_bonds: are those of elements, and there is no column element")
     elements = particles["element"]
     hydrogen, taker = np.isin(elements, HYDROGEN), np.isin(elements, ELECTRONEGATIVE)
-    donor_of = _toward(hydrogen, taker, _covalent(particles))
+    donor_of = _toward(hydrogen, taker, _covalent(particles, by_distance))
     near = _toward(hydrogen, taker, _near(particles, hydrogen | taker, criterion.length))
     # Each pair with each of the donors that its hydrogen has.
     order = np.argsort(donor_of.pairs[:, 0], kind="stable")
@@ -124,11 +131,11 @@ def find_hydrogen_bonds(particles: "Particles", criterion: Criterion = Criterion
     return near.some(np.unique(one[far_enough]))
 
 
-def _covalent(particles: "Particles") -> Bonds:
+def _covalent(particles: "Particles", by_distance: bool) -> Bonds:
     """Return the covalent bonds of atoms."""
-    if particles.bonds is not None:
-        return bonds_between(particles, particles.bonds)
-    return find_bonds(particles)
+    if by_distance or particles.bonds is None or not len(particles.bonds):
+        return find_bonds(particles)
+    return bonds_between(particles, particles.bonds)
 
 
 def _near(particles: "Particles", chosen: NDArray[np.bool_], length: float) -> Bonds:

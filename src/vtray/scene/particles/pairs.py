@@ -42,3 +42,23 @@ def pairs_of(given: Any, count: int, place: str) -> "NDArray[np.int64]":  # noqa
         words = f"expected indices from 0 to {count - 1}, got {pairs[first].tolist()}"
         raise SceneError(f"{place}[{first}]: {words}")
     return pairs.astype(np.int64, copy=False)
+
+
+def reach_residues(pairs: "NDArray[np.int64]", residues: "NDArray[Any]") -> bool:
+    """Tell whether bonds reach each atom of all residues with more than one.
+
+    Lines of bonds in PDB files are all that there are where they do, and else but a few of them.
+
+    Parameters
+    ----------
+    pairs
+        The bonds, (m, 2).
+    residues
+        What tells the residues of the atoms apart, (n,).
+    """
+    import numpy as np
+
+    _, which, counts = np.unique(residues, return_inverse=True, return_counts=True)
+    reached = counts[which] == 1
+    reached[pairs.ravel()] = True
+    return bool(reached.all())

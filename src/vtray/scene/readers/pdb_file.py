@@ -16,6 +16,7 @@ from vtray.base.exact_math import cosine, sine
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.elements import symbol_of
 from vtray.scene.particles.few_names import texts_of
+from vtray.scene.particles.pairs import reach_residues
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.plain_numbers import parsed, parsed_all
 from vtray.scene.readers.frames import Steps, frame_number
@@ -187,10 +188,7 @@ def _bonds_of(conects: list[bytes], table: "Array") -> "Array | None":
                 pairs.add((min(first, other), max(first, other)))
     bonds = np.array(sorted(pairs), np.int64).reshape(-1, 2)
     residues = np.ascontiguousarray(table[:, 17:27]).view("S10").ravel()
-    _, which, counts = np.unique(residues, return_inverse=True, return_counts=True)
-    reached = counts[which] == 1
-    reached[bonds.ravel()] = True
-    return bonds if reached.all() else None
+    return bonds if reach_residues(bonds, residues) else None
 
 
 def _is_whole(line: bytes) -> bool:
