@@ -96,6 +96,13 @@ def test_metals_are_bound_where_they_are_no_ions() -> None:
     assert sorted(find_bonds(gold).pairs.tolist()) == [[0, 1], [0, 3], [1, 2]]
 
 
+def test_what_is_no_element_is_bound_by_a_length_alone() -> None:
+    places = [(0, 0, 0), (0.76, 0.59, 0), (-0.76, 0.59, 0), (0, 0.15, 0)]
+    water = Particles(places, {"element": np.array([*"OHHX"])})
+    assert pairs_of(find_bonds(water)) == {(0, 1), (0, 2)}
+    assert len(find_bonds(water, cutoff=1.0)) == 5
+
+
 def test_few_and_equal_places() -> None:
     assert len(find_bonds(Particles(np.zeros((0, 3))), cutoff=1)) == 0
     assert len(find_bonds(Particles(np.zeros((3, 3))), cutoff=1)) == 0

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
 from vtray.base.number import number_of
-from vtray.scene.particles.elements import are_anions, are_metals
+from vtray.scene.particles.elements import NO_ELEMENT, are_anions, are_metals
 from vtray.scene.particles.lattice import Lattice, columns_of, lattice_of
 from vtray.scene.particles.nearest_image import nearest_shifts
 from vtray.scene.particles.pairs import pairs_of
@@ -96,8 +96,8 @@ def find_bonds(
     0.74 Å, as in a hydrogen molecule, and no others come so near to each other. With covalent
     radii, metals that are both bound to anions are not bound to each other: radii are those of
     atoms, and ions of metals are so much smaller that they are near without a bond, as titanium is
-    to titanium in rutile. In a cell that repeats, each pair of images counts once, also where the
-    cell is thinner than a bond.
+    to titanium in rutile. X, which is no element, is then bound to nothing. In a cell that repeats,
+    each pair of images counts once, also where the cell is thinner than a bond.
 
     Parameters
     ----------
@@ -151,7 +151,9 @@ def find_bonds(
         bonds = bonds.after(-moves)
     bonds = _lower_first(bonds)
     if cutoff is None and isinstance(radii, str) and radii == "covalent":
-        bonds = bonds.some(~_join_ions(bonds, particles["element"]))
+        symbols = particles["element"]
+        bonds = bonds.some((symbols != NO_ELEMENT)[bonds.pairs].all(axis=1))
+        bonds = bonds.some(~_join_ions(bonds, symbols))
     return bonds
 
 

@@ -38,6 +38,9 @@ SYMBOLS = _words(
 )
 """By atomic number; X, with 0, is what is no element."""
 
+NO_ELEMENT = SYMBOLS[0]
+"""Such as the sites without mass of some models of water."""
+
 _COVALENT = _words(
     """
     1 0.31 0.28 1.28 0.96 0.84 0.76 0.71 0.66 0.57 0.58 1.66 1.41 1.21 1.11 1.07 1.05 1.02 1.06
