@@ -72,7 +72,7 @@ def test_data_becomes_a_scene(water: Path) -> None:
     again = scene_of(water, "--boundary", "--no-cell")
     assert [len(item) for item in again.objects] == [3, 8]
     dashed = scene_of(water, "--hydrogen-bonds", "--no-cell")
-    assert [len(item) for item in dashed.objects] == [3, 0]
+    assert [len(item) for item in dashed.objects] == [3, 2, 0]
     shining = scene_of(water, "--emission", "z", "--stretch", "log", "--peak", "2")
     (stars,) = shining.objects
     assert (stars.stretch, stars.softening, stars.peak) == ("log", None, 2)

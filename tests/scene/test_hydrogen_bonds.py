@@ -125,6 +125,14 @@ def test_dashes_are_of_what_is_drawn() -> None:
     assert len(drawn(style="licorice").hydrogen_bonds) == 6
 
 
+def test_balls_leave_dashes_room() -> None:
+    found = drawn()
+    assert (found.style, len(found.bonds)) == ("ball-and-stick", 2)
+    assert drawn(bonds=False).style == "ball-and-stick"
+    assert drawn(style="spacefill").style == "spacefill"
+    assert drawn(hydrogen_bonds=False).style == "spacefill"
+
+
 def test_donors_are_bound_as_is_drawn() -> None:
     other = Particles(PAIR.positions, PAIR.columns, bonds=[(0, 2)], cell=PAIR.cell)
     assert len(drawn(other).hydrogen_bonds) == 0

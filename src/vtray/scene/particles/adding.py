@@ -74,8 +74,8 @@ class AddingParticles:
             radii, and thin bonds. ``"licorice"``: bonds, and balls as thick as these. ``"points"``:
             balls of one size in the picture, 1.5 pixels wide, so that none falls between pixels;
             or, with `emission`, points whose light adds up.
-            By default ball-and-stick where bonds are asked for, or known between at most 5000
-            atoms, and else spacefill.
+            By default ball-and-stick where bonds or hydrogen bonds are asked for, or bonds known
+            between at most 5000 atoms, and else spacefill.
         radii
             ``"covalent"`` or ``"vdw"`` for those of the elements in ångström, of which styles take
             a share; or as they are, in the unit of the positions, a number, an array (n,), or the

@@ -239,13 +239,13 @@ def draw(
         coloring = check_shining(style, coloring, {**asked, "boundary": boundary})
     else:
         check_dull(stretched)
-    name = "points" if shines else style_of(style, particles, bonds)
+    wanted = criterion_of(hydrogen_bonds)
+    name = "points" if shines else style_of(style, particles, bonds, wanted is not None)
     if name == "points" and radii is not None:
         words = "points have none, as they are as large as pixels; give scale, or another style"
         raise SceneError(f"radii: {words}")
     times = times_of(replicate)
     rows = np.flatnonzero(chosen(particles, select, "select"))
-    wanted = criterion_of(hydrogen_bonds)
     pairs = None
     if wanted is not None:
         pairs = find_hydrogen_bonds(particles, wanted, by_distance=bonds is True)

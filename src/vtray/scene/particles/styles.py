@@ -74,18 +74,20 @@ STYLES: Mapping[str, Style] = MappingProxyType(
 )
 
 
-def style_of(name: str | None, particles: "Particles", bonds: object) -> str:
+def style_of(name: str | None, particles: "Particles", bonds: object, hydrogen_bonds: bool) -> str:
     """Return the name of a style, or of that which fits the particles.
 
     Parameters
     ----------
     name
-        The name; None for ball-and-stick if bonds are asked for, or known between at most `FEW`
-        atoms, and else spacefill.
+        The name; None for ball-and-stick if bonds or hydrogen bonds are asked for, or bonds known
+        between at most `FEW` atoms, and else spacefill.
     particles
         The particles.
     bonds
         What was given for them: None for nothing, False for none.
+    hydrogen_bonds
+        Whether they are drawn: balls of spacefill would hide them.
 
     Raises
     ------
@@ -96,7 +98,7 @@ def style_of(name: str | None, particles: "Particles", bonds: object) -> str:
         known = particles.bonds is not None and len(particles.bonds) > 0
         few = "element" in particles.columns and len(particles) <= FEW
         has_bonds = (known and few) if bonds is None else bonds is not False
-        return "ball-and-stick" if has_bonds else "spacefill"
+        return "ball-and-stick" if has_bonds or hydrogen_bonds else "spacefill"
     if name not in STYLES:
         close = nearest(name, list(STYLES), cutoff=0.6) if isinstance(name, str) else ""
         hint = f"; did you mean {close}?" if close else ""
