@@ -367,6 +367,50 @@ def test_from_mdanalysis() -> None:
     assert part.bonds.tolist() == [[1, 0]]
 
 
+GRO = """\
+water of four sites
+    5
+    1SOL     OW    1   0.000   0.000   0.000
+    1SOL    HW1    2   0.076   0.059   0.000
+    1SOL    HW2    3  -0.076   0.059   0.000
+    1SOL     MW    4   0.000   0.015   0.000
+    2NA      NA    5   0.500   0.500   0.500
+   1.0 1.0 1.0
+"""
+
+
+def test_elements_by_types_that_mdanalysis_has_guessed(tmp_path: Path) -> None:
+    path = tmp_path / "a.gro"
+    path.write_text(GRO)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        found = vtray.from_mdanalysis(MDAnalysis.Universe(path))
+    assert found["element"].tolist() == ["O", "H", "H", "X", "Na"]
+    assert vtray.read(path)["element"].tolist() == found["element"].tolist()
+
+
+@pytest.mark.parametrize(
+    ("types", "elements", "expected"),
+    [
+        (["O", "H", "H"], ["", "", ""], ["O", "H", "H"]),
+        (["1", "2", "2"], ["", "", ""], None),
+        (["OW", "H", "NA"], ["", "", ""], None),  # of a force field, where NA is nitrogen
+        (["O", "H", "H"], ["O", "D", ""], ["O", "D", "X"]),
+    ],
+)
+def test_elements_by_types_of_a_topology(
+    types: list[str], elements: list[str], expected: list[str] | None
+) -> None:
+    made = universe()
+    made.add_TopologyAttr("types", types)
+    made.atoms.elements = elements
+    found = vtray.from_mdanalysis(made)
+    assert found["type"].tolist() == types
+    assert ("element" in found.columns) == (expected is not None)
+    if expected is not None:
+        assert found["element"].tolist() == expected
+
+
 def test_topology_and_trajectory(tmp_path: Path) -> None:
     made = universe()
     top, run = tmp_path / "top.gro", tmp_path / "run.xtc"

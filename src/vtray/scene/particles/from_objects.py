@@ -139,7 +139,9 @@ def from_mdanalysis(group: Any) -> Particles:  # noqa: ANN401
     for attribute, name in _ATTRIBUTES.items():
         if hasattr(atoms, attribute):
             columns[name] = without_objects(np.asarray(getattr(atoms, attribute)))
-    elements = _elements_of(columns)
+    if "element" in columns and not any(map(str.strip, columns["element"].tolist())):
+        del columns["element"]
+    elements = _elements_of(columns, _are_guessed(universe))
     if elements is not None:
         columns = {"element": elements, **{k: v for k, v in columns.items() if k != "element"}}
     if now.has_velocities:
@@ -279,18 +281,39 @@ def _results(atoms: Any) -> "dict[str, Array]":  # noqa: ANN401
     return {name: values for name, values in arrays.items() if len(values) == len(atoms)}
 
 
-def _elements_of(columns: "dict[str, Array]") -> "Array | None":
-    """Return the elements of atoms by their column, or by types that are all symbols, if any are.
+def _elements_of(columns: "dict[str, Array]", are_guessed: bool) -> "Array | None":
+    """Return the elements of atoms by their column, or else by their types, if any are symbols.
 
     X is what is none, such as the sites without mass of some models of water.
+
+    Parameters
+    ----------
+    columns
+        What is known of the atoms.
+    are_guessed
+        Whether types are what MDAnalysis takes the names of atoms for. Others, as those of force
+        fields, are elements where all are symbols.
     """
-    if "element" in columns:
-        listed = columns["element"].tolist()
-        known = {name: symbol_of(name) for name in set(listed)}
-        return texts_of(listed, lambda name: known[name] or "X") if any(known.values()) else None
-    types = columns.get("type")
-    is_known = types is not None and types.dtype.kind == "U" and are_symbols(types.tolist())
-    return types if is_known else None
+    elements, types = columns.get("element"), columns.get("type")
+    found = None if elements is None else _symbols_among(elements)
+    if found is not None or types is None or types.dtype.kind != "U":
+        return found
+    if are_guessed:
+        return _symbols_among(types)
+    return types if are_symbols(types.tolist()) else None
+
+
+def _symbols_among(names: "Array") -> "Array | None":
+    """Return the symbols for names of atoms, X where one is no element; None if none is one."""
+    listed = names.tolist()
+    known = {name: symbol_of(name) for name in set(listed)}
+    return texts_of(listed, lambda name: known[name] or "X") if any(known.values()) else None
+
+
+def _are_guessed(universe: Any) -> bool:  # noqa: ANN401
+    """Tell whether the types of atoms are those that MDAnalysis has guessed by their names."""
+    types = getattr(getattr(universe, "_topology", None), "types", None)
+    return bool(getattr(types, "is_guessed", False))
 
 
 def _bonds_within(universe: Any, chosen: "Array") -> "Array | None":  # noqa: ANN401
