@@ -367,6 +367,13 @@ def test_from_mdanalysis() -> None:
     assert part.bonds.tolist() == [[1, 0]]
 
 
+def test_places_of_a_topology_have_neither_frame_nor_time() -> None:
+    made = universe()
+    made.trajectory.ts.frame = -1  # as in a file .tpr
+    found = vtray.from_mdanalysis(made)
+    assert (found.frame, found.time) == (0, None)
+
+
 GRO = """\
 water of four sites
     5

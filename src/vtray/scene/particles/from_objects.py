@@ -149,13 +149,15 @@ def from_mdanalysis(group: Any) -> Particles:  # noqa: ANN401
     if now.has_forces:
         columns["force"] = np.array(atoms.forces)
     cell = now.triclinic_dimensions
+    # A topology that has places itself has no frames.
+    is_frame = now.frame >= 0
     return Particles(
         np.array(atoms.positions),
         name_columns(columns),
         bonds=_bonds_within(universe, np.asarray(atoms.indices)),
         cell=None if cell is None else np.array(cell, np.float64),
-        frame=int(now.frame),
-        time=_time(now.time),
+        frame=int(now.frame) if is_frame else 0,
+        time=_time(now.time) if is_frame else None,
     )
 
 
