@@ -386,6 +386,15 @@ def test_legend_of_data(water: Path) -> None:
         scene_of(water, "--legend", "--color", "charge")
 
 
+def test_a_topology_alone_has_no_places(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("MDAnalysis")
+    path = tmp_path / "top.psf"
+    atom = "       1 W    1    SOL  OW   O     -0.800000       15.9990           0\n"
+    path.write_text(f"PSF\n\n       1 !NTITLE\n REMARKS one\n\n       1 !NATOM\n{atom}")
+    assert cli.run([str(path), str(tmp_path / "a.png")]) == 1
+    assert "of vtray.read in Python; the command takes one file alone\n" in capfd.readouterr().err
+
+
 def test_a_file_may_have_any_name(water: Path, capfd: pytest.CaptureFixture[str]) -> None:
     other = water.rename(water.with_name("run.100"))
     assert cli.run(["--columns", "--format", "xyz", str(other)]) == 0
