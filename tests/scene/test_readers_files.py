@@ -1,5 +1,6 @@
 """Files of data but XYZ: beside what the libraries themselves read."""
 
+import re
 import subprocess
 import sys
 import tracemalloc
@@ -365,6 +366,25 @@ def test_from_mdanalysis() -> None:
     part = vtray.from_mdanalysis(made.atoms[[2, 0]])
     assert part["name"].tolist() == ["HW2", "OW"]
     assert part.bonds.tolist() == [[1, 0]]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"trajectory": 3}, "trajectory: expected the name of a file, got an object of int"),
+        ({"trajectory": ""}, "trajectory: expected the name of a file, got an empty one"),
+        ({"columns": 3}, "columns: expected names, such as {'x': 'px'}, got 3"),
+        ({"columns": {"x": ["y"]}}, "columns: expected names, such as {'x': 'px'}, got {'x': ['y"),
+        ({"columns": {3: "element"}}, "columns: expected names, such as "),
+    ],
+)
+def test_options_that_are_no_names(options: dict[str, Any], message: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.xyz"
+    path.write_text("1\n\nO 0 0 0\n")
+    with pytest.raises(SceneError, match=f"^{re.escape(f'{path}: {message}')}"):
+        vtray.read(path, **options)
+    with pytest.raises(SceneError, match=f"^{re.escape(f'{path}: {message}')}"):
+        next(vtray.read_frames(path, **options))
 
 
 def test_places_of_a_topology_have_neither_frame_nor_time() -> None:

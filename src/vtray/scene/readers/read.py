@@ -209,9 +209,10 @@ def _opened(
     name = file_name(path, SceneError)
     kind, reader = reader_of(name, format if trajectory is None else "mdanalysis")
     module = import_module(f"vtray.scene.readers.{reader.module}")
-    second = None if trajectory is None else os.fsdecode(trajectory)
+    second = None if trajectory is None else file_name(trajectory, SceneError, "trajectory")
+    called = _names(columns)
     with open_input(path) as file:
-        named = Given(file, name, kind, 0, columns or {}, second)
+        named = Given(file, name, kind, 0, called, second)
         with unpacked(named, reader.module, reader.what) as given:
             yield module, given
 
@@ -235,6 +236,18 @@ def _finished(found: Particles, given: Given, path: "AnyPath") -> Particles:
     if given.columns and reader.module not in _BY_NAME:
         found = _with_names(found, given.columns)
     return replace(found, source=Path(file_name(path, SceneError)))
+
+
+def _names(columns: Mapping[str, str] | None) -> Mapping[str, str]:
+    """Return what files call columns, by what these are to be called."""
+    if columns is None:
+        return {}
+    if not isinstance(columns, Mapping) or not all(
+        isinstance(name, str) for pair in columns.items() for name in pair
+    ):
+        example = "{'x': 'px'}"
+        raise SceneError(f"columns: expected names, such as {example}, got {short(repr(columns))}")
+    return columns
 
 
 def _whole(frame: SupportsIndex) -> int:
