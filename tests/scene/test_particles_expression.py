@@ -241,6 +241,10 @@ def test_select() -> None:
     ("which", "message"),
     [
         ([1, 40], "select[1]: expected an index from 0 to 39, got 40"),
+        (
+            np.array([2**64 - 1], np.uint64),
+            f"select[0]: expected an index from 0 to 39, got {2**64 - 1}",
+        ),
         ([1, 1], "select: expected each index at most once"),
         ([0.5], "select: expected an expression, 40 of bool, or indices, got "),
         ([True, False], "select: expected an expression, 40 of bool, or indices, got "),

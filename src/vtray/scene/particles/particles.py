@@ -206,13 +206,13 @@ class Particles:
             return np.flatnonzero(given)
         if given.ndim != 1 or (given.size and given.dtype.kind not in "iu"):
             raise SceneError(f"select: {words}, got {show_array(which)}")
-        chosen = given.astype(np.int64)
-        wrong = ((chosen < -count) | (chosen >= count)).nonzero()[0]
+        # Before they become integers with a sign, which the largest without one do not fit into.
+        wrong = ((given < -count) | (given >= count)).nonzero()[0]
         if len(wrong):
             first = int(wrong[0])
             expected = f"an index from 0 to {count - 1}"
             raise SceneError(f"select[{first}]: expected {expected}, got {given[first]}")
-        chosen %= max(count, 1)
+        chosen = given.astype(np.int64) % max(count, 1)
         if len(np.unique(chosen)) < len(chosen):
             raise SceneError("select: expected each index at most once")
         return chosen
