@@ -389,6 +389,18 @@ def test_wrong_arguments(options: dict[str, Any], message: str) -> None:
         drawn(**options)
 
 
+@pytest.mark.parametrize(
+    "given", [0.5 + 0j, np.full(3, 0.5 + 1j), ["0.5"] * 3, b"0.5", "when", [None, "x", 0.5]]
+)
+def test_opacities_are_real_numbers(given: Any) -> None:
+    days = np.array([0, 1, 1], "M8[D]")
+    particles = Particles(np.eye(3), {"when": days, "share": np.array([1, 0, 1])})
+    with pytest.raises(SceneError, match="^opacity: expected a number from 0 to 1, one for each"):
+        vtray.Scene().add_particles(particles, opacity=given)
+    for right in ("share", [True, False, True], np.float32(0.5), 1):
+        vtray.Scene().add_particles(particles, opacity=right)
+
+
 def test_what_has_no_values_has_no_colour_map() -> None:
     with pytest.raises(SceneError, match='clim: is for values; give color, such as color="x"'):
         drawn(np.zeros((2, 3)), clim=(0, 1))

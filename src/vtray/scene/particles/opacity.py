@@ -38,9 +38,12 @@ def opacities(particles: Particles, given: Any, kept: NDArray[np.bool_] | None) 
     values = particles[given] if isinstance(given, str) else given
     array = array_of(values, "opacity", WORDS)
     try:
-        found = np.broadcast_to(array.astype(np.float64), len(particles)).copy()
-    except (TypeError, ValueError):
+        found = np.broadcast_to(array, len(particles))
+    except ValueError:
         raise SceneError(f"opacity: {WORDS}, got {_shown(given)}") from None
+    if found.size and found.dtype.kind not in "biuf":
+        raise SceneError(f"opacity: {WORDS}, got {_shown(given)}")
+    found = found.astype(np.float64)
     wrong = np.flatnonzero(~((found >= 0.0) & (found <= 1.0)))
     if len(wrong):
         place = f"opacity[{wrong[0]}]" if np.ndim(values) else "opacity"
