@@ -133,6 +133,17 @@ def test_balls_leave_dashes_room() -> None:
     assert drawn(hydrogen_bonds=False).style == "spacefill"
 
 
+def test_truths_of_numpy_are_truths() -> None:
+    for truth in (True, False):
+        given = np.bool_(truth)
+        one = drawn(bonds=truth, hydrogen_bonds=truth, boundary=truth)
+        two = drawn(bonds=given, hydrogen_bonds=given, boundary=given)
+        assert (one.bonds is None) == (two.bonds is None) == (not truth)
+        assert (one.boundary is None) == (two.boundary is None) == (not truth)
+        assert (one.hydrogen_bonds is None) == (two.hydrogen_bonds is None) == (not truth)
+        assert one.style == two.style
+
+
 def test_donors_are_bound_as_is_drawn() -> None:
     other = Particles(PAIR.positions, PAIR.columns, bonds=[(0, 2)], cell=PAIR.cell)
     assert len(drawn(other).hydrogen_bonds) == 0

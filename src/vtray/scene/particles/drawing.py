@@ -230,6 +230,7 @@ def draw(
 ) -> Drawn:
     """Add particles to a scene, as `Scene.add_particles` says, whose parameters these are."""
     particles = as_particles(given, "add_particles: ")
+    bonds, hydrogen_bonds, boundary = map(_plain, (bonds, hydrogen_bonds, boundary))
     size = _number(scale, "scale", *SCALES)
     shines = emission is not None
     if shines and opacity is not None:
@@ -504,6 +505,11 @@ def _edges(particles: Particles, times: tuple[int, int, int]) -> tuple[Cylinders
     corners, starts, ends, longest = cell_edges(particles, times)
     radius = THIN * longest
     return Cylinders(starts, ends, radius, CELL_COLOR), Spheres(corners, radius, CELL_COLOR)
+
+
+def _plain(given: Any) -> Any:  # noqa: ANN401
+    """Return a truth of NumPy as Python's own, and all else as it is."""
+    return bool(given) if isinstance(given, np.bool_) else given
 
 
 def _number(
