@@ -159,6 +159,14 @@ def test_wrong_arguments(options: dict[str, Any], message: str) -> None:
         vtray.Scene().add_particles(particles, **options)
 
 
+def test_sites_that_are_no_elements_stay_with_their_molecules() -> None:
+    whole = np.array([(4.95, 4.9, 2), (5.71, 5.49, 2), (4.19, 5.49, 2), (4.95, 5.05, 2)])
+    cut = Particles(whole % 5, {"element": np.array([*"OHHX"])}, cell=5 * np.eye(3))
+    drawn = vtray.Scene().add_particles(cut, bonds=True, unwrap=True)
+    assert np.allclose(drawn.spheres.center, whole)
+    assert len(drawn.bonds) == 2
+
+
 @pytest.mark.parametrize("option", ["wrap", "unwrap", "cell"])
 def test_what_needs_a_cell(option: str) -> None:
     with pytest.raises(SceneError, match=f"{option}: there is "):

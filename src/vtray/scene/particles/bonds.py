@@ -89,6 +89,7 @@ def find_bonds(
     radii: "Radii" = "covalent",
     *,
     cutoff: float | None = None,
+    with_sites: bool = False,
 ) -> Bonds:
     """Return the bonds of particles: those nearer than `factor` times the sum of their radii.
 
@@ -110,6 +111,8 @@ def find_bonds(
         number, an array (n,), or the name of a column.
     cutoff
         How long a bond may be, whatever the radii, in the unit of the positions.
+    with_sites
+        Whether X is bound with covalent radii, too, as part of a molecule.
 
     Returns
     -------
@@ -152,7 +155,8 @@ def find_bonds(
     bonds = _lower_first(bonds)
     if cutoff is None and isinstance(radii, str) and radii == "covalent":
         symbols = particles["element"]
-        bonds = bonds.some((symbols != NO_ELEMENT)[bonds.pairs].all(axis=1))
+        if not with_sites:
+            bonds = bonds.some((symbols != NO_ELEMENT)[bonds.pairs].all(axis=1))
         bonds = bonds.some(~_join_ions(bonds, symbols))
     return bonds
 

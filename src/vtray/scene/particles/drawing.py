@@ -27,6 +27,7 @@ from vtray.scene.particles.cell import (
     wrapped,
 )
 from vtray.scene.particles.coloring import Coloring, color_particles, faded
+from vtray.scene.particles.elements import NO_ELEMENT
 from vtray.scene.particles.expression import mask
 from vtray.scene.particles.from_objects import as_particles
 from vtray.scene.particles.hydrogen_bonds import DASHES, criterion_of, find_hydrogen_bonds
@@ -409,6 +410,9 @@ def _place(
         known = found
         if unwrap and known is None and particles.bonds is not None:
             known = bonds_between(particles, particles.bonds)
+        if unwrap and bonds is True and NO_ELEMENT in particles.columns.get("element", ()):
+            # Sites that are no elements stay with their molecules.
+            known = find_bonds(particles, with_sites=True)
         positions, moves = unwrapped(particles, known) if unwrap else wrapped(particles)
         found = None if found is None else found.after(moves)
         hydrogen_bonds = None if hydrogen_bonds is None else hydrogen_bonds.after(moves)
