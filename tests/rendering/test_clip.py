@@ -1,5 +1,6 @@
 """Pictures of what clip planes cut: those of an oracle, and all ways to the same picture."""
 
+import warnings
 from dataclasses import replace
 from random import Random
 from typing import Any
@@ -383,3 +384,32 @@ def test_planes_that_leave_nothing_are_warned_of_where_render_is_called() -> Non
     with pytest.warns(UserWarning, match=r"^style.clip: leaves nothing of the scene") as caught:
         assert not vtray.render(world, clip=(0, 0, 1, -9)).linear.any()
     assert [warning.filename for warning in caught] == [__file__]
+
+
+@pytest.mark.parametrize(
+    ("clip", "is_left"),
+    [
+        ((0, 1, 0, -0.5), True),
+        ((0, 1, 0, -1.5), False),
+        ((0, -1, 0, -2.5), False),
+        ((0, 1, 0, -1), True),
+        (((0, 1, 0, -0.5), (1, 0, 0, -9)), True),
+        (((1, 0, 0, -9), (-1, 0, 0, 3)), False),
+        (((1, 0, 0, -9), (0, 0, 1, -9), (-1, 1, -1, 16)), True),
+        (((1, 0, 0, -9), (0, 0, 1, -9), (-1, 0, -1, 12)), False),
+        ((0, 1, 0, -1e300), False),
+        ((1, 0, 0, -1e300), True),
+    ],
+)
+def test_a_plane_of_which_anything_is_left_is_not_warned_of(
+    clip: tuple[object, ...], is_left: bool
+) -> None:
+    world = vtray.Scene()
+    world.add_plane((0, -1, 0), normal=(0, 1, 0))
+    world.add_sphere((0, 1, 0), 1)
+    world.camera = vtray.Camera.look_at((0, 8, 9), target=(0, 0, 0), size=(6, 4))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        vtray.render(world, clip=clip)
+    said = [str(warning.message) for warning in caught]
+    assert any(text.startswith("style.clip: leaves nothing") for text in said) != is_left

@@ -29,8 +29,9 @@ from vtray.geometry.world import CYLINDER, NO_TREE, SPHERE
 from vtray.rendering.acceleration import Acceleration, Shapes
 from vtray.rendering.numbering import number_objects
 from vtray.rendering.placed import Placed, count_places
-from vtray.rendering.rooms import Rooms, Wall
+from vtray.rendering.rooms import Rooms, Wall, is_plane_left
 from vtray.rendering.shape_kinds import KINDS
+from vtray.scene.objects import Object, Plane
 
 Floats = NDArray[np.float64]
 Codes = NDArray[np.int8]
@@ -319,12 +320,26 @@ def _join(first: Sequence[Bvh], trees: Sequence[Bvh | None]) -> tuple[Bvh, list[
     return bvh, roots
 
 
-def is_nothing_left(kept: Acceleration) -> bool:
+def is_nothing_left(kept: Acceleration, objects: Sequence[Object]) -> bool:
     """Tell whether clip planes leave none of the bounded shapes, of which there are some.
 
-    What is cut at all counts as left.
+    What is cut at all counts as left, and so does a plane of which anything is.
+
+    Parameters
+    ----------
+    kept
+        The shapes of the scene as they are clipped.
+    objects
+        The objects of the scene.
     """
+    rooms = kept.rooms
+    if rooms is None or not kept.count:
+        return False
     standing = [one for one in kept.all_shapes if not one.is_placed]
     cut = [one for _, one in (*kept.cut, *kept.faded_cut)]
-    is_left = any(one.count for one in (*standing, *cut)) or bool(kept.placed_shapes)
-    return kept.rooms is not None and kept.count > 0 and not is_left
+    if any(one.count for one in (*standing, *cut)) or kept.placed_shapes:
+        return False
+    return not any(
+        isinstance(item, Plane) and is_plane_left(item, rooms.walls_of(place))
+        for place, item in enumerate(objects)
+    )

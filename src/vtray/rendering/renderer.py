@@ -259,7 +259,7 @@ def render(
     kept = _accelerated(given, shown, settings, style, threads, progress)
     loading = loading_seconds() - loaded
     check_followed(kept, scene.objects, settings, keep_lights=keep_lights)
-    _tell(warn, NOTHING_LEFT if is_nothing_left(kept) else "")
+    _tell(warn, NOTHING_LEFT if is_nothing_left(kept, scene.objects) else "")
     clock.lap("build")
     packed = styled(pack(shown, kept), style)
     clock.lap("pack")

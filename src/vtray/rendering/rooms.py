@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 from vtray.base.errors import RenderError, SceneError
 from vtray.geometry.shapes.columns import Columns
 from vtray.scene.clip import ClipPlane, Slice
+from vtray.scene.objects import Plane
 from vtray.scene.placing.bounds import balls_of, middle_of
 from vtray.scene.placing.directions import Vec, along, unit
 from vtray.scene.scene import Scene
@@ -18,6 +20,9 @@ from vtray.scene.vectors import Color
 Floats = NDArray[np.float64]
 Wall = tuple[float, float, float, float, float, float]
 """A plane around a room: a point of it, and the unit normal that points out of the room."""
+
+TOUCHING = 1e-9
+"""How far beyond a wall a point still counts as left, in parts of the largest coordinate."""
 
 
 @dataclass(frozen=True)
@@ -98,6 +103,26 @@ def rooms_of(style: Style, scene: Scene) -> Rooms | None:
     if any(objects is not None for _, objects in planes):
         walls, of = _rooms_of_objects(planes, count)
     return Rooms(walls, of, style.cap is not False, color)
+
+
+def is_plane_left(plane: Plane, walls: Sequence[Wall]) -> bool:
+    """Tell whether any of an endless plane is within walls.
+
+    If so, one of these points is: that of the plane, or the nearest to it on one wall or on two.
+    """
+    center, normal = plane.center, unit(plane.normal)
+    rows = np.array([(center.x, center.y, center.z, *normal), *walls])
+    points = rows[:, :3] / max(1.0, float(np.abs(rows[:, :3]).max()))
+    normals = rows[:, 3:]
+    reach = ((points - points[0]) * normals).sum(axis=1)
+    for count in range(3):
+        for on in combinations(range(1, len(rows)), count):
+            some = [0, *on]
+            place = np.linalg.lstsq(normals[some], reach[some])[0]
+            beyond = normals @ place - reach
+            if abs(beyond[0]) <= TOUCHING and (beyond <= TOUCHING).all():
+                return True
+    return False
 
 
 def _rooms_of_objects(
