@@ -146,3 +146,25 @@ def test_copies_have_the_colors_of_what_is_copied() -> None:
     assert image.halves[image.copies >= 0].any()
     np.testing.assert_array_equal(image.flat(), written.flat())
     assert len(np.unique(image.flat().reshape(-1, 3), axis=0)) > 50
+
+
+@once
+def test_what_is_faint_has_its_color_where_nothing_is_solid() -> None:
+    scene = vtray.Scene()
+    scene.add_spheres(
+        [(0, 0, 0), (0, 0, -4)], [1, 2], color=[(150, 90, 60), (60, 120, 140)], opacity=0.4
+    )
+    scene.add_cylinder((3, -2, 0), (3, 2, 0), 0.5, color=(60, 120, 140), opacity=0.2)
+    scene.add_light((0, 0, 9))
+    scene.camera = vtray.Camera.orthographic((0, 0, 9), (1, 0, 0), 8, size=(40, 24))
+    image = vtray.render(scene)
+    assert (image.ids < 0).all()
+    flat, shown = image.flat(), image.shown.ids
+    own = srgb_to_oklab(np.array([(150, 90, 60), (60, 120, 140)], np.uint8))
+    for place, color in (((0, 0), 0), ((0, 1), 1), ((1, 0), 1)):
+        seen = (shown == place).all(axis=2)
+        assert seen.sum() > 10
+        np.testing.assert_allclose(
+            srgb_to_oklab(flat[seen])[:, 1:], own[[color] * seen.sum(), 1:], atol=0.0025
+        )
+    assert not flat[shown[..., 0] < 0].any()

@@ -86,3 +86,15 @@ def test_a_bar_with_a_unit_is_not_left_out_in_silence() -> None:
         assert scale_bar(image, "nm", None) is None
     assert scale_bar(image, True, None) is None
     assert scale_bar(image, "nm", (0, 0, 3)) is not None
+
+
+def test_what_is_faint_counts_where_nothing_is_solid() -> None:
+    scene = vtray.Scene()
+    scene.add_sphere((0, 0, 10), 3, opacity=0.3)
+    scene.add_sphere((0, 0, 20), 9, opacity=0.2)
+    assert distance_of(taken(scene, fov_degrees=20)) == pytest.approx(10)
+    scene.add_sphere((0, 0, 40), 2)
+    image = taken(scene, fov_degrees=20)
+    assert distance_of(image) == pytest.approx(40)
+    assert distance_of(vtray.render(scene, solid_from=0.25)) == pytest.approx(10)
+    assert image.shown.ids is image.ids

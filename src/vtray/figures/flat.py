@@ -31,14 +31,15 @@ _STEPS = 40
 
 def flat_pixels(image: Subject) -> Pixels:
     """Return the flat picture of an image; see `vtray.Image.flat`."""
-    places = image.ids[..., 0]
+    shown = image.shown
+    places = shown.ids[..., 0]
     picture = np.zeros((*places.shape, 3), np.uint8)
     background = image.settings.background
     if isinstance(background, Color):
         picture[:] = (background.r, background.g, background.b)
     seen = places >= 0
     if seen.any():
-        colors = _own_colors(image.scene.objects, image.ids[seen], image.halves[seen])
+        colors = _own_colors(image.scene.objects, shown.ids[seen], shown.halves[seen])
         picture[seen] = lit_colors(colors, _lightness(image, seen, colors))
     return picture
 

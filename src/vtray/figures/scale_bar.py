@@ -100,7 +100,7 @@ def _median_depth(image: Subject) -> float | None:
     Planes, which have no end, only count where there is nothing else, and points that shine, which
     no pixel is that of, where no surface is seen.
     """
-    places = image.ids[..., 0]
+    places = image.shown.ids[..., 0]
     planes = [k for k, item in enumerate(image.scene.objects) if isinstance(item, Plane)]
     seen = (places >= 0) & ~np.isin(places, planes)
     if not seen.any():
@@ -116,16 +116,16 @@ def _seen_depths(image: Subject, seen: NDArray[np.bool_]) -> Floats:
     are where they are seen, and so are balls that are like a floor, with a centre that is not in
     the picture.
     """
-    camera = image.scene.camera
-    depths = depth_along_view(camera, image.depth)[seen]
-    copies = image.copies[seen]
-    for item, pixels, rows, among in objects_seen(image.scene.objects, image.ids[seen]):
+    camera, shown = image.scene.camera, image.shown
+    depths = depth_along_view(camera, shown.depth)[seen]
+    copies = shown.copies[seen]
+    for item, pixels, rows, among in objects_seen(image.scene.objects, shown.ids[seen]):
         if isinstance(item, (Sphere, Spheres)):
             centers = _centers(item)[rows]
             if among is not None:
                 centers = centers + among.at[copies[pixels]]
-            found, shown = _places_in(camera, centers)
-            depths[pixels] = np.where(shown, found, depths[pixels])
+            found, inside = _places_in(camera, centers)
+            depths[pixels] = np.where(inside, found, depths[pixels])
     return depths
 
 

@@ -14,6 +14,26 @@ Floats = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
 
 
+class Shown(Protocol):
+    """Surfaces that are seen in a picture; of `Subject`, where nothing is solid, faint ones."""
+
+    @property
+    def depth(self) -> Floats:
+        """Distance along the ray, infinite where nothing is, (height, width)."""
+
+    @property
+    def ids(self) -> NDArray[np.int32]:
+        """Places in the scene and in the object's arrays, -1 where nothing is, (h, w, 2)."""
+
+    @property
+    def copies(self) -> NDArray[np.int32]:
+        """Which copy is seen, -1 where nothing is that is one, (height, width)."""
+
+    @property
+    def halves(self) -> NDArray[np.int8]:
+        """Which half of a cylinder or cone is seen, 1 for that at its end, (height, width)."""
+
+
 class HasPixels(Protocol):
     """Anything that has pixels."""
 
@@ -22,7 +42,7 @@ class HasPixels(Protocol):
         """Light after exposure, (height, width, 3), or with alpha (height, width, 4)."""
 
 
-class Subject(HasPixels, Protocol):
+class Subject(HasPixels, Shown, Protocol):
     """What a figure shows: a picture, as `vtray.Image` is one."""
 
     @property
@@ -46,20 +66,8 @@ class Subject(HasPixels, Protocol):
         """How much of each pixel is covered, from 0 to 1, (height, width)."""
 
     @property
-    def depth(self) -> Floats:
-        """Distance along the ray, infinite where nothing is, (height, width)."""
-
-    @property
-    def ids(self) -> NDArray[np.int32]:
-        """Places in the scene and in the object's arrays, -1 where nothing is, (h, w, 2)."""
-
-    @property
-    def copies(self) -> NDArray[np.int32]:
-        """Which copy is seen, -1 where nothing is that is one, (height, width)."""
-
-    @property
-    def halves(self) -> NDArray[np.int8]:
-        """Which half of a cylinder or cone is seen, 1 for that at its end, (height, width)."""
+    def shown(self) -> Shown:
+        """What is measured and coloured: itself, or faint surfaces where none is solid."""
 
     @property
     def brightness_scales(self) -> Sequence[BrightnessScale]:

@@ -34,6 +34,13 @@ BLACK = Color(0, 0, 0)
 WHITE = (255, 255, 255)
 
 
+class GivesSurfaces(Protocol):
+    """Gives what the middle rays of a picture meet."""
+
+    def __call__(self, *, faint: bool = False) -> Surfaces:
+        """Return the first solid surfaces, or the first ones, however faint."""
+
+
 class GivesStarlight(Protocol):
     """Gives the light of the points that shine in a scene."""
 
@@ -102,7 +109,7 @@ class Rendered:
         settings: RenderSettings,
         stats: Mapping[str, float],
         *,
-        look: Callable[[], Surfaces],
+        look: GivesSurfaces,
         albedo: Callable[[Scene], Floats],
         orders: Callable[[Scene], Orders],
         alpha: Floats | None = None,
@@ -227,6 +234,11 @@ class Rendered:
         if not self._seen:
             self._seen.append(self._look())
         return self._seen[0]
+
+    @property
+    def shown(self) -> Surfaces:
+        """What figures measure and colour: surfaces, or faint ones where no pixel has another."""
+        return self._surfaces if self._surfaces.any_seen else self._look(faint=True)
 
     @property
     def depth(self) -> Floats:

@@ -31,3 +31,8 @@ class Surfaces(NamedTuple):
     ids: NDArray[np.int32]
     halves: NDArray[np.int8]
     copies: NDArray[np.int32]
+
+    @property
+    def any_seen(self) -> bool:
+        """Whether any pixel has a surface."""
+        return bool((self.ids[..., 0] >= 0).any())

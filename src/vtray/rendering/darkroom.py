@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 
 from vtray.image.image import Image
 from vtray.image.orders import Orders
-from vtray.image.rendered import GivesStarlight
-from vtray.image.surfaces import Surfaces
+from vtray.image.rendered import GivesStarlight, GivesSurfaces
 from vtray.image.white import white_of
 from vtray.rendering.growth import Part
 from vtray.scene.scene import Scene
@@ -54,7 +53,7 @@ class Darkroom:
     original: Scene
     settings: RenderSettings
     style: Style
-    look: Callable[[], Surfaces]
+    look: GivesSurfaces
     albedo: Callable[[Scene], Floats]
     orders: Callable[[Scene], Orders]
     sky: Callable[[Scene, Floats], Floats]

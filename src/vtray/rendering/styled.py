@@ -7,9 +7,13 @@ from vtray.scene.style import Style
 
 def styled(packed: Packed, style: Style) -> Packed:
     """Return the arrays of a scene in a style whose fog has both its distances."""
-    packed = with_fog(packed, style)
+    return with_solid_from(with_fog(packed, style), style.solid_from)
+
+
+def with_solid_from(packed: Packed, least: float) -> Packed:
+    """Return the arrays of a scene in which what is more opaque than that counts as solid."""
     world = packed.arrays.world
     if world.faded is None:
         return packed
-    world = world._replace(faded=world.faded._replace(least=style.solid_from))
+    world = world._replace(faded=world.faded._replace(least=least))
     return packed._replace(arrays=packed.arrays._replace(world=world))

@@ -9,6 +9,7 @@ from vtray.image.surfaces import Surfaces
 from vtray.rendering.numbering import find_all
 from vtray.rendering.pack import Packed
 from vtray.rendering.passes import Tracer
+from vtray.rendering.styled import with_solid_from
 from vtray.scene.scene import Scene
 from vtray.transport.scene_arrays import without_light
 
@@ -30,17 +31,26 @@ class Look:
         self._scene = scene
         self._packed = packed
         self._threads = threads
-        self._found: Surfaces | None = None  # for all pictures of the view
+        self._found: dict[bool, Surfaces] = {}  # for all pictures of the view
 
-    def __call__(self) -> Surfaces:
-        """Trace the ray through the middle of each pixel, once."""
-        if self._found is None:
-            self._found = self._trace()
-        return self._found
+    def __call__(self, *, faint: bool = False) -> Surfaces:
+        """Trace the ray through the middle of each pixel, once.
 
-    def _trace(self) -> Surfaces:
+        Parameters
+        ----------
+        faint
+            Whether the first surface counts, however much light it lets through, and not only one
+            that is solid.
+        """
+        faint = faint and self._packed.arrays.world.faded is not None
+        if faint not in self._found:
+            self._found[faint] = self._trace(faint=faint)
+        return self._found[faint]
+
+    def _trace(self, *, faint: bool) -> Surfaces:
         """Trace them."""
-        film = Tracer(without_light(self._packed.arrays), self._threads).surfaces()
+        arrays = with_solid_from(self._packed, 0.0).arrays if faint else self._packed.arrays
+        film = Tracer(without_light(arrays), self._threads).surfaces()
         with np.errstate(over="ignore"):
             depth = film.distance * self._packed.unit + self._packed.before
         # What is farther away than a double can say is there all the same.
