@@ -215,6 +215,16 @@ def test_labels_that_overlap_are_left_out() -> None:
     assert apart.sum() > alone.sum()
 
 
+@pytest.mark.parametrize("at", [(11, -8, 0), (9, 6, 0), (-12, 8, 0), (-12, -8, 0)])
+def test_labels_leave_other_marks_free(at: Any) -> None:
+    image = plain(300, 200)
+    marks = {"title": "Water", "colorbar": "eV", "scalebar": "nm", "axes": True}
+    alone = changed(image, **marks)
+    assert np.array_equal(changed(image, labels=[("over it", at)], **marks), alone)
+    middle = changed(image, labels=[("over it", at), ("free", (0, 0, 0))], **marks)
+    assert middle.sum() > alone.sum()
+
+
 @pytest.mark.parametrize("at", [(0, 0, 0), (7.2, -3.1, 0), (9.9, 9.9, 0), (-9.9, -9.9, 0)])
 def test_labels_stand_around_their_points(at: Any) -> None:
     image = plain(200, 200, (255, 255, 255))

@@ -314,8 +314,8 @@ class Image(Rendered):
         labels
             Texts and points in world space to write them at: pairs such as ``("O", (0, 0, 1))``, or
             points by their texts. They stay within the picture; those of points outside of it are
-            left out, and so is one that would overlap the label of a nearer point, or one given
-            before it.
+            left out, and so is one that would overlap another mark, the label of a nearer point,
+            or one given before it.
         hide_labels
             Whether to leave out labels of points that are behind something. The sphere or cylinder
             in which a point lies does not hide it.

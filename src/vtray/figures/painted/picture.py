@@ -216,22 +216,28 @@ def _sizes(fontsize: float | None, width: int, height: int) -> Iterator[int]:
         em = min(em - 1, round(0.92 * em))
 
 
-def free_labels(labels: list[Label], em: int, width: int, height: int) -> list[Placed]:
+def free_labels(
+    labels: list[Label], marks: list[Placed], em: int, width: int, height: int
+) -> list[Placed]:
     """Return the labels that there is room for, and where they stand.
 
-    One that would overlap another is left out: that of the farther point, or of two at the same
-    distance the one that was given later.
+    One that would overlap another mark is left out, and so is one that would overlap another label:
+    that of the farther point, or of two at the same distance the one that was given later.
 
     Parameters
     ----------
     labels
         Those of far points first.
+    marks
+        What else stands on the picture.
     em
         The size of letters, in pixels.
     width, height
         Of the picture, in pixels.
     """
     taken = np.zeros((height, width), np.bool_)
+    for block, left, top in marks:
+        taken[top : top + block.height, left : left + block.width] = True
     found = []
     for label in sorted(labels, key=lambda label: label.depth):
         words = Words(label.text.split("\n"), letters(em), "center")
@@ -253,7 +259,7 @@ def _painted(pixels: Pixels, marks: Marks, placed: list[Placed], em: int) -> Pix
     A legend that stands on what is shown has paper behind it, so that its names can be read.
     """
     canvas = Canvas(pixels, em)
-    for words, left, top in free_labels(marks.labels, em, canvas.width, canvas.height):
+    for words, left, top in free_labels(marks.labels, placed, em, canvas.width, canvas.height):
         words.paint(canvas, left, top)
     for one in placed:
         block, left, top = one
