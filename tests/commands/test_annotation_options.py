@@ -9,8 +9,10 @@ from examples import one_sphere
 from PIL import Image as PillowImage
 
 import vtray
+from vtray.base.errors import UsageError
 from vtray.commands import cli
 from vtray.commands.annotation_options import with_values
+from vtray.commands.options import parse
 
 
 @pytest.fixture
@@ -62,6 +64,28 @@ def test_an_equals_sign_after_a_space_belongs_to_the_option() -> None:
     assert with_values(["--color-bar", "=T (K)", "a", "b"]) == ["--color-bar=T (K)", "a", "b"]
     assert with_values(["a", "b", "--scale-bar", "="]) == ["a", "b", "--scale-bar="]
     assert with_values(["--", "--scale-bar", "=nm"]) == ["--", "--scale-bar", "=nm"]
+
+
+@pytest.mark.parametrize(
+    ("given", "remedy"),
+    [
+        (("--color-bar", "energy (eV)"), '--color-bar "energy (eV)": '),
+        (("--scale-bar", "1nm"), "--scale-bar 1nm: "),
+        (("--cap", "#ff0000;"), '--cap "#ff0000;": '),
+    ],
+)
+def test_a_value_after_a_space_that_is_none_is_told(
+    given: tuple[str, str], remedy: str, scene: Path
+) -> None:
+    files = [str(scene), "x.png"]
+    option, _, value = remedy.removesuffix(": ").partition(" ")
+    for arguments in ([*given, *files], [*files, *given], [files[0], *given, files[1]]):
+        with pytest.raises(UsageError) as caught:
+            parse(arguments)
+        assert str(caught.value).startswith(remedy)
+        assert f"; write {option}={value}; usage: " in str(caught.value)
+    with pytest.raises(UsageError, match=r"^unrecognized arguments: y.png; "):
+        parse(["--color-bar", *files, "y.png"])
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from vtray.commands import data_options, movie_options
-from vtray.commands.annotation_options import add_annotations, with_values
+from vtray.commands.annotation_options import WITH_VALUE, add_annotations, with_values
 from vtray.commands.command import Parser
-from vtray.commands.setting_options import add_settings, with_parts
+from vtray.commands.setting_options import add_settings, flags_of_parts, value_apart, with_parts
 from vtray.commands.values import wrong
 from vtray.image.aovs import AOVS
 from vtray.scene.settings import RenderSettings
@@ -66,7 +66,9 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     _add_reports(parser)
     # SCENE and OUTPUT may stand apart.
     joined = data_options.joined(with_values(with_parts(arguments, Style)))
-    options = parser.parse_intermixed_args(_files_after_dashes(joined))
+    options, extra = parser.parse_known_intermixed_args(_files_after_dashes(joined))
+    if extra:
+        parser.error(_why_extra(extra, joined))
     options.columns = getattr(options, "columns", None)
     if options.output is None and options.pixel is None and not options.columns:
         parser.error("OUTPUT is missing")
@@ -75,6 +77,13 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     # No options, but a picture that is replayed may have been locked, or have kept its lights.
     options.lock = options.keep_lights = None
     return options
+
+
+def _why_extra(extra: Sequence[str], arguments: Sequence[str]) -> str:
+    """Return what is wrong with arguments of which some are left over."""
+    are_files = not any(text.startswith("-") for text in extra)
+    apart = value_apart(arguments, {*WITH_VALUE, *flags_of_parts(Style)}) if are_files else ""
+    return apart or f"unrecognized arguments: {' '.join(extra)}"
 
 
 def _files_after_dashes(arguments: Sequence[str]) -> list[str]:

@@ -5,6 +5,7 @@ import math
 import re
 import typing
 from collections.abc import Callable, Collection, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal
 
@@ -66,8 +67,32 @@ def with_parts(arguments: Sequence[str], settings: type[msgspec.Struct]) -> list
     settings
         The definition of the parts.
     """
-    names = {_flag(name): name for name, (_, option) in kinds_of(settings).items() if option.of}
+    names = flags_of_parts(settings)
     return with_values_of(arguments, names, lambda flag, text: _can_be(settings, names[flag], text))
+
+
+def flags_of_parts(settings: type[msgspec.Struct]) -> dict[str, str]:
+    """Return the names of parts by their options, which may have a value."""
+    return {_flag(name): name for name, (_, option) in kinds_of(settings).items() if option.of}
+
+
+def value_apart(arguments: Sequence[str], flags: Collection[str]) -> str:
+    """Return how to write a value that was taken for a file; "" if there is none.
+
+    Parameters
+    ----------
+    arguments
+        Those that `with_values_of` returns.
+    flags
+        The options that may have a value.
+    """
+    for option, word in pairwise(arguments):
+        is_value = option[:-1] in flags and option.endswith("=") and not word.startswith("-")
+        if is_value and not Path(word).exists():
+            value = word if re.fullmatch(r"[\w.,:/+-]+", word) else f'"{word}"'
+            words = "after a space, that is the name of a file, and there are too many of these"
+            return f"{option[:-1]} {value}: {words}; write {option}{value}"
+    return ""
 
 
 def with_values_of(
