@@ -314,6 +314,30 @@ def test_long_titles_are_broken_beside_the_legend() -> None:
     assert " ".join(title.lines) == words
 
 
+@pytest.mark.parametrize("space", [" ", "_"])
+def test_titles_are_not_broken_into_letters_beside_a_wide_legend(space: str) -> None:
+    name = "a rather long name of a category number".replace(" ", space)
+    wanted = Annotations(title="Kinds", legend={f"{name} {k}": "red" for k in range(5)})
+    marks = find_marks(plain(300, 240), wanted)
+    found = [one for em in range(7, 12) if (one := arranged(marks, em, 300, 240))]
+    assert len(found) > 2
+    for title, _ in found:
+        assert title.block.lines == ["Kinds"]  # type: ignore[attr-defined]
+    title, legend = found[-1]
+    assert title.top + title.block.height <= legend.top
+
+
+def test_names_are_broken_in_columns_too() -> None:
+    names = {
+        f"a name {k} that is longer than all the picture is wide, by far": "red" for k in "abcde"
+    }
+    marks = find_marks(plain(300, 200), Annotations(legend=names))
+    (legend, left, _), *_ = arranged(marks, 11, 300, 200)
+    assert len(legend.columns) > 1
+    assert all("\n" in entry.name for column in legend.columns for entry in column)
+    assert left > 9
+
+
 def test_all_characters_are_in_the_font() -> None:
     tools = pytest.importorskip("fontTools.ttLib")
     with tools.TTFont(FONT) as font:

@@ -5,6 +5,7 @@ right; above that, from the top, the legend and then colour bars.
 """
 
 import math
+from collections.abc import Sequence
 from itertools import combinations
 from typing import NamedTuple
 
@@ -13,7 +14,7 @@ from vtray.figures.lettering import broken
 from vtray.figures.painted.block import Block
 from vtray.figures.painted.color_bar import LEAST, PaintedColorBar
 from vtray.figures.painted.legend import PaintedLegend
-from vtray.figures.painted.letters import letters
+from vtray.figures.painted.letters import Letters, letters
 from vtray.figures.painted.scale_bar import PaintedScaleBar
 from vtray.figures.painted.triad import PaintedTriad
 from vtray.figures.painted.words import Words
@@ -26,6 +27,9 @@ MOST_BESIDE = 0.4
 
 TITLE, SMALL = 1.2, 0.8
 """The sizes of a title and of remarks, in those of the font."""
+
+LEAST_WORD = 8.0
+"""A word of a title so long may be broken, in sizes of the font."""
 
 
 class Placed(NamedTuple):
@@ -79,7 +83,9 @@ class _Column:
         self.placed.append(Placed(block, left, top))
 
 
-def arranged(marks: Marks, em: int, width: int, height: int) -> list[Placed] | None:
+def arranged(
+    marks: Marks, em: int, width: int, height: int, *, above: bool = False
+) -> list[Placed] | None:
     """Return where marks stand on a picture, None if there is no room for all of them.
 
     Parameters
@@ -90,38 +96,52 @@ def arranged(marks: Marks, em: int, width: int, height: int) -> list[Placed] | N
         The size of letters, in pixels.
     width, height
         Of the picture, in pixels.
+    above
+        Whether title and caption stand above the legend and colour bars, as they do in any case
+        where beside these words would be broken.
     """
     plain, title = letters(em), letters(round(TITLE * em))
     small = letters(max(1, round(SMALL * em)))
     margin = round(MARGIN * em)
+    texts = [(text, of) for text, of in ((marks.title, title), (marks.caption, plain)) if text]
     left, right = (_Column(width, height, margin, right=side) for side in (False, True))
+    if above:
+        _add_titles(left, texts, width - 2 * margin)
+        right.top = left.top + margin // 2
     if marks.scale_bar is not None:
         right.add_above(PaintedScaleBar(marks.scale_bar, plain, small))
     if marks.legend:
         bars = round(len(marks.scales) * (LEAST + 3) * em)
         room = math.ceil(MOST_BESIDE * width) - 2 * margin - 1
-        right.add_below(PaintedLegend(marks.legend, plain, right.left_over - bars, room))
+        most, widest = right.left_over - bars, width - 2 * margin
+        right.add_below(PaintedLegend(marks.legend, plain, most, room, widest))
     for k, (scale, label) in enumerate(zip(marks.scales, marks.bar_labels, strict=True)):
         others = len(marks.scales) - k
         room = (right.left_over - (others - 1) * margin) // others
         right.add_below(PaintedColorBar(scale, label, plain, round(0.4 * width), room))
     beside = [block.width for block, _, top in right.placed if top < height // 3]
     room = width - 2 * margin - max((wide + margin for wide in beside), default=0)
-    for text, of_size in ((marks.title, title), (marks.caption, plain)):
-        if text:
-            lines = [
-                part for line in text.split("\n") for part in broken(line, of_size.width, room)
-            ]
-            left.add_below(Words(lines, of_size))
-            left.top -= margin // 2
+    if not above:
+        words = (of.width(word) for text, of in texts for word in text.split())
+        if beside and room < min(max(words, default=0), LEAST_WORD * em):
+            return arranged(marks, em, width, height, above=True)
+        _add_titles(left, texts, room)
     if marks.triad:
         left.add_above(PaintedTriad(marks.triad, plain))
     placed = [*left.placed, *right.placed]
-    texts = [Words(label.text.split("\n"), plain) for label in marks.labels]
+    labels = [Words(label.text.split("\n"), plain) for label in marks.labels]
     inside = all(_is_inside(one, width, height, margin) for one in placed)
-    fits = all(words.width + 2 <= width and words.height + 2 <= height for words in texts)
+    fits = all(words.width + 2 <= width and words.height + 2 <= height for words in labels)
     apart = all(_are_apart(*pair, margin // 2) for pair in combinations(placed, 2))
     return placed if inside and fits and apart else None
+
+
+def _add_titles(column: _Column, texts: Sequence[tuple[str, Letters]], room: int) -> None:
+    """Put texts below each other, each in its letters, in lines as long as there is room."""
+    for text, of_size in texts:
+        lines = [part for line in text.split("\n") for part in broken(line, of_size.width, room)]
+        column.add_below(Words(lines, of_size))
+        column.top -= column.margin // 2
 
 
 def _is_inside(one: Placed, width: int, height: int, margin: int) -> bool:

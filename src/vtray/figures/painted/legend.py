@@ -25,35 +25,55 @@ class PaintedLegend:
     most
         How high it is at the most, in pixels; if its names need more, they stand in columns.
     room
-        How wide one column should be at the most, in pixels: longer names are broken at spaces.
+        How wide it should be at the most, in pixels: longer names are broken at spaces.
+    widest
+        How wide it may be where that does not do, over what is shown.
     """
 
-    def __init__(self, entries: Sequence[Entry], letters: Letters, most: int, room: int) -> None:
+    def __init__(
+        self, entries: Sequence[Entry], letters: Letters, most: int, room: int, widest: int
+    ) -> None:
         self.letters = letters
         em = letters.size
         self.pitch, self.ball = round(PITCH * em), round(1.1 * em)
-        self.indent, gap = self.ball + round(0.45 * em), round(1.2 * em)
+        self.indent, self.gap = self.ball + round(0.45 * em), round(1.2 * em)
         words = (word for entry in entries for word in entry.name.split())
         longest = max(room - self.indent, *map(letters.width, words))
-        self.columns = [
-            [
-                entry._replace(name="\n".join(broken(entry.name, letters.width, longest)))
-                for entry in entries
-            ]
+        in_lines = [
+            entry._replace(name="\n".join(broken(entry.name, letters.width, longest)))
+            for entry in entries
         ]
-        if self._height(self.columns[0]) > most:
-            fits = max(1, (most - self.ball) // self.pitch + 1)
-            # As many columns as needed, all about as long.
-            rows = math.ceil(len(entries) / math.ceil(len(entries) / fits))
-            self.columns = [list(entries[k : k + rows]) for k in range(0, len(entries), rows)]
-        widths = [
+        layouts = [self._in_columns(names, most) for names in (in_lines, entries)]
+        fitting = [columns for columns in layouts if self._size(columns)[1] <= most]
+        # Beside what is shown, or over as little of it as can be.
+        sizes = [self._size(columns) for columns in fitting]
+        order = [(wide > widest, wide > room, wide * high) for wide, high in sizes]
+        self.columns = fitting[order.index(min(order))] if fitting else layouts[-1]
+        widths = self._widths(self.columns)
+        self.starts = [sum(widths[:k]) for k in range(len(widths))]
+        self.width, self.height = self._size(self.columns)
+
+    def _in_columns(self, entries: Sequence[Entry], most: int) -> list[list[Entry]]:
+        """Return names in as many columns as their height needs, all about as long."""
+        for count in range(1, len(entries) + 1):
+            rows = math.ceil(len(entries) / count)
+            columns = [list(entries[k : k + rows]) for k in range(0, len(entries), rows)]
+            if self._size(columns)[1] <= most:
+                break
+        return columns
+
+    def _size(self, columns: Sequence[Sequence[Entry]]) -> tuple[int, int]:
+        """Return width and height of columns, in pixels."""
+        return sum(self._widths(columns)) - self.gap, max(map(self._height, columns))
+
+    def _widths(self, columns: Sequence[Sequence[Entry]]) -> list[int]:
+        """Return how wide columns are with the gap after each, in pixels."""
+        return [
             self.indent
-            + max(letters.width(line) for entry in column for line in entry.name.split("\n"))
-            for column in self.columns
+            + max(self.letters.width(line) for entry in column for line in entry.name.split("\n"))
+            + self.gap
+            for column in columns
         ]
-        self.starts = [sum(widths[:k]) + k * gap for k in range(len(widths))]
-        self.width = self.starts[-1] + widths[-1]
-        self.height = max(map(self._height, self.columns))
 
     def _height(self, column: Sequence[Entry]) -> int:
         """Return the height of a column of names, in pixels."""
