@@ -51,6 +51,21 @@ def legend(made: Any) -> Any:
 
 
 @once
+@pytest.mark.parametrize("arguments", [{}, {"width": 4.5, "fontsize": 9}])
+def test_long_names_of_a_legend_are_broken(arguments: Any) -> None:
+    names = {"a": "red", "a rather long name of a phase, with $x_1 > 2$ at all its ends": "gold"}
+    made = figure({"legend": names}, **arguments)
+    texts = legend(made).get_texts()
+    assert [part.get_text().replace("\n", " ") for part in texts] == list(names)
+    assert texts[1].get_text().count("\n") >= 1
+    assert texts[0].get_fontsize() == texts[1].get_fontsize()
+    box = legend(made).get_window_extent()
+    assert box.width <= 0.42 * made.bbox.width
+    assert box.x1 <= made.bbox.x1
+    assert box.y0 >= 0
+
+
+@once
 @pytest.mark.parametrize(
     "arguments", [{}, {"width": 3.5, "fontsize": 7}, {"width": 3.5, "fontsize": 7, "dpi": 300}]
 )

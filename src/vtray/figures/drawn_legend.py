@@ -12,11 +12,15 @@ from matplotlib.legend_handler import HandlerBase
 from matplotlib.transforms import Bbox, ScaledTranslation, TransformedBbox
 
 from vtray.figures.legend import Entry, ball
+from vtray.figures.lettering import longest_word, write
 from vtray.figures.sheet import INCH
 from vtray.scene.colors.names import Rgb
 
 SIDE = 1.1
 """The size of balls, in sizes of the font."""
+
+PAD = 0.5
+"""From a ball to its name, in sizes of the font."""
 
 PIXELS = 96
 """The pixels of a ball, across and down: enough for letters of 10 points at 600 dots per inch."""
@@ -73,13 +77,29 @@ class DrawnLegend:
         self.count, self.shift = 0, 0.0
         self._draw(1)
 
-    def fit(self, height: float, renderer: RendererBase | None = None) -> tuple[float, float]:
-        """Set it in as many columns as a height needs; return its width and height, in points."""
+    def fit(
+        self, height: float, room: float, renderer: RendererBase | None = None
+    ) -> tuple[float, float]:
+        """Set it in as many columns as a height needs; return its width and height, in points.
+
+        Names that are longer than there is room for in a column are broken at spaces.
+        """
         self._draw(1)
+        self._write(room, renderer)
         line = self._size(renderer)[1] / len(self.entries)
         fits = max(1, math.floor(height / line + 0.1))
         self._draw(math.ceil(len(self.entries) / fits))
+        self._write(room, renderer)
         return self._size(renderer)
+
+    def _write(self, room: float, renderer: RendererBase | None) -> None:
+        """Write its names in lines, given the width of a column in points."""
+        assert self.artist is not None  # noqa: S101
+        for text, entry in zip(self.artist.get_texts(), self.entries, strict=True):
+            size = float(text.get_fontsize())
+            beside = (room - (SIDE + PAD) * size) * self._point
+            longest = longest_word(text, entry.name, renderer)
+            write(text, entry.name, size, max(beside, longest), renderer)
 
     def move(self, shift: float) -> None:
         """Put it so many points to the right of the axes."""
@@ -113,7 +133,7 @@ class DrawnLegend:
             borderaxespad=0.0,
             handlelength=SIDE,
             handleheight=SIDE,
-            handletextpad=0.5,
+            handletextpad=PAD,
             labelspacing=0.4,
             columnspacing=1.2,
         )
@@ -125,5 +145,9 @@ class DrawnLegend:
         """Return its width and height in points."""
         assert self.artist is not None  # noqa: S101
         box = self.artist.get_window_extent(renderer)
-        point = self.ax.figure.dpi / INCH
-        return float(box.width / point), float(box.height / point)
+        return float(box.width) / self._point, float(box.height) / self._point
+
+    @property
+    def _point(self) -> float:
+        """How many pixels a point is."""
+        return float(self.ax.figure.dpi) / INCH

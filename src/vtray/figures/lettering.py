@@ -52,6 +52,15 @@ def write(
         text.set_fontsize(max(0.97 * size * room / longest, 0.5))
 
 
+def longest_word(text: "Text", words: str, renderer: "RendererBase | None" = None) -> float:
+    """Return how long the longest of some words is in the font of a text, in pixels."""
+    lengths = []
+    for word in WORD.findall(words):
+        text.set_text(word)
+        lengths.append(_length(text, renderer))
+    return max(lengths, default=0.0)
+
+
 def _length(text: "Text", renderer: "RendererBase | None") -> float:
     """Return how long the longest line is, in pixels."""
     box = text.get_window_extent(renderer)

@@ -24,6 +24,9 @@ TITLE_SHARE = 0.4
 """Of the height of axes, the share that a title has at most; it gets smaller to keep it."""
 
 
+LEGEND_SHARE = 0.4
+"""Of the width of all, the share that a legend should have at most: its names are broken for it."""
+
 LEAST_SIZE = 3.0
 """The least size of a title, in points."""
 
@@ -167,6 +170,7 @@ class Panel:
         height: float,
         renderer: "RendererBase | None" = None,
         most_above: float = math.inf,
+        most_beside: float | None = None,
     ) -> Rooms:
         """Write all text for a picture of this size; return the room that it takes.
 
@@ -176,6 +180,9 @@ class Panel:
             Of the picture, in points.
         most_above
             How much room there is for the title, in points.
+        most_beside
+            How wide a column of the legend should be at the most, in points; None for what goes
+            with the picture.
         renderer
             What draws, None for that of the figure.
         """
@@ -184,7 +191,10 @@ class Panel:
         right = sum(self.gap + self.thick + text for text in beside)
         high = 0.0
         if self.legend is not None:
-            wide, high = self.legend.fit(max(height, self.em), renderer)
+            most = (
+                LEGEND_SHARE / (1.0 - LEGEND_SHARE) * width if most_beside is None else most_beside
+            )
+            wide, high = self.legend.fit(max(height, self.em), most, renderer)
             self.legend.move(right + self.gap)
             right += self.gap + self._up(wide)
         over = max((bar.overhang(height, renderer) for bar in self.bars), default=0.0)
@@ -236,7 +246,8 @@ class Panel:
         # Where text has less room, it takes more lines: the picture gets smaller until all fits.
         for _ in range(8):
             wide, high = zoom * self.columns, zoom * self.rows
-            rooms = self.rooms(wide, high, renderer, TITLE_SHARE * height)
+            most = TITLE_SHARE * height, LEGEND_SHARE * width
+            rooms = self.rooms(wide, high, renderer, *most)
             across = max(width - rooms.right, LEAST_SHARE * width)
             down = max(height - rooms.below - rooms.above, LEAST_SHARE * height)
             largest = min(across / self.columns, down / self.rows)
