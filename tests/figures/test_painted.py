@@ -348,7 +348,7 @@ def test_all_characters_are_in_the_font() -> None:
 def test_letters_of_units_are_not_boxes() -> None:
     font = letters(20)
     box = font.cover("\N{CJK UNIFIED IDEOGRAPH-6C34}", 0, 0).parts
-    for character in "Åµσ²⁻₂°±≈∞−":
+    for character in "Åµσ²⁻₂°±≈∞−άέήίόύώΐΏșțϵ":
         shown = font.cover(check_letters(character, "title"), 0, 0).parts
         assert shown.shape != box.shape or (shown != box).any()
     assert check_letters("A\N{COMBINING RING ABOVE}", "title") == "Å"

@@ -1,6 +1,6 @@
 """Letters of a size, without Matplotlib: DejaVu Sans, which is Matplotlib's usual font too.
 
-Pillow's own font has no more than ASCII: neither Å nor µ. So some 450 characters of DejaVu Sans
+Pillow's own font has no more than ASCII: neither Å nor µ. So some 480 characters of DejaVu Sans
 come with vtray, of Latin and Greek, with what stands in formulas and units (see `RANGES`).
 """
 
@@ -20,11 +20,15 @@ FONT = Path(__file__).with_name("letters.ttf")
 RANGES = (
     (0x20, 0x7E),  # ASCII
     (0xA0, 0x17F),  # Latin of Europe, and signs such as ° ± ² µ Å
-    (0x391, 0x3A1),  # Greek
-    (0x3A3, 0x3A9),
-    (0x3B1, 0x3C9),
+    (0x218, 0x21B),  # Romanian
+    (0x386, 0x386),  # Greek, with accents
+    (0x388, 0x38A),
+    (0x38C, 0x38C),
+    (0x38E, 0x3A1),
+    (0x3A3, 0x3CE),
     (0x3D1, 0x3D1),
     (0x3D5, 0x3D5),
+    (0x3F5, 0x3F5),
     (0x2010, 0x2015),  # dashes
     (0x2018, 0x201E),  # quotation marks
     (0x2020, 0x2022),
