@@ -92,6 +92,7 @@ def test_a_value_after_a_space_that_is_none_is_told(
     ("arguments", "message"),
     [
         (["a.npz", "--axes"], "a.npz: this format is not for pixels alone; .png, "),
+        (["a.exr", "--title", "A"], " are, and a title, axes and all other annotations are such "),
         (["a.png", "--bits", "16", "--axes"], "a.png: annotations: expected 8 bits with them, got"),
         (["a.png", "--color-bar"], "--color-bar: colours stand for no values, as scene files hold"),
         (["a.png", "--color-bar=E"], "colorbar: expected True or False, as no object has a cmap"),

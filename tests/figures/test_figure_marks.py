@@ -11,6 +11,7 @@ from conftest import once
 from vtray.figures.annotations import Annotations
 from vtray.figures.figure import make_figure
 from vtray.figures.ink import DARK, LIGHT
+from vtray.figures.sheet import FigureError
 
 pytest.importorskip("matplotlib", reason="needs the extra vtray[figure]")
 from matplotlib.colors import to_hex
@@ -148,3 +149,9 @@ def test_what_was_drawn_in_the_same_axes_is_replaced() -> None:
     plain = figure({"colorbar": False}, ax=left)
     assert not plain.findobj(lambda part: part.get_gid() == "legend")
     assert not left.findobj(Polygon)
+
+
+@pytest.mark.parametrize("wanted", [{"title": "$$"}, {"legend": {"a $x^$": "red"}}])
+def test_formulas_that_are_none_are_told(wanted: dict[str, Any]) -> None:
+    with pytest.raises(FigureError, match=r"^expected a formula of Matplotlib between dollars, or"):
+        figure(wanted)

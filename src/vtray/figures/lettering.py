@@ -4,6 +4,8 @@ import re
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
+from vtray.figures.sheet import FigureError
+
 if TYPE_CHECKING:
     from matplotlib.backend_bases import RendererBase
     from matplotlib.text import Text
@@ -63,7 +65,11 @@ def longest_word(text: "Text", words: str, renderer: "RendererBase | None" = Non
 
 def _length(text: "Text", renderer: "RendererBase | None") -> float:
     """Return how long the longest line is, in pixels."""
-    box = text.get_window_extent(renderer)
+    try:
+        box = text.get_window_extent(renderer)
+    except ValueError:
+        words = "expected a formula of Matplotlib between dollars, or \\$ for a dollar"
+        raise FigureError(f"{words}, got {text.get_text()!r}") from None
     return float(box.height if text.get_rotation() == 90 else box.width)
 
 

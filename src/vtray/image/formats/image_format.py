@@ -145,18 +145,26 @@ def check_format(
     return How(int(bits), names)
 
 
-def check_plain_format(path: Path) -> None:
-    """Raise OutputError if a format is not one for pixels of 8 bits and nothing else."""
+def check_plain_format(path: Path, reason: str = "") -> None:
+    """Raise OutputError if a format is not one for pixels of 8 bits and nothing else.
+
+    Parameters
+    ----------
+    path
+        The file.
+    reason
+        What the message ends with.
+    """
     form = find_format(path)
     if form.aov:
         able = _endings(lambda other: not other.aov)
-        message = f"{path}: this format is not for pixels alone; {able} are"
+        message = f"{path}: this format is not for pixels alone; {able} are{reason}"
         raise OutputError(message)
 
 
 def check_annotated_format(path: Path, bits: int | None = None) -> None:
     """Raise OutputError if a file cannot hold a picture with annotations, which has 8 bits."""
-    check_plain_format(path)
+    check_plain_format(path, ", and a title, axes and all other annotations are such pixels")
     if bits is not None and number_of(bits) != 8:
         message = f"{path}: annotations: expected 8 bits with them, got {bits}"
         raise OutputError(message)

@@ -100,6 +100,9 @@ def view_of(subject: object, view: object, call: str) -> View:
         raise SceneError(f"{call}: view: expected {words}, got {quoted(view)}{hint}")
     from vtray.scene.checks.scene_check import from_code
 
+    if getattr(view, "__len__", int)() != 2:
+        words = "azimuth and elevation in degrees, or the name of a view"
+        raise SceneError(f"{call}: view: expected {words}, got {view!r}")
     azimuth, elevation = from_code(view, tuple[Real, Real], f"{call}: view")
     if not -90 <= elevation <= 90:
         words = "expected an elevation from -90 to 90 degrees"
