@@ -166,6 +166,12 @@ BAD_CALLS = [
     (["empty.png", "gray.png"], "empty.png: cannot be read: it is no image, or a damaged one"),
     (["text.png", "gray.png"], "text.png: cannot be read: it is no image, or a damaged one"),
     (["half.png", "gray.png"], "half.png: cannot be read: it is no image, or a damaged one"),
+    (
+        ["gray.png", "light.exr"],
+        "light.exr: cannot be read: it holds light and arrays, and pixels are",
+    ),
+    (["arrays.NPZ", "gray.png"], "; save the picture as .png, .tif, .webp or .jpg too"),
+    (["gray.png", "none.npz"], "none.npz: cannot be read: no such file or directory"),
     (["deep.png", "gray.png"], "deep.png: expected an image of 8 bits per channel, got one of"),
     (
         ["gray.png", "wide.png"],
@@ -188,6 +194,9 @@ def test_errors(
     (folder / "folder").mkdir()
     (folder / "empty.png").touch()
     (folder / "text.png").write_text("not an image")
+    (folder / "light.exr").write_bytes(b"v/1\x01 of a picture")
+    np.savez(folder / "arrays.NPZ.npz", linear=np.zeros((8, 12, 3)))
+    (folder / "arrays.NPZ.npz").rename(folder / "arrays.NPZ")
     Image.fromarray(np.random.default_rng(1).integers(0, 255, (64, 64, 3), np.uint8)).save(
         folder / "noise.png"
     )

@@ -25,6 +25,14 @@ if TYPE_CHECKING:
     Channels: TypeAlias = NDArray[Any]
     Picture: TypeAlias = HasPixels | Channels | str | PathLike[str]
 
+OF_LIGHT = (".exr", ".npz")
+"""The endings of files in which light and arrays are written, not pixels alone."""
+
+NOT_READ = (
+    "it holds light and arrays, and pixels are compared; save the picture as .png, .tif, .webp or "
+    ".jpg too"
+)
+
 MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")
 """Pillow's names for images in colours of a monitor."""
 
@@ -288,7 +296,8 @@ def read_picture(path: Path) -> "Channels":
     except UnfitFileError as error:
         raise DiffError(f"{path}: {why_unreadable(error, 'picture')}") from None
     except Exception as error:  # a damaged file can raise anything
-        reason = getattr(error, "strerror", None) or "it is no image, or a damaged one"
+        other = NOT_READ if path.suffix.lower() in OF_LIGHT else "it is no image, or a damaged one"
+        reason = getattr(error, "strerror", None) or other
         message = f"{path}: cannot be read: {reason[:1].lower()}{reason[1:]}"
         raise DiffError(message) from error
     if mode not in MODES or pixels is None:
