@@ -12,7 +12,7 @@ from vtray.geometry.shapes.columns import Columns
 from vtray.scene.clip import ClipPlane, Slice
 from vtray.scene.objects import Plane
 from vtray.scene.placing.bounds import balls_of, middle_of
-from vtray.scene.placing.directions import Vec, along, unit
+from vtray.scene.placing.directions import Vec, along, camera_axes, dot, unit
 from vtray.scene.scene import Scene
 from vtray.scene.style import Style
 from vtray.scene.vectors import Color
@@ -108,21 +108,27 @@ def rooms_of(style: Style, scene: Scene) -> Rooms | None:
 def is_plane_left(plane: Plane, walls: Sequence[Wall]) -> bool:
     """Tell whether any of an endless plane is within walls.
 
-    If so, one of these points is: that of the plane, or the nearest to it on one wall or on two.
+    If so, one of these points of it is: its own, the nearest to that on the line in which a wall
+    meets it, or where two such lines meet.
     """
-    center, normal = plane.center, unit(plane.normal)
-    rows = np.array([(center.x, center.y, center.z, *normal), *walls])
-    points = rows[:, :3] / max(1.0, float(np.abs(rows[:, :3]).max()))
-    normals = rows[:, 3:]
-    reach = ((points - points[0]) * normals).sum(axis=1)
-    for count in range(3):
-        for on in combinations(range(1, len(rows)), count):
-            some = [0, *on]
-            place = np.linalg.lstsq(normals[some], reach[some])[0]
-            beyond = normals @ place - reach
-            if abs(beyond[0]) <= TOUCHING and (beyond <= TOUCHING).all():
-                return True
-    return False
+    center = plane.center.x, plane.center.y, plane.center.z
+    longest = max(1.0, *map(abs, center), *(abs(number) for wall in walls for number in wall[:3]))
+    right, up = camera_axes(unit(plane.normal))
+    lines = []  # (a, b, c): points (u, v) of the plane with a u + b v <= c are within a wall
+    for x, y, z, across, down, ahead in walls:
+        normal = across, down, ahead
+        way = along((x / longest, y / longest, z / longest), -1.0 / longest, center)
+        lines.append((dot(normal, right), dot(normal, up), dot(normal, way)))
+    points = [(0.0, 0.0)]
+    for a, b, c in lines:
+        length2 = a * a + b * b
+        if length2 > TOUCHING * TOUCHING:
+            points.append((a * c / length2, b * c / length2))
+    for (a, b, c), (d, e, f) in combinations(lines, 2):
+        area = a * e - b * d
+        if abs(area) > TOUCHING:
+            points.append(((c * e - b * f) / area, (a * f - c * d) / area))
+    return any(all(a * u + b * v <= c + TOUCHING for a, b, c in lines) for u, v in points)
 
 
 def _rooms_of_objects(
