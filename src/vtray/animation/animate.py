@@ -77,7 +77,8 @@ def animate(
 
     All pictures have one exposure, that of the first; seeds stay, so that nothing flickers that
     does not change. While a picture is traced, the next scene is made, and the last picture is
-    written: one of each is in memory, however many there are.
+    written: one of each is in memory, however many there are. So what code gives is copied, and it
+    may write to the same arrays again.
 
     Parameters
     ----------
