@@ -54,7 +54,7 @@ class _Snapshots:
 
     def __init__(self) -> None:
         self._are_scenes = False
-        self._last: list[tuple[Object, Object]] = []
+        self._last: dict[int, tuple[Object, Object]] = {}
 
     def of(self, given: Any) -> Any:  # noqa: ANN401
         """Return a scene, or the particles of all else; what is wrong among scenes, as it is."""
@@ -68,19 +68,21 @@ class _Snapshots:
         objects: Any = given.objects
         if not isinstance(objects, list):
             return given
-        self._last = [(item, self._of_object(item)) for item in given.objects]
         found = copy.copy(given)
         found.lights = copy.copy(given.lights)
-        found.objects = [own for _, own in self._last]
+        found.objects = list(map(self._of_object, objects))
+        pairs = zip(objects, found.objects, strict=True)
+        self._last = {id(item): (item, own) for item, own in pairs}
         return found
 
     def _of_object(self, item: Object) -> Object:
         """Return an object, in arrays of its own if it has any."""
         if not isinstance(item, ArrayHolder):
             return item
-        for last, own in self._last:
-            if last is item and _are_equal(item, own):
-                return own
+        # What is kept here is alive, so nothing else has its identity.
+        _, own = self._last.get(id(item), (None, None))
+        if own is not None and _are_equal(item, own):
+            return own
         known = vars(item)
         return copy.deepcopy(item, {id(known): known})
 

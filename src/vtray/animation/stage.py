@@ -1,7 +1,6 @@
 """Where scenes are put to be taken: one after the other, all in the same light."""
 
 import copy
-import operator
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
@@ -16,6 +15,7 @@ from vtray.image.finished import save_finished
 from vtray.image.image import Image
 from vtray.image.white import Exposed
 from vtray.rendering.fog import Ball, ball_around, fitted
+from vtray.rendering.hierarchy import are_same
 from vtray.rendering.passes import depends_on_white
 from vtray.rendering.renderer import render
 from vtray.rendering.starlight import peak_of
@@ -159,7 +159,7 @@ class Stage:
     def set(self, shot: Shot) -> Scene:
         """Return a scene with the camera, the lights and the opacities of a picture."""
         scene = copy.copy(shot.scene)
-        if self._opacity != shot.opacity or not _are_same(self._given, scene.objects):
+        if self._opacity != shot.opacity or not are_same(self._given, scene.objects):
             objects = self._with_peaks(scene)
             self._given, self._opacity = [*scene.objects], shot.opacity
             self._objects = objects if shot.opacity is None else faded(objects, shot.opacity)
@@ -221,11 +221,6 @@ class Stage:
             else item
             for item in scene.objects
         ]
-
-
-def _are_same(these: list[Object], those: list[Object]) -> bool:
-    """Tell whether two lists hold the same objects."""
-    return len(these) == len(those) and all(map(operator.is_, these, those))
 
 
 def common_of(first: Shot, settings: Mapping[str, Any]) -> Common:

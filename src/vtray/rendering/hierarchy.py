@@ -110,7 +110,7 @@ def _accelerate_whole(scene: Scene, threads: int, progress: Progress | None) -> 
     few = _few_of(scene)
     fingerprint = _fingerprint(items, threads) + few.to_bytes(8, "little")
     kept: Acceleration | None = scene.__dict__.get(_KEPT)
-    if kept and kept.fingerprint == fingerprint and _are_same(kept.items, items):
+    if kept and kept.fingerprint == fingerprint and are_same(kept.items, items):
         return kept
     made = _make(items, few, fingerprint, threads, progress)
     scene.__dict__[_KEPT] = made
@@ -130,7 +130,7 @@ def _has_soft_light(scene: Scene) -> bool:
     return has_default_light(scene) or not all(isinstance(light, Light) for light in scene.lights)
 
 
-def _are_same(these: list[Any], those: list[Any]) -> bool:
+def are_same(these: list[Any], those: list[Any]) -> bool:
     """Tell whether two lists hold the same objects."""
     return len(these) == len(those) and all(map(operator.is_, these, those))
 

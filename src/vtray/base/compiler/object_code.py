@@ -270,6 +270,30 @@ def _unwatched() -> Iterator[None]:
         lock._cblist += told  # noqa: SLF001
 
 
+@contextlib.contextmanager
+def _unpainted() -> Iterator[None]:
+    """Let Numba's errors have no colours.
+
+    It makes and drops one for each overload that does not fit. Where colorama is installed, to
+    paint them all is a twentieth of all compiling.
+    """
+    from numba.core import errors
+
+    painter: Any = errors
+    usual, painter._termcolor_inst = painter._termcolor_inst, _NoColors()  # noqa: SLF001
+    try:
+        yield
+    finally:
+        painter._termcolor_inst = usual  # noqa: SLF001
+
+
+class _NoColors:
+    """Leaves text as it is, whatever it is for."""
+
+    def __getattr__(self, _purpose: str) -> Callable[[str], str]:
+        return str
+
+
 def link(compiled: ObjectCode, parts: Mapping[str, int] = NOTHING) -> int:
     """Load object code into memory for the rest of the process; return its function's address.
 
@@ -372,27 +396,3 @@ def _numba_version() -> str:
     if numba is None or numba.origin is None:
         return "none"
     return Path(numba.origin).with_name("_version.py").read_text()
-
-
-@contextlib.contextmanager
-def _unpainted() -> Iterator[None]:
-    """Let Numba's errors have no colours.
-
-    It makes and drops one for each overload that does not fit. Where colorama is installed, to
-    paint them all is a twentieth of all compiling.
-    """
-    from numba.core import errors
-
-    painter: Any = errors
-    usual, painter._termcolor_inst = painter._termcolor_inst, _NoColors()  # noqa: SLF001
-    try:
-        yield
-    finally:
-        painter._termcolor_inst = usual  # noqa: SLF001
-
-
-class _NoColors:
-    """Leaves text as it is, whatever it is for."""
-
-    def __getattr__(self, _purpose: str) -> Callable[[str], str]:
-        return str
