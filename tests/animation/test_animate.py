@@ -118,6 +118,31 @@ def test_a_scene_may_change_from_picture_to_picture(tmp_path: Path) -> None:
     assert [int(picture.max()) for picture in pixels(tmp_path)] == [255, 127, 0]
 
 
+@pytest.mark.parametrize("before", [0, 1])
+@pytest.mark.parametrize("camera", [ball().camera, None])
+@pytest.mark.parametrize(
+    ("objects", "message"),
+    [
+        (3, r"objects: expected a list, got 3"),
+        (["x"], r"objects\[0\]: expected Sphere, .* got 'x'"),
+    ],
+)
+def test_objects_that_are_none(
+    before: int, camera: vtray.Camera | None, objects: Any, message: str, tmp_path: Path
+) -> None:
+    def scenes() -> Iterator[vtray.Scene]:
+        scene = ball()
+        scene.camera = camera
+        for _ in range(before):
+            yield scene
+        scene.objects = objects
+        yield scene
+
+    for k, given in enumerate((scenes(), list(scenes())[before:])):
+        with pytest.raises(SceneError, match=message):
+            vtray.animate(given, tmp_path / f"{k}-%d.png", size=SIZE)
+
+
 def test_what_does_not_change_is_copied_once() -> None:
     scene, other = ball(), ball()
     source = snapshots_of(source_of(iter([scene, scene, other])), iter([]))

@@ -25,6 +25,7 @@ class SceneShots:
     """Makes shots of scenes, of which those without a camera get that of the first."""
 
     def __init__(self, first: Scene, look: Look) -> None:
+        _check_objects(first)
         self._fitted = first.camera
         self._middle: Vec | None = None
         if _is_none(first.camera):
@@ -36,6 +37,7 @@ class SceneShots:
         """Return what a picture is taken of."""
         if not isinstance(scene, Scene):
             raise SceneError(f"expected a Scene, got {show(scene)}")
+        _check_objects(scene)
         if not _is_none(scene.camera):
             return Shot(scene, scene.camera, opacity=opacity)
         return Shot(scene, self._fitted, opacity=opacity, middle=self._middle)
@@ -106,6 +108,11 @@ def _usual_camera(scene: Scene, look: Look, margin: Margin = MARGIN) -> Camera:
     size = look.settings.get("size") or scene.render.size
     more: dict[str, Any] = {} if size is None else {"size": size}
     return Camera.fit(scene, view=USUAL, margin=margin, **more)
+
+
+def _check_objects(scene: Scene) -> None:
+    """Raise SceneError if the objects of a scene are none: they are looked at before it is."""
+    Scene(objects=scene.objects)
 
 
 def _is_none(value: object) -> bool:
