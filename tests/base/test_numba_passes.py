@@ -1,5 +1,8 @@
 """Without the steps that kernels do not need, Numba makes the same code of them."""
 
+import gc
+import threading
+import time
 from collections.abc import Callable
 from itertools import count
 from typing import Any
@@ -7,20 +10,26 @@ from typing import Any
 import numba
 import numpy as np
 import pytest
+from llvmlite import ir
+from llvmlite.binding import ffi
 from numba.core import errors
 from numba.core.bytecode import FunctionIdentity
 from numba.core.compiler import Compiler
+from numba.core.registry import cpu_target
 from numba.core.typing.context import Context
 
 from conftest import once
 from vtray.base.compiler import known_types
 from vtray.base.compiler.compiled import Device
+from vtray.base.compiler.in_memory import WORD
 from vtray.base.compiler.numba_pipeline import DevicePipeline
 from vtray.base.compiler.object_code import ObjectCode, compile_part
+from vtray.base.compiler.plain_calls import KernelContext, context_of
 
 pytestmark = pytest.mark.usefixtures("compiler")
 
 OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
+POINTS = (numba.typeof(np.zeros(3)),)
 
 
 def _difference(left: Any, right: Any) -> Any:
@@ -118,7 +127,7 @@ def test_constants_that_counting_begins_with_are_numbers(monkeypatch: pytest.Mon
 
     monkeypatch.setitem(globals(), "follows", Device(_next))
     monkeypatch.setattr(DevicePipeline, "_compile_core", spy)
-    compile_part(count_up, (numba.typeof(np.zeros(3)),), OPTIONS, "count-part")
+    compile_part(count_up, POINTS, OPTIONS, "count-part")
     assert [kind for kind in compiled_for if "array" not in kind] == ["int64"]
 
 
@@ -135,3 +144,36 @@ def test_errors_that_nobody_sees_are_not_painted(monkeypatch: pytest.MonkeyPatch
     compiled(monkeypatch, 2.0)
     assert painted == ["seen"]
     assert isinstance(errors._termcolor_inst, Painter)
+
+
+def test_what_is_left_out_is_left_out_for_each_of_two_threads(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    seen: list[tuple[str, str, int]] = []
+    take_all = DevicePipeline._compile_core
+    lock: Any = ffi.lib._lock
+    others = threading.Thread(target=compile_part, args=(count_up, POINTS, OPTIONS, "other-part"))
+
+    def spy(pipeline: Any) -> Any:
+        if not seen:
+            others.start()
+            time.sleep(0.2)  # for it to come as far as it may
+        painter = type(errors._termcolor_inst).__name__
+        seen.append((pipeline.state.func_id.func_name, painter, len(lock._cblist)))
+        return take_all(pipeline)
+
+    before = list(lock._cblist), errors._termcolor_inst, gc.get_threshold()
+    monkeypatch.setitem(globals(), "follows", Device(_next))
+    monkeypatch.setattr(DevicePipeline, "_compile_core", spy)
+    compiled(monkeypatch, None)
+    others.join()
+    assert [name for name, _, _ in seen] == ["nearest", "_difference", "count_up", "_next"]
+    assert {(painter, told) for _, painter, told in seen} == {("_NoColors", 0)}
+    assert (list(lock._cblist), errors._termcolor_inst, gc.get_threshold()) == before
+
+
+def test_sizes_of_types_are_those_that_llvm_tells() -> None:
+    context = context_of(KernelContext, cpu_target.target_context)
+    for kind in (ir.IntType(1), ir.DoubleType(), ir.LiteralStructType([ir.IntType(8), WORD])):
+        for _ in range(2):
+            assert context.get_abi_sizeof(kind) == kind.get_abi_size(context.target_data)

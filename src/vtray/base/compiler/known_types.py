@@ -35,8 +35,12 @@ class _Remembering(Context):
 
     def resolve_value_type(self, val: Any) -> Any:  # noqa: ANN401
         """Return the type of what is known while compiling."""
-        found = super().resolve_value_type(val)
-        return _function(found) if type(found) is types.Function else found
+        if not callable(val) or hasattr(type(val), "_numba_type_"):
+            return super().resolve_value_type(val)
+        if id(val) not in _callables:
+            found = super().resolve_value_type(val)
+            _callables[id(val)] = val, _function(found) if type(found) is types.Function else found
+        return _callables[id(val)][1]
 
 
 class _Function(types.Function):  # type: ignore[misc]
@@ -50,6 +54,12 @@ class _Function(types.Function):  # type: ignore[misc]
 
 
 register_default(_Function)(OpaqueModel)
+
+_callables: dict[int, tuple[Callable[..., object], Any]] = {}
+"""Functions and operators with their types by their identities: not all of them have a hash.
+
+Not those that tell their types themselves, which depend on what they are compiled for.
+"""
 
 _signatures: dict[tuple[Any, ...], Any] = {}
 

@@ -9,17 +9,17 @@ which matters to who counts references.
 # ruff: noqa: ANN401
 # mypy: allow-untyped-calls
 
+from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
 import numba
-from numba.core import errors, ir, typed_passes
+from numba.core import interpreter, ir, lowering, typed_passes
 from numba.core.analysis import dead_branch_prune, rewrite_semantic_constants
-from numba.core.interpreter import Interpreter
 from numba.core.ir_utils import build_definitions, raise_on_unsupported_feature
-from numba.core.postproc import PostProcessor
 from numba.core.rewrites.static_getitem import RewriteConstGetitems, RewriteConstSetitems
 from numba.core.rewrites.static_raise import RewriteConstRaises
 from numba.core.ssa import reconstruct_ssa
+from numba.core.transforms import canonicalize_cfg
 from numba.core.typeinfer import Propagate, TypeInferer
 
 
@@ -31,16 +31,30 @@ def take_all_steps(state: Any) -> Any:
     _assign_once(state)
     _find_types(state)
     _join_assignments(state)
-    typed_passes.NativeLowering().run_pass(state)
+    _Lowering().run_pass(state)
     typed_passes.NoPythonBackend().run_pass(state)
     return state.cr
 
 
 def _read(state: Any) -> None:
     """Read what Python's interpreter would do."""
-    state.func_ir = Interpreter(state.func_id).interpret(state.bc)
+    state.func_ir = _Reader(state.func_id).interpret(state.bc)
     state.nargs = state.func_ir.arg_count
-    PostProcessor(state.func_ir).run()
+    state.func_ir.blocks = canonicalize_cfg(state.func_ir.blocks)
+
+
+class _Reader(interpreter.Interpreter):
+    """What reads what Python's interpreter would do, with neither ``with`` nor dictionaries."""
+
+    def post_process(self, peepholes: Any, func_ir: Any) -> Any:
+        """Return what was read, as Numba's next steps want it."""
+        return super().post_process([each for each in peepholes if each not in _NEEDLESS], func_ir)
+
+
+_NEEDLESS: Any = (
+    interpreter.peep_hole_delete_with_exit,
+    interpreter.peep_hole_fuse_dict_add_updates,
+)
 
 
 def _drop_dead_branches(state: Any) -> None:
@@ -68,16 +82,25 @@ def _assign_once(state: Any) -> None:
 
 def _find_types(state: Any) -> None:
     """Find the type of each variable, and with it what each call calls."""
-    told: Any = errors
-    warnings = told.WarningsFixer(errors.NumbaWarning)
-    found = _TypesOfVariables(state.typingctx, state.func_ir, warnings)
+    found = _TypesOfVariables(state.typingctx, state.func_ir, _Warnings())
     calls: Any = state.typingctx.callstack
-    with calls.register(state.targetctx.target, found, state.func_id, state.args), warnings:
+    with calls.register(state.targetctx.target, found, state.func_id, state.args):
         for k, (name, kind) in enumerate(zip(state.func_ir.arg_names, state.args, strict=True)):
             found.seed_argument(name, k, kind)
         found.build_constraint()
         found.propagate()
         state.typemap, state.return_type, state.calltypes = found.unify()
+
+
+class _Warnings:
+    """Leaves warnings to Python: vtray's own functions give Numba no reason for any."""
+
+    def catch_warnings(self, **_: object) -> AbstractContextManager[None]:
+        """Do nothing."""
+        return _NOTHING
+
+
+_NOTHING = nullcontext()
 
 
 class _TypesOfVariables(TypeInferer):
@@ -112,3 +135,24 @@ def _join_assignments(state: Any) -> None:
     strip: Any = typed_passes.PreLowerStripPhis()
     state.func_ir = strip._strip_phi_nodes(state.func_ir)  # noqa: SLF001
     raise_on_unsupported_feature(state.func_ir, state.typemap)
+
+
+class _Lowering(typed_passes.NativeLowering):
+    """Numba's step from instructions with types to LLVM's language."""
+
+    @property
+    def lowering_class(self) -> Any:
+        """What takes it."""
+        return _Lower
+
+
+class _Lower(lowering.Lower):
+    """What writes instructions in LLVM's language, and notes for no error where it was."""
+
+    def lower_block(self, block: Any) -> None:
+        """Write what a block does."""
+        self.pre_block(block)
+        for each in block.body:
+            self.loc = each.loc
+            self.lower_inst(each)
+        self.post_block(block)

@@ -12,6 +12,7 @@ again, and the file replaced as a whole, so that several processes may do so at 
 
 import contextlib
 import gc
+import inspect
 import os
 import sys
 from collections.abc import Callable, Iterator, Mapping
@@ -218,6 +219,7 @@ def _compile(
 ) -> Any:  # noqa: ANN401
     """Return Numba's result for a function of its own in memory."""
     import numba
+    from numba.core.compiler_lock import global_compiler_lock
 
     from vtray.base.compiler.numba_pipeline import KernelPipeline
 
@@ -225,7 +227,8 @@ def _compile(
     unwrapped: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     compiler: Any = numba.njit(function, pipeline_class=KernelPipeline, **options, **unwrapped)
     is_own = function.__module__.startswith(OWN)
-    with compiling(is_own, unsaid), _fewer_collections(), _unwatched(), _unpainted():
+    # One thread after the other, as what is changed for the time of compiling is all threads'.
+    with global_compiler_lock, compiling(is_own, unsaid), _fewer_collections(), _hurried():
         compiler.compile(types)
     return compiler.overloads[types]
 
@@ -252,39 +255,41 @@ def _fewer_collections() -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def _unwatched() -> Iterator[None]:
-    """Let nobody be told of each call of LLVM.
+def _hurried() -> Iterator[None]:
+    """Let Numba leave what is of no use here, as long as a thread compiles.
 
-    Numba takes its time, once more for each function that has led to the one that it compiles,
-    which is a tenth of all compiling.
+    - It takes its time at each call of LLVM, once more for each function that has led to the one
+      that it compiles: a tenth of all compiling.
+    - It makes and drops an error for each overload that does not fit. Where colorama is installed,
+      to paint them all is a twentieth of all compiling.
+    - It looks again and again at the parameters of what writes operators.
     """
     from llvmlite.binding import ffi
+    from numba.core import base, errors
     from numba.core.registry import cpu_target
 
-    _ = cpu_target.target_context  # whoever is told has asked for it by now
+    _ = cpu_target.target_context  # whoever is told of calls has asked for it by now
     lock: Any = ffi.lib._lock  # noqa: SLF001 - llvmlite lets only who has asked take that back
     told, lock._cblist = lock._cblist, []  # noqa: SLF001
+    others: list[tuple[Any, str, object]] = [
+        (errors, "_termcolor_inst", _NoColors()),
+        (base, "_has_loc", _takes_place),
+    ]
+    usual = [getattr(module, name) for module, name, _ in others]
+    for module, name, value in others:
+        setattr(module, name, value)
     try:
         yield
     finally:
+        for (module, name, _), value in zip(others, usual, strict=True):
+            setattr(module, name, value)
         lock._cblist += told  # noqa: SLF001
 
 
-@contextlib.contextmanager
-def _unpainted() -> Iterator[None]:
-    """Let Numba's errors have no colours.
-
-    It makes and drops one for each overload that does not fit. Where colorama is installed, to
-    paint them all is a twentieth of all compiling.
-    """
-    from numba.core import errors
-
-    painter: Any = errors
-    usual, painter._termcolor_inst = painter._termcolor_inst, _NoColors()  # noqa: SLF001
-    try:
-        yield
-    finally:
-        painter._termcolor_inst = usual  # noqa: SLF001
+@cache
+def _takes_place(writer: Callable[..., object]) -> bool:
+    """Tell whether what writes an operator takes the place that it has in the source, as Numba."""
+    return "loc" in inspect.signature(writer).parameters
 
 
 class _NoColors:

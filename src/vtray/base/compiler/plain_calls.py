@@ -33,6 +33,10 @@ _MARK = ".plain"
 """What the names of plain functions end with."""
 
 
+_LIKE_ARRAYS = "__array__"
+"""What Numba asks of each array: whether it only looks like one. None of vtray's do."""
+
+
 def is_plain(function: ir.Function) -> bool:
     """Tell whether a function returns its value and nothing else."""
     return bool(function.name.endswith(_MARK))
@@ -137,6 +141,14 @@ class KernelContext(CPUContext):
         self.typing_context = remembering(context.typing_context)
         # What these call must be none of Numba's for others, nor be taken for that.
         self.cached_internal_func = {}
+        self._sizes: dict[str, int] = {}
+
+    def get_abi_sizeof(self, ty: ir.Type) -> int:
+        """Return the size of a type in bytes, which Numba lets LLVM find out each time."""
+        name = str(ty)
+        if name not in self._sizes:
+            self._sizes[name] = super().get_abi_sizeof(ty)
+        return self._sizes[name]
 
     def refresh(self) -> None:
         """Do nothing: Numba looks for what is new before each function, which takes its time."""
@@ -146,6 +158,8 @@ class KernelContext(CPUContext):
         try:
             return super().get_function(fn, sig, False)
         except NotImplementedError:
+            if fn == _LIKE_ARRAYS:
+                raise
             super().refresh()
             return super().get_function(fn, sig, False)
 
