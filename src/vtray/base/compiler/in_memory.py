@@ -33,7 +33,7 @@ types: Any = numba.types
 WORD = ir.IntType(64)
 """What there is in memory for a number, an address, or nothing."""
 
-_ITEMS, _ITEM_BYTES, DATA, _SHAPE, _STRIDES = range(2, 7)
+ITEMS, ITEM_BYTES, DATA, SHAPE, STRIDES = range(2, 7)
 """The members of an array to Numba; in memory, the last two have a word for each dimension."""
 
 _NAME_BYTES = 12
@@ -159,7 +159,7 @@ def word_count(kind: Any) -> int:
         return kind.size
     if isinstance(kind, types.BaseTuple):
         return sum(word_count(item) for item in kind.types)
-    return _SHAPE + 2 * int(kind.ndim) if isinstance(kind, types.Array) else 1
+    return SHAPE + 2 * int(kind.ndim) if isinstance(kind, types.Array) else 1
 
 
 def _item_words(kind: Any) -> int:
@@ -207,12 +207,12 @@ def _load_array(context: Any, builder: Any, kind: Any, place: Any) -> Any:
     def word(number: int, value_type: Any = WORD) -> Any:
         return _load_word(builder, value_type, _moved(builder, place, number))
 
-    made = builder.insert_value(made, word(_ITEMS), _ITEMS)
-    made = builder.insert_value(made, WORD(context.get_abi_sizeof(item)), _ITEM_BYTES)
+    made = builder.insert_value(made, word(ITEMS), ITEMS)
+    made = builder.insert_value(made, WORD(context.get_abi_sizeof(item)), ITEM_BYTES)
     made = builder.insert_value(made, word(DATA, item.as_pointer()), DATA)
     for axis in range(kind.ndim):
-        made = builder.insert_value(made, word(_SHAPE + axis), (_SHAPE, axis))
-        made = builder.insert_value(made, word(_SHAPE + kind.ndim + axis), (_STRIDES, axis))
+        made = builder.insert_value(made, word(SHAPE + axis), (SHAPE, axis))
+        made = builder.insert_value(made, word(SHAPE + kind.ndim + axis), (STRIDES, axis))
     return made
 
 

@@ -15,6 +15,8 @@ from numba.core.datamodel.models import OpaqueModel
 from numba.core.datamodel.registry import register_default
 from numba.core.typing.context import BaseContext, Context
 
+from vtray.base.compiler.own_builtins import own_templates, written_for
+
 types: Any = numba.types
 
 
@@ -38,8 +40,11 @@ class _Remembering(Context):
         if not callable(val) or hasattr(type(val), "_numba_type_"):
             return super().resolve_value_type(val)
         if id(val) not in _callables:
-            found = super().resolve_value_type(val)
-            _callables[id(val)] = val, _function(found) if type(found) is types.Function else found
+            found = super().resolve_value_type(written_for(val))
+            if type(found) is types.Function:
+                own = own_templates(val)
+                found = _Function((*own, *found.templates)) if own else _function(found)
+            _callables[id(val)] = val, found
         return _callables[id(val)][1]
 
 

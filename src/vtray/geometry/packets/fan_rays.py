@@ -141,10 +141,16 @@ def _sum(rows: NDArray[np.float32]) -> NDArray[np.float32]:
     return total
 
 
+@written_in_llvm("vtray.geometry.packets.packet_in_llvm:write_singles")
+def singles_of(fan: Fan) -> NDArray[np.float32]:
+    """Return the memory of a fan as numbers of single precision."""
+    return fan.view(np.float32)
+
+
 @device
 def narrow_directions(fan: Fan, rays: int) -> None:
     """Set the directions in single precision."""
-    singles = fan.view(np.float32)
+    singles = singles_of(fan)
     for ray in range(rays):
         singles[2 * SINGLES + ray] = fan[DIRECTION + ray]
         singles[2 * SINGLES + FAN + ray] = fan[DIRECTION + FAN + ray]
@@ -205,7 +211,7 @@ def rays_along(fan: Fan, rays: int, way: Singles, least: np.float32) -> np.uint6
 
     Where they are no whole octets, more may be among them than there are.
     """
-    singles = fan.view(np.float32)
+    singles = singles_of(fan)
     found = NONE
     for octet in range((rays + OCTET - 1) // OCTET):
         met = octet_within(singles, 2 * SINGLES + OCTET * octet, FAN, way, least)
