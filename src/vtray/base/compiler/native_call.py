@@ -39,6 +39,9 @@ C_TYPES: dict[str, Any] = {
 }
 """Scalars by the names of NumPy; without a name what returns nothing, which reads as None."""
 
+MOST_DIMENSIONS = 64
+"""Of an array of NumPy."""
+
 _SUCCESS = {0, -2}
 """What a function may return; -2 stands for None."""
 
@@ -48,6 +51,10 @@ _address = struct.Struct("Q").pack
 _float = struct.Struct("d").pack
 _NULL = _FALSE = bytes(_WORD_BYTES)
 _TRUE = b"\1".ljust(_WORD_BYTES, b"\0")
+_ARRAYS = [struct.Struct(f"4qQ{2 * dimensions}q").pack for dimensions in range(MOST_DIMENSIONS + 1)]
+
+_array_types: dict[tuple[np.dtype[Any], int, int], str] = {}
+"""By what NumPy says of an array: its items, its dimensions, and its flags."""
 
 
 class UnsupportedError(Exception):
@@ -175,7 +182,7 @@ def _unpack(value: object, types: list[str], words: Words) -> None:
     elif isinstance(value, tuple):
         types.append(f"{kind.__module__}.{kind.__qualname__}(")
         for item in value:
-            if is_apart(type(item)):
+            if isinstance(item, tuple) and is_apart(type(item)):
                 parts: Words = []
                 _unpack(item, types, parts)
                 words.append(_place_of(_block_of(parts)))
@@ -214,16 +221,23 @@ def _place_of(block: _Block) -> _Place:
 
 def _unpack_array(array: "np.ndarray[Any, Any]", types: list[str], words: Words) -> None:
     """Append the type of an array, and its words."""
+    dtype, shape = array.dtype, array.shape
+    kind = dtype, len(shape), array.flags.num
+    if kind not in _array_types:
+        _array_types[kind] = _array_type(array)
+    types.append(_array_types[kind])
+    sizes = array.size, dtype.itemsize, array.ctypes.data
+    words.append(_ARRAYS[len(shape)](0, 0, *sizes, *shape, *array.strides))
+
+
+def _array_type(array: "np.ndarray[Any, Any]") -> str:
+    """Return the type of an array."""
     dtype, flags = array.dtype, array.flags
     if dtype.str[1:] not in C_TYPES:
         raise UnsupportedError
     order = "C" if flags.c_contiguous else "F" if flags.f_contiguous else "A"
     limits = f"{'' if flags.writeable else 'r'}{'' if flags.aligned else 'u'}"
-    types.append(f"{dtype.str}[{array.ndim}{order}{limits}],")
-    address = array.__array_interface__["data"][0]
-    words += (_NULL, _NULL, _int(array.size), _int(array.itemsize), _address(address))
-    words += map(_int, array.shape)
-    words += map(_int, array.strides)
+    return f"{dtype.str}[{array.ndim}{order}{limits}],"
 
 
 def _c_struct(items: list[Layout]) -> type[ctypes.Structure]:
