@@ -192,14 +192,16 @@ _MODULES = {
 """The module that each public name comes from."""
 
 
-def __getattr__(name: str) -> object:
-    if name not in _MODULES:
-        message = f"module 'vtray' has no attribute {name!r}"
-        raise AttributeError(message)
-    from importlib import import_module
+if not TYPE_CHECKING:  # which would take any name for one of an object
 
-    module = import_module(f"vtray.{_MODULES[name]}")
-    return module if name == _MODULES[name] else getattr(module, name)
+    def __getattr__(name: str) -> object:
+        if name not in _MODULES:
+            message = f"module 'vtray' has no attribute {name!r}"
+            raise AttributeError(message)
+        from importlib import import_module
+
+        module = import_module(f"vtray.{_MODULES[name]}")
+        return module if name == _MODULES[name] else getattr(module, name)
 
 
 def __dir__() -> list[str]:

@@ -18,7 +18,7 @@ from vtray.image.rendered import Rendered
 from vtray.image.saving import save_picture
 from vtray.image.white import locked_white
 from vtray.scene.checks.unknown_names import explain_unknown
-from vtray.scene.colors.tone_map_names import is_encoded
+from vtray.scene.colors.tone_map_names import ToneMapName, is_encoded
 from vtray.scene.edits import recolored, relit
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ class Image(Rendered):
         exposure: Literal["max", "auto"] | float | None = None,
         *,
         stops: float | None = None,
-        tonemap: str | None = None,
+        tonemap: ToneMapName | None = None,
         lock: "Image | None" = None,
     ) -> "Image":
         """Return the same light with another exposure, or by another tone map.

@@ -75,7 +75,7 @@ class Outline(Frozen, metaclass=_Colored, frozen=True, omit_defaults=True, gc=Fa
             self,
             width: float = 1.0,
             color: "str | Color | Triple" = ...,
-            borders: str = "objects",
+            borders: Borders = "objects",
             depth: bool = True,
             normals: bool = False,
         ) -> None: ...

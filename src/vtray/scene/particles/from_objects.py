@@ -99,7 +99,7 @@ def from_ase(atoms: Any) -> Particles:  # noqa: ANN401
         name_columns(columns),
         cell=np.array(atoms.cell),
         origin=np.array(atoms.get_celldisp(), np.float64).reshape(3),
-        periodic=tuple(map(bool, atoms.pbc)),  # type: ignore[arg-type]
+        periodic=tuple(map(bool, atoms.pbc)),
         time=_time(atoms.info.get("time", atoms.info.get("Time"))),
     )
 
@@ -261,8 +261,8 @@ def _from_ovito(data: Any) -> Particles:  # noqa: ANN401
         name_columns(columns),
         bonds=None if bonds is None else np.array(bonds["Topology"]),
         cell=None if edges is None else edges[:, :3].T,
-        origin=(0.0, 0.0, 0.0) if edges is None else edges[:, 3],  # type: ignore[arg-type]
-        periodic=None if cell is None else tuple(map(bool, cell.pbc)),  # type: ignore[arg-type]
+        origin=(0.0, 0.0, 0.0) if edges is None else edges[:, 3],
+        periodic=None if cell is None else tuple(map(bool, cell.pbc)),
     )
 
 

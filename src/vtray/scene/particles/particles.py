@@ -1,6 +1,6 @@
 """Particles with what is known of each: what readers return, and what `add_particles` takes."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -80,6 +80,21 @@ class Particles:
     frame: int = 0
     time: float | None = None
     source: "Path | None" = None
+
+    if TYPE_CHECKING:  # what code may give, beside what the attributes hold
+
+        def __init__(
+            self,
+            positions: ArrayLike,
+            columns: Mapping[str, ArrayLike] = ...,
+            bonds: ArrayLike | None = None,
+            cell: ArrayLike | None = None,
+            origin: ArrayLike = (0.0, 0.0, 0.0),
+            periodic: Sequence[bool] | NDArray[np.bool_] | None = None,
+            frame: int = 0,
+            time: float | None = None,
+            source: Path | None = None,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         """Check and convert the arrays."""

@@ -95,7 +95,7 @@ def _read_frame(lines: Lines, number: int, head: _Head) -> Particles:
         positions,
         name_columns(columns),
         cell=cell,
-        origin=origin,  # type: ignore[arg-type]
+        origin=origin,
         periodic=_periodic_of(said, head.line + 1) if cell is not None else None,
         frame=number,
         time=_number(said.get("time")),
