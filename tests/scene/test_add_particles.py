@@ -382,11 +382,36 @@ def test_cell_is_drawn_where_there_is_one() -> None:
         ({"bonds": "yes"}, "bonds: expected indices of shape (m, 2), got 'yes'"),
         ({"radii": "size"}, "radii: expected covalent, vdw, a number, or a column"),
         ({"radii": [1, -2, 1]}, "radii[1]: expected a number ≥ 0, got -2.0"),
+        ({"style": ["ball"]}, 'style: expected "spacefill", "ball-and-stick", "licorice" or "po'),
+        ({"emission": 1.0, "style": np.arange(2)}, 'style: expected "points" with emission'),
+        ({"colors": np.array(["jmol", "cpk"])}, 'colors: expected "jmol" or "cpk", got array('),
+        ({"categories": 3}, "categories: expected a list of names or integers, got 3"),
+        ({"categories": "OH"}, "categories: expected a list of names or integers, got 'OH'"),
+        ({"stretch": np.arange(2)}, "stretch: is for points that shine; give emission"),
+        ({"cell": "off"}, "cell: expected True or False, got 'off'"),
+        ({"cell": np.arange(2)}, "cell: expected True or False, got array([0, 1])"),
+        ({"wrap": "no"}, "wrap: expected True or False, got 'no'"),
+        ({"unwrap": 1}, "unwrap: expected True or False, got 1"),
+        ({"camera": 5}, "add_particles: camera: expected Camera, got 5"),
     ],
 )
 def test_wrong_arguments(options: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=re.escape(message)):
         drawn(**options)
+
+
+def test_categories_may_be_an_array() -> None:
+    names = ["H", "O", "N"]
+    legend = drawn(categories=names).legend
+    for given in (np.array(names), tuple(names), iter(names)):
+        assert drawn(categories=given).legend == legend
+
+
+@pytest.mark.parametrize("length", [1e308, 2**64])
+def test_bonds_in_a_cell_are_never_too_long_to_say_so(length: float) -> None:
+    boxed = Particles([(0, 0, 0), (1, 0, 0)], cell=(4, 4, 4))
+    with pytest.raises(SceneError, match="^bonds: there are more than 64 bonds for each particle"):
+        drawn(boxed, bonds=length)
 
 
 @pytest.mark.parametrize(

@@ -160,6 +160,7 @@ def test_thickness_by_default_is_that_of_most() -> None:
         ({"scale": -1}, "scale: expected a number > 0, got -1"),
         ({"radius": -1}, "radius: expected a number ≥ 0, got -1"),
         ({"pivot": "head"}, 'pivot: expected one of "tail", "middle", "tip", got \'head\''),
+        ({"pivot": ["tip"]}, 'pivot: expected one of "tail", "middle", "tip", got '),
         ({"color": [1, 2]}, "color: expected"),
     ],
 )

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from vtray.base.errors import SceneError
+from vtray.scene.checks.choices import is_one_of
 from vtray.scene.checks.columns import POINT, RADIUS, check_arrays
 from vtray.scene.checks.limits import Positive
 from vtray.scene.checks.unknown_names import explain_unknown
@@ -127,7 +128,7 @@ class AddingArrows:
             given["radius"], columns["radius"] = radius, RADIUS
         found = check_arrays(columns, given, CALL)
         factor = from_code(scale, Positive, f"{CALL}scale")
-        if pivot not in PIVOTS:
+        if not is_one_of(pivot, PIVOTS):
             words = ", ".join(f'"{name}"' for name in PIVOTS)
             raise SceneError(f"{CALL}pivot: expected one of {words}, got {pivot!r}")
         lengths, ways = _lengths_and_ways(found["vectors"])

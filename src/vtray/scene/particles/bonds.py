@@ -1,5 +1,6 @@
 """Bonds: which particles are near enough to each other, also across the borders of a cell."""
 
+import math
 from collections.abc import Iterator, Sequence
 from itertools import product
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -207,12 +208,12 @@ def _images(
     low = [float(column.min()) for column in fractions]
     high = [float(column.max()) for column in fractions]
     margins = [longest / height for height in lattice.heights]
-    steps = []
-    for k in range(3):
-        most = int(np.floor(margins[k] + high[k] - low[k])) if lattice.periodic[k] else 0
-        steps.append(range(-most, most + 1))
-    if len(steps[0]) * len(steps[1]) * len(steps[2]) > MOST_IMAGES:
+    most = [
+        int(np.floor(margins[k] + high[k] - low[k])) if lattice.periodic[k] else 0 for k in range(3)
+    ]
+    if math.prod(2 * count + 1 for count in most) > MOST_IMAGES:
         raise _too_many()
+    steps = [range(-count, count + 1) for count in most]
     least = [float(column.min()) - longest for column in points]
     most_ = [float(column.max()) + longest for column in points]
     for shift in product(*steps):
@@ -379,7 +380,8 @@ class _Grid(NamedTuple):
             near = np.flatnonzero(distance <= square)
             one, two, distance = one[near], two[near], distance[near]
             length = reach[one] + mine[two]
-            bound = (distance <= length * length) & (distance > 0.0)
+            with np.errstate(over="ignore"):
+                bound = (distance <= length * length) & (distance > 0.0)
             limit -= int(np.count_nonzero(bound))
             if limit < 0:
                 raise _too_many()

@@ -9,6 +9,7 @@ from blake3 import blake3
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
+from vtray.scene.checks.choices import is_one_of, listed
 from vtray.scene.checks.given_array import UNCONVERTED, check_unmasked, converted
 from vtray.scene.checks.object_column import without_objects
 from vtray.scene.checks.scene_words import either, nearest, quoted, show
@@ -113,8 +114,10 @@ def color_particles(
     SceneError
         An argument is not right.
     """
-    if colors not in SCHEMES:
+    if not is_one_of(colors, SCHEMES):
         raise SceneError(f"colors: expected {either(map(quoted, SCHEMES))}, got {show(colors)}")
+    if categories is not None:
+        categories = listed(categories, "categories", "a list of names or integers")
     scaled = {"cmap": cmap, "clim": clim, "norm": norm, "nan_color": nan_color}
     asked = _asked(scaled)
     if color is None:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
 from vtray.base.number import is_number, number_of
+from vtray.scene.checks.choices import yes_or_no
 from vtray.scene.checks.given_array import array_of
 from vtray.scene.checks.scene_words import show
 from vtray.scene.copies import Copies
@@ -52,6 +53,7 @@ from vtray.scene.particles.styles import (
     stick_radius,
     style_of,
 )
+from vtray.scene.placing.look_at import argument
 from vtray.scene.spheres import Spheres
 from vtray.scene.stars import Stars
 
@@ -233,6 +235,7 @@ def draw(
     particles = as_particles(given, "add_particles: ")
     bonds, hydrogen_bonds, boundary = map(_plain, (bonds, hydrogen_bonds, boundary))
     size = _number(scale, "scale", *SCALES)
+    cell = None if cell is None else yes_or_no(cell, "cell")
     shines = emission is not None
     if shines and opacity is not None:
         raise SceneError("opacity: expected None with emission, as what shines hides nothing")
@@ -269,13 +272,12 @@ def draw(
     else:
         stars = None
         solid, again, between = _solid(
-            particles, placed, found, name, radii, size, bond_radius, camera or scene.camera
+            particles, placed, found, name, radii, size, bond_radius, _seen_by(scene, camera)
         )
         solid, again, copies = _add(scene, solid, again, between, placed, seen_through)
     edges = None
-    if cell is None:
-        cell = not shines and _holds_what_is_drawn(particles, placed.positions)
-    if cell:
+    is_usual = cell is None and not shines
+    if cell or (is_usual and _holds_what_is_drawn(particles, placed.positions)):
         edges = _edges(particles, times)
         scene.objects.extend(edges)
     if particles.cell is not None:
@@ -398,6 +400,7 @@ def _place(
     unwrap: bool,
 ) -> _Placed:
     """Return where particles are drawn, and the bonds between those that are."""
+    wrap, unwrap = yes_or_no(wrap, "wrap"), yes_or_no(unwrap, "unwrap")
     if wrap and unwrap:
         raise SceneError("unwrap: expected False with wrap=True, as it undoes that")
     if bonds is None and STYLES[style].stick is not None:
@@ -509,6 +512,16 @@ def _edges(particles: Particles, times: tuple[int, int, int]) -> tuple[Cylinders
     corners, starts, ends, longest = cell_edges(particles, times)
     radius = THIN * longest
     return Cylinders(starts, ends, radius, CELL_COLOR), Spheres(corners, radius, CELL_COLOR)
+
+
+def _seen_by(scene: HasObjects, camera: Any) -> "Camera | None":  # noqa: ANN401
+    """Return the camera that is given, or that of the scene, which has maybe none."""
+    if camera is None:
+        return scene.camera
+    from vtray.scene.camera import Camera
+
+    found: Camera = argument("add_particles", "camera", camera, Camera)
+    return found
 
 
 def _plain(given: Any) -> Any:  # noqa: ANN401

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
+from vtray.scene.checks.choices import is_one_of
 from vtray.scene.checks.scene_words import show
 from vtray.scene.particles.coloring import Coloring, columns_like
 from vtray.scene.particles.column_names import column_called
@@ -39,7 +40,7 @@ def check_shining(
     SceneError
         Something is asked for that points do not have.
     """
-    if style not in (None, "points"):
+    if style is not None and not is_one_of(style, ("points",)):
         words = 'expected "points" with emission, as only points shine'
         raise SceneError(f"style: {words}, got {show(style)}")
     for name, value in asked.items():
@@ -62,7 +63,7 @@ def check_dull(stretched: Mapping[str, Any]) -> None:
         As for `shining`.
     """
     for name, value in stretched.items():
-        if value is not None and value != UNSAID[name]:
+        if value is not None and not (isinstance(value, str) and value == UNSAID[name]):
             raise SceneError(f"{name}: is for points that shine; give emission, or leave it out")
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
 from vtray.scene.camera import Camera
+from vtray.scene.checks.choices import is_one_of
 from vtray.scene.checks.scene_words import either, nearest, quoted, show
 from vtray.scene.particles.elements import RADII
 from vtray.scene.particles.hydrogen_bonds import steps_of
@@ -99,7 +100,7 @@ def style_of(name: str | None, particles: "Particles", bonds: object, hydrogen_b
         few = "element" in particles.columns and len(particles) <= FEW
         has_bonds = (known and few) if bonds is None else bonds is not False
         return "ball-and-stick" if has_bonds or hydrogen_bonds else "spacefill"
-    if name not in STYLES:
+    if not is_one_of(name, STYLES):
         close = nearest(name, list(STYLES), cutoff=0.6) if isinstance(name, str) else ""
         hint = f"; did you mean {close}?" if close else ""
         raise SceneError(f"style: expected {either(map(quoted, STYLES))}, got {show(name)}{hint}")
