@@ -308,3 +308,11 @@ def test_lamps_go_with_the_scale(name: str) -> None:
         assert vector(other.location) / 1e9 == pytest.approx(vector(one.location), rel=1e-6)
         if isinstance(one, vtray.SphereLight):
             assert other.radius / 1e9 == pytest.approx(one.radius, rel=1e-6)
+
+
+@pytest.mark.parametrize("given", [None, "scene.json", 5, np.zeros((3, 3)), Camera, Scene])
+@pytest.mark.parametrize("name", ["butterfly", "cloudy", "lightbox", "ring", "split", "studio"])
+def test_lights_of_what_is_no_scene(name: str, given: Any) -> None:
+    message = rf"^lights\.{name}: scene: expected a vtray\.Scene with a camera, got "
+    with pytest.raises(SceneError, match=message):
+        getattr(lights, name)(given)

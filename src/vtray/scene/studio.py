@@ -9,6 +9,7 @@ from vtray.base.errors import SceneError
 from vtray.base.exact_math import cosine, hypotenuse, sine
 from vtray.scene.camera import Camera
 from vtray.scene.checks.limits import NonNegative, YesOrNo
+from vtray.scene.checks.scene_words import show
 from vtray.scene.light_types import AnyLight, Light, SphereLight, Sun
 from vtray.scene.objects import Object
 from vtray.scene.placing.bounding_sphere import bounding_sphere
@@ -164,10 +165,13 @@ class Studio(NamedTuple):
 
 def studio_of(call: str, scene: HasCamera) -> Studio:
     """Return where the lights of a scene are placed."""
-    camera = scene.camera
-    if _is_none(camera):
+    camera = getattr(scene, "camera", scene)
+    if camera is None and scene is not None:
         remedy = "set scene.camera first, for instance to vtray.Camera.fit(scene)"
         raise SceneError(f"lights.{call}: there is no camera to place lights around; {remedy}")
+    if not isinstance(camera, Camera):
+        words = "expected a vtray.Scene with a camera"
+        raise SceneError(f"lights.{call}: scene: {words}, got {show(scene)}")
     middle, radius = bounding_sphere(*balls_of(scene, f"lights.{call}"))
     forward = unit(camera.normal)
     if camera.up is None:
@@ -179,10 +183,6 @@ def studio_of(call: str, scene: HasCamera) -> Studio:
     sky = up if camera.up is None else unit(camera.up)
     reach = DISTANCE * (radius or 1.0)
     return Studio(call, (x, y, z), reach, right, up, turned(forward), sky)
-
-
-def _is_none(value: object) -> bool:
-    return value is None
 
 
 def turned(axis: Vec) -> Vec:
