@@ -367,6 +367,8 @@ def test_each_file_has_its_call(tmp_path: Path) -> None:
         ("a.foo", {}, "the ending '.foo' is not known; expected one of .xyz, .extxyz, "),
         ("a", {}, "the name has no ending; expected one of .xyz, .extxyz, "),
         ("a.foo", {"format": "bar"}, "format: expected one of xyz, pdb, lammps-dump, "),
+        ("a.foo", {"format": 5}, "format: expected one of xyz, pdb, lammps-dump, "),
+        ("a.foo", {"format": b"xyz"}, "format: expected one of xyz, pdb, lammps-dump, "),
         ("gone.xyz", {}, "no such file; expected a file of data"),
         (".", {"format": "xyz"}, "is a directory; expected a file of data"),
         (

@@ -10,6 +10,7 @@ from typing import BinaryIO, NamedTuple
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
+from vtray.scene.checks.scene_words import show
 
 
 class Given(NamedTuple):
@@ -108,7 +109,7 @@ def packing_of(path: str) -> str:
     return ending if ending in PACKINGS else ""
 
 
-def reader_of(path: str, named: str | None) -> tuple[str, Reader]:
+def reader_of(path: str, named: object) -> tuple[str, Reader]:
     """Return what reads a file, and the name of its kind.
 
     Raises
@@ -117,11 +118,12 @@ def reader_of(path: str, named: str | None) -> tuple[str, Reader]:
         Nothing reads it; the message, which follows the name of the file, lists what is read.
     """
     if named is not None:
-        found = READERS.get(named.lower().removeprefix("."))
+        kind = named.lower().removeprefix(".") if isinstance(named, str) else ""
+        found = READERS.get(kind)
         if found is None:
             known = ", ".join(READERS)
-            raise SceneError(f"format: expected one of {known}, got {short(named)!r}")
-        return named.lower().removeprefix("."), found
+            raise SceneError(f"format: expected one of {known}, got {show(named)}")
+        return kind, found
     base = os.path.basename(path)
     base = base[: len(base) - len(packing_of(base))]
     ending = os.path.splitext(base)[1].lower()
