@@ -191,6 +191,10 @@ WRONG = [
         lambda image: image.relight({0.5, 0.25}),
         "relight: intensities: expected 2 numbers, one for each light, in their order, got a set$",
     ),
+    (
+        lambda image: image.relight(np.array(1.0)),
+        "relight: intensities: expected 2 numbers, one for each light, got array",
+    ),
     (lambda image: image.relight([1, 1], lock=2.5), "lock: expected a picture.*, got 2.5"),
     (lambda image: image.expose(lock=np.zeros(9)), "lock: expected a picture.*, got array"),
     (lambda image: vtray.render(image.scene, lock="a.png"), "lock: expected .*'a.png'"),

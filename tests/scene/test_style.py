@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import msgspec
+import numpy as np
 import pytest
 from pictures import hand_made
 
@@ -107,6 +108,7 @@ def test_unknown_keys() -> None:
         ({"outline": 2}, Style(outline=Outline(2.0))),
         ({"outline": (2, "red")}, Style(outline=Outline(2.0, "red"))),
         ({"eye_dome": "1,3"}, Style(eye_dome=EyeDome(1, 3))),
+        ({"outline": np.array(2.0), "eye_dome": np.array(3)}, Style(outline=2, eye_dome=3)),
     ],
 )
 def test_code_says_it(given: dict[str, Any], style: Style) -> None:
@@ -125,6 +127,9 @@ def test_code_says_it(given: dict[str, Any], style: Style) -> None:
         ),
         ({"fog": "3,x"}, "Style.fog: expected two distances, maybe a colour, such as"),
         ({"fog": (1, 2, "blu")}, "Fog.color: expected a name"),
+        ({"outline": np.array(-1)}, "Outline.width: expected a number of pixels > 0 and at most"),
+        ({"fog": np.array(1.0)}, "Style.fog: expected two distances, maybe a colour, such as 5,20"),
+        ({"slice": np.array(1.0)}, "Style.slice: expected "),
         ({"outline": -1}, "Outline.width: expected a number of pixels > 0 and at most 64, got -1"),
         ({"outline": None}, "Style.outline: expected a width in pixels, or that and a colour"),
         ({"eye_dome": (1, "x")}, "Style.eye_dome: expected a strength, or that and a radius"),

@@ -68,6 +68,7 @@ def test_views_are_those_of_directions() -> None:
         ({"view": (0, 91)}, r"view\[1\]: expected an elevation from -90 to 90 degrees, got 91"),
         ({"view": 3}, "view: expected"),
         ({"view": 30}, "view: expected azimuth and elevation in degrees, or the name .* got 30$"),
+        ({"view": np.array(30.0)}, "view: expected azimuth and elevation .* got array"),
         ({"view": (1, 2, 3)}, r"view: expected azimuth and elevation .* got \(1, 2, 3\)$"),
         ({"view": "top", "direction": (0, 1, 0)}, "view: expected None where direction is given"),
         ({"zoom": np.arange(2)}, r"zoom: expected a number from 1e-9 to 1e9, got \[0, 1\]"),

@@ -43,6 +43,14 @@ def integer_of(given: object) -> int | None:
         return None
 
 
+def count_of(given: object) -> int | None:
+    """Return how many things something holds; None for what holds none, as an array of a number."""
+    try:
+        return len(given)  # type: ignore[arg-type]
+    except TypeError:
+        return None
+
+
 def number_in(text: str) -> float:
     """Return the number that a text says, such as ``"+2"`` or ``"1.5e-3"``; NaN if it says none.
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from vtray.base.errors import SceneError
-from vtray.base.number import integer_of
+from vtray.base.number import count_of, integer_of
 from vtray.scene.arrays import Arrays
 from vtray.scene.checks.scene_words import show
 from vtray.scene.colors.color_arrays import color_arrays
@@ -101,10 +101,11 @@ def _for_each(objects: Sequence[Any], value: Any, place: str) -> list[Any]:  # n
     """Return what is given for each object of copies."""
     if value is None or _is_one_color(value):
         return [value] * len(objects)
-    count = len(value) if hasattr(value, "__len__") else show(value)
+    count = count_of(value)
     if count != len(objects):
         words = f"one colour, or a list of {len(objects)}, one for each object of the copies"
-        raise SceneError(f"{place}: expected {words}, got {count}")
+        got = show(value) if count is None else count
+        raise SceneError(f"{place}: expected {words}, got {got}")
     return list(value)
 
 
@@ -139,13 +140,14 @@ def relit(scene: Scene, intensities: Sequence[float]) -> Scene:
         If an intensity is not right, or there are too many or too few.
     """
     lights = scene.lights
-    count = len(intensities) if hasattr(intensities, "__len__") else repr(intensities)
+    count = count_of(intensities)
     numbers = "a list of one number" if len(lights) == 1 else f"{len(lights)} numbers"
     expected = f"relight: intensities: expected {numbers}, one for each light"
     if isinstance(intensities, Mapping | AbstractSet):  # which say nothing of which is whose
         raise SceneError(f"{expected}, in their order, got a {type(intensities).__name__}")
     if count != len(lights):
-        raise SceneError(f"{expected}, got {count}")
+        got = show(intensities) if count is None else count
+        raise SceneError(f"{expected}, got {got}")
     changed = []
     for k, (light, intensity) in enumerate(zip(lights, intensities, strict=True)):
         try:

@@ -14,7 +14,7 @@ import msgspec
 from msgspec import Meta
 
 from vtray.base.errors import SceneError
-from vtray.base.number import number_in
+from vtray.base.number import count_of, number_in
 from vtray.scene.checks.checked import Checked, Frozen, from_mapping
 from vtray.scene.checks.limits import FieldError, NonNegative, Positive, YesOrNo, alternatives
 from vtray.scene.clip import ClipPlane, Slice
@@ -388,7 +388,7 @@ def _parts(given: Any, place: str, numbers: int, words: str) -> list[Any]:  # no
     if isinstance(given, str):
         found: list[Any] = given.split(",", numbers)
     elif isinstance(given, Sequence) or hasattr(given, "tolist"):
-        found = [*given] if hasattr(given, "__len__") and len(given) else [given]
+        found = [*given] if count_of(given) else [given]
     else:
         found = [given]
     is_none = given is None or isinstance(given, (bytes, bytearray))

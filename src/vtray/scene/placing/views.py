@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from vtray.base.errors import SceneError
 from vtray.base.exact_math import cosine, sine
+from vtray.base.number import count_of
 from vtray.scene.checks.limits import Real
 from vtray.scene.checks.scene_words import either, nearest, quoted, show
 from vtray.scene.placing.bounds import Balls, balls_of, box_of, from_middle
@@ -100,7 +101,7 @@ def view_of(subject: object, view: object, call: str) -> View:
         raise SceneError(f"{call}: view: expected {words}, got {quoted(view)}{hint}")
     from vtray.scene.checks.scene_check import from_code
 
-    if getattr(view, "__len__", int)() != 2:
+    if count_of(view) != 2:
         words = "azimuth and elevation in degrees, or the name of a view"
         raise SceneError(f"{call}: view: expected {words}, got {view!r}")
     azimuth, elevation = from_code(view, tuple[Real, Real], f"{call}: view")
