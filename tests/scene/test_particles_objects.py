@@ -369,6 +369,11 @@ def test_each_file_has_its_call(tmp_path: Path) -> None:
         ("a.foo", {"format": "bar"}, "format: expected one of xyz, pdb, lammps-dump, "),
         ("a.foo", {"format": 5}, "format: expected one of xyz, pdb, lammps-dump, "),
         ("a.foo", {"format": b"xyz"}, "format: expected one of xyz, pdb, lammps-dump, "),
+        (
+            "a.foo",
+            {"format": "xyz", "frame": -(2**63)},
+            "frame -9223372036854775808: there is one frame",
+        ),
         ("gone.xyz", {}, "no such file; expected a file of data"),
         (".", {"format": "xyz"}, "is a directory; expected a file of data"),
         (

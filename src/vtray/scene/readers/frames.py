@@ -1,5 +1,6 @@
 """Frames of a file: those that there are."""
 
+import sys
 from collections import deque
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -53,7 +54,7 @@ def find_frame(
         There is no such frame.
     """
     # Of the frames that were met, only those that may be asked for are kept.
-    met: deque[tuple[tuple[int, int], AnyHead]] = deque(maxlen=max(-frame, 1))
+    met: deque[tuple[tuple[int, int], AnyHead]] = deque(maxlen=min(max(-frame, 1), sys.maxsize))
     count = 0
     while (head := read_head(lines)) is not None:
         if count == frame:
