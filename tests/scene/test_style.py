@@ -151,6 +151,10 @@ def test_misspelt() -> None:
         Style(fog={"begin": 1})
     with pytest.raises(TypeError, match=r"Slice\(\) argument 'norml' is unknown; did you mean"):
         Style(slice={"norml": (0, 0, 1)})
+    with pytest.raises(
+        TypeError, match=r"Fog\(\) argument '1' is unknown; the arguments are start,"
+    ):
+        Style(fog={1: 2})
     scene = vtray.Scene()
     with pytest.raises(AttributeError, match=r"'fog', which is a part of its style: .*scene.style"):
         scene.fog = True

@@ -146,7 +146,7 @@ def from_mapping(cls: type[Made], given: Mapping[Any, Any], place: str) -> Made:
     missing = _missing(cls, {**getattr(cls, "_in_code", {}), **given})
     if missing and set(given) <= set(names):
         raise SceneError(f"{place}: lacks {', '.join(missing)}; expected {', '.join(names)}")
-    return cls(**given)
+    return cls(**{str(name): value for name, value in given.items()})
 
 
 def _missing(cls: type, values: Mapping[str, object]) -> list[str]:
