@@ -361,6 +361,14 @@ ERRORS = [
         OutputError,
         "argument 'tilte' is unknown; did you mean \"title\"",
     ),
+    ({"annotate": {1: "x"}}, OutputError, "argument '1' is unknown; the arguments are title, time"),
+    (
+        {"progress": "bar"},
+        ValueError,
+        "progress: expected True or a function that takes .* got 'bar'",
+    ),
+    ({"progress": 5}, ValueError, "progress: expected True or a function that takes .* got 5"),
+    ({"warn": 5}, ValueError, "warn: expected a function that takes a line of text, got 5"),
     (
         {"annotate": {"title": "{frame:999999999}"}},
         OutputError,

@@ -156,6 +156,7 @@ def test_cameras_go_around_what_is_upright() -> None:
         ({"seconds": 1e308}, SceneError, "seconds: expected at most 1000000 pictures, got inf"),
         ({"aov": 5}, OutputError, "aov: expected names of depth, .*, got 5"),
         ({"degrees": np.inf}, SceneError, "degrees: expected a number, got "),
+        ({"lights": np.arange(2)}, SceneError, "lights: expected 'turn' or 'still', got array"),
         ({"lights": "off"}, SceneError, "lights: expected 'turn' or 'still', got "),
         ({"sample": 4}, TypeError, r"turntable\(\) argument 'sample' is unknown"),
         ({"sampels": 4}, TypeError, "argument 'sampels' is unknown; did you mean \"samples\""),

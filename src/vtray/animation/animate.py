@@ -29,10 +29,12 @@ from vtray.animation.snapshots import snapshots_of
 from vtray.animation.sources import READING, first_of, source_of
 from vtray.animation.stage import Look, Shot, Warn
 from vtray.base.errors import SceneError
+from vtray.base.function import check_function
 from vtray.base.number import number_of
 from vtray.base.progress import ProgressBar
 from vtray.image.formats.image_format import check_aov
 from vtray.scene.camera import Camera
+from vtray.scene.checks.choices import is_one_of
 from vtray.scene.checks.scene_words import show
 from vtray.scene.checks.unknown_names import unknown_argument
 from vtray.scene.default_light import has_default_light
@@ -144,6 +146,8 @@ def animate(
         The movie cannot be written, or pictures that are done are of another movie.
     RenderError
         A picture cannot be rendered, see `render`; or the cluster cannot be used.
+    ValueError
+        `progress` or `warn` is no function, or `threads` is not right.
     ExtraError
         A package is needed that is not installed.
     KeyboardInterrupt
@@ -157,7 +161,7 @@ def animate(
     settings, parts = _of_picture(options)
     reading = {name: options.pop(name) for name in READING if name in options}
     look = Look(settings, check_annotate(annotate), bits, check_aov(aov), threads)
-    film = _film(path, fps, look, resume, client, warn)
+    film = _film(path, fps, look, resume, client, progress, warn)
     ways = {name: way_of_part(name, part) for name, part in parts.items()}
     last = last_of(camera=camera, opacity=opacity, **parts)
     is_file = isinstance(scenes, (str, os.PathLike))
@@ -244,7 +248,7 @@ def turntable(
 
     Raises
     ------
-    SceneError, OutputError, RenderError, ExtraError, KeyboardInterrupt
+    SceneError, OutputError, RenderError, ValueError, ExtraError, KeyboardInterrupt
         As for `animate`.
 
     Examples
@@ -256,7 +260,7 @@ def turntable(
     if settings:
         raise _unknown(turntable, next(iter(settings)))
     look = Look(given, check_annotate(annotate), bits, check_aov(aov), threads)
-    film = _film(path, fps, look, resume, client, warn)
+    film = _film(path, fps, look, resume, client, progress, warn)
     ways = {name: way_of_part(name, part) for name, part in parts.items()}
     if opacity is not None:
         ways["opacity"] = way_of_opacity(opacity)
@@ -285,7 +289,7 @@ def go_around(
     pictures = length * film.fps
     _check_count("seconds", pictures)
     count = max(round(pictures), 1)
-    if lights not in ("turn", "still"):
+    if not is_one_of(lights, ("turn", "still")):
         raise SceneError(f"lights: expected 'turn' or 'still', got {show(lights)}")
     turns = lights == "turn" and not has_default_light(scene)
     axis = unit(up_of(camera))
@@ -337,9 +341,14 @@ def _film(
     look: Look,
     resume: bool,
     client: "Client | None",
+    progress: Progress | bool | None,
     warn: Warn | None,
 ) -> Film:
     """Return how a movie is made, checked as far as can be without a scene."""
+    check_function("warn", warn, "a line of text")
+    if not isinstance(progress, bool):
+        takes = 'the word "frames", and how many of how many are done'
+        check_function("progress", progress, takes, "True or ")
     check_picture(look.settings)
     output = Output(Path(path))
     rate = _number("fps", fps)

@@ -60,7 +60,7 @@ def check_annotate(given: object) -> dict[str, Any]:
     _self, *known = inspect.signature(Image.annotated).parameters
     for name in given:
         if name not in known:
-            raise OutputError(f"annotate: {unknown_argument('Image.annotated', name, known)}")
+            raise OutputError(f"annotate: {unknown_argument('Image.annotated', str(name), known)}")
     for name in VARYING:
         if isinstance(given.get(name), str):
             _formatted(name, given[name], {"frame": 0, "time": 0.0})

@@ -6,6 +6,7 @@ from functools import partial
 from typing import Any, Literal, Protocol
 
 from vtray.base.compiler.compiled import loading_seconds
+from vtray.base.function import check_function
 from vtray.base.memory import (
     BYTES_PER_PIXEL_AND_MORE,
     BYTES_PER_PIXEL_DENOISED,
@@ -443,9 +444,7 @@ def _check_calls(progress: object, on_update: object, seconds: float, warn: obje
         ("on_update", on_update, "an image"),
         ("warn", warn, "a line of text"),
     ):
-        if given is not None and not callable(given):
-            message = f"{name}: expected a function that takes {takes}, got {given!r}"
-            raise ValueError(message)
+        check_function(name, given, takes)
     if not number_of(seconds) >= 0:
         message = f"update_seconds: expected a number ≥ 0, got {seconds!r}"
         raise ValueError(message)
