@@ -385,6 +385,8 @@ BAD = [
     ({"dpi": "300"}, "dpi: expected a number ≥ 1, or None, got '300'"),
     ({"at": (0, 1)}, r"at: expected a point of three finite numbers, or None, got \(0, 1\)"),
     ({"at": (0, 0, np.inf)}, "at: expected a point of three finite numbers"),
+    ({"at": (0, 0, 10**400)}, "at: expected a point of three finite numbers"),
+    ({"at": np.ma.masked_array([0, 0, 1], [0, 0, 1])}, "at: expected a point of three finite num"),
     ({"at": "here"}, "at: expected a point of three finite numbers"),
     ({"at": (0, 0, -50)}, r"at: expected a point in front of the eye, got \(0, 0, -50\)"),
     ({"colorbar": ["a", "b"]}, r"colorbar: expected True, False or a label, got \['a', 'b'\]"),

@@ -128,6 +128,17 @@ def test_wrong_values_are_named(given: Any, message: str) -> None:
         vtray.ImagePattern(given)
 
 
+def test_what_becomes_no_array_is_told() -> None:
+    class Tensor:
+        def __array__(self, *_: Any, **__: Any) -> Any:
+            raise RuntimeError("Can't call numpy() on Tensor that requires grad.")
+
+    with pytest.raises(vtray.SceneError, match=r"^ImagePattern\.image: expected a uint8 array"):
+        vtray.ImagePattern(Tensor())
+    with pytest.raises(vtray.SceneError, match=r"^Sky\.image: expected an array of floats"):
+        vtray.Sky(image=Tensor())
+
+
 def test_unknown_keys_are_told(saved: Path) -> None:
     text = saved.read_text()
     saved.write_text(text.replace('"image": "', '"blur": 1, "image": "', 1))

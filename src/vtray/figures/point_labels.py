@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.exact_math import hypotenuse
+from vtray.figures.point import point_of
 from vtray.figures.projection import project
 from vtray.figures.scale_bar import depth_along_view
 from vtray.figures.sheet import FigureError
@@ -89,11 +90,10 @@ def _read(labels: Any) -> tuple[list[str], Floats]:  # noqa: ANN401
     for k, pair in enumerate(pairs):
         try:
             text, point = pair
-            place = np.asarray(point, np.float64)
         except (TypeError, ValueError):
-            text, place = "", np.zeros(0)
-        right = isinstance(text, str) and bool(text.strip())
-        if not right or place.shape != (3,) or not np.isfinite(place).all():
+            text, point = "", None
+        place = point_of(point)
+        if not isinstance(text, str) or not text.strip() or place is None:
             message = f"labels[{k}]: expected {WANTED}, got {pair!r}"
             raise FigureError(message)
         texts.append(text)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.figures.point import point_of
 from vtray.figures.projection import project
 from vtray.figures.seen_objects import objects_seen
 from vtray.figures.sheet import FigureError
@@ -159,11 +160,8 @@ def _depth_of(image: Subject, at: "ArrayLike | None") -> float | None:
     """Return how far from the eye along z' a point lies."""
     if at is None:
         return None
-    try:
-        point = np.asarray(at, np.float64)
-    except (TypeError, ValueError):
-        point = np.zeros(0)
-    if point.shape != (3,) or not np.isfinite(point).all():
+    point = point_of(at)
+    if point is None:
         message = f"at: expected a point of three finite numbers, or None, got {at!r}"
         raise FigureError(message)
     depth = float(project(image.scene.camera, point[None]).depth[0])

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.exact_math import hypotenuse
+from vtray.figures.point import point_of
 from vtray.figures.sheet import FigureError
 from vtray.scene.camera import Camera
 from vtray.scene.placing.directions import dot
@@ -71,11 +72,8 @@ def triad(camera: Camera, axes: "bool | Mapping[str, ArrayLike]") -> list[Arm]:
         raise FigureError(message)
     arms = []
     for (name, direction), color in zip(axes.items(), COLORS, strict=False):
-        try:
-            way = np.asarray(direction, np.float64)
-        except (TypeError, ValueError):
-            way = np.zeros(0)
-        if not isinstance(name, str) or way.shape != (3,) or not np.isfinite(way).all():
+        way = point_of(direction)
+        if not isinstance(name, str) or way is None:
             message = f"axes: expected {wanted}, got {name!r}: {direction!r}"
             raise FigureError(message)
         length = hypotenuse(*way.tolist())

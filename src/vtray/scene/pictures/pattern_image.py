@@ -118,12 +118,12 @@ def _checked(given: object) -> "Pixels":
     import numpy as np
 
     from vtray.scene.checks.columns import read_only
-    from vtray.scene.checks.given_array import is_masked, show_array
+    from vtray.scene.checks.given_array import UNCONVERTED, is_masked, show_array
 
     has_array = hasattr(given, "__array__") or isinstance(given, (list, tuple))
     try:
         array = np.asarray(given) if has_array else np.zeros(0, object)
-    except ValueError:  # rows of different lengths
+    except UNCONVERTED:
         array = np.zeros(0, object)
     is_picture = array.ndim == 3 and array.shape[2] in (3, 4) and not is_masked(given)
     if not (is_picture and array.dtype == np.uint8):

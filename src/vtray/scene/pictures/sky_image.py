@@ -116,13 +116,13 @@ def _checked(given: object, place: str) -> Pictures:
     import numpy as np
 
     from vtray.scene.checks.columns import read_only
-    from vtray.scene.checks.given_array import is_masked, show_array
+    from vtray.scene.checks.given_array import UNCONVERTED, is_masked, show_array
 
     words = "an array of floats of shape (height, width, 3), or the path of a picture"
     has_array = hasattr(given, "__array__") or isinstance(given, (list, tuple))
     try:
         array = np.asarray(given) if has_array else np.zeros(0, object)
-    except ValueError:  # rows of different lengths
+    except UNCONVERTED:
         array = np.zeros(0, object)
     if array.dtype.kind in "iu":
         remedy = "divide whole numbers by the one that stands for 1, such as 255"
