@@ -65,6 +65,7 @@ class Image(Rendered):
         ``"depth"``, and its ``"memory"`` in bytes.
     """
 
+    @explain_unknown
     def expose(
         self,
         exposure: Literal["max", "auto"] | float | None = None,
@@ -116,6 +117,7 @@ class Image(Rendered):
         stops = 0.0 if stops is None else stops
         return self._again(None, settings=settings.replace(exposure=exposure, stops=stops))
 
+    @explain_unknown
     def relight(self, intensities: Sequence[float], *, lock: "Image | None" = None) -> "Image":
         """Return the picture with other intensities of its lights, exactly as a new render.
 
@@ -210,6 +212,7 @@ class Image(Rendered):
 
         return pick(self, x, y)
 
+    @explain_unknown
     def save(
         self, path: str | PathLike[str], *, bits: int | None = None, aov: Collection[str] = ()
     ) -> None:
@@ -266,6 +269,7 @@ class Image(Rendered):
 
         return flat_pixels(self)
 
+    @explain_unknown
     def annotated(
         self,
         *,

@@ -25,6 +25,7 @@ from vtray.rendering.pixel_lights import place_of_lamp
 from vtray.rendering.pixel_paths import follow_path
 from vtray.rendering.styled import styled
 from vtray.scene.camera import Camera
+from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.default_camera import with_camera
 from vtray.scene.default_light import lights_of, settings_of
 from vtray.scene.placing.directions import are_parallel, camera_axes, view_axes
@@ -36,6 +37,7 @@ from vtray.transport.sampling.pixel_samples import filter_samples, lens_points, 
 from vtray.transport.scene_arrays import SceneArrays, with_pinhole
 
 
+@explain_unknown
 def trace_pixel(
     scene: Scene | Image,
     x: SupportsIndex,

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from vtray.base.exact_math import cosine, sine
 from vtray.scene.checks.limits import NonNegative
+from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.light_types import Ambient, AnyLight, RectangleLight, Sky
 from vtray.scene.placing.directions import Vec, along, cross, unit
 from vtray.scene.sky_types import Gradient
@@ -38,6 +39,7 @@ key 0.98, and what faces the middle of both 1.10. In hollows and packings, where
 around, colours are told apart by what has bounced and what comes from the front."""
 
 
+@explain_unknown
 def studio(scene: HasCamera, intensity: float = 1.0) -> list[AnyLight]:
     """Return the light of a studio: soft, and from all sides; that of scenes without lights.
 
@@ -82,6 +84,7 @@ def none(scene: HasCamera | None = None) -> list[AnyLight]:  # noqa: ARG001 - as
     return []
 
 
+@explain_unknown
 def rembrandt(
     scene: HasCamera,
     intensity: float = 1.0,
@@ -122,6 +125,7 @@ def rembrandt(
     return studio.key_and_fill(intensity, side, ratio, points, key=(45, 45), fill=(-30, 10))
 
 
+@explain_unknown
 def loop(
     scene: HasCamera,
     intensity: float = 1.0,
@@ -141,6 +145,7 @@ def loop(
     return studio.key_and_fill(intensity, side, ratio, points, key=(35, 30), fill=(-30, 10))
 
 
+@explain_unknown
 def split(
     scene: HasCamera,
     intensity: float = 1.0,
@@ -160,6 +165,7 @@ def split(
     return studio.key_and_fill(intensity, side, ratio, points, key=(90, 10), fill=(0, 5))
 
 
+@explain_unknown
 def butterfly(
     scene: HasCamera, intensity: float = 1.0, *, ratio: float = 3.0, points: bool = False
 ) -> list[AnyLight]:
@@ -194,6 +200,7 @@ def butterfly(
     return studio.key_and_fill(intensity, "right", ratio, points, key=(0, 50), fill=(0, 5))
 
 
+@explain_unknown
 def ring(
     scene: HasCamera, intensity: float = 1.0, *, points: bool = False, count: int | None = None
 ) -> list[AnyLight]:
@@ -233,6 +240,7 @@ def ring(
     return studio.share(intensity, ((place, 1.0) for place in directions), number)
 
 
+@explain_unknown
 def cloudy(
     scene: HasCamera,
     intensity: float = 1.0,
@@ -292,6 +300,7 @@ def cloudy(
     return studio.at(SKY).share(intensity, sky, upward)
 
 
+@explain_unknown
 def lightbox(
     scene: HasCamera,
     intensity: float = 1.0,
