@@ -1,7 +1,9 @@
 """A scene whose lights were never set looks as in a studio."""
 
 import copy
+import inspect
 import pickle
+import re
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +12,7 @@ import pytest
 import vtray
 from conftest import JIT, once
 from vtray import render
+from vtray.scene.default_light import settings_of
 
 SIZE = (32, 24) if JIT else (12, 9)
 WHITE = [255, 255, 255]
@@ -46,6 +49,17 @@ def test_copies_and_pickles_have_it_too() -> None:
         assert render(copied).settings.exposure == 1.0
     scene.lights = []
     assert render(pickle.loads(pickle.dumps(scene)), warn=print).settings.exposure == "max"
+
+
+def test_help_says_which_settings_are_others() -> None:
+    usual, found = vtray.RenderSettings(), settings_of(balls())
+    names = usual.__struct_fields__
+    others = [name for name in names if getattr(found, name) != getattr(usual, name)]
+    assert "background" in others
+    parts = re.split(r"\n(?! )", inspect.getdoc(render) or "")
+    told = {name: " ".join(part.split()) for part in parts for name in part.split("\n")[:1]}
+    for name in others:
+        assert "scenes whose lights were never set" in told[name], name
 
 
 def test_what_is_asked_for_is_done() -> None:

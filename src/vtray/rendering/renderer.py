@@ -146,6 +146,7 @@ def render(
     background
         What is seen where nothing is: ``"black"``, the default, ``"transparent"``, ``"sky"`` for
         the skies among the lights, or a colour in any of the ways of `vtray.colors.to_rgb`.
+        White is the default of scenes whose lights were never set, unless they hold `Stars`.
     tolerance
         How noisy soft light may be: the standard error of a pixel, 1 for white; 0.008 by default,
         two steps of 255. For scenes whose lights were never set, and without planes, it is 0.012 to
