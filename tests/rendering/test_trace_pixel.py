@@ -592,3 +592,15 @@ def test_words_on_skies_of_many_colors() -> None:
         assert f"{first}\n  adds       {adds} = share {shares} x lambert 0.5 x radiance" in text
     total = np.sum([fan.adds for fan in tree.lights], axis=0)
     np.testing.assert_allclose(image.linear[3, 1], total, rtol=1e-12)
+
+
+@once
+def test_shown_in_a_line() -> None:
+    scene = lit_floor()
+    hit = vtray.trace_pixel(scene, 40, 36).hit
+    assert hit is not None
+    words = f"a hit at {hit.distance:.6g}, 3 ways to lights"
+    assert repr(vtray.trace_pixel(scene, 40, 36)) == f"<RayTree of pixel (40, 36), {words}>"
+    scene.objects.clear()
+    empty = repr(vtray.trace_pixel(scene, 40, 36))
+    assert empty == "<RayTree of pixel (40, 36), nothing, 0 ways to lights>"

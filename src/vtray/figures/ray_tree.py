@@ -37,7 +37,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RayTree(TracedRays):
     """All rays of one pixel; see `vtray.trace_pixel`.
 
@@ -80,6 +80,11 @@ class RayTree(TracedRays):
     sample
         The number of the ray among the samples of the pixel; None for the one through its middle.
     """
+
+    def __repr__(self) -> str:
+        seen = "nothing" if self.hit is None else f"a hit at {self.hit.distance:.6g}"
+        seen = seen if self.lamp is None else f"lamp {self.lamp}"
+        return f"<RayTree of pixel {self.pixel}, {seen}, {len(self.lights)} ways to lights>"
 
     def __str__(self) -> str:
         """Explain the pixel in some lines, as ``vtray --pixel`` does."""
