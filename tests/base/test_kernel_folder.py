@@ -46,6 +46,27 @@ def test_without_a_writable_home(variable: str, tmp_path: Path) -> None:
         assert done.stderr == ""
 
 
+@needs_owners
+@pytest.mark.parametrize("is_old", [False, True])
+def test_user_whom_the_system_does_not_know(
+    is_old: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def unknown(user: int) -> None:
+        raise KeyError(user)
+
+    for name in ("VTRAY_CACHE_DIR", "XDG_CACHE_HOME", "HOME"):  # as in some containers
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr("pwd.getpwuid", unknown)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    if is_old:
+        monkeypatch.setattr("platformdirs.user_cache_path", Path("~/.cache").joinpath)
+    folder = kernel_folder.cache_folder()
+    assert folder is not None
+    assert folder.parent == tmp_path / f"vtray-cache-{os.geteuid()}"
+    assert list(tmp_path.iterdir()) == [folder.parent]
+
+
 def test_folder_is_named_by_all_sources() -> None:
     folder = kernel_folder.cache_folder()
     assert folder is not None

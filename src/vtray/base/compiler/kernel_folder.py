@@ -130,10 +130,15 @@ def _chosen_home() -> Path:
 
 
 def _user_home() -> Path:
-    """Return the user's folder for caches."""
+    """Return the user's folder for caches; raise OSError if there is no home for it to be in."""
     from platformdirs import user_cache_path
 
-    return user_cache_path("vtray")
+    with contextlib.suppress(RuntimeError):
+        home = user_cache_path("vtray")
+        # Older versions of platformdirs would have it in a folder that is called ~.
+        if home.is_absolute():
+            return home
+    raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT))
 
 
 def _temporary_home() -> Path:
