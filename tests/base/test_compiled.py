@@ -36,6 +36,47 @@ assert find_extent(np.ones((6, 2)), 2).low == (1, 1, 1)
 print(loading_seconds())
 """
 
+# A process forks while another thread of it compiles; what the child does would never end.
+FORK = """
+import os, signal, threading, time
+import numpy as np
+from numba.core.compiler_lock import global_compiler_lock
+from vtray.base.compiler import compiled, helpers
+from vtray.image.exposure import develop
+
+is_at_work = threading.Event()
+
+def work():
+    helpers.ask("some part", b"", print)
+    with {lock}:
+        is_at_work.set()
+        time.sleep(0.5)
+        ended.append(True)
+
+def expose():
+    return develop(np.full((2, 3, 3), 0.5), 1.0, "black", lambda: None)
+
+ended = []
+helpers.MOST, helpers._hand_over = 1, lambda *_: time.sleep(60)
+helpers.available_cores = lambda: 2
+threading.Thread(target=work).start()
+is_at_work.wait()
+while not helpers.is_at_work_on("some part"):
+    time.sleep(0.01)
+child = os.fork()
+if not child:
+    signal.alarm(60)
+    assert not helpers.is_at_work_on("some part")
+    assert (expose() == 127).all()
+    with global_compiler_lock:
+        os._exit(0)
+assert ended
+assert os.waitpid(child, 0)[1] == 0
+assert (expose() == 127).all()
+assert helpers.is_at_work_on("some part")
+os._exit(0)
+"""
+
 
 def start(
     package: Path | None, script: str = EXPOSE, **environment: str
@@ -128,3 +169,11 @@ def test_interrupt_does_not_wait_for_the_compiler(
         compiled.kernel(lambda value: value)(1.0)
     assert not ended.is_set()
     assert ended.wait(20)
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs forks")
+@pytest.mark.parametrize("lock", ["compiled._COMPILING", "global_compiler_lock"])
+def test_fork_waits_for_the_compiler(lock: str) -> None:
+    process = start(None, FORK.format(lock=lock), PYTHONWARNINGS="ignore")
+    _, err = process.communicate(timeout=120)
+    assert (process.returncode, err) == (0, "")

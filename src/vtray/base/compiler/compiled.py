@@ -16,6 +16,7 @@ imported only to compile, and where a kernel cannot be called without it, of whi
 
 import contextlib
 import os
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -78,6 +79,7 @@ _COMPILING = threading.RLock()
 _loading = [0.0]
 _trusted: list[bool] = []
 _waiting: list[Callable[[bool], object]] = []
+_held: list[Any] = []
 
 
 def device(function: Function) -> Function:
@@ -482,6 +484,28 @@ def _in_thread(function: Callable[..., Value], *arguments: object) -> Value:
     while not wait((outcome,), _POLL_SECONDS).done:
         pass
     return outcome.result()
+
+
+def _wait_for_compiler() -> None:
+    """Let this process be forked only when no thread compiles: its child could never go on."""
+    loaded = sys.modules.get("numba.core.compiler_lock")
+    for lock in (_COMPILING, getattr(loaded, "global_compiler_lock", None)):
+        if lock:
+            lock.acquire()
+            _held.append(lock)
+
+
+def _let_compile() -> None:
+    """Let threads compile again, in this process or its child."""
+    held, _held[:] = _held[:], []
+    for lock in reversed(held):
+        lock.release()
+
+
+if hasattr(os, "register_at_fork"):  # not in Windows
+    os.register_at_fork(
+        before=_wait_for_compiler, after_in_parent=_let_compile, after_in_child=_let_compile
+    )
 
 
 def _is_off() -> bool:

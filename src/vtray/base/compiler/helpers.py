@@ -8,6 +8,7 @@ meets on the way. Whatever goes wrong with it, this process compiles the part it
 
 import atexit
 import contextlib
+import os
 import queue
 import subprocess
 import sys
@@ -44,6 +45,9 @@ _lock = threading.Lock()
 _at_work: list[threading.Thread] = []
 _processes: dict["subprocess.Popen[bytes]", LastStep] = {}
 """Each with what ends it should a signal end this process."""
+
+_of_others: list["subprocess.Popen[bytes]"] = []
+"""Those of the process of which this one is a fork."""
 
 
 def get_ready() -> None:
@@ -176,3 +180,16 @@ def _end_all() -> None:
     """End what is still at work when this process ends."""
     for process in list(_processes):
         _end(process)
+
+
+def _forget() -> None:
+    """Begin anew after a fork: the threads and the processes are those of the other process."""
+    global _lock, _orders
+    _lock, _orders = threading.Lock(), queue.PriorityQueue()
+    _of_others.extend(_processes)
+    for state in (_processes, _at_work, _asked):
+        state.clear()
+
+
+if hasattr(os, "register_at_fork"):  # not in Windows
+    os.register_at_fork(after_in_child=_forget)
