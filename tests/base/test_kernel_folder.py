@@ -1,6 +1,7 @@
 """Where compiled kernels are kept, for how long, and whose they must be."""
 
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -11,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from vtray.base.compiler import kernel_folder
+from vtray.base.compiler.compiled import Kernel, was_compiled
 from vtray.base.compiler.kernel_folder import MARK
 from vtray.base.compiler.object_code import ObjectCode, read_object_code, write_object_code
 
@@ -131,6 +133,21 @@ def test_nothing_but_vtrays_own_is_deleted(tmp_path: Path, monkeypatch: pytest.M
     assert folder is not None
     after = [path for path in sorted(tmp_path.rglob("*")) if folder not in (path, path.parent)]
     assert [path for path in before if path not in after] == [mixed / kernel]
+
+
+def test_folder_that_is_deleted_meanwhile_is_made_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("VTRAY_CACHE_DIR", str(tmp_path / "home"))
+    folder = kernel_folder.cache_folder()
+    assert folder is not None
+    kernel, code = folder / "some.kernel", ObjectCode("f", "f8", b"")
+    shutil.rmtree(folder.parent)
+    assert not was_compiled(Kernel(lambda: None))
+    assert read_object_code(kernel) is None
+    write_object_code(kernel, code)
+    assert read_object_code(kernel) == code
+    assert (folder / MARK).exists()
 
 
 def make_folder(folder: Path, days: int, *names: str) -> Path:

@@ -174,7 +174,9 @@ def was_compiled(function: Callable[..., object]) -> bool:
     if folder is None:
         return True
     start = f"{full_name(uncompiled(function))}-"
-    return any(name.startswith(start) for name in os.listdir(folder))
+    with contextlib.suppress(FileNotFoundError):  # somebody has deleted it
+        return any(name.startswith(start) for name in os.listdir(folder))
+    return False
 
 
 def compile_ahead(function: Callable[..., object], *arguments: object) -> None:

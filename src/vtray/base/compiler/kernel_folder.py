@@ -84,6 +84,15 @@ def read_kept(file: Path) -> bytes | None:
     return None
 
 
+def write_kept(file: Path, content: bytes) -> None:
+    """Write a file in the folder, whole; raise OSError where that cannot be."""
+    try:
+        write_own(file, content)
+    except FileNotFoundError:  # somebody has deleted the folder
+        _kernels_in(file.parent.parent)
+        write_own(file, content)
+
+
 def _warn(message: str) -> None:
     """Warn of what is not trusted, once in each process."""
     if not _warned:

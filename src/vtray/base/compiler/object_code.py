@@ -28,7 +28,7 @@ from blake3 import blake3
 
 from vtray.base.compiler.elf_loader import NOTHING, load
 from vtray.base.compiler.function_names import OWN, full_name
-from vtray.base.compiler.kernel_folder import SUFFIX, cache_folder, read_kept
+from vtray.base.compiler.kernel_folder import SUFFIX, cache_folder, read_kept, write_kept
 from vtray.base.compiler.mode import compiling
 from vtray.base.compiler.native_call import Layout, TupleLayout
 from vtray.base.compiler.processor import processor
@@ -42,7 +42,6 @@ from vtray.base.compiler.unseen import (
     unseen_by,
 )
 from vtray.base.memory import check_memory_of_compiler, check_memory_of_start
-from vtray.base.own_files import write_own
 
 SETTINGS_FILE = Path(".numba_config.yaml")
 """Settings of Numba's, in the folder in which Python was started.
@@ -138,7 +137,7 @@ def write_struct(file: Path, content: msgspec.Struct) -> None:
     """Write a file in the folder, whole, if that can be."""
     body = msgspec.msgpack.encode(content)
     with contextlib.suppress(OSError):
-        write_own(file, blake3(body).digest() + body)
+        write_kept(file, blake3(body).digest() + body)
 
 
 def compile_object(
