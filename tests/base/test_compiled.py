@@ -40,6 +40,7 @@ print(loading_seconds())
 FORK = """
 import os, signal, threading, time
 import numpy as np
+from llvmlite.binding.ffi import lib
 from numba.core.compiler_lock import global_compiler_lock
 from vtray.base.compiler import compiled, helpers
 from vtray.image.exposure import develop
@@ -68,7 +69,7 @@ if not child:
     signal.alarm(60)
     assert not helpers.is_at_work_on("some part")
     assert (expose() == 127).all()
-    with global_compiler_lock:
+    with global_compiler_lock, lib._lock:
         os._exit(0)
 assert ended
 assert os.waitpid(child, 0)[1] == 0
@@ -172,7 +173,7 @@ def test_interrupt_does_not_wait_for_the_compiler(
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs forks")
-@pytest.mark.parametrize("lock", ["compiled._COMPILING", "global_compiler_lock"])
+@pytest.mark.parametrize("lock", ["compiled._COMPILING", "global_compiler_lock", "lib._lock"])
 def test_fork_waits_for_the_compiler(lock: str) -> None:
     process = start(None, FORK.format(lock=lock), PYTHONWARNINGS="ignore")
     _, err = process.communicate(timeout=120)

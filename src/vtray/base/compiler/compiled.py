@@ -79,7 +79,7 @@ _COMPILING = threading.RLock()
 _loading = [0.0]
 _trusted: list[bool] = []
 _waiting: list[Callable[[bool], object]] = []
-_held: list[Any] = []
+_held = contextlib.ExitStack()
 
 
 def device(function: Function) -> Function:
@@ -490,18 +490,21 @@ def _in_thread(function: Callable[..., Value], *arguments: object) -> Value:
 
 def _wait_for_compiler() -> None:
     """Let this process be forked only when no thread compiles: its child could never go on."""
-    loaded = sys.modules.get("numba.core.compiler_lock")
-    for lock in (_COMPILING, getattr(loaded, "global_compiler_lock", None)):
+    numba = sys.modules.get("numba.core.compiler_lock")
+    llvm = getattr(sys.modules.get("llvmlite.binding.ffi"), "lib", None)
+    # From the outermost on; Numba lets go of its own before machine code is written.
+    for lock in (
+        _COMPILING,
+        getattr(numba, "global_compiler_lock", None),
+        getattr(llvm, "_lock", None),
+    ):
         if lock:
-            lock.acquire()
-            _held.append(lock)
+            _held.enter_context(lock)
 
 
 def _let_compile() -> None:
     """Let threads compile again, in this process or its child."""
-    held, _held[:] = _held[:], []
-    for lock in reversed(held):
-        lock.release()
+    _held.pop_all().close()
 
 
 if hasattr(os, "register_at_fork"):  # not in Windows
