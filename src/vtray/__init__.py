@@ -53,6 +53,17 @@ if TYPE_CHECKING:
     from vtray.scene.spheres import Spheres
     from vtray.scene.stars import Stars
     from vtray.scene.style import EyeDome, Fog, Outline, Style
+else:  # whoever checks types would take any name for one of an object
+
+    def __getattr__(name: str) -> object:
+        if name not in _MODULES:
+            message = f"module 'vtray' has no attribute {name!r}"
+            raise AttributeError(message)
+        from importlib import import_module
+
+        module = import_module(f"vtray.{_MODULES[name]}")
+        return module if name == _MODULES[name] else getattr(module, name)
+
 
 __all__ = [
     "Ambient",
@@ -190,18 +201,6 @@ _MODULES = {
     "turntable": "animation.animate",
 }
 """The module that each public name comes from."""
-
-
-if not TYPE_CHECKING:  # which would take any name for one of an object
-
-    def __getattr__(name: str) -> object:
-        if name not in _MODULES:
-            message = f"module 'vtray' has no attribute {name!r}"
-            raise AttributeError(message)
-        from importlib import import_module
-
-        module = import_module(f"vtray.{_MODULES[name]}")
-        return module if name == _MODULES[name] else getattr(module, name)
 
 
 def __dir__() -> list[str]:

@@ -39,9 +39,6 @@ C_TYPES: dict[str, Any] = {
 }
 """Scalars by the names of NumPy; without a name what returns nothing, which reads as None."""
 
-MOST_DIMENSIONS = 64
-"""Of an array of NumPy."""
-
 _SUCCESS = {0, -2}
 """What a function may return; -2 stands for None."""
 
@@ -51,7 +48,6 @@ _address = struct.Struct("Q").pack
 _float = struct.Struct("d").pack
 _NULL = _FALSE = bytes(_WORD_BYTES)
 _TRUE = b"\1".ljust(_WORD_BYTES, b"\0")
-_ARRAYS = [struct.Struct(f"4qQ{2 * dimensions}q").pack for dimensions in range(MOST_DIMENSIONS + 1)]
 
 _array_types: dict[tuple[np.dtype[Any], int, int], str] = {}
 """By what NumPy says of an array: its items, its dimensions, and its flags."""
@@ -226,8 +222,10 @@ def _unpack_array(array: "np.ndarray[Any, Any]", types: list[str], words: Words)
     if kind not in _array_types:
         _array_types[kind] = _array_type(array)
     types.append(_array_types[kind])
-    sizes = array.size, dtype.itemsize, array.ctypes.data
-    words.append(_ARRAYS[len(shape)](0, 0, *sizes, *shape, *array.strides))
+    address = _address(array.ctypes.data)
+    words += (_NULL, _NULL, _int(array.size), _int(dtype.itemsize), address)
+    words += map(_int, shape)
+    words += map(_int, array.strides)
 
 
 def _array_type(array: "np.ndarray[Any, Any]") -> str:
