@@ -160,6 +160,7 @@ def test_what_is_faint_has_its_color_where_nothing_is_solid() -> None:
     image = vtray.render(scene)
     assert (image.ids < 0).all()
     flat, shown = image.flat(), image.shown.ids
+    assert image.expose(2.0).shown is image.shown, "it is traced more than once"
     own = srgb_to_oklab(np.array([(150, 90, 60), (60, 120, 140)], np.uint8))
     for place, color in (((0, 0), 0), ((0, 1), 1), ((1, 0), 1)):
         seen = (shown == place).all(axis=2)

@@ -139,7 +139,8 @@ class Rendered:
         self._look = look
         self._albedo = albedo
         self._orders_of = orders
-        self._seen: list[Surfaces] = []  # what it gave; shared with other exposures of the view
+        # What it gave, faint or not; shared with other exposures of the view.
+        self._seen: dict[bool, Surfaces] = {}
         self._pixels = pixels
         self._alpha = alpha
         self._fog = fog
@@ -231,14 +232,18 @@ class Rendered:
 
     @property
     def _surfaces(self) -> Surfaces:
-        if not self._seen:
-            self._seen.append(self._look())
-        return self._seen[0]
+        return self._seen_once(faint=False)
+
+    def _seen_once(self, *, faint: bool) -> Surfaces:
+        """Return what middle rays meet, for which they are traced once."""
+        if faint not in self._seen:
+            self._seen[faint] = self._look(faint=True) if faint else self._look()
+        return self._seen[faint]
 
     @property
     def shown(self) -> Surfaces:
         """What figures measure and colour: surfaces, or faint ones where no pixel has another."""
-        return self._surfaces if self._surfaces.any_seen else self._look(faint=True)
+        return self._seen_once(faint=not self._surfaces.any_seen)
 
     @property
     def depth(self) -> Floats:
