@@ -109,6 +109,7 @@ def test_unknown_keys() -> None:
         ({"outline": (2, "red")}, Style(outline=Outline(2.0, "red"))),
         ({"eye_dome": "1,3"}, Style(eye_dome=EyeDome(1, 3))),
         ({"outline": np.array(2.0), "eye_dome": np.array(3)}, Style(outline=2, eye_dome=3)),
+        ({"clip": [*map(np.array, (1.0, 0.0, 0.0, 0.5))]}, Style(clip=[(1, 0, 0, 0.5)])),
     ],
 )
 def test_code_says_it(given: dict[str, Any], style: Style) -> None:

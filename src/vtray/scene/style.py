@@ -166,7 +166,7 @@ def _clip(given: Any, place: str) -> tuple[ClipPlane, ...]:  # noqa: ANN401
         given = given.split(";")
     elif not isinstance(given, Sequence):
         raise _wrong(whole, place, words)
-    elif given and not any(isinstance(one, ClipPlane) or hasattr(one, "__len__") for one in given):
+    elif given and all(not isinstance(one, ClipPlane) and count_of(one) is None for one in given):
         given = (given,)
     planes = []
     for one in given:
