@@ -77,6 +77,7 @@ def scene_of(places: np.ndarray) -> vtray.Scene:
     return scene
 
 
+@once
 @pytest.mark.parametrize("as_given", [scene_of, vtray.Particles, np.asarray, Given])
 def test_arrays_may_be_written_to_again(
     as_given: Callable[[np.ndarray], Any], tmp_path: Path

@@ -97,6 +97,7 @@ def test_the_same_bytes(tmp_path: Path, client: Any) -> None:
     assert here == there
 
 
+@once
 def test_the_same_bytes_of_a_trajectory(tmp_path: Path, client: Any, run_file: Path) -> None:
     options = {"size": SIZE, "samples": 1, "exposure": 1, "color": "x", "frames": "::-1"}
     here, there = both(tmp_path, client, run_file, **options)
@@ -188,6 +189,7 @@ def vtray_command(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     )
 
 
+@once
 def test_command(tmp_path: Path, address: str, run_file: Path) -> None:
     given = ["--size", "14x10", "--samples", "1", "--bonds", run_file]
     there = vtray_command("--dask", address, *given, tmp_path / "there.gif")

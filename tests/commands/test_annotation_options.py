@@ -9,6 +9,7 @@ from examples import one_sphere
 from PIL import Image as PillowImage
 
 import vtray
+from conftest import once
 from vtray.base.errors import UsageError
 from vtray.commands import cli
 from vtray.commands.annotation_options import with_values
@@ -25,6 +26,7 @@ def scene(tmp_path: Path) -> Path:
     return path
 
 
+@once
 def test_command_paints_what_annotated_does(scene: Path, capfd: pytest.CaptureFixture[str]) -> None:
     output = scene.with_name("a.png")
     assert cli.run([str(scene), "--scale-bar=nm", "--title", "A", str(output)]) == 0

@@ -255,6 +255,7 @@ def test_part_of_a_picture_whose_lights_are_kept_says_so(small: Path) -> None:
     assert vtray.read_provenance(small.with_name("part.png")).keep_lights
 
 
+@once
 def test_what_was_painted_on_a_picture_is_warned_of(
     small: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:

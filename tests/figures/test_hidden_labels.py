@@ -1,12 +1,13 @@
 """Labels of particles that are behind something, and of those whose own balls are before them."""
 
 import vtray
-from conftest import JIT
+from conftest import JIT, once
 from vtray.figures.point_labels import shown_labels
 
 SIZE = (90, 60) if JIT else (30, 20)
 
 
+@once
 def test_labels_of_what_is_hidden_are_left_out() -> None:
     scene = vtray.Scene()
     places = [(0, 0, 0), (3, 0, 0), (3, 0, -4)]

@@ -88,6 +88,7 @@ def test_a_bar_with_a_unit_is_not_left_out_in_silence() -> None:
     assert scale_bar(image, "nm", (0, 0, 3)) is not None
 
 
+@once
 def test_what_is_faint_counts_where_nothing_is_solid() -> None:
     scene = vtray.Scene()
     scene.add_sphere((0, 0, 10), 3, opacity=0.3)

@@ -53,6 +53,7 @@ def test_picked_particles(written_out: int, monkeypatch: pytest.MonkeyPatch) -> 
         image.pick(0, None)
 
 
+@once
 @pytest.mark.parametrize("written_out", [0, 100])
 def test_picked_particles_on_far_faces(written_out: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(drawing, "WRITTEN_OUT", written_out)

@@ -27,15 +27,17 @@ def begun(monkeypatch: pytest.MonkeyPatch) -> Ahead:
     early: list[Types] = []
     late: list[Types] = []
 
-    def need(*arguments: Any) -> None:
-        late.append(unpack(arguments[:3])[0])
+    def need(
+        _engine: Any, scene: Any, sampling: Any, _tiles: Any, film: Any, *_others: Any
+    ) -> None:
+        late.append(unpack([film, scene, sampling])[0])
         raise EnoughError
 
     monkeypatch.setattr(ahead, "was_compiled", lambda _: False)
     monkeypatch.setattr(
         passes, "begin_compiling", lambda *arguments: early.append(unpack(arguments)[0])
     )
-    monkeypatch.setattr(passes, "trace_to", need)
+    monkeypatch.setattr(passes.Threads, "trace", need)
     return early, late
 
 

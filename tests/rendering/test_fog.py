@@ -70,6 +70,7 @@ def test_depth_is_that_of_files() -> None:
     np.testing.assert_array_equal(image.normals, plain.normals)
 
 
+@once
 @pytest.mark.parametrize("samples", [1, 4])
 @pytest.mark.parametrize("lights", ["points", "soft"])
 def test_samples_see_it_each(samples: int, lights: str) -> None:

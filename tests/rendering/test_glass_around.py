@@ -124,6 +124,7 @@ def test_under_water() -> None:
         assert image.linear[Y, X] == left(below, 0.01)
 
 
+@once
 def test_cut_glass() -> None:
     scene = bodies()
     scene.objects = [item for item in scene.objects if isinstance(item, vtray.Sphere)]

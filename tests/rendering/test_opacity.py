@@ -177,6 +177,7 @@ def test_albedo_is_that_of_the_oracle(seed: int) -> None:
     assert np.count_nonzero(is_wrong) <= 1
 
 
+@once
 @pytest.mark.parametrize("samples", [1, 4])
 def test_albedo_has_as_much_of_each_layer_as_is_seen(samples: int) -> None:
     scene = vtray.Scene(camera(size=(6, 4)), [vtray.Light((4, -9, 8), 1.0)], [])

@@ -300,6 +300,7 @@ def rolled(picture: Callable[[tuple[int, int, int]], np.ndarray]) -> int:
     return np.abs(np.roll(one, one.shape[1] // 2, axis=1) - other).max()
 
 
+@once
 @pytest.mark.parametrize(
     "style",
     [

@@ -284,7 +284,8 @@ def words_in(tree: RayTree) -> list[str]:
     return [text.get_text() for text in ax.texts]
 
 
-@pytest.mark.parametrize("integrator", [pytest.param("whitted", marks=once), "path"])
+@once
+@pytest.mark.parametrize("integrator", ["whitted", "path"])
 def test_drawings_show_the_rays_that_go_on(integrator: str) -> None:
     pytest.importorskip("matplotlib")
     image = rendered(all_materials(), integrator)

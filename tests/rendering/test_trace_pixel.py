@@ -483,6 +483,7 @@ def test_the_light_that_adds_most_chooses_the_drawing() -> None:
     assert any("and the ray to lights[1];" in text for text in texts(tree.draw()))
 
 
+@once
 @pytest.mark.parametrize(
     "light",
     [

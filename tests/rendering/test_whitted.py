@@ -125,6 +125,7 @@ def test_rough_surfaces_are_shown_as_smooth_and_said_to_be() -> None:
     assert rough.linear.tobytes() == vtray.render(smooth, integrator="whitted").linear.tobytes()
 
 
+@once
 def test_what_leaves_all_else_dark_is_warned_of() -> None:
     scene = room(("mirror", "lambert", "lambert", "lambert"), (32, 24))
     scene.lights = [vtray.Sun((0.3, 1, -0.8), angle=20)]
@@ -150,6 +151,7 @@ def test_samples_are_no_brighter_than_is_asked(kind: str) -> None:
     assert vtray.trace_pixel(image, 6, 8).light == pytest.approx(image.linear[8, 6])
 
 
+@once
 @pytest.mark.parametrize("samples", [1, 4])
 @pytest.mark.parametrize("integrator", ["whitted", "path"])
 def test_lamps_that_are_seen_are_as_bright_as_they_are(integrator: str, samples: int) -> None:

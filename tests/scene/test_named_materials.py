@@ -137,6 +137,7 @@ def test_unknown_keys_are_told_once() -> None:
     assert [problem.split(":")[1] for problem in problems] == [" materials.ruby.iorr", " extra"]
 
 
+@once
 def test_fit_the_schema() -> None:
     schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
     balls = {"type": "spheres", "data": "balls.npz", "material": ["ruby", "chrome", RUBY]}

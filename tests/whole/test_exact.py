@@ -20,7 +20,7 @@ from llvmlite import binding
 from machine_code import inexact_in
 
 import vtray
-from conftest import compiled_only
+from conftest import compiled_only, once
 from vtray.base.compiler.compiled import Device, Kernel
 from vtray.base.compiler.function_names import full_name
 from vtray.base.compiler.kernel_folder import SUFFIX, cache_folder
@@ -264,6 +264,7 @@ def inexact_lines(name: str, source: str) -> Iterator[str]:
             yield f"{name}: {ast.unparse(node)}"
 
 
+@once
 def test_no_source_uses_what_differs() -> None:
     modules = {
         file.relative_to(SOURCES).with_suffix("").as_posix(): file.read_text()

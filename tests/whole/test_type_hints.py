@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+CACHE = Path(__file__).parents[2] / ".mypy_cache"
+
 RIGHT = """
 from collections.abc import Iterator
 
@@ -59,9 +61,8 @@ def test_type_checkers_know_right_from_wrong(tmp_path: Path) -> None:
     api = pytest.importorskip("mypy.api")
     path = tmp_path / "user.py"
     path.write_text("\n".join([RIGHT, *WRONG]))
-    said, problems, _ = api.run(
-        ["--strict", "--no-pretty", "--cache-dir", str(tmp_path), str(path)]
-    )
+    # What `make lint` has found out of vtray need not be found out again.
+    said, problems, _ = api.run(["--strict", "--no-pretty", "--cache-dir", str(CACHE), str(path)])
     first = len(RIGHT.splitlines()) + 1
     lines = path.read_text().splitlines()
     found = {int(line.split(":")[1]) for line in said.splitlines() if ": error: " in line}

@@ -1,10 +1,16 @@
 """A stopwatch with laps."""
 
 import time
+from collections.abc import Callable
 
 
 class Stopwatch:
     """Takes the seconds of one step after the other.
+
+    Parameters
+    ----------
+    apart
+        Returns how many seconds went into what belongs to no step; by default, none did.
 
     Attributes
     ----------
@@ -12,12 +18,13 @@ class Stopwatch:
         The time of each step so far, by its name.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, apart: Callable[[], float] = float) -> None:
         self.seconds: dict[str, float] = {}
-        self._last = time.perf_counter()
+        self._apart = apart
+        self._last = time.perf_counter() - apart()
 
     def lap(self, step: str) -> None:
         """Note the time since the last lap as that of `step`."""
-        now = time.perf_counter()
+        now = time.perf_counter() - self._apart()
         self.seconds[step] = now - self._last
         self._last = now

@@ -16,6 +16,10 @@ class Tile(NamedTuple):
     bottom: int
 
 
+NO_TILE = Tile(0, 0, 0, 0)
+"""A tile without pixels."""
+
+
 def split_into_tiles(width: int, height: int, side: int = TILE) -> list[Tile]:
     """Return the tiles of an image, row by row."""
     return [

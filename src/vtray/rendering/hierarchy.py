@@ -96,7 +96,10 @@ def without_hierarchy(scene: Scene) -> Acceleration | None:
     are copies, faded or very many shapes.
     """
     items = [item for item in scene.objects if not isinstance(item, (Plane, Stars))]
-    wholes = _wholes(items, number_objects(items), _few_of(scene))
+    numbering, few = number_objects(items), _few_of(scene)
+    if not (numbering.size > few).any() and len(items) <= few:
+        return None
+    wholes = _wholes(items, numbering, few)
     is_simple = not any(part.place >= 0 or _faded(part).count for part in wholes)
     is_built = any(part.count > part.few for part in wholes)
     if is_built and is_simple and sum(part.count for part in wholes) <= SOON:

@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 from vtray.base.memory import check_memory_of_lights
 from vtray.base.pool import Progress
-from vtray.base.tiles import TILE, Tile, split_into_tiles
+from vtray.base.tiles import TILE, split_into_tiles
 from vtray.geometry.ray import Footprint
 from vtray.geometry.shapes import cone, cylinder, sphere
 from vtray.geometry.world import World
 from vtray.image.white import white_of
 from vtray.rendering.edge_pixels import edge_pixels
-from vtray.rendering.engines.engine import Engine, begin_compiling, trace_to
+from vtray.rendering.engines.engine import Engine, begin_compiling
 from vtray.rendering.engines.threads import Threads
 from vtray.rendering.growth import DRAFT_TILE, Growth, draft_camera
 from vtray.scene.settings import RenderSettings
@@ -384,20 +384,11 @@ def _thickest(world: World) -> float:
     return max(float(of_kind.max(initial=0.0)) for of_kind in radii) * world.scale
 
 
-def compile_kernels(scene: SceneArrays, settings: RenderSettings, more: Sequence[str] = ()) -> None:
-    """Compile what is needed to trace a scene, or load it from disk; see `Tracer.light`."""
-    trace_to(*_first_pass(scene, settings, more), Tile(0, 0, 0, 0))
-
-
 def begin_kernels(scene: SceneArrays, settings: RenderSettings, more: Sequence[str] = ()) -> None:
-    """Begin to compile the same, before other kernels that this process compiles meanwhile."""
-    begin_compiling(*_first_pass(scene, settings, more))
+    """Begin to compile what traces the first pass, before what this process compiles meanwhile.
 
-
-def _first_pass(
-    scene: SceneArrays, settings: RenderSettings, more: Sequence[str]
-) -> tuple[Film, SceneArrays, Sampling]:
-    """Return a film of no size, the scene, and the rays of the middles of pixels."""
+    The parameters are those of `Tracer` and `Tracer.light`.
+    """
     has_samples = settings.samples > 1
     scene = scene if has_samples else with_pinhole(scene)
     soft = scene.lights.soft
@@ -405,4 +396,5 @@ def _first_pass(
     noise = None if soft is None else Noise(math.inf, by_light=True)
     (fans, paths), _ = rays_from_surfaces(settings, noise)
     lens = lens_points(scene.camera, int(settings.samples))
-    return film, scene, middle_rays(before_samples=has_samples, fans=fans, paths=paths, lens=lens)
+    rays = middle_rays(before_samples=has_samples, fans=fans, paths=paths, lens=lens)
+    begin_compiling(film, scene, rays)

@@ -159,8 +159,9 @@ def variance_on_trial(
     arrays, soft = packed.arrays, packed.arrays.lights.soft
     assert soft is not None  # noqa: S101 - they have fans
     spent, scratch = 0.0, _scratch(packed, traced, fans)
+    world, lamps, cast = pinned(arrays), pinned(soft), pinned(fans)
     for light in range(len(soft.kind)):
-        known = arrays, soft, traced, *pixel, light, fans, 1
+        known = world, lamps, traced, *pixel, light, cast, 1
         lamp = trace_lamp(*known, spent, seed, *scratch)
         spent += lamp.counted
     return spent

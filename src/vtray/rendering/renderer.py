@@ -43,7 +43,7 @@ from vtray.rendering.growth import Growth
 from vtray.rendering.guides import Guiding
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import Packed, pack
-from vtray.rendering.passes import Tracer, compile_kernels
+from vtray.rendering.passes import Tracer
 from vtray.rendering.relighting import Relighting, Rerendering
 from vtray.rendering.seen_sky import SeenSky, check_sky
 from vtray.rendering.starlight import Starlight, check_stars, has_stars
@@ -257,16 +257,15 @@ def render(
         load_library()  # before any work is done
     _tell(warn, *_problems(shown, settings, keep_lights=keep_lights))
     _check(shown, settings, is_shown=on_update is not None)
-    clock, loaded = Stopwatch(), loading_seconds()
+    # Kernels are compiled, or loaded, when they are first called: that is no part of a step.
+    clock, loaded = Stopwatch(loading_seconds), loading_seconds()
     kept = _accelerated(given, shown, settings, style, threads, progress)
-    loading = loading_seconds() - loaded
     check_followed(kept, scene.objects, settings, keep_lights=keep_lights)
     _tell(warn, NOTHING_LEFT if is_nothing_left(kept, scene.objects) else "")
     clock.lap("build")
     packed = styled(pack(shown, kept), style)
     clock.lap("pack")
     drawing = Drawing(style, shown, packed, threads)
-    compile_kernels(packed.arrays, settings, drawing.wanted)
     drawing.warm_up()
     warm_up(settings)
     sky = SeenSky(packed.arrays.camera, settings, threads)
@@ -322,9 +321,7 @@ def render(
         clock.lap("denoise")
     image.develop()
     clock.lap("develop")
-    # Kernels are loaded when they are first called; that is no part of the build.
-    clock.seconds["build"] -= loading
-    clock.seconds["compile"] += loading
+    clock.seconds["compile"] += loading_seconds() - loaded
     image.stats = {
         **clock.seconds,
         "rays": traced.rays,

@@ -166,11 +166,10 @@ def kinds_of(cls: type[msgspec.Struct]) -> dict[str, tuple[Any, Option]]:
 
 def _whole(value: object, kind: Any) -> Any:  # noqa: ANN401
     """Return a value of a kind, with integers as such."""
-    parts = alternatives(kind)
     if isinstance(value, tuple):
-        (pair,) = (part for part in parts if typing.get_origin(part) is tuple)
+        (pair,) = (part for part in alternatives(kind) if typing.get_origin(part) is tuple)
         return tuple(map(_whole, value, get_args(pair)))
-    return int(value) if isinstance(value, float) and int in parts else value
+    return int(value) if isinstance(value, float) and int in alternatives(kind) else value
 
 
 class _CheckedSettings(Checked):
@@ -272,7 +271,7 @@ class RenderSettings(
             If there is no setting of a name.
         """
         given = {name: value for name, value in changes.items() if value is not None}
-        return type(self)(**{**msgspec.structs.asdict(self), **given})
+        return type(self)(**{**msgspec.structs.asdict(self), **given}) if given else self
 
 
 Given = TypeVar("Given", bound=Frozen)

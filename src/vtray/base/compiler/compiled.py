@@ -76,6 +76,9 @@ _OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "_nrt": False
 _POLL_SECONDS = 0.05
 
 _COMPILING = threading.RLock()
+_on_disk: set[str] = set()
+"""How the files of those kernels begin that were on disk when `was_compiled` looked."""
+
 _loading = [0.0]
 _trusted: list[bool] = []
 _waiting: list[Callable[[bool], object]] = []
@@ -174,9 +177,11 @@ def was_compiled(function: Callable[..., object]) -> bool:
     if folder is None:
         return True
     start = f"{full_name(uncompiled(function))}-"
-    with contextlib.suppress(FileNotFoundError):  # somebody has deleted it
-        return any(name.startswith(start) for name in os.listdir(folder))
-    return False
+    if start not in _on_disk:
+        with contextlib.suppress(FileNotFoundError):  # somebody has deleted it
+            if any(name.startswith(start) for name in os.listdir(folder)):
+                _on_disk.add(start)
+    return start in _on_disk
 
 
 def compile_ahead(function: Callable[..., object], *arguments: object) -> None:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import compile_ahead
 from vtray.base.pool import Progress
-from vtray.base.tiles import Tile
+from vtray.base.tiles import NO_TILE, Tile
 from vtray.geometry.packets.packet import new_packet
 from vtray.geometry.packets.workspace import new_workspace
 from vtray.transport.film import Film, new_film
@@ -100,7 +100,7 @@ def trace_to(film: Film, scene: SceneArrays, sampling: Sampling, tile: Tile) -> 
 
 def begin_compiling(film: Film, scene: SceneArrays, sampling: Sampling) -> None:
     """Compile what traces tiles before its turn; its parts are left to other processes."""
-    compile_ahead(trace_tile, *_arguments(film, scene, sampling, Tile(0, 0, 0, 0)))
+    compile_ahead(trace_tile, *_arguments(film, scene, sampling, NO_TILE))
 
 
 def _arguments(film: Film, scene: SceneArrays, sampling: Sampling, tile: Tile) -> tuple[Any, ...]:

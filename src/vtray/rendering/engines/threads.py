@@ -6,9 +6,9 @@ import numpy as np
 
 from vtray.base.compiler.compiled import pinned
 from vtray.base.pool import Progress, run_tasks
-from vtray.base.tiles import Tile
-from vtray.geometry.packets.packet import new_packet
-from vtray.geometry.packets.workspace import new_workspace
+from vtray.base.tiles import NO_TILE, Tile
+from vtray.geometry.packets.packet import Packet, new_packet
+from vtray.geometry.packets.workspace import Workspace, new_workspace
 from vtray.rendering.engines.engine import Cast, Done
 from vtray.transport.film import Film
 from vtray.transport.integrators.direct import trace_tile
@@ -28,6 +28,10 @@ class Threads:
 
     def __init__(self, threads: int) -> None:
         self._threads = threads
+        # Taken apart for all passes of a picture, and the memory of each thread.
+        self._scene: SceneArrays | None = None
+        self._pinned: SceneArrays | None = None
+        self._memory: list[tuple[Packet, Workspace]] = []
 
     def trace(
         self,
@@ -41,15 +45,16 @@ class Threads:
         """Trace tiles; see `Engine.trace`. If one fails, or on Ctrl-C, the others are given up."""
         stop = np.zeros(1, np.bool_)
         results: list[tuple[float, int]] = []
-        world, places = pinned(scene), pinned(sampling)
-        sharing = sharing_lights(scene.lights.crowd)
-        canvas, flag = pinned(film), pinned(stop)
+        world, spare = self._begin(scene)
+        places, canvas, flag = pinned(sampling), pinned(film), pinned(stop)
+        # What compiles or loads the kernel is this thread, on which no other has to wait.
+        trace_tile(world, places, *NO_TILE, canvas, *spare[0], flag)
 
         def new_worker() -> Callable[[Tile], None]:
-            packet, work = (
-                pinned(new_packet()),
-                pinned(new_workspace(scene.world, sharing, depth_of(scene))),
-            )
+            try:
+                packet, work = spare.pop()
+            except IndexError:  # more threads than there were for the passes before
+                packet, work = self._new_memory(scene)
 
             def trace_one(tile: Tile) -> None:
                 results.append(trace_tile(world, places, *tile, canvas, packet, work, flag))
@@ -63,3 +68,18 @@ class Threads:
 
         run_tasks(tiles, new_worker, self._threads, stop=hurry, progress=progress)
         return Cast(max(peak for peak, _ in results), sum(rays for _, rays in results))
+
+    def _begin(self, scene: SceneArrays) -> tuple[SceneArrays, list[tuple[Packet, Workspace]]]:
+        """Return what kernels take for a scene, and memory for some threads, at least for one."""
+        if self._pinned is None or scene is not self._scene:
+            self._scene, self._pinned, self._memory = scene, pinned(scene), []
+            self._new_memory(scene)
+        return self._pinned, [*self._memory]
+
+    def _new_memory(self, scene: SceneArrays) -> tuple[Packet, Workspace]:
+        """Return memory for one more thread."""
+        sharing = sharing_lights(scene.lights.crowd)
+        work = new_workspace(scene.world, sharing, depth_of(scene))
+        made = pinned(new_packet()), pinned(work)
+        self._memory.append(made)
+        return made
