@@ -237,8 +237,10 @@ class SpreadRay(NamedTuple):
 def fan_ray(lit: Lit, light: AnyLight, ray: SpreadRay, primitive: int) -> FanRay:
     """Return a ray of a fan; `primitive` is the number of what blocks it."""
     direction = ray.vector(DIRECTION)
-    own = hypotenuse(*uncompiled(sub)(ray.vector(END), ray.start)) * ray.unit
-    length = length_towards(light, own)
+    to_end = math.inf
+    if isinstance(light, Lamp):
+        to_end = hypotenuse(*uncompiled(sub)(ray.vector(END), ray.start)) * ray.unit
+    length = length_towards(light, to_end)
     blocker = None
     if primitive != NOTHING:
         blocker = find_blocker(lit.scene, lit.numbering, primitive, lit.hit.point, direction)

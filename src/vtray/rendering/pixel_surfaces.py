@@ -1,6 +1,5 @@
 """What a number that rays have met stands for, as users are told it."""
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -53,8 +52,19 @@ def find_surface(
         points = [uncompiled(add)(point, shift) for point in points]
     (center, *ends), (radius, *others) = points, radii
     end, radius_end = (next(iter(rest), None) for rest in (ends, others))
-    surface = Surface(found.place, number, center, radius, None, color, lambert, end, copy, part)
-    return replace(surface, radius_end=radius_end)
+    return Surface(
+        found.place,
+        number,
+        center,
+        radius,
+        None,
+        color,
+        lambert,
+        end,
+        copy,
+        part,
+        radius_end=radius_end,
+    )
 
 
 def find_blocker(
@@ -107,4 +117,5 @@ def _row(item: ArrayHolder, name: str, index: int) -> Vec:
 
 def _number(item: Arrays, name: str, index: int) -> float:
     """Return a number of an array, or the one that stands for all."""
-    return float(np.broadcast_to(getattr(item, name), len(item))[index])
+    column = np.asarray(getattr(item, name))
+    return float(column.item(index if column.size > 1 else 0))
