@@ -1,6 +1,7 @@
 """What may stand between a point and a lamp: against the rays of the lamp, one by one."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,11 +9,13 @@ import pytest
 import vtray
 from conftest import JIT, once
 from vtray import Scene
+from vtray.base.compiler.compiled import kernel
 from vtray.geometry.between import is_occluded
 from vtray.geometry.packets.cone import (
     CLOSED,
     MANY,
     Cone,
+    Touching,
     find_among,
     find_touching,
     new_touching,
@@ -47,6 +50,27 @@ def scene_of(kind: str) -> Scene:
     return scene
 
 
+@kernel
+def ask(
+    cone: Cone,
+    spread: float,
+    length: float,
+    places: Any,
+    world: World,
+    touching: Touching,
+    stack: Stack,
+) -> tuple[int, int]:
+    """Return what a cone tells, and how many of its rays something is in the way of."""
+    start, blocked = cone.start, 0
+    for k in range(places.shape[0]):
+        direction = cone_direction(places[k, 0], places[k, 1], cone.axis, spread)
+        end = add(start.point, scale(length, direction))
+        depth = dot(end, cone.forward)
+        segment = Segment(start.point, end, start.plane_depth, depth, start.error_scale, 0.0)
+        blocked += 1 if is_occluded(world, segment, stack) else 0
+    return find_touching(cone, world, touching, stack), blocked
+
+
 @pytest.mark.parametrize("kind", ["few", "many", "bonds", "copies"])
 def test_a_cone_tells_what_all_its_rays_would(kind: str) -> None:
     scene, random = scene_of(kind), np.random.default_rng(5)
@@ -64,13 +88,7 @@ def test_a_cone_tells_what_all_its_rays_would(kind: str) -> None:
         length = random.choice([1.0, 1e4]) * unit
         sine = math.sqrt(spread * (2 - spread))
         cone = Cone(start, 0.0, axis, 1 - spread, sine, length, length, forward)
-        count = find_touching(cone, world, touching, stack)
-        blocked = 0
-        for u, v in random.random((RAYS, 2)):
-            end = add(point, scale(length, cone_direction(u, v, axis, spread)))
-            depth = dot(end, forward)
-            segment = Segment(point, end, start.plane_depth, depth, start.error_scale, 0.0)
-            blocked += is_occluded(world, segment, stack)
+        count, blocked = ask(cone, spread, length, random.random((RAYS, 2)), world, touching, stack)
         if count == 0:
             assert blocked == 0
         elif count == CLOSED:
@@ -83,15 +101,18 @@ def test_a_cone_tells_what_all_its_rays_would(kind: str) -> None:
     assert answers["some"] > 0
 
 
-def _is_blocked(cone: Cone, aim: Aim, u: float, v: float, world: World, stack: Stack) -> bool:
-    """Tell whether a ray of a cone to a light is stopped."""
-    start = cone.start
-    direction = cone_direction(u, v, cone.axis, 1 - cone.cosine)
-    way = scale(length_to(aim, start.point, direction), direction)
-    end_depth = start.plane_depth + dot(way, cone.forward)
-    end = add(start.point, way)
-    segment = Segment(start.point, end, start.plane_depth, end_depth, start.error_scale, 0.0)
-    return is_occluded(world, segment, stack)
+@kernel
+def count_blocked(cone: Cone, aim: Aim, places: Any, world: World, stack: Stack) -> int:
+    """Return how many rays of a cone to a light something is in the way of."""
+    start, blocked = cone.start, 0
+    for k in range(places.shape[0]):
+        direction = cone_direction(places[k, 0], places[k, 1], cone.axis, 1 - cone.cosine)
+        way = scale(length_to(aim, start.point, direction), direction)
+        end_depth = start.plane_depth + dot(way, cone.forward)
+        end = add(start.point, way)
+        segment = Segment(start.point, end, start.plane_depth, end_depth, start.error_scale, 0.0)
+        blocked += 1 if is_occluded(world, segment, stack) else 0
+    return blocked
 
 
 @once
@@ -130,7 +151,7 @@ def test_what_a_cone_from_a_spot_finds_is_all_that_those_from_its_points_touch(k
             found = find_among(cone, world, touching, count, own)
             answers[{0: "open", CLOSED: "closed"}.get(found, "some")] += 1
             ways = random.random((RAYS // 4, 2))
-            blocked = sum(_is_blocked(cone, aim, u, v, world, stack) for u, v in ways)
+            blocked = count_blocked(cone, aim, ways, world, stack)
             if found == 0:
                 assert blocked == 0
             elif found == CLOSED:

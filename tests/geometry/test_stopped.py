@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 import vtray
 from conftest import JIT, compiled_only
 from vtray import Scene
-from vtray.base.compiler.compiled import device, uncompiled
+from vtray.base.compiler.compiled import device, kernel, uncompiled
 from vtray.geometry.between import is_occluded
 from vtray.geometry.bits import count_bits, lowest_bit
 from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh
 from vtray.geometry.packets.batch import new_batch, spot_of
-from vtray.geometry.packets.cone import MANY, new_touching
+from vtray.geometry.packets.cone import MANY, Touching, new_touching
 from vtray.geometry.packets.fan import (
     BLOCKED,
     DIRECTION,
@@ -49,10 +49,11 @@ from vtray.geometry.packets.packet import (
     new_packet,
     store,
 )
-from vtray.geometry.packets.stack import new_stack
+from vtray.geometry.packets.stack import Stack, new_stack
 from vtray.geometry.stopped import Bundle, stop_rays, way_of
 from vtray.geometry.vector import Vec, add, dot, magnitude, scale
 from vtray.geometry.warps import cosine_direction
+from vtray.geometry.world import World
 from vtray.rendering import hierarchy
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
@@ -124,6 +125,14 @@ def set_fan(
     fan[BLOCKED + first + rays - 1] = 1.0
 
 
+@kernel
+def ask(bundle: Bundle, world: World, touching: Touching, stack: Stack, hidden: Any) -> None:
+    """Stop the rays of a fan together, and tell of each whether something is in its way, 1 or 0."""
+    stop_rays(bundle, world, touching, MANY, stack)
+    for ray in range(hidden.size):
+        hidden[ray] = 1.0 if is_occluded(world, way_of(bundle, ray), stack) else 0.0
+
+
 @pytest.mark.parametrize(
     ("kind", "size", "place"),
     [
@@ -164,12 +173,11 @@ def test_what_stops_a_fan_stops_each_of_its_rays(
         set_fan(fan, start, above, length, forward, k)
         set_start(fan, 0, start, start.error_scale)
         bundle = Bundle(fan, RAYS, RAYS.bit_length() - 1, spot_at(start, above), length)
-        stop_rays(bundle, world, touching, MANY, stack)
-        for ray in range(RAYS - 1):
-            hidden = is_occluded(world, way_of(bundle, ray), stack)
-            assert fan[BLOCKED + ray] == (1.0 if hidden else 0.0)
-            found.append(hidden)
+        hidden = np.zeros(RAYS)
+        ask(bundle, world, touching, stack, hidden)
+        assert np.array_equal(fan[BLOCKED:][: RAYS - 1], hidden[:-1])
         assert fan[BLOCKED + RAYS - 1] == 1.0
+        found.extend(hidden[:-1])
     assert (not JIT) or 0.03 < np.mean(found) < 0.97
 
 
@@ -227,13 +235,10 @@ def test_fans_that_start_apart_are_stopped_as_each_alone(
         if not is_before:
             continue
         bundle = Bundle(fan, RAYS, shift, spot_of(packet, batch, count), length)
-        is_open = [fan[BLOCKED + ray] == 0.0 for ray in range(RAYS)]
-        stop_rays(bundle, world, touching, MANY, stack)
-        for ray in range(RAYS):
-            if is_open[ray]:
-                hidden = is_occluded(world, way_of(bundle, ray), stack)
-                assert fan[BLOCKED + ray] == (1.0 if hidden else 0.0)
-                found.append(hidden)
+        is_open, hidden = fan[BLOCKED:][:RAYS] == 0.0, np.zeros(RAYS)
+        ask(bundle, world, touching, stack, hidden)
+        assert np.array_equal(fan[BLOCKED:][:RAYS][is_open], hidden[is_open])
+        found.extend(hidden[is_open])
     assert (not JIT) or 0.03 < np.mean(found) < 0.97
 
 
