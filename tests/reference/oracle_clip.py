@@ -42,7 +42,7 @@ def _vector(item: Any) -> Array:
 
 
 def _dot(a: Array, b: Array) -> Array:
-    return (a * b).sum(-1)
+    return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2]
 
 
 class _Cutting:

@@ -1,7 +1,9 @@
 """Engines: whoever traces the tiles, in whatever order, the picture is the same."""
 
 import json
+import threading
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,10 +12,13 @@ from strategies import crowd
 import vtray
 from conftest import JIT
 from vtray.base.pool import Progress
-from vtray.base.tiles import Tile
+from vtray.base.tiles import NO_TILE, Tile
+from vtray.geometry.packets.workspace import new_workspace
 from vtray.rendering import passes
+from vtray.rendering.engines import threads
 from vtray.rendering.engines.engine import Cast, Done, Plan, paste, trace
 from vtray.transport.film import Film
+from vtray.transport.integrators.direct import trace_tile
 from vtray.transport.sampling.pixel_samples import Sampling
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -62,3 +67,27 @@ def test_picture_is_the_same_from_elsewhere(samples: int, monkeypatch: pytest.Mo
     np.testing.assert_array_equal(image.alpha, expected.alpha)
     for found, wanted in zip((image.depth, image.normals, image.ids), surfaces, strict=True):
         np.testing.assert_array_equal(found, wanted)
+
+
+def test_passes_share_what_threads_need(monkeypatch: pytest.MonkeyPatch) -> None:
+    made, tiles, callers = [], [], []
+
+    def new_memory(*arguments: Any) -> Any:
+        made.append(arguments)
+        return new_workspace(*arguments)
+
+    def trace_one(*arguments: Any) -> Any:
+        tiles.append(Tile(*arguments[2:6]))
+        callers.append(threading.current_thread())
+        return trace_tile(*arguments)
+
+    monkeypatch.setattr(threads, "new_workspace", new_memory)
+    monkeypatch.setattr(threads, "trace_tile", trace_one)
+    scene = vtray.loads(json.dumps(crowd(3, spheres=4)))
+    vtray.render(scene, samples=2, size=(9, 7), threads=1)
+    assert len(made) == 1  # for two passes
+    # Before the tiles of each, an empty one loads in this thread what the others need.
+    whole = Tile(0, 0, 9, 7)
+    assert tiles == [NO_TILE, whole, NO_TILE, whole]
+    here = threading.current_thread()
+    assert [caller is here for caller in callers] == [True, False, True, False]
