@@ -18,3 +18,6 @@ def test_what_belongs_to_no_step_is_in_none(monkeypatch: pytest.MonkeyPatch) -> 
     clock.lap("trace")
     assert plain.seconds == {"build": 2.0, "trace": 1.0}
     assert clock.seconds == {"build": 1.5, "trace": 1.0}
+    now[0], apart[0] = 14.0, 9.0  # another thread has done more meanwhile
+    clock.lap("develop")
+    assert clock.seconds["develop"] == 0.0

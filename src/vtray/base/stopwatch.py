@@ -26,5 +26,6 @@ class Stopwatch:
     def lap(self, step: str) -> None:
         """Note the time since the last lap as that of `step`."""
         now = time.perf_counter() - self._apart()
-        self.seconds[step] = now - self._last
+        # What is apart may be what another thread does at the same time, for a picture of its own.
+        self.seconds[step] = max(now - self._last, 0.0)
         self._last = now

@@ -28,7 +28,7 @@ class Threads:
 
     def __init__(self, threads: int) -> None:
         self._threads = threads
-        # Taken apart for all passes of a picture, and the memory of each thread.
+        # The scene, taken apart once for all passes of a picture, and the memory of each thread.
         self._scene: SceneArrays | None = None
         self._pinned: SceneArrays | None = None
         self._memory: list[tuple[Packet, Workspace]] = []
@@ -47,7 +47,7 @@ class Threads:
         results: list[tuple[float, int]] = []
         world, spare = self._begin(scene)
         places, canvas, flag = pinned(sampling), pinned(film), pinned(stop)
-        # What compiles or loads the kernel is this thread, on which no other has to wait.
+        # This thread compiles or loads what all others then have.
         trace_tile(world, places, *NO_TILE, canvas, *spare[0], flag)
 
         def new_worker() -> Callable[[Tile], None]:
