@@ -92,6 +92,7 @@ def test_arrays_may_be_written_to_again(
     assert (found[0] != found[2]).any()
 
 
+@once
 def test_what_moves_through_a_trajectory_is_looked_at_once_it_is_given(tmp_path: Path) -> None:
     places = np.zeros((1, 3))
 

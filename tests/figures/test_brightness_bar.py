@@ -35,6 +35,7 @@ def bars(image: vtray.Image, colorbar: Any = True, *, flat: bool = False) -> Any
     return list(zip(marks.scales, marks.bar_labels, strict=True))
 
 
+@once
 @pytest.mark.parametrize("stretch", ["linear", "asinh", "log"])
 @pytest.mark.parametrize(
     "options",

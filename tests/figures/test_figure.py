@@ -128,6 +128,7 @@ def assert_legible(figure: Any) -> None:
             assert not Bbox.intersection(box.padded(-1), other.padded(-1)), name
 
 
+@once
 @pytest.mark.parametrize("dpi", [None, 72, 100, 137.7, 300])
 @pytest.mark.parametrize("flat", [False, True])
 def test_no_pixel_is_changed(image: vtray.Image, dpi: float | None, flat: bool) -> None:

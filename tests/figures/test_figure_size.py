@@ -80,6 +80,7 @@ def test_width_alone_keeps_each_pixel(image: vtray.Image, width: float) -> None:
     np.testing.assert_array_equal(read(saved(figure, "png")), canvas(figure))
 
 
+@once
 @pytest.mark.parametrize(("width", "dpi"), [(3.3, 300), (3.37, 200), (2.345, 123.4)])
 def test_width_and_resolution_are_kept(image: vtray.Image, width: float, dpi: float) -> None:
     figure = image.figure(width=width, dpi=dpi)

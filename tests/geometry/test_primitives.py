@@ -9,7 +9,7 @@ import pytest
 from clouds import CLOUDS, cloud
 from sphere_trees import build_spheres
 
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray.geometry.bvh import build as bvh_build
 from vtray.geometry.bvh.build import Tree, build
 from vtray.geometry.bvh.join import join_trees
@@ -133,6 +133,7 @@ def test_several_trees_stand_in_one_pair_of_arrays() -> None:
         check(tree, bvh, root, 0, *corners)
 
 
+@once
 @pytest.mark.parametrize("name", CLOUDS)
 def test_crowds_are_divided_by_all_threads(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     spheres = cloud(name, COUNT, 2)

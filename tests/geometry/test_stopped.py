@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import vtray
-from conftest import JIT, compiled_only
+from conftest import JIT, compiled_only, once
 from vtray import Scene
 from vtray.base.compiler.compiled import device, kernel, uncompiled
 from vtray.geometry.between import is_occluded
@@ -133,6 +133,7 @@ def ask(bundle: Bundle, world: World, touching: Touching, stack: Stack, hidden: 
         hidden[ray] = 1.0 if is_occluded(world, way_of(bundle, ray), stack) else 0.0
 
 
+@once
 @pytest.mark.parametrize(
     ("kind", "size", "place"),
     [

@@ -7,7 +7,7 @@ import pytest
 from pictures import SCENE, hand_made
 
 import vtray
-from conftest import JIT
+from conftest import JIT, once
 from vtray.image.compositing import composite
 from vtray.image.exposure import develop
 from vtray.scene.style import Fog, Outline, Style
@@ -53,6 +53,7 @@ def picture(seed: int, background: object, *, lines: bool, shade: bool, fog: str
     )
 
 
+@once
 @pytest.mark.parametrize("background", BACKGROUNDS, ids=str)
 @pytest.mark.parametrize("fog", ["", "clear", "blue"])
 @pytest.mark.parametrize("lines", [False, True])

@@ -125,6 +125,7 @@ def test_single_rays_see_the_same() -> None:
     assert vtray.trace_pixel(scene, SIZE[0] // 2, SIZE[1] // 2).scene.lights == image.scene.lights
 
 
+@once
 @pytest.mark.parametrize("opacity", [None, 0.5])
 def test_objects_that_hold_nothing_need_no_light(opacity: float | None) -> None:
     scene = vtray.Scene(camera=balls().camera)

@@ -89,6 +89,7 @@ def test_samples_see_it_each(samples: int, lights: str) -> None:
     assert (image.linear <= 0.875 * plain.linear * (1 + 1e-12)).all()
 
 
+@once
 @pytest.mark.parametrize("fog", [(11, 19), (11, 19, "red")])
 @pytest.mark.parametrize("samples", [1, 4])
 def test_light_and_colours_change_as_in_a_new_render(fog: object, samples: int) -> None:

@@ -201,6 +201,7 @@ def test_a_hollow_ball_is_lit_by_a_series(share: float, depth: int) -> None:
     assert not image.emission.any()
 
 
+@once
 @pytest.mark.parametrize("integrator", ["whitted", "path"])
 def test_a_lamp_in_a_mirror_is_direct(integrator: str) -> None:
     mirror = vtray.Plane((0, 0, 0), (0, 0, 1), WHITE, material="mirror")

@@ -344,6 +344,7 @@ def test_figures_have_no_scale_bar_unless_one_is_asked_for() -> None:
         image.figure(scalebar="nm")
 
 
+@once
 @pytest.mark.parametrize("point", [(0, 5, 0), (0, -5, 0), (0, 0, -5), (1e-12, 0, -5)])
 def test_labels_at_all_edges_are_shown(point: tuple[float, ...]) -> None:
     size = (300, 150) if JIT else (80, 40)

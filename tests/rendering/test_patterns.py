@@ -420,6 +420,7 @@ def test_wrong_values_are_named(make: Any, message: str) -> None:
         make()
 
 
+@once
 @pytest.mark.parametrize("size", [5e-324, 1e-300, 1e300])
 @pytest.mark.parametrize("shape", SHAPES)
 def test_sizes_may_be_extreme(shape: str, size: float) -> None:

@@ -335,6 +335,7 @@ def fan_of(world: vtray.Scene, number: int = 0) -> ShadowFan:
     return way
 
 
+@once
 @pytest.mark.parametrize("kind", SOFT)
 def test_rays_to_lights_that_are_no_points(kind: str) -> None:
     light = SOFT[kind]

@@ -132,6 +132,7 @@ def apart(seed: int, view: dict) -> dict:
     return scene(balls + wall, [light(5, -5, 0)], size=size, resolution=pixel, **view)
 
 
+@once
 @pytest.mark.parametrize("filter_name", ["box", "blackman-harris", "mitchell"])
 @pytest.mark.parametrize("view", CLOUD_VIEWS)
 @pytest.mark.parametrize("seed", range(3 if JIT else 1))
