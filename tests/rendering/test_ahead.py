@@ -54,6 +54,11 @@ def balls(scene: vtray.Scene, **columns: Any) -> None:
     scene.add_spheres(PLACES, 0.1, **columns)
 
 
+def two_handfuls(scene: vtray.Scene) -> None:
+    scene.add_spheres(PLACES[:6], 0.1)
+    scene.add_spheres(PLACES[6:12], 0.1)
+
+
 def bonds(scene: vtray.Scene) -> None:
     balls(scene)
     scene.add_cylinders(PLACES[:-1], PLACES[1:], 0.02)
@@ -74,6 +79,7 @@ def many_materials(scene: vtray.Scene) -> None:
     ("add", "settings"),
     [
         (balls, {}),
+        (two_handfuls, {}),
         (bonds, {}),
         (arrows, {}),
         (arrows, {"samples": 4, "fog": True}),

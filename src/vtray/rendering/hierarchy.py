@@ -97,7 +97,7 @@ def without_hierarchy(scene: Scene) -> Acceleration | None:
     """
     items = [item for item in scene.objects if not isinstance(item, (Plane, Stars))]
     numbering, few = number_objects(items), _few_of(scene)
-    if not (numbering.size > few).any() and len(items) <= few:
+    if numbering.size.sum() <= few:
         return None
     wholes = _wholes(items, numbering, few)
     is_simple = not any(part.place >= 0 or _faded(part).count for part in wholes)
