@@ -13,14 +13,13 @@ import vtray
 from conftest import JIT
 from vtray.base.pool import Progress
 from vtray.base.tiles import NO_TILE, Tile
-from vtray.geometry.packets.workspace import new_workspace
 from vtray.rendering import passes
 from vtray.rendering.engines import threads
 from vtray.rendering.engines.engine import Cast, Done, Plan, paste, trace
 from vtray.transport.film import Film
 from vtray.transport.integrators.direct import trace_tile
 from vtray.transport.sampling.pixel_samples import Sampling
-from vtray.transport.scene_arrays import SceneArrays
+from vtray.transport.scene_arrays import SceneArrays, new_memory
 
 
 class Elsewhere:
@@ -72,16 +71,16 @@ def test_picture_is_the_same_from_elsewhere(samples: int, monkeypatch: pytest.Mo
 def test_passes_share_what_threads_need(monkeypatch: pytest.MonkeyPatch) -> None:
     made, tiles, callers = [], [], []
 
-    def new_memory(*arguments: Any) -> Any:
-        made.append(arguments)
-        return new_workspace(*arguments)
+    def new_one(scene: SceneArrays) -> Any:
+        made.append(scene)
+        return new_memory(scene)
 
     def trace_one(*arguments: Any) -> Any:
         tiles.append(Tile(*arguments[2:6]))
         callers.append(threading.current_thread())
         return trace_tile(*arguments)
 
-    monkeypatch.setattr(threads, "new_workspace", new_memory)
+    monkeypatch.setattr(threads, "new_memory", new_one)
     monkeypatch.setattr(threads, "trace_tile", trace_one)
     scene = vtray.loads(json.dumps(crowd(3, spheres=4)))
     vtray.render(scene, samples=2, size=(9, 7), threads=1)

@@ -20,10 +20,8 @@ from vtray.geometry.packets.packet import (
     NO_PRIMITIVE,
     ORIGIN,
     PRIMITIVE,
-    new_packet,
 )
 from vtray.geometry.packets.pending import NUMBERS
-from vtray.geometry.packets.workspace import new_workspace
 from vtray.geometry.queries import NOTHING
 from vtray.geometry.vector import Vec, add, dot, scale
 from vtray.geometry.world import body_count
@@ -46,12 +44,11 @@ from vtray.transport.integrators.single_path import (
     light_matt,
 )
 from vtray.transport.integrators.soft_trial import fans_for
-from vtray.transport.lights.crowd import sharing_lights
 from vtray.transport.lights.light import light_count
 from vtray.transport.sampling.estimate import AS_NEEDED
 from vtray.transport.sampling.paths import Step, seed_of_step
 from vtray.transport.sampling.pixel_samples import Sampling
-from vtray.transport.scene_arrays import depth_of
+from vtray.transport.scene_arrays import new_memory
 
 BLACK, WHITE = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
 
@@ -131,9 +128,7 @@ class _Follower:
         self._looks, self._sampling = arrays.materials.looks, sampling
         self._materials = materials_by_row(pixel.packed.made)
         self._place = Place(*pixel.place, sample)
-        sharing = sharing_lights(arrays.lights.crowd)
-        self._packet = new_packet()
-        self._work = new_workspace(arrays.world, sharing, depth_of(arrays))
+        self._packet, self._work = new_memory(arrays)
         scene, looks, cast = pinned(arrays), pinned(self._looks), pinned(sampling)
         # What kernels are given for each ray.
         self._given = scene, looks, cast, self._place, self._packet, pinned(self._work)

@@ -3,10 +3,13 @@
 from typing import NamedTuple
 
 from vtray.base.compiler.compiled import device
+from vtray.geometry.packets.packet import Packet, new_packet
+from vtray.geometry.packets.workspace import Workspace, new_workspace
 from vtray.geometry.vector import Vec
 from vtray.geometry.world import World
 from vtray.transport.camera_rays import CameraFrame
 from vtray.transport.fog import FogFrame
+from vtray.transport.lights.crowd import sharing_lights
 from vtray.transport.lights.light import Lights, Powers, no_lights, powers_of
 from vtray.transport.materials.material import Materials
 
@@ -81,7 +84,9 @@ def with_pinhole(scene: SceneArrays) -> SceneArrays:
     return scene._replace(camera=scene.camera._replace(lens=None))
 
 
-def depth_of(scene: SceneArrays) -> int:
-    """Return over how many surfaces rays are followed at the most; -1 if none is."""
+def new_memory(scene: SceneArrays) -> tuple[Packet, Workspace]:
+    """Return the memory in which one thread follows the rays of a scene."""
     looks = scene.materials.looks
-    return -1 if looks is None else looks.depth
+    # Over how many surfaces; -1 if over none.
+    depth = -1 if looks is None else looks.depth
+    return new_packet(), new_workspace(scene.world, sharing_lights(scene.lights.crowd), depth)

@@ -9,13 +9,10 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import compile_ahead
 from vtray.base.pool import Progress
 from vtray.base.tiles import NO_TILE, Tile
-from vtray.geometry.packets.packet import new_packet
-from vtray.geometry.packets.workspace import new_workspace
 from vtray.transport.film import Film, new_film
 from vtray.transport.integrators.direct import trace_tile
-from vtray.transport.lights.crowd import sharing_lights
 from vtray.transport.sampling.pixel_samples import Sampling
-from vtray.transport.scene_arrays import SceneArrays, depth_of
+from vtray.transport.scene_arrays import SceneArrays, new_memory
 
 Done = Callable[[Tile], object]
 """What is told that a tile is done."""
@@ -105,9 +102,7 @@ def begin_compiling(film: Film, scene: SceneArrays, sampling: Sampling) -> None:
 
 def _arguments(film: Film, scene: SceneArrays, sampling: Sampling, tile: Tile) -> tuple[Any, ...]:
     """Return what traces one tile, in memory of its own."""
-    sharing = sharing_lights(scene.lights.crowd)
-    packet, work = new_packet(), new_workspace(scene.world, sharing, depth_of(scene))
-    return scene, sampling, *tile, film, packet, work, np.zeros(1, np.bool_)
+    return scene, sampling, *tile, film, *new_memory(scene), np.zeros(1, np.bool_)
 
 
 def paste(tile: Tile, part: Film, marks: NDArray[np.bool_], film: Film) -> None:

@@ -7,14 +7,13 @@ import numpy as np
 from vtray.base.compiler.compiled import pinned
 from vtray.base.pool import Progress, run_tasks
 from vtray.base.tiles import NO_TILE, Tile
-from vtray.geometry.packets.packet import Packet, new_packet
-from vtray.geometry.packets.workspace import Workspace, new_workspace
+from vtray.geometry.packets.packet import Packet
+from vtray.geometry.packets.workspace import Workspace
 from vtray.rendering.engines.engine import Cast, Done
 from vtray.transport.film import Film
 from vtray.transport.integrators.direct import trace_tile
-from vtray.transport.lights.crowd import sharing_lights
 from vtray.transport.sampling.pixel_samples import Sampling
-from vtray.transport.scene_arrays import SceneArrays, depth_of
+from vtray.transport.scene_arrays import SceneArrays, new_memory
 
 
 class Threads:
@@ -78,8 +77,7 @@ class Threads:
 
     def _new_memory(self, scene: SceneArrays) -> tuple[Packet, Workspace]:
         """Return memory for one more thread."""
-        sharing = sharing_lights(scene.lights.crowd)
-        work = new_workspace(scene.world, sharing, depth_of(scene))
-        made = pinned(new_packet()), pinned(work)
+        packet, work = new_memory(scene)
+        made = pinned(packet), pinned(work)
         self._memory.append(made)
         return made
