@@ -26,12 +26,12 @@ pytestmark = [
 ]
 
 
-def assemble(text: str, codemodel: str = "large") -> bytes:
+def assemble(text: str, codemodel: str = "large", reloc: str = "static") -> bytes:
     """Return the object code of what is written in LLVM's language."""
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
     target = binding.Target.from_default_triple()
-    machine = target.create_target_machine(codemodel=codemodel, reloc="static")
+    machine = target.create_target_machine(codemodel=codemodel, reloc=reloc)
     code: bytes = machine.emit_object(binding.parse_assembly(text))
     return code
 
@@ -63,6 +63,37 @@ def test_functions_of_the_c_library_are_called() -> None:
     cells = (ctypes.c_uint8 * 4)()
     ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_void_p)(entry)(ctypes.addressof(cells))
     assert list(cells) == [7, 7, 7, 0]
+
+
+def test_constants_are_found_by_how_far_they_are() -> None:
+    text = "@c = internal constant double 2.5\n"
+    text += "define double @f() nounwind { %x = load volatile double, ptr @c ret double %x }"
+    entry = load(assemble(text, "small", "pic"), "f")
+    assert entry is not None
+    assert ctypes.CFUNCTYPE(ctypes.c_double)(entry)() == 2.5
+
+
+def test_constants_may_be_addresses() -> None:
+    text = "@c = internal constant double 2.5\n@p = internal constant ptr @c\n"
+    text += "define double @f() nounwind { %p = load volatile ptr, ptr @p"
+    text += " %x = load volatile double, ptr %p ret double %x }"
+    entry = load(assemble(text, "small", "pic"), "f")
+    assert entry is not None
+    assert ctypes.CFUNCTYPE(ctypes.c_double)(entry)() == 2.5
+
+
+@pytest.mark.parametrize(("codemodel", "reloc"), [("large", "static"), ("small", "pic")])
+def test_what_is_called_may_be_far_away(codemodel: str, reloc: str) -> None:
+    text = "declare double @g(double)\ndeclare double @h(double)\n"
+    text += "define double @f(double %x) nounwind { %y = call double @g(double %x)"
+    text += " %z = call double @h(double %y) %u = call double @g(double %z) ret double %u }"
+    kind = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)
+    others = {"g": kind(lambda x: x + 1.0), "h": kind(lambda x: 2.0 * x)}
+    known = {name: ctypes.cast(each, ctypes.c_void_p).value or 0 for name, each in others.items()}
+    entry = load(assemble(text, codemodel, reloc), "f", known)
+    assert entry is not None
+    assert kind(entry)(3.0) == 9.0
+    assert load(assemble(text, codemodel, reloc), "f", {"g": known["g"]}) is None
 
 
 def test_what_is_loaded_can_be_run_but_not_written() -> None:
@@ -102,7 +133,7 @@ CALL = "declare double @{0}(double)\ndefine double @f() nounwind {{ {1} }}"
                 "define double @f() nounwind { %x = load volatile double, ptr @c ret double %x }",
                 "small",
             ),
-            id="relative addresses",
+            id="addresses of 32 bits",
         ),
         pytest.param(
             lambda: assemble(

@@ -25,6 +25,7 @@ from numba.core.compiler import Compiler
 from numba.core.targetconfig import ConfigStack
 from numba.core.typing.templates import make_intrinsic_template
 
+from vtray.base.compiler.elf_loader import IS_KNOWN
 from vtray.base.compiler.in_memory import WORD, load, word_count
 from vtray.base.compiler.known_types import remembering
 from vtray.base.compiler.numba_passes import take_all_steps
@@ -147,7 +148,7 @@ class KernelLibrary(DeviceLibrary):
         return self._emitted()
 
     def _emitted(self) -> bytes:
-        code: bytes = self._codegen._tm.emit_object(self._final_module)  # noqa: SLF001
+        code: bytes = _machine(self._codegen).emit_object(self._final_module)
         return code
 
 
@@ -238,6 +239,26 @@ def type_of_calls(
     define.__signature__ = inspect.Signature([first, *parameters])  # type: ignore[attr-defined]
     make: Any = make_intrinsic_template
     return numba.types.Function(make(function, define, function.__name__))
+
+
+def _machine(codegen: Any) -> Any:  # noqa: ANN401
+    """Return what writes machine code for this processor.
+
+    Numba has each constant's address written out, in 64 bits, wherever it is read. Where
+    `elf_loader` places code and constants side by side, how far they are apart does, in 32.
+    """
+    if not IS_KNOWN:
+        return codegen._tm  # noqa: SLF001
+    if not _machines:
+        options: dict[str, Any] = {"opt": numba.config.OPT}  # type: ignore[attr-defined]
+        codegen._customize_tm_options(options)  # noqa: SLF001
+        options |= {"reloc": "pic", "codemodel": "small"}
+        target = binding.Target.from_triple(binding.get_process_triple())
+        _machines.append(target.create_target_machine(**options))
+    return _machines[0]
+
+
+_machines: list[Any] = []
 
 
 def _write_entry(module: ir.Module, called: Any, context: Any) -> None:  # noqa: ANN401

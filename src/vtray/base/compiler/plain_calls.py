@@ -23,6 +23,7 @@ from numba.core.callconv import RETCODE_OK, CPUCallConv, Status
 from numba.core.cpu import CPUContext
 
 from vtray.base.compiler.function_names import UnnamedError
+from vtray.base.compiler.items import Item, is_of_item
 from vtray.base.compiler.kept_types import symbol_of
 from vtray.base.compiler.known_types import remembering
 from vtray.base.compiler.mode import is_kept
@@ -155,6 +156,8 @@ class KernelContext(CPUContext):
 
     def get_function(self, fn: Any, sig: Any, _firstcall: bool = True) -> Any:
         """Return what writes a call of a function of Numba's, or of one that is new."""
+        if is_of_item(fn, sig):
+            return Item(self.get_function, fn, sig)
         try:
             return super().get_function(fn, sig, False)
         except NotImplementedError:
