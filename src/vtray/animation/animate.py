@@ -28,6 +28,7 @@ from vtray.animation.shots import SceneShots, TurnedShots, camera_around
 from vtray.animation.snapshots import snapshots_of
 from vtray.animation.sources import READING, first_of, source_of
 from vtray.animation.stage import Look, Shot, Warn
+from vtray.base.caller_warning import warn_caller
 from vtray.base.errors import SceneError
 from vtray.base.function import check_function
 from vtray.base.number import number_of
@@ -355,7 +356,7 @@ def _film(
     output.check(rate, look.bits, look.aov, is_annotated=bool(look.annotate))
     if client is not None:
         check_client(client)
-    return Film(output, rate, look, resume, on_warning=warn or _warn, client=client)
+    return Film(output, rate, look, resume, on_warning=warn or warn_caller, client=client)
 
 
 def _pivot(scene: Scene) -> Vec:
@@ -380,10 +381,3 @@ def _number(name: str, value: object, *, positive: bool = True) -> float:
         return number
     words = "a number > 0" if positive else "a number"
     raise SceneError(f"{name}: expected {words}, got {show(value)}")
-
-
-def _warn(message: str) -> None:
-    """Warn in the name of vtray: the code that called is some calls away."""
-    import warnings
-
-    warnings.warn(message, stacklevel=2)

@@ -1,12 +1,12 @@
 """A file of data as a scene: what the options of data say."""
 
 import argparse
-import warnings
 from functools import partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from vtray.animation.annotating import VARYING, annotated
+from vtray.base.caller_warning import warn_caller
 from vtray.base.errors import SceneError
 from vtray.commands import data_options
 from vtray.commands.annotation_options import PointLabel, labels_of, value_of
@@ -60,7 +60,7 @@ def shown_data(
     if not _is_empty(drawn):
         if len(particles) and not len(drawn.indices):
             words = f"--select: none of the {len(particles)} particles; the cell alone is shown"
-            warnings.warn(f"{options.scene}: {words}", stacklevel=2)
+            warn_caller(f"{options.scene}: {words}")
         _warn_if_all_fades(options, drawn, particles)
         _warn_if_lost(options, drawn)
         return scene, marks
@@ -135,7 +135,7 @@ def _warn_if_all_fades(options: argparse.Namespace, drawn: "Drawn", particles: "
         return
     if not chosen(particles, highlight, "highlight")[drawn.indices].any():
         words = f"none of the {len(drawn.indices)} particles that are drawn; all of them fade"
-        warnings.warn(f"{options.scene}: --highlight: {words}", stacklevel=2)
+        warn_caller(f"{options.scene}: --highlight: {words}")
 
 
 def _warn_if_lost(options: argparse.Namespace, drawn: "Drawn") -> None:
@@ -153,7 +153,7 @@ def _warn_if_lost(options: argparse.Namespace, drawn: "Drawn") -> None:
         if width < LOST * edge:
             words = f"the particles are {width / edge:.2g} times as wide as their cell"
             message = f"{options.scene}: {words}; --no-cell shows them larger"
-            warnings.warn(message, stacklevel=2)
+            warn_caller(message)
 
 
 def _is_empty(drawn: "Drawn") -> bool:

@@ -1,7 +1,6 @@
 """Scale bars: lengths that read well, and how long they are in a picture."""
 
 import math
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from decimal import Decimal
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.base.caller_warning import warn_caller
 from vtray.figures.point import point_of
 from vtray.figures.projection import project
 from vtray.figures.seen_objects import objects_seen
@@ -83,7 +83,7 @@ def scale_bar(image: Subject, scalebar: object, at: "ArrayLike | None") -> Scale
         if depth is None:
             if scalebar is not True:  # which is usual in figures, empty ones too
                 words = "nothing is seen whose distance it could be right at, so it is left out"
-                warnings.warn(f"scalebar: {words}; give a point as at", stacklevel=2)
+                warn_caller(f"scalebar: {words}; give a point as at")
             return None
     pixel = pixel_width(camera, depth or 0.0)
     length = round_length(SHARE * camera.size[0] * pixel)

@@ -5,6 +5,7 @@ from contextlib import nullcontext
 from functools import partial
 from typing import Any, Literal, Protocol
 
+from vtray.base.caller_warning import warn_caller
 from vtray.base.compiler.compiled import loading_seconds
 from vtray.base.function import check_function
 from vtray.base.memory import (
@@ -383,13 +384,8 @@ def _sharpness(camera: Camera, settings: RenderSettings) -> str:
 
 def _tell(warn: Warn | None, *problems: str) -> None:
     """Warn of each problem that is not "", in the name of the code that called `render`."""
-    for problem in problems:
-        if problem and warn is not None:
-            warn(problem)
-        elif problem:
-            import warnings
-
-            warnings.warn(problem, stacklevel=4)
+    for problem in filter(None, problems):
+        (warn or warn_caller)(problem)
 
 
 def _camera(scene: Scene, settings: RenderSettings) -> Camera:

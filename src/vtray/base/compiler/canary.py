@@ -8,12 +8,12 @@ it ends the process cannot be caught: that is why the versions of Numba and llvm
 
 import math
 import sys
-import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.base.caller_warning import warn_caller
 from vtray.base.compiler.native_call import NativeCall, unpack
 from vtray.base.version import __version__
 
@@ -119,7 +119,7 @@ def warn_of_slow_starts(reason: Exception) -> None:
         "which takes seconds but changes no picture; please report this, with the versions: "
         f"vtray {__version__}, {versions}, Python {python}"
     )
-    warnings.warn(message, stacklevel=2)
+    warn_caller(message)
 
 
 def _new_cage(first: int, number: int, *, writeable: bool) -> Cage:

@@ -10,13 +10,13 @@ import os
 import re
 import stat
 import time
-import warnings
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
 from blake3 import blake3
 
+from vtray.base.caller_warning import warn_caller
 from vtray.base.own_files import NotOwnError, check_own, read_own, write_own
 
 CACHE_VARIABLE = "VTRAY_CACHE_DIR"
@@ -97,7 +97,7 @@ def _warn(message: str) -> None:
     """Warn of what is not trusted, once in each process."""
     if not _warned:
         _warned.append(message)
-        warnings.warn(message, stacklevel=2)
+        warn_caller(message)
 
 
 def _kernels_in(home: Path) -> Path:

@@ -2,12 +2,12 @@
 
 import functools
 import math
-import warnings
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vtray.base.caller_warning import warn_caller
 from vtray.base.errors import SceneError
 from vtray.base.exact_math import logarithm
 from vtray.base.extras import pip_install
@@ -175,7 +175,7 @@ def scale_of(
         finite = values[np.isfinite(values)]
         if norm == "log" and finite.size and finite.max() <= 0.0:
             words = "no value is above 0, as logarithms need; all get nan_color"
-            warnings.warn(f"{place}norm: {words}", stacklevel=2)
+            warn_caller(f"{place}norm: {words}")
         finite = finite[finite > 0.0] if norm == "log" else finite
         usual = (1.0, 10.0) if norm == "log" else (0.0, 1.0)
         low, high = (float(finite.min()), float(finite.max())) if finite.size else usual

@@ -8,6 +8,7 @@ from typing import Any, cast
 import msgspec
 from msgspec import UNSET
 
+from vtray.base.caller_warning import warn_caller
 from vtray.base.errors import SceneError
 from vtray.scene.arrays import Arrays
 from vtray.scene.checks.columns import array_words
@@ -93,7 +94,7 @@ def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | Non
     scene.lights = _with_images(scene.lights, data["lights"], name)
     for line in [*warnings, *(f"{name}: {line}" for line in unknown.lines())]:
         if warn is None:
-            _warn(line)
+            warn_caller(line)
         else:
             warn(line)
     return scene
@@ -275,13 +276,6 @@ def _material_of(given: Any, place: str) -> Any:  # noqa: ANN401
         if isinstance(error.__cause__, SceneError):
             raise SceneError(f"{place}.pattern.image: {error.__cause__}") from None
         raise SceneError(f"{place}: {error}") from None
-
-
-def _warn(message: str) -> None:
-    """Warn in the name of the code that called `load_dict`."""
-    import warnings
-
-    warnings.warn(message, stacklevel=3)
 
 
 def _as_json(pictures: dict[str, object], value: object) -> object:

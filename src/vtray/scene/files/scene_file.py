@@ -13,6 +13,7 @@ from typing import Any
 import msgspec
 from msgspec import UNSET, UnsetType
 
+from vtray.base.caller_warning import warn_caller
 from vtray.base.errors import SceneError, why_unreadable
 from vtray.base.file_name import file_name
 from vtray.base.input_file import is_given, read_input
@@ -86,7 +87,7 @@ def load(path: str | os.PathLike[str], *, warn: Warn | None = None) -> Scene:
         raise SceneError(f"{name}: {why_unreadable(error, 'scene file')}") from None
     folder = "" if is_given(path) else os.path.dirname(name)
     try:
-        return loads_bytes(raw, name, PatternImages(folder), folder, warn or _warn)
+        return loads_bytes(raw, name, PatternImages(folder), folder, warn or warn_caller)
     except SceneError:
         if not begins_as_scene(raw) and _is_data(name):
             problem = "is data by its name, which vtray.read reads; expected a scene file"
@@ -133,14 +134,14 @@ def loads(text: str | bytes, name: str = "<string>", *, warn: Warn | None = None
         got = f"got {type(given).__name__} (vtray.load reads a file, vtray.load_dict a dictionary)"
         raise SceneError(f"{name}: expected the text of a scene, as str or bytes, {got}")
     if isinstance(text, bytes):
-        return loads_bytes(text, name, PatternImages(""), "", warn or _warn)
+        return loads_bytes(text, name, PatternImages(""), "", warn or warn_caller)
     try:
         raw = text.encode()
     except UnicodeEncodeError as error:
         line = text.count("\n", 0, error.start) + 1
         problem = f"half of a surrogate pair stands alone in line {line}; expected whole characters"
         raise SceneError(f"{name}: {problem}") from None
-    return loads_bytes(raw, name, PatternImages(""), "", warn or _warn)
+    return loads_bytes(raw, name, PatternImages(""), "", warn or warn_caller)
 
 
 def loads_bytes(raw: bytes, name: str, images: PatternImages, folder: str, warn: Warn) -> Scene:
@@ -332,13 +333,6 @@ def _read_skies(lights: Sequence[LightInFile], name: str, folder: str) -> list[A
         return with_skies(lights, folder)
     except SceneError as problem:
         raise SceneError(f"{name}: {problem}") from None
-
-
-def _warn(message: str) -> None:
-    """Warn in the name of the code that called `load` or `loads`."""
-    import warnings
-
-    warnings.warn(message, stacklevel=5)
 
 
 def _clean_parts(raw: bytes, images: PatternImages) -> tuple[dict[int, int] | None, int]:

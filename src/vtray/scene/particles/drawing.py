@@ -1,6 +1,5 @@
 """From particles to objects of a scene, step by step."""
 
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
@@ -8,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.base.caller_warning import warn_caller
 from vtray.base.errors import SceneError
 from vtray.base.number import is_number, number_of
 from vtray.scene.checks.choices import yes_or_no
@@ -503,7 +503,7 @@ def _holds_what_is_drawn(particles: Particles, positions: NDArray[Any]) -> bool:
         return True
     words = "not drawn, as it holds less than a quarter of the particles"
     remedy = "wrap=True (--wrap) brings them into it, cell=True (--cell) draws it"
-    warnings.warn(f"cell: {words}; {remedy}", stacklevel=5)
+    warn_caller(f"cell: {words}; {remedy}")
     return False
 
 
