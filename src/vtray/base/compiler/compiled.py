@@ -9,6 +9,7 @@ Every compile-time decision is made here:
   vectorised then (a million spheres: 0.62 s without it, 0.22 s with it).
 - ``_nrt=False``: no reference counts on arrays. Kernels allocate nothing, and the counting in inner
   loops kept them from being vectorised (a room with 64 lights: 0.55 s with it, 0.09 s without).
+- No index is below 0, but for a constant such as ``-1``: nobody looks whether one is (`items`).
 
 Kernels are compiled once per machine: `object_code` keeps them on disk and loads them. Numba is
 imported only to compile, and where a kernel cannot be called without it, of which `canary` warns.
