@@ -15,6 +15,7 @@ the linker finds.
 
 import inspect
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numba
@@ -241,6 +242,7 @@ def type_of_calls(
     return numba.types.Function(make(function, define, function.__name__))
 
 
+@cache
 def _machine(codegen: Any) -> Any:  # noqa: ANN401
     """Return what writes machine code for this processor.
 
@@ -249,16 +251,11 @@ def _machine(codegen: Any) -> Any:  # noqa: ANN401
     """
     if not IS_KNOWN:
         return codegen._tm  # noqa: SLF001
-    if not _machines:
-        options: dict[str, Any] = {"opt": numba.config.OPT}  # type: ignore[attr-defined]
-        codegen._customize_tm_options(options)  # noqa: SLF001
-        options |= {"reloc": "pic", "codemodel": "small"}
-        target = binding.Target.from_triple(binding.get_process_triple())
-        _machines.append(target.create_target_machine(**options))
-    return _machines[0]
-
-
-_machines: list[Any] = []
+    options: dict[str, Any] = {"opt": numba.config.OPT}  # type: ignore[attr-defined]
+    codegen._customize_tm_options(options)  # noqa: SLF001
+    options |= {"reloc": "pic", "codemodel": "small"}
+    target = binding.Target.from_triple(binding.get_process_triple())
+    return target.create_target_machine(**options)
 
 
 def _write_entry(module: ir.Module, called: Any, context: Any) -> None:  # noqa: ANN401
