@@ -12,8 +12,8 @@ from vtray.base.compiler.compiled import device, part
 from vtray.geometry.bundle import Bundle
 from vtray.geometry.dispatch import with_any
 from vtray.geometry.packets.beam import lower_limit, upper_limit
-from vtray.geometry.packets.cone import ASIDE, Cone, cone_beam, relation_to
-from vtray.geometry.packets.stack import Stack, push_met
+from vtray.geometry.packets.cone import ASIDE, Cone, cone_in_boxes, push_touched, relation_to
+from vtray.geometry.packets.stack import Stack
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.verbs import Shape, Verbs
 from vtray.geometry.vector import Vec
@@ -182,12 +182,12 @@ def _find_in_tree(
     subject: Any,  # noqa: ANN401
 ) -> int:
     """Return the most of what is found in the leaves of a hierarchy that the rays may meet."""
-    beam = cone_beam(view.cone, hierarchy.to_boxes)
+    seen = cone_in_boxes(view.cone, hierarchy.to_boxes)
     # Ways beside the axis are longer.
     ratio = hierarchy.to_boxes.ratio / view.cone.cosine
-    near = lower_limit(beam, 0.0)
-    hides = upper_limit(beam, _end_of_hiding(view) * ratio * (1.0 + MARGIN))
-    counts = max(hides, upper_limit(beam, _end_of_edges(view) * ratio * (1.0 + MARGIN)))
+    near = lower_limit(seen.beam, 0.0)
+    hides = upper_limit(seen.beam, _end_of_hiding(view) * ratio * (1.0 + MARGIN))
+    counts = max(hides, upper_limit(seen.beam, _end_of_edges(view) * ratio * (1.0 + MARGIN)))
     stack.node[base] = hierarchy.root
     waiting, leaves = base + 1, 0
     while waiting > base and not _is_settled(view, found):
@@ -195,7 +195,7 @@ def _find_in_tree(
         child = stack.node[waiting]
         far = counts if found == NOTHING else hides
         if child >= 0:
-            waiting = push_met(world.bvh, child, beam, near, far, stack, waiting)
+            waiting = push_touched(world.bvh, child, seen, near, far, stack, waiting)
         elif leaves == PATIENCE:
             return EDGE
         else:

@@ -13,14 +13,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, part
+from vtray.geometry.bits import lowest_bit
+from vtray.geometry.bvh.tree import SIDES, WIDTH, Bvh
 from vtray.geometry.dispatch import with_bounded
-from vtray.geometry.packets.beam import Beam, lower_limit, make_beam, shape_margin, upper_limit
+from vtray.geometry.packets.beam import (
+    Beam,
+    children_met,
+    lower_limit,
+    make_beam,
+    shape_margin,
+    upper_limit,
+)
 from vtray.geometry.packets.fan import Start
-from vtray.geometry.packets.stack import Stack, push_met
+from vtray.geometry.packets.stack import Stack, push_some
 from vtray.geometry.rounding import MARGIN, ROUNDING
 from vtray.geometry.shapes.plane import load_plane, plane_side
 from vtray.geometry.shapes.verbs import Shape, Verbs
-from vtray.geometry.vector import Vec, dot, scale, sub
+from vtray.geometry.vector import Vec, dot, magnitude, scale, sub
 from vtray.geometry.world import (
     CUT,
     PLANE,
@@ -102,6 +111,27 @@ class Cone(NamedTuple):
     shortest: float
     longest: float
     forward: Vec
+
+
+class ConeInBoxes(NamedTuple):
+    """A cone in the space of the boxes of a hierarchy.
+
+    Attributes
+    ----------
+    beam
+        What holds it.
+    apex, axis, cosine, sine
+        Where its rays start, or the middle of that, and its directions as those of a `Cone`.
+    margin
+        How far rounding, and where rays start, may have moved boxes against it.
+    """
+
+    beam: Beam
+    apex: Vec
+    axis: Vec
+    cosine: float
+    sine: float
+    margin: float
 
 
 @part
@@ -338,16 +368,16 @@ def _search(
     int
         As of `find_touching`.
     """
-    beam = cone_beam(cone, hierarchy.to_boxes)
+    seen = cone_in_boxes(cone, hierarchy.to_boxes)
     end = cone.longest * hierarchy.to_boxes.ratio * (1.0 + MARGIN)
-    near, far = lower_limit(beam, 0.0), upper_limit(beam, end)
+    near, far = lower_limit(seen.beam, 0.0), upper_limit(seen.beam, end)
     stack.node[base] = hierarchy.root
     waiting, leaves = base + 1, 0
     while waiting > base:
         waiting -= 1
         child = stack.node[waiting]
         if child >= 0:
-            waiting = push_met(world.bvh, child, beam, near, far, stack, waiting)
+            waiting = push_touched(world.bvh, child, seen, near, far, stack, waiting)
         elif leaves == PATIENCE:
             return MANY
         else:
@@ -365,14 +395,64 @@ two, as the compiler takes what calls itself for recursion, whatever it is given
 
 
 @device
-def cone_beam(cone: Cone, to_boxes: ToBoxes) -> Beam:
-    """Return the beam around a cone, in the boxes' space."""
+def cone_in_boxes(cone: Cone, to_boxes: ToBoxes) -> ConeInBoxes:
+    """Return a cone in the boxes' space."""
     apex = to_box_space(to_boxes, cone.start.point)
     x, y, z = cone.axis
     low = _least(x, cone), _least(y, cone), _least(z, cone)
     high = -_least(-x, cone), -_least(-y, cone), -_least(-z, cone)
     margin = shape_margin(to_boxes, apex, cone.start.error_scale) + to_boxes.ratio * cone.extent
-    return make_beam(apex, apex, low, high, margin)
+    beam = make_beam(apex, apex, low, high, margin)
+    return ConeInBoxes(beam, apex, cone.axis, cone.cosine, cone.sine, margin)
+
+
+@device
+def push_touched(
+    bvh: Bvh,
+    node: int,
+    cone: ConeInBoxes,
+    start: np.float32,
+    end: np.float32,
+    stack: Stack,
+    base: int,
+) -> int:
+    """Push the children that a cone may touch, the nearest last; return the stack's new height.
+
+    Its beam has corners that it has not, and where directions go to both sides of an axis, a side
+    without end.
+    """
+    met = children_met(bvh, node, cone.beam, start, end, stack.entered)
+    left, touched = met, met
+    while left != 0:
+        k = lowest_bit(left)
+        if not _touches_box(bvh, node * SIDES + k, cone):
+            touched ^= left & -left
+        left &= left - 1
+    return push_some(bvh, node, touched, stack, base)
+
+
+@device
+def _touches_box(bvh: Bvh, first: int, cone: ConeInBoxes) -> bool:
+    """Tell whether a cone may touch a box, given by where its sides begin.
+
+    The plane is asked that touches the cone on the side of the box's middle.
+    """
+    low, high = first, first + 3 * WIDTH
+    x_low, x_high = float(bvh.sides[low]), float(bvh.sides[high])
+    y_low, y_high = float(bvh.sides[low + WIDTH]), float(bvh.sides[high + WIDTH])
+    z_low, z_high = float(bvh.sides[low + 2 * WIDTH]), float(bvh.sides[high + 2 * WIDTH])
+    half = 0.5 * (x_high - x_low), 0.5 * (y_high - y_low), 0.5 * (z_high - z_low)
+    middle = 0.5 * (x_high + x_low), 0.5 * (y_high + y_low), 0.5 * (z_high + z_low)
+    way = sub(middle, cone.apex)
+    ahead = dot(way, cone.axis)
+    approach = sub(way, scale(ahead, cone.axis))
+    aside = math.sqrt(dot(approach, approach))
+    size = magnitude(way) + magnitude(half)
+    if aside <= SLIGHT * size:
+        return True
+    x, y, z = sub(scale(cone.cosine / aside, approach), scale(cone.sine, cone.axis))
+    reach = abs(x) * half[0] + abs(y) * half[1] + abs(z) * half[2]
+    return aside * cone.cosine - ahead * cone.sine <= reach + cone.margin + SLIGHT * size
 
 
 @device

@@ -62,8 +62,17 @@ def push_met(
     bvh: Bvh, node: int, beam: Beam, start: np.float32, end: np.float32, stack: Stack, base: int
 ) -> int:
     """Push the children that a beam may meet, the nearest last; return the stack's new height."""
+    met = children_met(bvh, node, beam, start, end, stack.entered)
+    return push_some(bvh, node, met, stack, base)
+
+
+@device
+def push_some(bvh: Bvh, node: int, met: int, stack: Stack, base: int) -> int:
+    """Push those children of a node whose bits are set, the nearest last; return the new height.
+
+    Where they are entered stands in the stack's `entered`.
+    """
     nodes, enters, entered = stack.node, stack.enter, stack.entered
-    met = children_met(bvh, node, beam, start, end, entered)
     if met == 0:
         return base
     first = node * WIDTH
