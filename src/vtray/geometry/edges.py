@@ -12,7 +12,7 @@ from vtray.base.compiler.compiled import device, part
 from vtray.geometry.bundle import Bundle
 from vtray.geometry.dispatch import with_any
 from vtray.geometry.packets.beam import lower_limit, upper_limit
-from vtray.geometry.packets.cone import ASIDE, Cone, cone_in_boxes, push_touched, relation_to
+from vtray.geometry.packets.cone import ASIDE, Cone, Touching, cone_in_boxes, push_touched, relation_to
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.verbs import Shape, Verbs
@@ -81,9 +81,27 @@ class LampView(NamedTuple):
 
 
 @part
-def has_edge(world: World, view: LampView, stack: Stack) -> bool:
-    """Tell whether something throws an edge, and nothing keeps all light away."""
+def has_edge(world: World, view: LampView, touching: Touching, count: int, stack: Stack) -> bool:
+    """Tell whether something throws an edge, and nothing keeps all light away.
+
+    Bounds are wide, those of boxes and of shapes in different places: given the shapes, what nearly
+    throws an edge may count as one that does not otherwise.
+
+    Parameters
+    ----------
+    world, view
+        What can stand between, and the rays.
+    touching, count
+        The only shapes that touch the cone of the rays, so many; all may, where that is below 0.
+    stack
+        Scratch memory.
+    """
     found = NOTHING
+    if count >= 0:
+        for k in range(count):
+            group = load_group(world, touching.row[k])
+            found = max(found, _found_at(world, group, touching.slot[k], view))
+        return found == EDGE
     for row in range(group_count(world)):
         found = _find_in_group(world, load_group(world, row), view, found, stack, 0)
     return _find_in_placed(world, world.places, view, found, stack) == EDGE

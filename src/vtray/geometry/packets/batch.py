@@ -26,6 +26,7 @@ from vtray.geometry.packets.packet import (
     integers,
     load,
 )
+from vtray.geometry.rounding import MARGIN
 from vtray.geometry.vector import add, dot, scale, sub
 
 APART = 1.6
@@ -39,6 +40,9 @@ AKIN = 0.95
 
 SLACK = 1.0 + 2.0**-40
 """More than what lengths lose by rounding."""
+
+WIDER = 1.0 + 2.0**-10
+"""More than what rounding may have taken from lengths beside those of the scene."""
 
 
 class Batch(NamedTuple):
@@ -149,3 +153,10 @@ def spot_of(packet: Packet, batch: Batch, count: int) -> Spot:
         error_scale = max(error_scale, packet[ERROR_SCALE + hit])
     extent, tilt = SLACK * math.sqrt(extent2), SLACK * math.sqrt(tilt2)
     return Spot(Start(middle, start.plane_depth, error_scale), extent, normal, tilt, SLACK * sunk)
+
+
+@device
+def wider_spot(spot: Spot, reach: float) -> Spot:
+    """Return what holds all points within a reach of those of a spot, whatever rounding does."""
+    extent = WIDER * (spot.extent + reach) + MARGIN * spot.start.error_scale
+    return Spot(spot.start, extent, spot.normal, spot.tilt, spot.sunk)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import device, long_part, passing_on
 from vtray.geometry.bits import count_bits
 from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
-from vtray.geometry.packets.batch import APART, spot_of, start_of, take_near
+from vtray.geometry.packets.batch import APART, spot_of, start_of, take_near, wider_spot
 from vtray.geometry.packets.cone import CLOSED, MANY, find_among, find_touching
 from vtray.geometry.packets.fan import FAN, set_start
 from vtray.geometry.packets.packet import (
@@ -18,6 +18,7 @@ from vtray.geometry.packets.packet import (
     LAMBERT,
     NOISE,
     NORMAL,
+    REACH,
     SHARE,
     SOURCE,
     UNEVEN,
@@ -243,8 +244,8 @@ def _light_batch(
     batch, soft = work.batch, casting.soft
     first = Seen(aim_from(packet, batch.hit[0], soft, light), count == 1)
     active = _leave_above(packet, count, casting, first, light, is_wide, work)
-    active = _leave_even(packet, active, casting, light, is_wide, work)
-    touching = _find_around(packet, active, casting, first, light, work)
+    touching = _find_around(packet, active, casting, first, light, is_wide, work)
+    active = _leave_even(packet, active, casting, light, touching, is_wide, work)
     if count <= FAN // fans.rays:
         return _cast_together(packet, active, casting, fans, first, light, touching, work)
     cast, one = 0, min(active, 1)  # a constant would be compiled for by itself
@@ -263,15 +264,26 @@ def _find_around(
     casting: Casting,
     first: Seen,
     light: int,
+    is_wide: bool,
     work: Workspace,
 ) -> int:
     """Find the shapes that can stop the rays of the active hits of a batch, so many.
 
+    If it is asked whether pixels look the same everywhere, these are the rays from all around the
+    hits that their pixels see.
+
     Return how many there are, or ``MANY`` if that is not known.
     """
-    if count <= 1 or not (is_cone(first.aim) and first.aim.spread < NARROW):
+    if count == 0 or not (is_cone(first.aim) and first.aim.spread < NARROW):
+        return MANY
+    if count == 1 and not is_wide:
         return MANY
     spot = spot_of(packet, work.batch, count)
+    if is_wide:
+        reach = 0.0
+        for k in range(count):
+            reach = max(reach, packet[REACH + work.batch.hit[work.batch.active[k]]])
+        spot = wider_spot(spot, reach)
     aim = aim_at(casting.soft, light, spot.start, spot.normal)
     cone = cone_from(aim, spot, casting.lit.forward)
     if not cone.cosine > 0.0:
@@ -285,6 +297,7 @@ def _leave_even(
     count: int,
     casting: Casting,
     light: int,
+    around: int,
     is_wide: bool,
     work: Workspace,
 ) -> int:
@@ -297,7 +310,7 @@ def _leave_even(
     active, batch = 0, work.batch
     for k in range(count):
         member = batch.active[k]
-        if not _is_uneven(packet, batch.hit[member], casting, light, is_wide, work):
+        if not _is_uneven(packet, batch.hit[member], casting, light, around, is_wide, work):
             batch.active[active] = member
             active += 1
     return active
@@ -367,7 +380,7 @@ def _leave_above(
             continue
         aim = aim_of(packet, hit, casting.soft, light, first)
         if is_below(aim, load(packet, NORMAL, hit)):
-            _is_uneven(packet, hit, casting, light, is_wide, work)
+            _is_uneven(packet, hit, casting, light, MANY, is_wide, work)
             _add_shares(packet, hit, casting, light, DARK)
         else:
             store_estimate(batch, member, no_estimate())
@@ -567,12 +580,13 @@ def _is_uneven(
     hit: int,
     casting: Casting,
     light: int,
+    around: int,
     is_wide: bool,
     work: Workspace,
 ) -> bool:
     """Tell whether the pixel of a hit gets samples for a light, if that is asked, and note it."""
     if not is_wide:
         return False
-    uneven = is_lit_unevenly(packet, hit, casting.lit, casting.soft, light, work)
+    uneven = is_lit_unevenly(packet, hit, casting.lit, casting.soft, light, around, work)
     packet[UNEVEN + hit] = 1.0 if uneven else packet[UNEVEN + hit]
     return uneven

@@ -39,11 +39,19 @@ def is_lit_unevenly(
     lit: LitWorld,
     soft: SoftLights,
     light: int,
+    around: int,
     work: Workspace,
 ) -> bool:
     """Tell whether a soft light may do something else around a hit than there.
 
     That of wide ones changes slowly.
+
+    Parameters
+    ----------
+    packet, hit, lit, soft, light
+        The hit, the scene, its soft lights, and the number of one.
+    around, work
+        So many shapes of the workspace may be in the way, all others are not; all may, with ``MANY``.
     """
     point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
     start = start_of(packet, hit)
@@ -68,7 +76,7 @@ def is_lit_unevenly(
     if is_tube_dimmed(lit.world, start, axis, reach, tangent, length, work.stack):
         return True
     view = _view(packet, hit, start, lit.forward, axis, length, tangent)
-    return has_edge(lit.world, view, work.stack)
+    return has_edge(lit.world, view, work.touching, around, work.stack)
 
 
 @device

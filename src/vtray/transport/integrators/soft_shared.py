@@ -243,7 +243,7 @@ def _is_uneven(
         if uneven:
             break
         if int(shared.sums[place] * parts) < int(shared.sums[place + 1] * parts):
-            uneven = is_lit_unevenly(packet, hit, lit, soft, crowd.order[place], work)
+            uneven = is_lit_unevenly(packet, hit, lit, soft, crowd.order[place], MANY, work)
     packet[UNEVEN + hit] = 1.0 if uneven else 0.0
     return uneven
 
