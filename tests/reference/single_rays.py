@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from vtray.geometry.caps import new_caps
+from vtray.geometry.packets.cone import new_touching
 from vtray.geometry.packets.fan import new_fan
 from vtray.geometry.packets.layer_notes import new_walk
 from vtray.geometry.packets.stack import new_stack
@@ -39,6 +41,8 @@ def lit_pixel(
                 fan,
                 on_ways,
                 new_walk(0),
+                new_touching(),
+                new_caps(),
             )
             traced, spent = traced._replace(value=lamp.value), spent + lamp.counted
             most = max(most, lamp.fans)

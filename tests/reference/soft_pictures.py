@@ -4,6 +4,7 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
+import pytest
 from cylinder_pictures import load
 from oracle import WHITE
 from oracle_lights import Fan, Hit, SoftOracle
@@ -11,23 +12,33 @@ from oracle_sky import SkyOracle
 from written_out import written_out_file
 
 import vtray
+from vtray.base.compiler.compiled import kernel, uncompiled
+from vtray.geometry.caps import UNKNOWN, Caps, new_caps
+from vtray.geometry.packets.cone import Touching, new_touching
 from vtray.geometry.packets.fan import (
     BLOCKED,
     DIRECTION,
     END,
     FAN,
     WEIGHT,
+    Start,
     new_fan,
 )
 from vtray.geometry.packets.layer_notes import new_walk
-from vtray.geometry.packets.stack import new_stack
+from vtray.geometry.packets.stack import Stack, new_stack
 from vtray.geometry.queries import NOTHING
+from vtray.geometry.vector import Vec
+from vtray.geometry.world import World
 from vtray.rendering.hierarchy import accelerate
 from vtray.rendering.pack import pack
 from vtray.rendering.pack_lights import FAR
+from vtray.transport.camera_rays import plane_depth_of
 from vtray.transport.integrators import reference
+from vtray.transport.integrators.soft_known import share_at
+from vtray.transport.lights.soft_light import SoftLights, aim_at
 from vtray.transport.sampling.estimate import AS_NEEDED
-from vtray.transport.sampling.fans import Noise, fan_of, fan_point, fans_of_middles
+from vtray.transport.sampling.fans import Fans, Noise, fan_of, fan_point, fans_of_middles
+from vtray.transport.scene_arrays import SceneArrays
 
 Scene = dict[str, Any]
 
@@ -79,7 +90,7 @@ def compare_fans(
         hit = hit._replace(point=point, normal=np.array(traced.interaction.normal))
         shares = []
         for light in range(len(by_rules.lights)):
-            found, _ = reference.trace_fan(
+            found, spread = reference.trace_fan(
                 arrays,
                 soft,
                 traced,
@@ -97,7 +108,7 @@ def compare_fans(
             )
             expected = by_rules.fan(hit, light, column, row, seed, fans.rays)
             share = np.array(found[: expected.weights.shape[1]])
-            shares.append(share)
+            shares.append(_known_share(arrays, traced, light, fans, share, spread))
             sky = by_rules.skies.get(light)
             own = fan_of(fans, 0, 1, 0, column, row, light, seed)
             order = _order(fans.points, own, expected.points)
@@ -115,6 +126,45 @@ def compare_fans(
             total = traced.value + light_of_all
             np.testing.assert_allclose(image.linear[row, column], total, rtol=1e-12, atol=1e-12)
     return Compared(rays, arrive, doubtful)
+
+
+def _known_share(
+    arrays: SceneArrays,
+    traced: reference.TracedPixel,
+    light: int,
+    fans: Fans,
+    told: np.ndarray,
+    spread: float,
+) -> np.ndarray:
+    """Return what is known of a light without rays, which is about what they told, or else that."""
+    point, normal, error_scale, _ = traced.interaction
+    soft, camera = arrays.lights.soft, arrays.camera
+    assert soft is not None
+    start = Start(point, uncompiled(plane_depth_of)(camera, point), error_scale)
+    around = new_touching(), new_caps(), new_stack()
+    known = _share_at(soft, light, start, normal, camera.forward, arrays.world, fans, *around)
+    if known == UNKNOWN:
+        return told
+    assert known == pytest.approx(told[0], abs=6 * math.sqrt(spread) + 0.05), light
+    return np.array([known])
+
+
+@kernel
+def _share_at(
+    soft: SoftLights,
+    light: int,
+    start: Start,
+    normal: Vec,
+    forward: Vec,
+    world: World,
+    fans: Fans,
+    touching: Touching,
+    caps: Caps,
+    stack: Stack,
+) -> float:
+    """Return what is known of a light at a point."""
+    aim = aim_at(soft, light, start, normal)
+    return share_at(aim, start, normal, forward, world, fans, touching, caps, stack)
 
 
 def is_same(hit: Hit, point: np.ndarray, normal: np.ndarray) -> bool:

@@ -12,7 +12,14 @@ from vtray.base.compiler.compiled import device, part
 from vtray.geometry.bundle import Bundle
 from vtray.geometry.dispatch import with_any
 from vtray.geometry.packets.beam import lower_limit, upper_limit
-from vtray.geometry.packets.cone import ASIDE, Cone, Touching, cone_in_boxes, push_touched, relation_to
+from vtray.geometry.packets.cone import (
+    ASIDE,
+    Cone,
+    Touching,
+    cone_in_boxes,
+    push_touched,
+    relation_to,
+)
 from vtray.geometry.packets.stack import Stack
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.verbs import Shape, Verbs

@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 from vtray.base.compiler.compiled import pinned, uncompiled
 from vtray.base.exact_math import hypotenuse
 from vtray.figures.traced_rays import FanRay, Hit, ShadowFan, ShadowRay, WayToLight
+from vtray.geometry.caps import Caps, new_caps
+from vtray.geometry.packets.cone import Touching, new_touching
 from vtray.geometry.packets.fan import DIRECTION, END, FAN, WEIGHT, Fan, new_fan
 from vtray.geometry.packets.layer_notes import Walk, new_walk
 from vtray.geometry.packets.stack import Stack, new_stack
@@ -128,13 +130,13 @@ def trace_fans(
     arrays, soft = packed.arrays, packed.arrays.lights.soft
     if fans is None or soft is None:
         return ways, traced.value
-    spent, scratch = 0.0, _scratch(packed, traced, fans)
+    spent, scratch, around = 0.0, _scratch(packed, traced, fans), _around()
     _, fan, blockers, _ = scratch
     start, length = traced.interaction.point, packed.unit
     world, lamps, cast = pinned(arrays), pinned(soft), pinned(fans)
     for k, light in asked_lights(lit.scene):
         known = world, lamps, traced, *pixel, len(ways), cast, count
-        lamp = trace_lamp(*known, spent, seed, *scratch)
+        lamp = trace_lamp(*known, spent, seed, *scratch, *around)
         components = uncompiled(component_count)(soft, len(ways))
         rays: list[FanRay] = []
         for number in range(0 if is_everywhere(light) else lamp.fans):
@@ -158,11 +160,11 @@ def variance_on_trial(
     """
     arrays, soft = packed.arrays, packed.arrays.lights.soft
     assert soft is not None  # noqa: S101 - they have fans
-    spent, scratch = 0.0, _scratch(packed, traced, fans)
+    spent, scratch, around = 0.0, _scratch(packed, traced, fans), _around()
     world, lamps, cast = pinned(arrays), pinned(soft), pinned(fans)
     for light in range(len(soft.kind)):
         known = world, lamps, traced, *pixel, light, cast, 1
-        lamp = trace_lamp(*known, spent, seed, *scratch)
+        lamp = trace_lamp(*known, spent, seed, *scratch, *around)
         spent += lamp.counted
     return spent
 
@@ -174,6 +176,11 @@ def _scratch(
     rays = uncompiled(fans_of_share)(fans, traced.share).rays
     walk = new_walk(body_count(packed.arrays.world))
     return pinned(new_stack()), new_fan(), np.full(rays, NOTHING), pinned(walk)
+
+
+def _around() -> tuple[Touching, Caps]:
+    """Return scratch memory of what is around a hit."""
+    return pinned(new_touching()), pinned(new_caps())
 
 
 def _shadow_ray(lit: Lit, number: int, light: Light, cosine: float, primitive: int) -> ShadowRay:

@@ -135,7 +135,7 @@ class ConeInBoxes(NamedTuple):
 
 
 @part
-def find_touching(cone: Cone, world: World, touching: Touching, stack: Stack) -> int:
+def find_touching(cone: Cone, world: World, touching: Touching, most: int, stack: Stack) -> int:
     """Find the shapes that touch a cone.
 
     Parameters
@@ -144,6 +144,9 @@ def find_touching(cone: Cone, world: World, touching: Touching, stack: Stack) ->
         The cone, and what it can touch.
     touching
         Out: the shapes.
+    most
+        More than so many are `MANY`: ``MOST``, or fewer, and then all are that are neither spheres
+        nor planes.
     stack
         Scratch memory.
 
@@ -154,10 +157,11 @@ def find_touching(cone: Cone, world: World, touching: Touching, stack: Stack) ->
     """
     count = 0
     for row in range(group_count(world)):
-        count = _find_in_group(cone, world, load_group(world, row), touching, count, stack, 0)
+        group = load_group(world, row)
+        count = _find_in_group(cone, world, group, touching, most, count, stack, 0)
         if count < 0:
             return count
-    return _find_placed(cone, world, world.places, touching, count, stack)
+    return _find_placed(cone, world, world.places, touching, most, count, stack)
 
 
 @part
@@ -183,25 +187,34 @@ def _find_in_group(
     world: World,
     group: Group,
     touching: Touching,
+    most: int,
     count: int,
     stack: Stack,
     base: int,
 ) -> int:
     """Find those of a group; return how many there are then."""
     hierarchy = hierarchy_of(group)
-    return _search_shapes(cone, world, hierarchy, touching, count, stack, base, _find_slots, group)
+    return _search_shapes(
+        cone, world, hierarchy, touching, most, count, stack, base, _find_slots, group
+    )
 
 
 @device
 def _find_placed(
-    cone: Cone, world: World, places: Places | None, touching: Touching, count: int, stack: Stack
+    cone: Cone,
+    world: World,
+    places: Places | None,
+    touching: Touching,
+    most: int,
+    count: int,
+    stack: Stack,
 ) -> int:
     """Find those that are placed; return how many there are then."""
     # An argument that is None is known to the compiler, which drops what depends on that alone.
     if places is not None:
         hierarchy = hierarchy_of_places(places)
         return _search_places(
-            cone, world, hierarchy, touching, count, stack, 0, _find_places, places
+            cone, world, hierarchy, touching, most, count, stack, 0, _find_places, places
         )
     return count
 
@@ -214,6 +227,7 @@ def _find_places(
     begin: int,
     end: int,
     touching: Touching,
+    most: int,
     count: int,
     stack: Stack,
     base: int,
@@ -223,7 +237,7 @@ def _find_places(
         item = places.item[at]
         for row in range(places.rows[item], places.rows[item + 1]):
             group = load_group(world, placed_row(world, at, row))
-            count = _find_in_group(cone, world, group, touching, count, stack, base)
+            count = _find_in_group(cone, world, group, touching, most, count, stack, base)
             if count < 0:
                 return count
     return count
@@ -237,6 +251,7 @@ def _find_slots(
     begin: int,
     end: int,
     touching: Touching,
+    most: int,
     count: int,
     stack: Stack,  # noqa: ARG001
     base: int,  # noqa: ARG001
@@ -247,7 +262,7 @@ def _find_slots(
         if relation == _COVERS:
             return CLOSED
         if relation == _TOUCHES:
-            if count == MOST:
+            if count == most or (most < MOST and group.kind not in (PLANE, SPHERE)):
                 return MANY
             touching.row[count] = group.row
             touching.slot[count] = slot
@@ -344,10 +359,11 @@ def _search(
     world: World,
     hierarchy: Hierarchy,
     touching: Touching,
+    most: int,
     count: int,
     stack: Stack,
     base: int,
-    visit: Callable[[Cone, World, Any, int, int, Touching, int, Stack, int], int],
+    visit: Callable[[Cone, World, Any, int, int, Touching, int, int, Stack, int], int],
     subject: Any,  # noqa: ANN401
 ) -> int:
     """Visit the leaves of a hierarchy that touch a cone, the nearest first.
@@ -356,8 +372,8 @@ def _search(
     ----------
     cone, world, hierarchy
         The cone, and the hierarchy.
-    touching, count
-        The shapes found so far, and how many there are.
+    touching, most, count
+        The shapes found so far, how many there may be, and how many there are.
     stack, base
         Scratch memory, and what waits there already, which stays.
     visit, subject
@@ -383,7 +399,7 @@ def _search(
         else:
             leaves += 1
             begin, after = range_of(hierarchy, child)
-            count = visit(cone, world, subject, begin, after, touching, count, stack, waiting)
+            count = visit(cone, world, subject, begin, after, touching, most, count, stack, waiting)
             if count < 0:
                 return count
     return count

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vtray.geometry.caps import Caps, new_caps
 from vtray.geometry.packets.batch import Batch, new_batch
 from vtray.geometry.packets.cone import Touching, new_touching
 from vtray.geometry.packets.fan import FAN, MOST_RAYS, Fan, new_fan
@@ -109,6 +110,8 @@ class Workspace(NamedTuple):
     fan, touching, own
         The shadow rays of a batch to one light, the shapes that touch their cone, and those of them
         that touch the one from a hit.
+    caps
+        The directions that what is around a hit leaves of a lamp.
     shared
         Notes on rays that many lights share.
     walk, layers
@@ -136,6 +139,7 @@ class Workspace(NamedTuple):
     fan: Fan
     touching: Touching
     own: Touching
+    caps: Caps
     shared: Shared
     walk: Walk
     layers: Layers
@@ -187,6 +191,7 @@ def new_workspace(world: World, sharing: int = 0, bounces: int = -1) -> Workspac
         fan=new_fan(),
         touching=new_touching(),
         own=new_touching(),
+        caps=new_caps(),
         shared=new_shared(sharing),
         walk=new_walk(body_count(world)),
         layers=new_layers(body_count(world)),

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, kernel
 from vtray.geometry.between import first_between
+from vtray.geometry.caps import UNKNOWN, Caps
 from vtray.geometry.faded.dimming import blocked_share
 from vtray.geometry.packets.cone import Touching
 from vtray.geometry.packets.fan import BLOCKED, Fan, Start, fan_segment, set_start
@@ -22,6 +23,7 @@ from vtray.geometry.rounding import ROUNDING
 from vtray.geometry.vector import Vec, add, scale, sub
 from vtray.transport.camera_rays import camera_ray, plane_depth_of
 from vtray.transport.integrators.lamps import nearest_lamp
+from vtray.transport.integrators.soft_known import share_at
 from vtray.transport.integrators.soft_shared import decide_by_cones
 from vtray.transport.interaction import Interaction, interact, material_at
 from vtray.transport.lights.crowd import Crowd
@@ -306,6 +308,25 @@ trace_fan, _trace_any_fan = kernel(_trace_fan), device(_trace_fan)
 """What traces one fan, for Python and for kernels."""
 
 
+@device
+def _known_share(
+    scene: SceneArrays,
+    soft: SoftLights,
+    traced: TracedPixel,
+    light: int,
+    fans: Fans,
+    stack: Stack,
+    touching: Touching,
+    caps: Caps,
+) -> float:
+    """Return which share of a light is known to arrive at the hit of a pixel, or ``UNKNOWN``."""
+    point, normal, error_scale, _ = traced.interaction
+    start = Start(point, plane_depth_of(scene.camera, point), error_scale)
+    aim, own = aim_at(soft, light, start, normal), fans_of_share(fans, traced.share)
+    forward = scene.camera.forward
+    return share_at(aim, start, normal, forward, scene.world, own, touching, caps, stack)
+
+
 class TracedLamp(NamedTuple):
     """What all fans from a hit to a soft light tell.
 
@@ -343,8 +364,12 @@ def trace_lamp(
     fan: Fan,
     blockers: NDArray[np.int64],
     walk: Walk,
+    touching: Touching,
+    caps: Caps,
 ) -> TracedLamp:
     """Trace all fans from the hit of a pixel to one soft light.
+
+    Where it is known without rays what arrives, a single one is, and tells nothing.
 
     Parameters
     ----------
@@ -354,9 +379,15 @@ def trace_lamp(
         The pixel, with the light of all lights before this one.
     spent
         What these have of the variance that all may have.
+    touching, caps
+        Scratch memory.
     """
     material = traced.material
     worth, estimate = soft_worth(scene.lights, soft, light, material), no_estimate()
+    known = _known_share(scene, soft, traced, light, fans, stack, touching, caps)
+    if known != UNKNOWN:
+        estimate = with_fan(estimate, (known, 0.0, 0.0), 0.0)
+        count = estimate.fans
     while needs_more(estimate, fans, count, worth, spent, light, soft_count(soft)):
         number = estimate.fans
         shares, spread = _trace_any_fan(

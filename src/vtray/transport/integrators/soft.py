@@ -7,9 +7,17 @@ from numpy.typing import NDArray
 
 from vtray.base.compiler.compiled import device, long_part, passing_on
 from vtray.geometry.bits import count_bits
+from vtray.geometry.caps import UNKNOWN
 from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
 from vtray.geometry.packets.batch import APART, spot_of, start_of, take_near, wider_spot
-from vtray.geometry.packets.cone import CLOSED, MANY, find_among, find_touching
+from vtray.geometry.packets.cone import (
+    CLOSED,
+    MANY,
+    MOST,
+    Cone,
+    find_among,
+    find_touching,
+)
 from vtray.geometry.packets.fan import FAN, set_start
 from vtray.geometry.packets.packet import (
     BLOCK,
@@ -32,8 +40,9 @@ from vtray.geometry.packets.packet import (
 from vtray.geometry.packets.workspace import Pixels, Workspace
 from vtray.geometry.stopped import Bundle, stop_rays
 from vtray.geometry.vector import Vec, add
-from vtray.geometry.world import Faded, Solids
-from vtray.transport.integrators.soft_edges import NARROW, is_lit_unevenly
+from vtray.geometry.world import Faded, Solids, World
+from vtray.transport.integrators.soft_edges import is_lit_unevenly
+from vtray.transport.integrators.soft_known import MOST_KNOWN, WORTH_IT, is_narrow, known_share
 from vtray.transport.integrators.soft_trial import (
     begin_trial,
     end_trial,
@@ -48,12 +57,10 @@ from vtray.transport.lights.soft_light import (
     component_count,
     cone_from,
     cone_of,
-    is_above,
     is_below,
-    is_cone,
     is_everywhere,
+    is_round,
     longest_ray,
-    middle_share,
     soft_count,
 )
 from vtray.transport.materials.material import Material, scattered
@@ -274,7 +281,7 @@ def _find_around(
 
     Return how many there are, or ``MANY`` if that is not known.
     """
-    if count == 0 or not (is_cone(first.aim) and first.aim.spread < NARROW):
+    if count == 0 or not is_narrow(first.aim):
         return MANY
     if count == 1 and not is_wide:
         return MANY
@@ -288,7 +295,7 @@ def _find_around(
     cone = cone_from(aim, spot, casting.lit.forward)
     if not cone.cosine > 0.0:
         return MANY
-    return find_touching(cone, casting.lit.world, work.touching, work.stack)
+    return find_touching(cone, casting.lit.world, work.touching, MOST, work.stack)
 
 
 @device
@@ -400,7 +407,7 @@ def _ask_cones(
     around: int,
     work: Workspace,
 ) -> tuple[int, int, bool, int]:
-    """Add a light to those active hits, so many, where all of it arrives, or nothing.
+    """Add a light to those active hits, so many, where it is known how much of it arrives.
 
     Of the shapes that `_find_around` has found, so many, all others can touch no ray; all may,
     where that is ``MANY``.
@@ -413,33 +420,28 @@ def _ask_cones(
         cast.
     """
     batch, soft, world, forward = work.batch, casting.soft, casting.lit.world, casting.lit.forward
-    touching = around
     if is_everywhere(seen.aim):
         for k in range(count):
             hit = batch.hit[batch.active[k]]
             _add_shares(packet, hit, casting, light, ALL)
-        return 0, touching, False, 0
-    if not (is_cone(seen.aim) and seen.aim.spread < NARROW):
+        return 0, around, False, 0
+    if not is_round(seen.aim):
         return count, MANY, True, 0
-    active, cast, is_dimmed = 0, 0, False
+    active, touching, cast, is_dimmed = 0, around, 0, False
     for k in range(count):
         member = batch.active[k]
         hit = batch.hit[member]
         aim, normal = aim_of(packet, hit, soft, light, seen), load(packet, NORMAL, hit)
         may_be_dim = True
-        if is_cone(aim):
-            cone, found = cone_of(aim, start_of(packet, hit), forward), around
-            if around >= 0:
-                found = find_among(cone, world, work.touching, around, work.own)
-            elif seen.is_alone:
-                found = find_touching(cone, world, work.own, work.stack)
+        if is_narrow(aim):
+            cone = cone_of(aim, start_of(packet, hit), forward)
+            found = _find_touching(cone, world, fans, seen, around, work)
             if seen.is_alone:
                 touching = found
             may_be_dim = found != CLOSED and may_be_dimmed(cone, world, work.stack)
-            # What a cone as a whole tells is what all its rays would.
-            is_open = found == 0 and not may_be_dim
-            if (is_open or found == CLOSED) and is_above(aim, normal):
-                share = middle_share(aim, normal) if is_open else 0.0
+            known = found if not may_be_dim else MANY
+            share = known_share(cone, aim, normal, world, fans, work.own, known, work.caps)
+            if share != UNKNOWN:
                 _add_shares(packet, hit, casting, light, (share, 0.0, 0.0))
                 cast += fans.rays
                 continue
@@ -447,6 +449,19 @@ def _ask_cones(
         batch.active[active] = member
         active += 1
     return active, touching, is_dimmed, cast
+
+
+@device
+def _find_touching(
+    cone: Cone, world: World, fans: Fans, seen: Seen, around: int, work: Workspace
+) -> int:
+    """Find the shapes that touch a cone among so many around it, or all if that is ``MANY``."""
+    if around >= 0:
+        return find_among(cone, world, work.touching, around, work.own)
+    if seen.is_alone or fans.rays >= WORTH_IT:
+        most = MOST if seen.is_alone else MOST_KNOWN
+        return find_touching(cone, world, work.own, most, work.stack)
+    return MANY
 
 
 @device

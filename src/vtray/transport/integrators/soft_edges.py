@@ -51,7 +51,7 @@ def is_lit_unevenly(
     packet, hit, lit, soft, light
         The hit, the scene, its soft lights, and the number of one.
     around, work
-        So many shapes of the workspace may be in the way, all others are not; all may, with ``MANY``.
+        So many shapes of the workspace may be in the way and no others; all may, with ``MANY``.
     """
     point, normal = load(packet, POINT, hit), load(packet, NORMAL, hit)
     start = start_of(packet, hit)

@@ -3,7 +3,7 @@
 from vtray.base.compiler.compiled import device, long_part, passing_on
 from vtray.geometry.faded.dimming import dim_fan, may_be_dimmed
 from vtray.geometry.packets.batch import start_of
-from vtray.geometry.packets.cone import CLOSED, MANY, Touching, find_touching
+from vtray.geometry.packets.cone import CLOSED, MANY, MOST, Touching, find_touching
 from vtray.geometry.packets.fan import Start, spot_at
 from vtray.geometry.packets.packet import (
     COLOR,
@@ -202,7 +202,7 @@ def decide_by_cones(
             aim = aim_at(soft, number, start, normal)
             if aim.spread < NARROW and is_above(aim, normal):
                 cone = cone_of(aim, start, forward)
-                count = find_touching(cone, lit.world, touching, stack)
+                count = find_touching(cone, lit.world, touching, MOST, stack)
                 undecided += 1
                 is_dimmed = count == 0 and may_be_dimmed(cone, lit.world, stack)
                 if count in (0, CLOSED) and not is_dimmed:

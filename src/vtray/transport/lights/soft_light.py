@@ -171,8 +171,13 @@ def aim_at(soft: SoftLights, light: int, start: Start, normal: Vec) -> Aim:
 @device
 def is_cone(aim: Aim) -> bool:
     """Tell whether a light is seen as a cone of less than half of all directions."""
-    is_round = aim.kind in (SUN, SPHERE)
-    return is_round and aim.spread < 1.0
+    return is_round(aim) and aim.spread < 1.0
+
+
+@device
+def is_round(aim: Aim) -> bool:
+    """Tell whether a light is a sun or a sphere."""
+    return aim.kind in (SUN, SPHERE)
 
 
 @device
