@@ -197,12 +197,37 @@ def arriving_shares(
     """
     if is_above(aim, normal) and count_open(fan, rays) == rays:
         return (middle_share(aim, normal), 0.0, 0.0), 0.0
+    if aim.spread == ALL_AROUND and components == 1 and _count_whole(fan, rays) == rays:
+        share, spread = _counted_share(fan, rays)
+        return (share, 0.0, 0.0), spread
     first, spread = _arriving_share(fan, rays, 0)
     if components == 1:
         return (first, 0.0, 0.0), spread
     second, second_spread = _arriving_share(fan, rays, 1)
     third, third_spread = _arriving_share(fan, rays, 2)
     return (first, second, third), max(spread, second_spread, third_spread)
+
+
+@device
+def _count_whole(fan: Fan, rays: int) -> int:
+    """Return how many rays arrive as a whole, or not at all."""
+    count = 0
+    for ray in range(rays):
+        count += 1 if fan[BLOCKED + ray] in (0.0, 1.0) else 0
+    return count
+
+
+@device
+def _counted_share(fan: Fan, rays: int) -> tuple[float, float]:
+    """Return what `_arriving_share` does, for rays that all count 1 where they arrive.
+
+    Sums are whole numbers then, the same in any order: loops over several rays at once find them.
+    """
+    changes = 0
+    for pair in range(rays // 2):
+        one, other = fan[BLOCKED + 2 * pair], fan[BLOCKED + 2 * pair + 1]
+        changes += 1 if one != other else 0
+    return count_open(fan, rays) / rays, changes / (rays * rays)
 
 
 @device
