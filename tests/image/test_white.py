@@ -124,7 +124,7 @@ def test_wrong_exposures(name: str, value: Any) -> None:
 
 def test_soft_light_is_as_exact_as_white_asks_for() -> None:
     found = vtray.loads(json.dumps(scene([sphere((0, 0, 5), 1)], [], size=[9, 7])))
-    found.add_light(vtray.SphereLight((3, -3, 0), 1))
+    found.add_light(vtray.RectangleLight((3, -3, 0), ((0, 0, 2), (1, 1, 0))))
     rays = {
         stops: vtray.render(found, exposure="auto", stops=stops, tolerance=0.05).stats["rays"]
         for stops in (-4, 0, 4)

@@ -152,8 +152,22 @@ def test_hard_lights_have_no_error_and_changed_pictures_none_that_is_known() -> 
 def test_error_of_a_lamp_with_a_radiance_is_a_part_of_its_light() -> None:
     # Its rays count little, as it is small: what none of them meets is no more than that.
     lamp = vtray.SphereLight((3, -4, 9), 0.2, radiance=400.0)
-    image = render(scene_of([lamp]), exposure=1.0, tolerance=1e6)
+    image = render(scene_of([lamp], "thin shadows"), exposure=1.0, tolerance=1e6)
     assert 0 < image.error.max() < 0.2 * image.linear.max()
+
+
+def test_light_that_is_known_without_rays_has_no_error() -> None:
+    scene = vtray.Scene()
+    scene.add_plane((0, 0, 0), normal=(0, 0, 1))
+    scene.add_sphere((0, 0, 1), 0.5)
+    scene.camera = vtray.Camera.look_at((0, -6, 4), (0, 0, 0.5), up=(0, 0, 1), size=(48, 36))
+    scene.lights = [vtray.Sun((0.5, 0.5, -1), angle=20)]
+    image = vtray.render(scene, exposure=1.0)
+    assert not image.error.any()
+    # Half-shadows are between light and dark, and even.
+    floor = image.linear[image.normals[..., 2] > 0.99][:, 0]
+    assert ((floor > 0.1 * floor.max()) & (floor < 0.9 * floor.max())).sum() > 10
+    assert floor.min() == 0.0
 
 
 @compiled_only

@@ -101,6 +101,14 @@ def set_cap(caps: Caps, k: int, axis: Vec, cosine: float, sine: float) -> None:
 
 
 @device
+def swap_caps(caps: Caps, one: int, other: int) -> None:
+    """Let two caps change places."""
+    axis, cosine, sine = _axis(caps, one), caps.cosine[one], caps.sine[one]
+    set_cap(caps, one, _axis(caps, other), caps.cosine[other], caps.sine[other])
+    set_cap(caps, other, axis, cosine, sine)
+
+
+@device
 def light_within(caps: Caps, count: int, normal: Vec) -> float:
     """Return the light that comes from the directions within all of some caps.
 

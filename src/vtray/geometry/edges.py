@@ -14,6 +14,7 @@ from vtray.geometry.dispatch import with_any
 from vtray.geometry.packets.beam import lower_limit, upper_limit
 from vtray.geometry.packets.cone import (
     ASIDE,
+    PATIENCE,
     Cone,
     Touching,
     cone_in_boxes,
@@ -44,10 +45,6 @@ all light away."""
 SHARP = 0.25
 """A half-shadow is an edge if it is narrower than the patch divided by this number. The mean of the
 light on others differs from that in the middle by less than 6 of 255."""
-
-
-PATIENCE = 64
-"""After so many leaves of a hierarchy, something in it counts as an edge."""
 
 
 class LampView(NamedTuple):
@@ -91,15 +88,16 @@ class LampView(NamedTuple):
 def has_edge(world: World, view: LampView, touching: Touching, count: int, stack: Stack) -> bool:
     """Tell whether something throws an edge, and nothing keeps all light away.
 
-    Bounds are wide, those of boxes and of shapes in different places: given the shapes, what nearly
-    throws an edge may count as one that does not otherwise.
+    The answer is the same given the shapes and without: balls that throw an edge, or keep light
+    away, begin no deeper than the boxes around them, and boxes are looked at up to that depth.
 
     Parameters
     ----------
     world, view
         What can stand between, and the rays.
     touching, count
-        The only shapes that touch the cone of the rays, so many; all may, where that is below 0.
+        The only shapes that touch the cone of the rays, so many, none but spheres and planes; all
+        may, where that is below 0.
     stack
         Scratch memory.
     """
@@ -206,21 +204,24 @@ def _find_in_tree(
     find_in: Callable[[World, Any, int, int, LampView, int, Stack, int], int],
     subject: Any,  # noqa: ANN401
 ) -> int:
-    """Return the most of what is found in the leaves of a hierarchy that the rays may meet."""
+    """Return the most of what is found in the leaves of a hierarchy that the rays may meet.
+
+    After `PATIENCE` leaves, something in it counts as an edge.
+    """
     seen = cone_in_boxes(view.cone, hierarchy.to_boxes)
-    # Ways beside the axis are longer.
-    ratio = hierarchy.to_boxes.ratio / view.cone.cosine
+    ratio = hierarchy.to_boxes.ratio
     near = lower_limit(seen.beam, 0.0)
-    hides = upper_limit(seen.beam, _end_of_hiding(view) * ratio * (1.0 + MARGIN))
-    counts = max(hides, upper_limit(seen.beam, _end_of_edges(view) * ratio * (1.0 + MARGIN)))
+    far = upper_limit(seen.beam, view.cone.longest * ratio * (1.0 + MARGIN))
+    hides = _end_of_hiding(view) * ratio * (1.0 + MARGIN)
+    counts = max(hides, _end_of_edges(view) * ratio * (1.0 + MARGIN))
     stack.node[base] = hierarchy.root
     waiting, leaves = base + 1, 0
     while waiting > base and not _is_settled(view, found):
         waiting -= 1
         child = stack.node[waiting]
-        far = counts if found == NOTHING else hides
+        deepest = counts if found == NOTHING else hides
         if child >= 0:
-            waiting = push_touched(world.bvh, child, seen, near, far, stack, waiting)
+            waiting = push_touched(world.bvh, child, seen, near, far, deepest, stack, waiting)
         elif leaves == PATIENCE:
             return EDGE
         else:

@@ -6,11 +6,8 @@ that hide all directions on one side of a great circle.
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
 from vtray.base.compiler.compiled import device, part
-from vtray.geometry.caps import MOST_CAPS, UNKNOWN, Caps, light_within, set_cap
+from vtray.geometry.caps import MOST_CAPS, UNKNOWN, Caps, light_within, set_cap, swap_caps
 from vtray.geometry.dispatch import with_bounded
 from vtray.geometry.packets.cone import SLIGHT, Cone, Touching
 from vtray.geometry.ray import EVERYWHERE
@@ -55,11 +52,12 @@ def light_of_cone(
     if dot(normal, cone.axis) < cone.sine + SLIGHT:
         set_cap(caps, 1, normal, 0.0, 1.0)
         taken = 2
-    _sort(touching.row, touching.slot, count)
+    first = taken
     for k in range(count):
         taken = _take_shape(cone, normal, world, touching.row[k], touching.slot[k], caps, taken)
         if taken == NO_CAP:
             return UNKNOWN
+    _sort(caps, first, taken)
     light = light_within(caps, taken, normal)
     if light == UNKNOWN:
         return UNKNOWN
@@ -68,14 +66,19 @@ def light_of_cone(
 
 
 @device
-def _sort(row: NDArray[np.int64], slot: NDArray[np.int64], count: int) -> None:
-    """Sort shapes, so that sums do not depend on how they were found."""
-    for k in range(1, count):
+def _sort(caps: Caps, first: int, end: int) -> None:
+    """Sort caps, so that sums do not depend on how their shapes were found."""
+    for k in range(first + 1, end):
         at = k
-        while at > 0 and (row[at], slot[at]) < (row[at - 1], slot[at - 1]):
-            row[at], row[at - 1] = row[at - 1], row[at]
-            slot[at], slot[at - 1] = slot[at - 1], slot[at]
+        while at > first and _numbers(caps, at) < _numbers(caps, at - 1):
+            swap_caps(caps, at, at - 1)
             at -= 1
+
+
+@device
+def _numbers(caps: Caps, k: int) -> tuple[float, float, float, float]:
+    """Return what tells a cap from all others."""
+    return caps.cosine[k], caps.x[k], caps.y[k], caps.z[k]
 
 
 @device

@@ -1,5 +1,6 @@
 """What soft lights add to the hits of a packet: fans of rays from each hit to each of them."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +16,8 @@ from vtray.geometry.packets.cone import (
     MANY,
     MOST,
     Cone,
+    Touching,
+    are_round,
     find_among,
     find_touching,
 )
@@ -293,7 +296,7 @@ def _find_around(
         spot = wider_spot(spot, reach)
     aim = aim_at(casting.soft, light, spot.start, spot.normal)
     cone = cone_from(aim, spot, casting.lit.forward)
-    if not cone.cosine > 0.0:
+    if math.isinf(spot.extent) or not cone.cosine > 0.0:
         return MANY
     return find_touching(cone, casting.lit.world, work.touching, MOST, work.stack)
 
@@ -439,8 +442,10 @@ def _ask_cones(
             if seen.is_alone:
                 touching = found
             may_be_dim = found != CLOSED and may_be_dimmed(cone, world, work.stack)
-            known = found if not may_be_dim else MANY
-            share = known_share(cone, aim, normal, world, fans, work.own, known, work.caps)
+            share = UNKNOWN
+            if not may_be_dim:
+                few, count_few = _few_touching(cone, world, fans, found, work)
+                share = known_share(cone, aim, normal, world, fans, few, count_few, work.caps)
             if share != UNKNOWN:
                 _add_shares(packet, hit, casting, light, (share, 0.0, 0.0))
                 cast += fans.rays
@@ -462,6 +467,19 @@ def _find_touching(
         most = MOST if seen.is_alone else MOST_KNOWN
         return find_touching(cone, world, work.own, most, work.stack)
     return MANY
+
+
+@device
+def _few_touching(
+    cone: Cone, world: World, fans: Fans, found: int, work: Workspace
+) -> tuple[Touching, int]:
+    """Return those few shapes that touch a cone, of so many found, as if it had been asked alone.
+
+    Boxes tell more than balls of what is long: alone, some of them would not have been found.
+    """
+    if found <= 0 or fans.rays < WORTH_IT or are_round(world, work.own, found):
+        return work.own, found
+    return work.few, find_touching(cone, world, work.few, MOST_KNOWN, work.stack)
 
 
 @device

@@ -7,7 +7,7 @@ from vtray.geometry.bundle import Bundle
 from vtray.geometry.edges import LampView, has_edge
 from vtray.geometry.faded.dimming import is_tube_dimmed
 from vtray.geometry.packets.batch import start_of
-from vtray.geometry.packets.cone import Cone
+from vtray.geometry.packets.cone import MANY, Cone, are_round
 from vtray.geometry.packets.fan import Start
 from vtray.geometry.packets.packet import (
     BEND,
@@ -76,7 +76,9 @@ def is_lit_unevenly(
     if is_tube_dimmed(lit.world, start, axis, reach, tangent, length, work.stack):
         return True
     view = _view(packet, hit, start, lit.forward, axis, length, tangent)
-    return has_edge(lit.world, view, work.touching, around, work.stack)
+    # Boxes tell more than balls of what is long.
+    known = around if are_round(lit.world, work.touching, around) else MANY
+    return has_edge(lit.world, view, work.touching, known, work.stack)
 
 
 @device
