@@ -145,8 +145,7 @@ def find_touching(cone: Cone, world: World, touching: Touching, most: int, stack
     touching
         Out: the shapes.
     most
-        More than so many are `MANY`: ``MOST``, or fewer, and then all are that are neither spheres
-        nor planes.
+        More than so many are `MANY`; ``MOST`` at the most.
     stack
         Scratch memory.
 
@@ -271,7 +270,7 @@ def _find_slots(
         if relation == _COVERS:
             return CLOSED
         if relation == _TOUCHES:
-            if count == most or (most < MOST and group.kind not in (PLANE, SPHERE)):
+            if count == most:
                 return MANY
             touching.row[count] = group.row
             touching.slot[count] = slot

@@ -107,9 +107,9 @@ class Workspace(NamedTuple):
         The sums of the samples of the pixels of a packet.
     batch
         Hits that are near each other.
-    fan, touching, own, few
-        The shadow rays of a batch to one light, the shapes that touch their cone, those of them
-        that touch the one from a hit, and those that do so if it is asked alone.
+    fan, touching, own
+        The shadow rays of a batch to one light, the shapes that touch their cone, and those of them
+        that touch the one from a hit.
     caps
         The directions that what is around a hit leaves of a lamp.
     shared
@@ -139,7 +139,6 @@ class Workspace(NamedTuple):
     fan: Fan
     touching: Touching
     own: Touching
-    few: Touching
     caps: Caps
     shared: Shared
     walk: Walk
@@ -192,7 +191,6 @@ def new_workspace(world: World, sharing: int = 0, bounces: int = -1) -> Workspac
         fan=new_fan(),
         touching=new_touching(),
         own=new_touching(),
-        few=new_touching(),
         caps=new_caps(),
         shared=new_shared(sharing),
         walk=new_walk(body_count(world)),

@@ -16,8 +16,6 @@ from vtray.geometry.packets.cone import (
     MANY,
     MOST,
     Cone,
-    Touching,
-    are_round,
     find_among,
     find_touching,
 )
@@ -45,7 +43,13 @@ from vtray.geometry.stopped import Bundle, stop_rays
 from vtray.geometry.vector import Vec, add
 from vtray.geometry.world import Faded, Solids, World
 from vtray.transport.integrators.soft_edges import is_lit_unevenly
-from vtray.transport.integrators.soft_known import MOST_KNOWN, WORTH_IT, is_narrow, known_share
+from vtray.transport.integrators.soft_known import (
+    MOST_KNOWN,
+    WORTH_IT,
+    has_only_balls,
+    is_narrow,
+    known_share,
+)
 from vtray.transport.integrators.soft_trial import (
     begin_trial,
     end_trial,
@@ -442,10 +446,8 @@ def _ask_cones(
             if seen.is_alone:
                 touching = found
             may_be_dim = found != CLOSED and may_be_dimmed(cone, world, work.stack)
-            share = UNKNOWN
-            if not may_be_dim:
-                few, count_few = _few_touching(cone, world, fans, found, work)
-                share = known_share(cone, aim, normal, world, fans, few, count_few, work.caps)
+            known = MANY if may_be_dim else found
+            share = known_share(cone, aim, normal, world, fans, work.own, known, work.caps)
             if share != UNKNOWN:
                 _add_shares(packet, hit, casting, light, (share, 0.0, 0.0))
                 cast += fans.rays
@@ -463,23 +465,11 @@ def _find_touching(
     """Find the shapes that touch a cone among so many around it, or all if that is ``MANY``."""
     if around >= 0:
         return find_among(cone, world, work.touching, around, work.own)
-    if seen.is_alone or fans.rays >= WORTH_IT:
-        most = MOST if seen.is_alone else MOST_KNOWN
-        return find_touching(cone, world, work.own, most, work.stack)
+    if seen.is_alone:
+        return find_touching(cone, world, work.own, MOST, work.stack)
+    if fans.rays >= WORTH_IT and has_only_balls(world):
+        return find_touching(cone, world, work.own, MOST_KNOWN, work.stack)
     return MANY
-
-
-@device
-def _few_touching(
-    cone: Cone, world: World, fans: Fans, found: int, work: Workspace
-) -> tuple[Touching, int]:
-    """Return those few shapes that touch a cone, of so many found, as if it had been asked alone.
-
-    Boxes tell more than balls of what is long: alone, some of them would not have been found.
-    """
-    if found <= 0 or fans.rays < WORTH_IT or are_round(world, work.own, found):
-        return work.own, found
-    return work.few, find_touching(cone, world, work.few, MOST_KNOWN, work.stack)
 
 
 @device

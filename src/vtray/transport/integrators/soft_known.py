@@ -2,13 +2,13 @@
 
 from vtray.base.compiler.compiled import device
 from vtray.geometry.caps import UNKNOWN, Caps
-from vtray.geometry.faded.dimming import may_be_dimmed
-from vtray.geometry.packets.cone import CLOSED, MANY, Cone, Touching, find_touching
+from vtray.geometry.packets.cone import CLOSED, Cone, Touching, find_touching
 from vtray.geometry.packets.cone_light import light_of_cone
 from vtray.geometry.packets.fan import Start
 from vtray.geometry.packets.stack import Stack
+from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.vector import Vec
-from vtray.geometry.world import World
+from vtray.geometry.world import Clip, Faded, World
 from vtray.transport.integrators.soft_edges import NARROW
 from vtray.transport.lights.soft_light import Aim, cone_of, is_above, is_cone, middle_share
 from vtray.transport.sampling.fans import Fans
@@ -24,6 +24,24 @@ WORTH_IT = 32
 def is_narrow(aim: Aim) -> bool:
     """Tell whether it is asked which shapes touch the cone of a light."""
     return is_cone(aim) and aim.spread < NARROW
+
+
+@device
+def has_only_balls(world: World) -> bool:
+    """Tell whether there are only whole spheres and planes, and none that lets light through.
+
+    What is long is found by boxes, which are those of several things: what is known to touch a cone
+    would depend on what stands near it.
+    """
+    solids = world.solids
+    return _are_none(solids.cylinders, solids.cones, solids.clip, world.faded)
+
+
+@device
+def _are_none(
+    cylinders: Columns | None, cones: Columns | None, clip: Clip | None, faded: Faded | None
+) -> bool:
+    return cylinders is None and cones is None and clip is None and faded is None
 
 
 @device
@@ -54,7 +72,8 @@ def known_share(
         return 0.0
     if count == 0 and is_above(aim, normal):
         return middle_share(aim, normal)
-    if count < 0 or count > MOST_KNOWN or fans.rays < WORTH_IT:
+    is_asked = fans.rays >= WORTH_IT and has_only_balls(world)
+    if count < 0 or count > MOST_KNOWN or not is_asked:
         return UNKNOWN
     light = light_of_cone(cone, normal, world, touching, count, caps)
     return UNKNOWN if light == UNKNOWN else aim.share * light
@@ -83,10 +102,8 @@ def share_at(
     touching, caps, stack
         Scratch memory.
     """
-    if not is_narrow(aim):
+    if not (is_narrow(aim) and has_only_balls(world)):
         return UNKNOWN
     cone = cone_of(aim, start, forward)
     count = find_touching(cone, world, touching, MOST_KNOWN, stack)
-    if count != CLOSED and may_be_dimmed(cone, world, stack):
-        count = MANY
     return known_share(cone, aim, normal, world, fans, touching, count, caps)
