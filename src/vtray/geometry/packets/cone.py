@@ -27,6 +27,7 @@ from vtray.geometry.packets.beam import (
 from vtray.geometry.packets.fan import Start
 from vtray.geometry.packets.stack import Stack, push_some
 from vtray.geometry.rounding import MARGIN, ROUNDING
+from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.shapes.plane import load_plane, plane_side
 from vtray.geometry.shapes.verbs import Shape, Verbs
 from vtray.geometry.vector import Vec, dot, magnitude, scale, sub
@@ -34,6 +35,8 @@ from vtray.geometry.world import (
     CUT,
     PLANE,
     SPHERE,
+    Clip,
+    Faded,
     Group,
     Hierarchy,
     Places,
@@ -145,7 +148,7 @@ def find_touching(cone: Cone, world: World, touching: Touching, most: int, stack
     touching
         Out: the shapes.
     most
-        More than so many are `MANY`; ``MOST`` at the most.
+        More than so many are `MANY`: ``MOST``, or fewer, among balls only; else it is `MANY` then.
     stack
         Scratch memory.
 
@@ -154,6 +157,8 @@ def find_touching(cone: Cone, world: World, touching: Touching, most: int, stack
     int
         How many there are, or ``CLOSED`` or ``MANY``.
     """
+    if most < MOST and not has_only_balls(world):
+        return MANY
     count = 0
     for row in range(group_count(world)):
         group = load_group(world, row)
@@ -178,6 +183,24 @@ def find_among(cone: Cone, world: World, touching: Touching, count: int, own: To
             own.row[found], own.slot[found] = touching.row[k], touching.slot[k]
             found += 1
     return found
+
+
+@device
+def has_only_balls(world: World) -> bool:
+    """Tell whether there are only whole spheres and planes, and none that lets light through.
+
+    What is long is found by boxes, which are those of several things: what is known to touch a cone
+    would depend on what stands near it.
+    """
+    solids = world.solids
+    return _are_none(solids.cylinders, solids.cones, solids.clip, world.faded)
+
+
+@device
+def _are_none(
+    cylinders: Columns | None, cones: Columns | None, clip: Clip | None, faded: Faded | None
+) -> bool:
+    return cylinders is None and cones is None and clip is None and faded is None
 
 
 @device

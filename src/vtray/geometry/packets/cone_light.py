@@ -9,13 +9,13 @@ import math
 from vtray.base.compiler.compiled import device, part
 from vtray.geometry.caps import MOST_CAPS, UNKNOWN, Caps, light_within, set_cap, swap_caps
 from vtray.geometry.dispatch import with_bounded
-from vtray.geometry.packets.cone import SLIGHT, Cone, Touching
+from vtray.geometry.packets.cone import SLIGHT, Cone, Touching, has_only_balls
 from vtray.geometry.ray import EVERYWHERE
 from vtray.geometry.rounding import MARGIN
 from vtray.geometry.shapes.plane import load_plane, plane_side
 from vtray.geometry.shapes.verbs import Shape, Verbs
 from vtray.geometry.vector import Vec, dot, scale, sub
-from vtray.geometry.world import PLANE, SPHERE, World, load_group
+from vtray.geometry.world import PLANE, World, load_group
 
 NO_CAP = -1
 """In place of how many caps there are: something hides no cap."""
@@ -47,6 +47,8 @@ def light_of_cone(
         The mean over all directions of the cone, of the cosine where light arrives and of 0 where
         it does not; or ``UNKNOWN``.
     """
+    if not has_only_balls(world):
+        return UNKNOWN
     set_cap(caps, 0, cone.axis, cone.cosine, cone.sine)
     taken = 1
     if dot(normal, cone.axis) < cone.sine + SLIGHT:
@@ -94,8 +96,6 @@ def _take_shape(
         side = plane_side(plane, cone.start.point)
         margin = MARGIN * (cone.start.error_scale + plane.error_scale)
         return _take_plane(cone, plane.normal, side, margin, caps, taken)
-    if group.kind != SPHERE:
-        return NO_CAP
     count: int = with_bounded(world.solids, group, slot, _take_sphere, (cone, normal, caps, taken))
     return count
 

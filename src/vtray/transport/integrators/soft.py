@@ -46,7 +46,6 @@ from vtray.transport.integrators.soft_edges import is_lit_unevenly
 from vtray.transport.integrators.soft_known import (
     MOST_KNOWN,
     WORTH_IT,
-    has_only_balls,
     is_narrow,
     known_share,
 )
@@ -467,7 +466,7 @@ def _find_touching(
         return find_among(cone, world, work.touching, around, work.own)
     if seen.is_alone:
         return find_touching(cone, world, work.own, MOST, work.stack)
-    if fans.rays >= WORTH_IT and has_only_balls(world):
+    if fans.rays >= WORTH_IT:
         return find_touching(cone, world, work.own, MOST_KNOWN, work.stack)
     return MANY
 

@@ -6,9 +6,8 @@ from vtray.geometry.packets.cone import CLOSED, Cone, Touching, find_touching
 from vtray.geometry.packets.cone_light import light_of_cone
 from vtray.geometry.packets.fan import Start
 from vtray.geometry.packets.stack import Stack
-from vtray.geometry.shapes.columns import Columns
 from vtray.geometry.vector import Vec
-from vtray.geometry.world import Clip, Faded, World
+from vtray.geometry.world import World
 from vtray.transport.integrators.soft_edges import NARROW
 from vtray.transport.lights.soft_light import Aim, cone_of, is_above, is_cone, middle_share
 from vtray.transport.sampling.fans import Fans
@@ -24,24 +23,6 @@ WORTH_IT = 32
 def is_narrow(aim: Aim) -> bool:
     """Tell whether it is asked which shapes touch the cone of a light."""
     return is_cone(aim) and aim.spread < NARROW
-
-
-@device
-def has_only_balls(world: World) -> bool:
-    """Tell whether there are only whole spheres and planes, and none that lets light through.
-
-    What is long is found by boxes, which are those of several things: what is known to touch a cone
-    would depend on what stands near it.
-    """
-    solids = world.solids
-    return _are_none(solids.cylinders, solids.cones, solids.clip, world.faded)
-
-
-@device
-def _are_none(
-    cylinders: Columns | None, cones: Columns | None, clip: Clip | None, faded: Faded | None
-) -> bool:
-    return cylinders is None and cones is None and clip is None and faded is None
 
 
 @device
@@ -72,8 +53,7 @@ def known_share(
         return 0.0
     if count == 0 and is_above(aim, normal):
         return middle_share(aim, normal)
-    is_asked = fans.rays >= WORTH_IT and has_only_balls(world)
-    if count < 0 or count > MOST_KNOWN or not is_asked:
+    if count < 0 or count > MOST_KNOWN or fans.rays < WORTH_IT:
         return UNKNOWN
     light = light_of_cone(cone, normal, world, touching, count, caps)
     return UNKNOWN if light == UNKNOWN else aim.share * light
@@ -102,7 +82,7 @@ def share_at(
     touching, caps, stack
         Scratch memory.
     """
-    if not (is_narrow(aim) and has_only_balls(world)):
+    if not is_narrow(aim):
         return UNKNOWN
     cone = cone_of(aim, start, forward)
     count = find_touching(cone, world, touching, MOST_KNOWN, stack)
