@@ -178,6 +178,7 @@ def test_what_lies_beside_a_cone_in_its_beam_is_not_looked_at() -> None:
     assert ask_from_middle(scene, axis, cosine) == 0
 
 
+@once
 @pytest.mark.parametrize(("count", "expected"), [(300, 0), (100_000, MANY)])
 def test_not_all_boxes_are_looked_at_that_touch_a_cone(count: int, expected: int) -> None:
     # They do, as they are around several balls on a wider cone.
@@ -190,6 +191,7 @@ def test_not_all_boxes_are_looked_at_that_touch_a_cone(count: int, expected: int
     assert ask_from_middle(scene, np.array([0.0, 0.0, 1.0]), math.cos(math.radians(24))) == expected
 
 
+@once
 @pytest.mark.parametrize("axis", [(0, 0, 1), (0, 1, 0), (0.6, 0, -0.8)])
 def test_a_cone_to_both_sides_of_an_axis_looks_ahead_only(axis: tuple[float, ...]) -> None:
     random = np.random.default_rng(3)
