@@ -29,6 +29,7 @@ TURN = Long(2) ** -46
 """By how much rounding may turn a direction."""
 SKY_TURN = Long(1e-6)
 """The same of one that is chosen by brightness: beside what is dark, a root makes much of it."""
+# The first is a ray as it is.
 CHANGES = [(0, 0), (1, 1), (-1, -1), (1, -1), (-1, 1)]
 """How objects are larger, and rays askew, in units of what rounding may amount to."""
 
@@ -211,9 +212,9 @@ class SoftOracle:
         weights = weights[:, None] if sky is None else sky.weights(ways, normal)
         lengths, length_errors = self._lengths(hit, light, aim, ways, turn)
         rays = _Rays(point, hit.error, ways, lengths, hit.error + aim.error, turn)
-        sure, maybe = self._stopped(rays)
+        stopped, sure, maybe = self._stopped(rays)
         faces = (weights > 0).any(axis=1)
-        arrives = faces & ~self._stopped(rays, CHANGES[:1])[1]
+        arrives = faces & ~stopped
         grazes = (np.abs(cosines) <= 2 * turn) & (by_brightness | (not is_around))
         doubt = aim.is_doubtful | (faces & maybe & ~sure) | grazes
         turns = np.broadcast_to(turn, lengths.shape)
@@ -248,9 +249,9 @@ class SoftOracle:
         lengths = panel.height / steep
         length_errors = reach + lengths * turn / steep
         rays = _Rays(point, hit.error, ways, lengths, hit.error + error, turn)
-        sure, maybe = self._stopped(rays)
+        stopped, sure, maybe = self._stopped(rays)
         faces = weights[:, 0] > 0
-        arrives = faces & ~self._stopped(rays, CHANGES[:1])[1]
+        arrives = faces & ~stopped
         doubt = is_doubtful | (faces & maybe & ~sure) | (np.abs(cosines) <= 2 * turn)
         return Fan(points, ways, lengths, weights, arrives, doubt, turn, length_errors, None)
 
@@ -290,10 +291,9 @@ class SoftOracle:
         lengths = np.full(len(ways), Long(light.get("distance", FAR)))
         return lengths, ROUNDING * (hit.error + lengths)
 
-    def _stopped(self, rays: _Rays, changes: Any = CHANGES) -> tuple[Array, Array]:
-        """Tell which rays an object stops whatever rounding does, and which one may stop."""
-        sure = np.zeros(len(rays.ways), bool)
-        maybe = sure.copy()
+    def _stopped(self, rays: _Rays) -> tuple[Array, Array, Array]:
+        """Tell which rays an object stops, which whatever rounding does, and which one may stop."""
+        stopped, sure, maybe = np.zeros((3, len(rays.ways)), bool)
         kinds = {
             "sphere": self._sphere_stops,
             "plane": self._plane_stops,
@@ -304,12 +304,13 @@ class SoftOracle:
             reach = ROUNDING * (rays.error + self.exact.magnitude(item))
             end_reach = ROUNDING * (rays.end_error + self.exact.magnitude(item))
             told = []
-            for more, askew in changes:
+            for more, askew in CHANGES:
                 changed = rays._replace(more=more, askew=askew)
                 told.append(kinds[item["type"]](k, changed, reach, end_reach))
+            stopped |= told[0]
             sure |= np.all(told, axis=0)
             maybe |= np.any(told, axis=0)
-        return sure, maybe
+        return stopped, sure, maybe
 
     def _cut(self, rays: _Rays, reach: Any, end_reach: Any) -> tuple[Array, Array]:
         """Return how long rays are up to the image plane, and how exact their ends are then."""

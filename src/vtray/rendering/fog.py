@@ -1,6 +1,7 @@
 """Fog between its two distances, and as kernels see it."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -113,4 +114,4 @@ def with_fog(packed: Packed, style: Style) -> Packed:
         length = np.float64(fog.end - fog.start) / packed.unit
     start, length = np.clip((start, length), (-LARGEST, 1.0 / LARGEST), LARGEST)
     frame = FogFrame(float(start), float(length))
-    return packed._replace(arrays=packed.arrays._replace(fog=frame))
+    return replace(packed, arrays=packed.arrays._replace(fog=frame))

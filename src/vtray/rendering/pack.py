@@ -3,12 +3,15 @@
 import math
 import sys
 from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vtray.base.capacity import MAX_NUMBERS
+from vtray.base.compiler.compiled import pinned
 from vtray.geometry.bvh.tree import Frame, no_bvh
 from vtray.geometry.ray import EVERYWHERE
 from vtray.geometry.shapes.columns import Columns
@@ -47,6 +50,7 @@ from vtray.scene.placing.directions import unit as unit_vector
 from vtray.scene.scene import Camera, Plane, Scene
 from vtray.scene.style import Style
 from vtray.transport.camera_rays import CameraFrame, TurnFrame
+from vtray.transport.lights.soft_light import SoftLights
 from vtray.transport.materials.material import Materials, Paints
 from vtray.transport.scene_arrays import SceneArrays
 
@@ -68,7 +72,8 @@ LARGEST_RATIO = 2.0**100
 """Spheres so tiny beside all else that this is exceeded are traced without their hierarchy."""
 
 
-class Packed(NamedTuple):
+@dataclass(frozen=True)
+class Packed:
     """The arrays of a scene, and what leads back from them to the scene.
 
     Attributes
@@ -87,6 +92,17 @@ class Packed(NamedTuple):
     unit: float
     before: float
     made: list[MadeOf]
+
+    @cached_property
+    def given(self) -> SceneArrays:
+        """The arrays as kernels are given them in many calls; see `pinned`."""
+        return pinned(self.arrays)
+
+    @cached_property
+    def given_lights(self) -> SoftLights | None:
+        """The lights that are no points, in the same way."""
+        soft = self.arrays.lights.soft
+        return None if soft is None else pinned(soft)
 
 
 def pack(scene: Scene, kept: Acceleration) -> Packed:

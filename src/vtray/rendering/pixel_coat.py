@@ -48,13 +48,13 @@ class Coat(NamedTuple):
 
 def coat_lights(coat: Coat) -> tuple[WayToLight, ...]:
     """Return the ways from a glossy hit to all lights."""
-    arrays, scene = coat.pixel.packed.arrays, coat.pixel.scene
-    world, glossy, stack = pinned(arrays), pinned(coat.glossy), pinned(coat.stack)
+    packed, scene = coat.pixel.packed, coat.pixel.scene
+    world, glossy, stack = packed.given, pinned(coat.glossy), pinned(coat.stack)
     ways: list[WayToLight] = []
     for number, (k, light) in enumerate(point_lights(scene)):
         told = tell_point(world, glossy, coat.packet, number, stack)
         ways.append(_to_point(coat, k, light, told))
-    others, soft, asked = asked_lights(scene), arrays.lights.soft, {}
+    others, soft, asked = asked_lights(scene), packed.given_lights, {}
     if soft is not None:
         for number in range(min(len(others), PICKED)):
             told = tell_lamp(world, glossy, soft, coat.step, coat.packet, number, stack)

@@ -41,15 +41,14 @@ def trace_shared(
 
     Each light gets those that go to it. One that was asked as a whole has none.
     """
-    arrays, soft, crowd = packed.arrays, packed.arrays.lights.soft, packed.arrays.lights.crowd
-    assert soft is not None  # noqa: S101 - they share fans
-    assert crowd is not None  # noqa: S101
+    crowd, lamps, lights = packed.arrays.lights.crowd, packed.given_lights, asked_lights(lit.scene)
+    assert crowd is not None  # noqa: S101 - lights share fans
+    assert lamps is not None  # noqa: S101
     fan, stack = new_fan(), new_stack()
-    shared, blockers = new_shared(len(soft.kind)), np.full(fans.rays, NOTHING)
-    given = pinned(arrays), pinned(soft), pinned(crowd), traced, *pixel, pinned(fans)
-    walk = new_walk(body_count(arrays.world))
+    shared, blockers = new_shared(len(lights)), np.full(fans.rays, NOTHING)
+    given = packed.given, lamps, pinned(crowd), traced, *pixel, pinned(fans)
+    walk = new_walk(body_count(packed.arrays.world))
     found = trace_crowd(*given, seed, stack, fan, blockers, shared, new_touching(), walk)
-    lights = asked_lights(lit.scene)
     cast: list[list[_Cast]] = [[] for _ in lights]
     for number in range(found.fans):
         trace_shared_fan(*given, number, seed, stack, fan, blockers, shared, walk)

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vtray.base.compiler.compiled import pinned, uncompiled
+from vtray.base.compiler.compiled import uncompiled
 from vtray.figures.traced_rays import Hit, Layer, WayToLight
 from vtray.geometry.packets.layer_notes import AT_ONCE, new_layers, new_walk
 from vtray.geometry.packets.stack import new_stack
@@ -48,7 +48,7 @@ def look_through(pixel: Pixel) -> tuple[tuple[Layer, ...], Behind, Vec]:
     bodies, points = body_count(arrays.world), uncompiled(light_count)(arrays.lights)
     cosines, blockers = np.zeros(points), np.full(points, NOTHING)
     stack, walk, notes = new_stack(), new_walk(bodies), new_layers(bodies)
-    scene = pinned(arrays)
+    scene = pixel.packed.given
     traced = trace_pixel(scene, *pixel.place, stack, cosines, blockers, walk)
     found: list[Layer] = []
     share, light = 1.0, (0.0, 0.0, 0.0)

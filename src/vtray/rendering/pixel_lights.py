@@ -127,13 +127,13 @@ def trace_fans(
         The rays, and the pixel's light with all that they add.
     """
     ways: list[WayToLight] = []
-    arrays, soft = packed.arrays, packed.arrays.lights.soft
-    if fans is None or soft is None:
+    soft, lamps = packed.arrays.lights.soft, packed.given_lights
+    if fans is None or soft is None or lamps is None:
         return ways, traced.value
     spent, scratch, around = 0.0, _scratch(packed, traced, fans), _around()
     _, fan, blockers, _ = scratch
     start, length = traced.interaction.point, packed.unit
-    world, lamps, cast = pinned(arrays), pinned(soft), pinned(fans)
+    world, cast = packed.given, pinned(fans)
     for k, light in asked_lights(lit.scene):
         known = world, lamps, traced, *pixel, len(ways), cast, count
         lamp = trace_lamp(*known, spent, seed, *scratch, *around)
@@ -158,10 +158,11 @@ def variance_on_trial(
 
     The parameters are those of `trace_fans`.
     """
-    arrays, soft = packed.arrays, packed.arrays.lights.soft
+    soft, lamps = packed.arrays.lights.soft, packed.given_lights
     assert soft is not None  # noqa: S101 - they have fans
+    assert lamps is not None  # noqa: S101
     spent, scratch, around = 0.0, _scratch(packed, traced, fans), _around()
-    world, lamps, cast = pinned(arrays), pinned(soft), pinned(fans)
+    world, cast = packed.given, pinned(fans)
     for light in range(len(soft.kind)):
         known = world, lamps, traced, *pixel, light, cast, 1
         lamp = trace_lamp(*known, spent, seed, *scratch, *around)

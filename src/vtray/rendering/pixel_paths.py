@@ -129,7 +129,7 @@ class _Follower:
         self._materials = materials_by_row(pixel.packed.made)
         self._place = Place(*pixel.place, sample)
         self._packet, self._work = new_memory(arrays)
-        scene, looks, cast = pinned(arrays), pinned(self._looks), pinned(sampling)
+        scene, looks, cast = pixel.packed.given, pinned(self._looks), pinned(sampling)
         # What kernels are given for each ray.
         self._given = scene, looks, cast, self._place, self._packet, pinned(self._work)
         self._waiting: list[_Waiting] = []

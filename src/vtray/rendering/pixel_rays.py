@@ -1,6 +1,7 @@
 """Tracing the rays of one pixel, to be looked at."""
 
 import math
+from dataclasses import replace
 from typing import SupportsIndex
 
 import numpy as np
@@ -182,8 +183,7 @@ def _path_tree(
     scene, packed = pixel.scene, pixel.packed
     fans, paths = from_surfaces
     if sample is None:
-        arrays = with_pinhole(packed.arrays)
-        pixel = pixel._replace(packed=packed._replace(arrays=arrays))
+        pixel = pixel._replace(packed=replace(packed, arrays=with_pinhole(packed.arrays)))
         sampling = middle_rays(before_samples=True, fans=fans, paths=paths, seed=pixel.seed)
     else:
         lens = lens_points(packed.arrays.camera, int(settings.samples))

@@ -1,5 +1,7 @@
 """The arrays of a scene with what a style says of them."""
 
+from dataclasses import replace
+
 from vtray.rendering.fog import with_fog
 from vtray.rendering.pack import Packed
 from vtray.scene.style import Style
@@ -16,4 +18,4 @@ def with_solid_from(packed: Packed, least: float) -> Packed:
     if world.faded is None:
         return packed
     world = world._replace(faded=world.faded._replace(least=least))
-    return packed._replace(arrays=packed.arrays._replace(world=world))
+    return replace(packed, arrays=packed.arrays._replace(world=world))
