@@ -38,7 +38,6 @@ class Walk(NamedTuple):
     nodes: int
     tree_depth: int
     waiting: int
-    slots: list[tuple[int, int]]
 
 
 def walk(built: Built) -> Walk:
@@ -47,6 +46,7 @@ def walk(built: Built) -> Walk:
     sides = built.bvh.sides.reshape(-1, 6, WIDTH)
     stack, nodes, tree_depth, waiting = [(0, 1)], 0, 0, 1
     slots: list[tuple[int, int]] = []
+    boxes: list[np.ndarray] = []
     while stack:
         waiting = max(waiting, len(stack))
         node, level = stack.pop()
@@ -62,29 +62,39 @@ def walk(built: Built) -> Walk:
                 first, count = ~below >> COUNT_BITS, ~below & COUNT_MASK
                 assert 1 <= count <= LEAF
                 slots.append((first, count))
-                check_leaf(built, box, slice(first, first + count))
+                boxes.append(box)
             else:
                 assert (box[:3] > box[3:]).all()
-    return Walk(nodes, tree_depth, waiting, slots)
+    check_leaves(built, np.array(boxes), slots)
+    return Walk(nodes, tree_depth, waiting)
 
 
-def check_leaf(built: Built, box: np.ndarray, slots: slice) -> None:
-    """See that the box of a leaf contains its spheres and the margin, and is not far too large."""
-    data = built.leaves.data.reshape(-1, 4)[slots].astype(np.longdouble)
+def check_leaves(built: Built, boxes: np.ndarray, slots: list[tuple[int, int]]) -> None:
+    """See that boxes of leaves contain their spheres and the margin, and are not far too large."""
+    order = sorted(range(len(slots)), key=lambda k: slots[k])
+    firsts, counts = np.array(slots)[order].T
+    box = boxes[order]
+    # They hold all slots once.
+    ends = np.cumsum(counts)
+    assert firsts.tolist() == [0, *ends[:-1].tolist()]
+    assert ends[-1] == len(built.leaves.number)
+    data = built.leaves.data.reshape(-1, 4)[: ends[-1]].astype(np.longdouble)
     scale, origin = built.frame
     place = data[:, :3] * scale - np.array(origin, np.longdouble)
     radius = (data[:, 3] * scale)[:, None]
     margin = MARGIN * (np.abs(place).sum(axis=1)[:, None] + radius)
-    low, high = (place - radius).min(axis=0), (place + radius).max(axis=0)
-    assert (box[:3] <= (place - radius - 0.99 * margin).min(axis=0)).all()
-    assert (box[3:] >= (place + radius + 0.99 * margin).max(axis=0)).all()
-    if (np.abs(place).max(axis=1) + radius[:, 0]).max() > FRAME:
-        assert (box[3:] == -box[:3]).all()
-        assert (box[3:] == np.float32(EVERYWHERE)).all()
-        return
-    slack = 2 * margin.max() + 2.0**-21 * np.abs([low, high]).max(axis=0) + 2.0**-147
-    assert (box[:3] >= low - slack).all()
-    assert (box[3:] <= high + slack).all()
+    low = np.minimum.reduceat(place - radius, firsts)
+    high = np.maximum.reduceat(place + radius, firsts)
+    assert (box[:, :3] <= np.minimum.reduceat(place - radius - 0.99 * margin, firsts)).all()
+    assert (box[:, 3:] >= np.maximum.reduceat(place + radius + 0.99 * margin, firsts)).all()
+    reach = np.abs(place).max(axis=1) + radius[:, 0]
+    is_far = np.maximum.reduceat(reach, firsts) > FRAME
+    assert (box[is_far, 3:] == -box[is_far, :3]).all()
+    assert (box[is_far, 3:] == np.float32(EVERYWHERE)).all()
+    extent = np.abs([low, high]).max(axis=0)
+    slack = 2 * np.maximum.reduceat(margin, firsts) + 2.0**-21 * extent + 2.0**-147
+    assert (box[:, :3] >= low - slack)[~is_far].all()
+    assert (box[:, 3:] <= high + slack)[~is_far].all()
 
 
 def check(center: np.ndarray, radius: np.ndarray, threads: int = 1) -> Built:
@@ -97,10 +107,7 @@ def check(center: np.ndarray, radius: np.ndarray, threads: int = 1) -> Built:
     assert found.nodes <= n // 4 + 1 + n // bvh_build.SMALL
     assert found.tree_depth == built.tree_depth <= STACK // WIDTH
     assert found.waiting <= found.tree_depth * (WIDTH - 1) + 1 <= STACK
-    # The leaves hold all slots once, and the slots all spheres once.
-    ends = np.cumsum([count for _, count in sorted(found.slots)])
-    assert [first for first, _ in sorted(found.slots)] == [0, *ends[:-1].tolist()]
-    assert ends[-1] == n
+    # The slots hold all spheres once.
     number = built.leaves.number
     assert (np.sort(number) == np.arange(n)).all()
     data = built.leaves.data.reshape(-1, 4)

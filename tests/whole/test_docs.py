@@ -13,7 +13,7 @@ from PIL import Image
 from shown_pictures import assert_same_picture, size_of
 
 import vtray
-from conftest import compiled_only
+from conftest import compiled_only, once
 
 PUBLIC = {name for name in vtray.__all__ if not name.startswith("_")}
 SITE_PAGES = sorted(pages.DOCS.glob("*.md"))
@@ -159,6 +159,7 @@ def test_wrong_page_is_found_out(
         pages.run_page(page)
 
 
+@once
 def test_site_is_built_without_a_warning(tmp_path: Path) -> None:
     if not (find_spec("mkdocs") and find_spec("mkdocstrings")):
         pytest.skip("MkDocs is not installed")

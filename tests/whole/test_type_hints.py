@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from conftest import once
+
 CACHE = Path(__file__).parents[2] / ".mypy_cache"
 
 RIGHT = """
@@ -57,6 +59,7 @@ WRONG = [
 ]
 
 
+@once
 def test_type_checkers_know_right_from_wrong(tmp_path: Path) -> None:
     api = pytest.importorskip("mypy.api")
     path = tmp_path / "user.py"

@@ -8,6 +8,7 @@ import math
 
 from vtray.base.compiler.compiled import device, part
 from vtray.geometry.caps import MOST_CAPS, UNKNOWN, Caps, light_within, set_cap, swap_caps
+from vtray.geometry.circle import PI
 from vtray.geometry.dispatch import with_bounded
 from vtray.geometry.packets.cone import SLIGHT, Cone, Touching, has_only_balls
 from vtray.geometry.ray import EVERYWHERE
@@ -64,7 +65,7 @@ def light_of_cone(
     if light == UNKNOWN:
         return UNKNOWN
     # The solid angle of a cone is 2 pi (1 - cosine), and 1 - cosine is sine^2 / (1 + cosine).
-    return light * (1.0 + cone.cosine) / (2.0 * math.pi * cone.sine * cone.sine)
+    return light * (1.0 + cone.cosine) / (2.0 * PI * cone.sine * cone.sine)
 
 
 @device

@@ -44,5 +44,8 @@ def by_workers(count: int, new_worker: Callable[[], Callable[[slice], Result]]) 
         return run
 
     begins = range(0, count, PIECE)
-    run_tasks(begins, new_runner, available_cores())
+    if len(begins) == 1:
+        new_runner()(0)  # sooner than a thread is started
+    else:
+        run_tasks(begins, new_runner, available_cores())
     return [results[begin] for begin in begins]
