@@ -13,6 +13,7 @@ from vtray.base.errors import UnfitFileError, VtrayError, why_unreadable
 from vtray.base.input_file import open_input
 from vtray.base.memory import lack_of_memory
 from vtray.figures.deep_picture import is_deep, read_deep
+from vtray.scene.checks.unknown_names import explain_unknown
 
 if TYPE_CHECKING:
     import numpy as np
@@ -217,6 +218,7 @@ class Comparison:
         return f'<div style="display: flex; gap: 8px">{"".join(cells)}</div><pre>{text}</pre>'
 
 
+@explain_unknown
 def compare(a: "Picture", b: "Picture") -> Comparison:
     """Compare two pictures, channel by channel.
 

@@ -14,8 +14,8 @@ _LIMITS = "the limits of the colour map are clim=(low, high)"
 
 # What other programs call it, and what to say where there is this argument of vtray.
 _MEANT = {
-    "vmin": {"clim": _LIMITS},
-    "vmax": {"clim": _LIMITS},
+    "vmin": {"clim": _LIMITS, "low": 'did you mean "low"?'},
+    "vmax": {"clim": _LIMITS, "high": 'did you mean "high"?'},
     "norm": {"clim": f"{_LIMITS}; for logarithms, give those of the values as color"},
     "alpha": {
         "background": 'for a transparent background, background="transparent"',
@@ -56,9 +56,11 @@ def explain_unknown(function: Callable[P, R]) -> Callable[P, R]:
     Parameters
     ----------
     function
-        A function with named arguments alone, no ``*args`` and no ``**kwargs``.
+        A function with named arguments alone, no ``*args`` and no ``**kwargs``; or the ``__init__``
+        of a class.
     """
     code = function.__code__
+    called_as = function.__qualname__.removesuffix(".__init__").rpartition(".")[2]
     names = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
     known = [name for name in names if name not in ("self", "cls")]
 
@@ -66,7 +68,7 @@ def explain_unknown(function: Callable[P, R]) -> Callable[P, R]:
     def called(*args: P.args, **kwargs: P.kwargs) -> R:
         for name in kwargs:
             if name not in known:
-                raise TypeError(unknown_argument(function.__name__, name, known))
+                raise TypeError(unknown_argument(called_as, name, known))
         return function(*args, **kwargs)
 
     return called

@@ -12,6 +12,7 @@ from vtray.base.errors import SceneError
 from vtray.base.exact_math import logarithm
 from vtray.base.extras import pip_install
 from vtray.scene.checks.scene_words import either, nearest, quoted, show
+from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.colors.names import Rgb, to_rgb
 
 if TYPE_CHECKING:
@@ -66,6 +67,7 @@ class ColorScale:
     norm: Spread
     nan_color: Rgb
 
+    @explain_unknown
     def __init__(
         self,
         cmap: "ColorMap",

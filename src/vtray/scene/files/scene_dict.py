@@ -14,6 +14,7 @@ from vtray.scene.arrays import Arrays
 from vtray.scene.checks.columns import array_words
 from vtray.scene.checks.limits import Byte
 from vtray.scene.checks.scene_words import Unknown, join, nearest, show
+from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.copies import Copies
 from vtray.scene.default_light import lights_of, settings_of
 from vtray.scene.files.in_file import without_integrator
@@ -37,6 +38,7 @@ _PLACEHOLDER = msgspec.Raw(
 PICTURE_AXES = 3
 
 
+@explain_unknown
 def load_dict(data: Mapping[str, Any], name: str = "<dict>", *, warn: Warn | None = None) -> Scene:
     """Make a scene of a dictionary, with the checks and the words of a scene file.
 

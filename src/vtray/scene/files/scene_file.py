@@ -19,6 +19,7 @@ from vtray.base.file_name import file_name
 from vtray.base.input_file import is_given, read_input
 from vtray.scene.camera import Camera
 from vtray.scene.checks.checked import make_unchecked
+from vtray.scene.checks.unknown_names import explain_unknown
 from vtray.scene.files.in_file import (
     KINDS,
     AnyIntegrator,
@@ -57,6 +58,7 @@ class _Found(msgspec.Struct):
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
 
+@explain_unknown
 def load(path: str | os.PathLike[str], *, warn: Warn | None = None) -> Scene:
     """Read a scene file, and the files of arrays that it names.
 
@@ -107,6 +109,7 @@ def _is_data(name: str) -> bool:
     return is_data(name)
 
 
+@explain_unknown
 def loads(text: str | bytes, name: str = "<string>", *, warn: Warn | None = None) -> Scene:
     """Read a scene from JSON text.
 
