@@ -18,15 +18,18 @@ import pytest
 from ase import Atoms
 from ase.build import bulk, molecule
 from ase.calculators.singlepoint import SinglePointCalculator
+from ase.data import atomic_masses
 
 import vtray
 from vtray.base.errors import SceneError
+from vtray.scene.particles.elements import atomic_numbers
 from vtray.scene.readers import csv_columns
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")
     import gsd.hoomd
     import MDAnalysis
+    from MDAnalysisTests import datafiles
 
 WATER = Atoms("OH2", [(0, 0, 0), (0.76, 0.59, 0), (-0.76, 0.59, 0)], cell=[4, 5, 6], pbc=True)
 
@@ -269,7 +272,7 @@ Atom Type Labels
 
 Masses
 
-{first} 12.011
+{first} {mass}
 2 15.999
 
 Atoms # atomic
@@ -282,16 +285,18 @@ Atoms # atomic
 
 def test_types_and_edges_of_lammps_may_have_names(tmp_path: Path) -> None:
     path = tmp_path / "a.data"
-    path.write_text(LABELLED.format(first="C"))
+    path.write_text(LABELLED.format(first="C", mass=12.011))
     found = vtray.read(path)
     assert found["type"].tolist() == found["element"].tolist() == ["C", "O", "O"]
     assert found["mass"].tolist() == [12.011, 15.999, 15.999]
     np.testing.assert_array_equal(found.cell, [(0, 5, 0), (0, 1, 5), (5, 0, 0)])
     np.testing.assert_array_equal(found.origin, (1, 2, 3))
-    path.write_text(LABELLED.format(first="ca"))
+    path.write_text(LABELLED.format(first="ca", mass=2.5))
     found = vtray.read(path)
     assert found["type"].tolist() == ["ca", "O", "O"]
     assert "element" not in found.columns
+    path.write_text(LABELLED.format(first="ca", mass=12.011))  # carbon in rings, in a force field
+    assert vtray.read(path)["element"].tolist() == ["C", "O", "O"]
 
 
 def test_bonds_of_lammps(tmp_path: Path) -> None:
@@ -414,6 +419,44 @@ def test_elements_by_types_that_mdanalysis_has_guessed(tmp_path: Path) -> None:
         found = vtray.from_mdanalysis(MDAnalysis.Universe(path))
     assert found["element"].tolist() == ["O", "H", "H", "X", "Na"]
     assert vtray.read(path)["element"].tolist() == found["element"].tolist()
+
+
+@pytest.mark.parametrize(("top", "run"), [("PSF", "DCD"), ("PRM", "TRJ")])
+def test_elements_of_force_fields_are_those_of_masses(top: str, run: str) -> None:
+    top, run = getattr(datafiles, top), getattr(datafiles, run)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        made = MDAnalysis.Universe(top, run)
+        known = atomic_masses[atomic_numbers(vtray.from_mdanalysis(made)["element"])]
+        assert np.abs(known - made.atoms.masses).max() < 0.01
+        np.testing.assert_array_equal(
+            vtray.read(top, trajectory=run)["element"], vtray.from_mdanalysis(made)["element"]
+        )
+
+
+def test_masses_tell_more_than_names() -> None:
+    found = vtray.read(datafiles.PSF_NAMD_TRICLINIC, trajectory=datafiles.DCD_NAMD_TRICLINIC)
+    are_like_sodium = np.char.startswith(found["name"], "N") & (found["mass"] == 14.007)
+    assert are_like_sodium.any()
+    assert set(found["element"][are_like_sodium]) == {"N"}
+
+
+def test_elements_that_are_named_are_those_whatever_their_masses() -> None:
+    made = universe()
+    made.add_TopologyAttr("masses", [12.011, 14.007, 0.0])
+    assert vtray.from_mdanalysis(made)["element"].tolist() == ["O", "H", "H"]
+
+
+def test_elements_of_lammps_are_those_of_masses(tmp_path: Path) -> None:
+    path = tmp_path / "a.dump"
+    head = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n" + "0 9\n" * 3
+    path.write_text(head + "ITEM: ATOMS id type mass x y z\n1 1 15.9994 0 0 0\n2 2 1.008 1 0 0\n")
+    assert vtray.read(path)["element"].tolist() == ["O", "H"]
+    path.write_text(head + "ITEM: ATOMS id type mass x y z\n1 1 4 0 0 0\n2 2 1 1 0 0\n")
+    assert "element" not in vtray.read(path).columns
+    text = "ITEM: ATOMS element mass x y z\nO 1.008 0 0 0\nH 15.9994 1 0 0\n"
+    path.write_text(head + text)
+    assert vtray.read(path)["element"].tolist() == ["O", "H"]
 
 
 @pytest.mark.parametrize(

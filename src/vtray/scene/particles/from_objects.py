@@ -25,6 +25,7 @@ from vtray.scene.particles.column_names import name_columns, name_twice
 from vtray.scene.particles.elements import are_symbols, symbol_of, symbols_of
 from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.from_columns import from_columns
+from vtray.scene.particles.masses import elements_of_masses
 from vtray.scene.particles.pairs import reach_residues
 from vtray.scene.particles.particles import Particles
 
@@ -141,7 +142,7 @@ def from_mdanalysis(group: Any) -> Particles:  # noqa: ANN401
             columns[name] = without_objects(np.asarray(getattr(atoms, attribute)))
     if "element" in columns and not any(map(str.strip, columns["element"].tolist())):
         del columns["element"]
-    elements = _elements_of(columns, _are_guessed(universe))
+    elements = _elements_of(columns, universe)
     if elements is not None:
         columns = {"element": elements, **{k: v for k, v in columns.items() if k != "element"}}
     if now.has_velocities:
@@ -283,24 +284,24 @@ def _results(atoms: Any) -> "dict[str, Array]":  # noqa: ANN401
     return {name: values for name, values in arrays.items() if len(values) == len(atoms)}
 
 
-def _elements_of(columns: "dict[str, Array]", are_guessed: bool) -> "Array | None":
-    """Return the elements of atoms by their column, or else by their types, if any are symbols.
+def _elements_of(columns: "dict[str, Array]", universe: Any) -> "Array | None":  # noqa: ANN401
+    """Return the elements of atoms by what tells them most surely; None if nothing does.
 
-    X is what is none, such as the sites without mass of some models of water.
-
-    Parameters
-    ----------
-    columns
-        What is known of the atoms.
-    are_guessed
-        Whether types are what MDAnalysis takes the names of atoms for. Others, as those of force
-        fields, are elements where all are symbols.
+    That is what the topology calls them; their masses; what MDAnalysis takes their names for; and
+    their types, where all are symbols. X is what is none, such as the sites without mass of some
+    models of water.
     """
-    elements, types = columns.get("element"), columns.get("type")
-    found = None if elements is None else _symbols_among(elements)
-    if found is not None or types is None or types.dtype.kind != "U":
-        return found
-    if are_guessed:
+    elements, masses, types = (columns.get(name) for name in ("element", "mass", "type"))
+    by_names = None if elements is None else _symbols_among(elements)
+    if by_names is not None and not _are_guessed(universe, "elements"):
+        return by_names
+    if masses is not None and not _are_guessed(universe, "masses"):
+        by_masses = elements_of_masses(masses)
+        if by_masses is not None:
+            return by_masses
+    if by_names is not None or types is None or types.dtype.kind != "U":
+        return by_names
+    if _are_guessed(universe, "types"):
         return _symbols_among(types)
     return types if are_symbols(types.tolist()) else None
 
@@ -312,10 +313,10 @@ def _symbols_among(names: "Array") -> "Array | None":
     return texts_of(listed, lambda name: known[name] or "X") if any(known.values()) else None
 
 
-def _are_guessed(universe: Any) -> bool:  # noqa: ANN401
-    """Tell whether the types of atoms are those that MDAnalysis has guessed by their names."""
-    types = getattr(getattr(universe, "_topology", None), "types", None)
-    return bool(getattr(types, "is_guessed", False))
+def _are_guessed(universe: Any, attribute: str) -> bool:  # noqa: ANN401
+    """Tell whether MDAnalysis has guessed what it knows of atoms, as by their names."""
+    known = getattr(getattr(universe, "_topology", None), attribute, None)
+    return bool(getattr(known, "is_guessed", False))
 
 
 def _bonds_within(universe: Any, chosen: "Array") -> "Array | None":  # noqa: ANN401

@@ -14,6 +14,7 @@ from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.column_names import IMAGES, name_columns
 from vtray.scene.particles.elements import are_symbols
+from vtray.scene.particles.masses import elements_of_masses
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.plain_numbers import parsed
 from vtray.scene.readers.frames import frame_number
@@ -95,10 +96,16 @@ class _Types(NamedTuple):
         return [known.get(name, math.nan) for name in names]
 
     def elements_of(self, names: "Sequence[str]") -> "list[str] | None":
-        """Return the elements of types, if their names, or the notes, are symbols of some."""
+        """Return the elements of types, if their names, the notes, or their masses tell them."""
+        import numpy as np
+
         known = self._by_name(self.notes)
         noted = [known.get(name, "") for name in names]
-        return next((found for found in ([*names], noted) if found and are_symbols(found)), None)
+        for found in ([*names], noted):
+            if found and are_symbols(found):
+                return found
+        by_masses = elements_of_masses(np.array(self.masses_of(names)))
+        return None if by_masses is None else by_masses.tolist()
 
     def _by_name(self, found: "Mapping[str, Said]") -> "dict[str, Said]":
         """Return what is said of types by their names."""
@@ -156,7 +163,8 @@ def read(given: Given) -> Particles:
 
     Columns are those of its style, with ``type``, a number or a label, ``charge`` (its q),
     ``radius`` (half its diameter), ``mass`` (of its types) and ``velocity``. LAMMPS knows no
-    elements: they are those of the labels, or of the words behind the masses, if all are symbols.
+    elements: they are those of the labels, or of the words behind the masses, if all are symbols,
+    or else of the masses.
 
     Raises
     ------

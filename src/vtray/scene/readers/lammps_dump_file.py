@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.column_names import IMAGES, name_columns
+from vtray.scene.particles.masses import elements_of_masses
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.plain_numbers import parsed, parsed_all
 from vtray.scene.readers.frames import Steps, find_frame, steps_of
@@ -60,8 +61,9 @@ def read(given: Given) -> Particles:
     """Read a frame of a dump.
 
     The columns have the names of the dump; ``vx vy vz`` and ``fx fy fz`` become ``velocity`` and
-    ``force``. Elements are only those that the dump names. Where places are unwrapped (``xu``,
-    ``xsu``), the columns ``ix iy iz`` are 0: nothing is left to unwrap.
+    ``force``. Elements are those that the dump names, or else those of a column ``mass``. Where
+    places are unwrapped (``xu``, ``xsu``), the columns ``ix iy iz`` are 0: nothing is left to
+    unwrap.
 
     Raises
     ------
@@ -91,6 +93,10 @@ def _read_frame(lines: Lines, number: int, head: _Head) -> Particles:
     cell, origin, periodic = _box_of(head)
     positions = _places_of(columns, cell, origin, head.line)
     check_places(positions, range(head.line + 1, head.line + 1 + head.size))
+    if "mass" in columns and "element" not in columns:
+        elements = elements_of_masses(columns["mass"])
+        if elements is not None:
+            columns = {"element": elements, **columns}
     return Particles(
         positions,
         name_columns(columns),
