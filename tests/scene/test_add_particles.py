@@ -250,6 +250,29 @@ def test_some_are_drawn_and_some_highlighted() -> None:
     assert near.spheres.color.tolist() == [[204] * 3, [0] * 3, [204] * 3]
 
 
+FOUR_SITES = Particles(
+    [(0, 0, 0), (0.76, 0.59, 0), (-0.76, 0.59, 0), (0, 0.15, 0)],
+    {"element": [*"OHHX"], "name": ["OW", "HW1", "HW2", "MW"], "charge": [0, 0.5, 0.5, -1.0]},
+    bonds=[(0, 1), (0, 2), (0, 3)],
+)
+
+
+@pytest.mark.parametrize("style", ["spacefill", "ball-and-stick", "licorice"])
+def test_sites_beside_atoms_are_not_drawn(style: str) -> None:
+    found = drawn(FOUR_SITES, style=style, bonds=None if style == "spacefill" else "file")
+    assert found.indices.tolist() == [0, 1, 2]
+    assert [name for name, _ in found.legend] == ["H", "O"]
+    assert found.bonds is None or set(found.bonds.end[:, 0]) == {0.76, -0.76}
+    alone = drawn(FOUR_SITES.with_columns(name=[*"abcd"]), style=style)
+    assert alone.indices.tolist() == [0, 1, 2, 3]
+
+
+def test_sites_are_drawn_where_nothing_else_is_chosen() -> None:
+    assert drawn(FOUR_SITES, select="charge < -0.5").indices.tolist() == [3]
+    assert drawn(FOUR_SITES, select="charge != 0.5").indices.tolist() == [0]
+    assert drawn(FOUR_SITES, select="charge > 5").indices.tolist() == []
+
+
 def test_categories_in_their_order() -> None:
     kinds = Particles(np.zeros((3, 3)), {"kind": ["b", "c", "b"], "number": [7, 70, 7]})
     found = drawn(kinds, color="kind", categories=["c", "a", "b"])

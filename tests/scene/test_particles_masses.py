@@ -28,7 +28,7 @@ def test_weights_off_by_more_than_rounding_are_those_of_nothing(z: int) -> None:
     [
         ([12.01, 16.0, 14.01, 1.008], "C O N H"),  # of Amber
         ([12.0, 16.0, 1.0, 15.9994], "C O H O"),
-        ([15.9994, 1.008, 1.008, 0.0], "O H H X"),  # water of four sites
+        ([15.9994, 1.008, 1.008, 0.0], None),
         ([13.019, 14.027, 15.035, 16.043, 14.0067], "C C C C N"),  # hydrogens in carbons
         ([2.014, 15.999], "H O"),
         ([0.0, 0.0], None),
@@ -40,6 +40,7 @@ def test_weights_off_by_more_than_rounding_are_those_of_nothing(z: int) -> None:
         ([12.011, np.nan], None),
         ([12.011, np.inf], None),
         ([12.011, -1.008], None),
+        ([12.011, -0.001], None),
         ([], None),
         (["12.011"], None),
         ([[12.011, 1.008]], None),
@@ -49,3 +50,11 @@ def test_weights_off_by_more_than_rounding_are_those_of_nothing(z: int) -> None:
 def test_masses_tell_elements_where_all_do(masses: list[object], expected: str | None) -> None:
     found = elements_of_masses(np.array(masses))
     assert (None if found is None else found.tolist()) == (expected and expected.split())
+
+
+def test_names_tell_what_has_no_mass() -> None:
+    water = np.array([15.9994, 1.008, 1.008, 0.0])
+    found = elements_of_masses(water, np.array(["OW", "HW1", "HW2", "MW"]))
+    assert found.tolist() == ["O", "H", "H", "X"]
+    assert elements_of_masses(water, np.array(["OW", "HW1", "HW2", "BB"])) is None
+    assert elements_of_masses(water[::-1], np.array(["OW", "HW1", "HW2", "MW"])) is None

@@ -44,6 +44,7 @@ from vtray.scene.particles.opacity import opacities, see_through
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.shining import check_dull, check_shining, shining
 from vtray.scene.particles.shown_bonds import Times, crossing, within_cell
+from vtray.scene.particles.sites import are_sites
 from vtray.scene.particles.styles import (
     COVERED,
     STYLES,
@@ -250,7 +251,7 @@ def draw(
         words = "points have none, as they are as large as pixels; give scale, or another style"
         raise SceneError(f"radii: {words}")
     times = times_of(replicate)
-    rows = np.flatnonzero(chosen(particles, select, "select"))
+    rows = np.flatnonzero(_without_sites(particles, chosen(particles, select, "select")))
     pairs = None
     if wanted is not None:
         pairs = find_hydrogen_bonds(particles, wanted, by_distance=bonds is True)
@@ -385,6 +386,18 @@ def chosen(particles: Particles, given: Any, name: str) -> NDArray[np.bool_]:  #
     if found.dtype != np.bool_ or found.shape != (len(particles),):
         raise SceneError(f"{name}: {words}, got {show(given)}")
     return found
+
+
+def _without_sites(particles: Particles, are_chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return which of the chosen particles are drawn, (n,): sites only where they are chosen alone.
+
+    Beside atoms, whose balls they are in, they would be balls around these.
+    """
+    sites = are_sites(particles.columns)
+    if sites is None:
+        return are_chosen
+    are_drawn = are_chosen & ~sites
+    return are_drawn if are_drawn.any() else are_chosen
 
 
 def _place(

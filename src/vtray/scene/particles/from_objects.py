@@ -296,7 +296,7 @@ def _elements_of(columns: "dict[str, Array]", universe: Any) -> "Array | None": 
     if by_names is not None and not _are_guessed(universe, "elements"):
         return by_names
     if masses is not None and not _are_guessed(universe, "masses"):
-        by_masses = elements_of_masses(masses)
+        by_masses = elements_of_masses(masses, columns.get("name"))
         if by_masses is not None:
             return by_masses
     if by_names is not None or types is None or types.dtype.kind != "U":

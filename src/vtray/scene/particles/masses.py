@@ -9,6 +9,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from vtray.scene.particles.elements import NO_ELEMENT, SYMBOLS
+from vtray.scene.particles.sites import are_called_sites
 
 if TYPE_CHECKING:
     import numpy as np
@@ -36,18 +37,20 @@ _ROUNDED, _ROUNDED_HEAVY = 0.012, 2e-4
 """By how much masses in files are off: in u, and as a share of large ones."""
 
 
-def elements_of_masses(masses: "Array") -> "Array | None":
+def elements_of_masses(masses: "Array", names: "Array | None" = None) -> "Array | None":
     """Return the elements of atoms by their masses, if each mass is that of one.
 
     Parameters
     ----------
     masses : array (n,)
         If they are those of atoms, in u. Masses that are all whole numbers may be anything.
+    names : array (n,) or None
+        What the atoms are called, if that is known: those of sites tell that these have no mass.
 
     Returns
     -------
     array (n,) or None
-        Symbols; X for what has no mass.
+        Symbols; X for sites without mass.
 
     Examples
     --------
@@ -59,6 +62,10 @@ def elements_of_masses(masses: "Array") -> "Array | None":
 
     if masses.dtype.kind not in "iuf" or masses.ndim != 1:
         return None
+    if not (masses > 0.0).all():
+        have_none = masses == 0.0
+        if names is None or not are_called_sites(names[have_none]).all():
+            return None
     different, which = np.unique(masses, return_inverse=True)
     known, symbols = _known_masses()
     if len(different) > len(known) or not np.isfinite(different).all():
