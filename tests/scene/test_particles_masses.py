@@ -40,6 +40,7 @@ def test_weights_off_by_more_than_rounding_are_those_of_nothing(z: int) -> None:
         ([12.011, np.nan], None),
         ([12.011, np.inf], None),
         ([12.011, -1.008], None),
+        ([0.012, 0.001], None),  # in kg
         ([12.011, -0.001], None),
         ([], None),
         (["12.011"], None),

@@ -447,6 +447,25 @@ def test_elements_that_are_named_are_those_whatever_their_masses() -> None:
     assert vtray.from_mdanalysis(made)["element"].tolist() == ["O", "H", "H"]
 
 
+BEADS = ["BB", "SC1", "NC3", "PO4", "ROH", "W"]
+
+
+def test_beads_are_no_elements(tmp_path: Path) -> None:
+    path = tmp_path / "a.gro"
+    rows = [f"    1SOL  {BEADS[i]:>5}{i + 1:5}{i:8.3f}   0.000   0.000" for i in range(6)]
+    path.write_text("\n".join(["beads", "    6", *rows, "   9.0 9.0 9.0\n"]))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        made = MDAnalysis.Universe(path)
+        made.atoms.write(tmp_path / "a.pdb")
+    for found in (vtray.read(path), vtray.from_mdanalysis(made), vtray.read(tmp_path / "a.pdb")):
+        assert found.time is None
+        assert "element" not in found.columns
+        assert found["type"].tolist() == [*"BSNPRW"]
+    made.add_TopologyAttr("elements", [*"BSNPOW"])  # so it is said
+    assert vtray.from_mdanalysis(made)["element"].tolist() == [*"BSNPOW"]
+
+
 def test_elements_of_lammps_are_those_of_masses(tmp_path: Path) -> None:
     path = tmp_path / "a.dump"
     head = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n" + "0 9\n" * 3

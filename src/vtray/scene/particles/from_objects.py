@@ -21,6 +21,7 @@ from vtray.scene.checks.given_array import (
 )
 from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.object_column import without_objects
+from vtray.scene.particles.beads import are_beads, types_of_beads
 from vtray.scene.particles.column_names import name_columns, name_twice
 from vtray.scene.particles.elements import are_symbols, symbol_of, symbols_of
 from vtray.scene.particles.few_names import texts_of
@@ -118,8 +119,8 @@ def from_mdanalysis(group: Any) -> Particles:  # noqa: ANN401
     Particles
         With the columns that its topology knows: ``element``, ``name``, ``type``, ``resname``,
         ``resid``, ``segid``, ``chain``, ``charge``, ``mass``, ``radius``; with ``velocity`` and
-        ``force`` where the frame has them; with the bonds of the topology, for those of a PDB file
-        where they are all, and the cell.
+        ``force`` where the frame has them; with its time, if the trajectory tells it; with the
+        bonds of the topology, for those of a PDB file where they are all, and the cell.
 
     Raises
     ------
@@ -143,8 +144,11 @@ def from_mdanalysis(group: Any) -> Particles:  # noqa: ANN401
     if "element" in columns and not any(map(str.strip, columns["element"].tolist())):
         del columns["element"]
     elements = _elements_of(columns, universe)
+    columns.pop("element", None)
     if elements is not None:
-        columns = {"element": elements, **{k: v for k, v in columns.items() if k != "element"}}
+        columns = {"element": elements, **columns}
+    elif _are_guessed(universe, "types") and are_beads(columns.get("name")):
+        columns["type"] = types_of_beads(columns["name"])
     if now.has_velocities:
         columns["velocity"] = np.array(atoms.velocities)
     if now.has_forces:
@@ -158,7 +162,7 @@ def from_mdanalysis(group: Any) -> Particles:  # noqa: ANN401
         bonds=_bonds_within(universe, np.asarray(atoms.indices)),
         cell=None if cell is None else np.array(cell, np.float64),
         frame=int(now.frame) if is_frame else 0,
-        time=_time(now.time) if is_frame else None,
+        time=_time(now.time) if is_frame and _has_time(universe.trajectory) else None,
     )
 
 
@@ -291,14 +295,17 @@ def _elements_of(columns: "dict[str, Array]", universe: Any) -> "Array | None": 
     their types, where all are symbols. X is what is none, such as the sites without mass of some
     models of water.
     """
-    elements, masses, types = (columns.get(name) for name in ("element", "mass", "type"))
+    wanted = ("element", "mass", "name", "type")
+    elements, masses, names, types = (columns.get(name) for name in wanted)
     by_names = None if elements is None else _symbols_among(elements)
     if by_names is not None and not _are_guessed(universe, "elements"):
         return by_names
     if masses is not None and not _are_guessed(universe, "masses"):
-        by_masses = elements_of_masses(masses, columns.get("name"))
+        by_masses = elements_of_masses(masses, names)
         if by_masses is not None:
             return by_masses
+    if are_beads(names):
+        return None
     if by_names is not None or types is None or types.dtype.kind != "U":
         return by_names
     if _are_guessed(universe, "types"):
@@ -317,6 +324,11 @@ def _are_guessed(universe: Any, attribute: str) -> bool:  # noqa: ANN401
     """Tell whether MDAnalysis has guessed what it knows of atoms, as by their names."""
     known = getattr(getattr(universe, "_topology", None), attribute, None)
     return bool(getattr(known, "is_guessed", False))
+
+
+def _has_time(trajectory: Any) -> bool:  # noqa: ANN401
+    """Tell whether a frame of MDAnalysis has a time; others count 1 ps for each frame."""
+    return not {"time", "dt"}.isdisjoint(trajectory.ts.data) or hasattr(trajectory, "_get_dt")
 
 
 def _bonds_within(universe: Any, chosen: "Array") -> "Array | None":  # noqa: ANN401

@@ -72,8 +72,9 @@ def elements_of_masses(masses: "Array", names: "Array | None" = None) -> "Array 
         return None
     nearest = np.abs(different[:, None] - known).argmin(axis=1)
     off = np.abs(different - known[nearest])
+    near = np.where(nearest == 0, 0.0, np.maximum(_ROUNDED, _ROUNDED_HEAVY * known[nearest]))
     are_whole = bool((different == np.rint(different)).all())
-    if are_whole or (off > np.maximum(_ROUNDED, _ROUNDED_HEAVY * known[nearest])).any():
+    if are_whole or (off > near).any():
         return None
     found: NDArray[np.str_] = symbols[nearest][which]
     return found
@@ -81,7 +82,7 @@ def elements_of_masses(masses: "Array", names: "Array | None" = None) -> "Array 
 
 @cache
 def _known_masses() -> "tuple[NDArray[np.float64], NDArray[np.str_]]":
-    """Return masses, in u, and what has them."""
+    """Return masses, in u, and what has them; what has none is the first."""
     import numpy as np
 
     weights = np.array(_WEIGHTS.split(), np.float64)

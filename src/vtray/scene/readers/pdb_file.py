@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from vtray.base.errors import SceneError
 from vtray.base.exact_math import cosine, sine
 from vtray.scene.checks.json_tree import short
+from vtray.scene.particles.beads import are_beads, types_of_beads
 from vtray.scene.particles.elements import symbol_of
 from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.pairs import reach_residues
@@ -99,10 +100,12 @@ def _read_model(model: _Model, conects: list[bytes], number: int) -> Particles:
     places = [_numbers(table, start, start + 8, numbers, "xyz"[i]) for i, start in _PLACES]
     columns: dict[str, Array] = {}
     names, residues = _text(table, 12, 16, strip=False), _text(table, 17, 21)
-    elements = _elements_of(_text(table, 76, 78, strip=False), names, residues)
-    if elements is not None:
-        columns["element"] = elements
     columns["name"] = _text(table, 12, 16)
+    given = _text(table, 76, 78, strip=False)
+    if are_beads(columns["name"]) and not np.char.strip(given).any():
+        columns["type"] = types_of_beads(columns["name"])
+    elif (elements := _elements_of(given, names, residues)) is not None:
+        columns = {"element": elements, **columns}
     columns["resname"] = residues
     columns["chain"] = _text(table, 21, 22)
     columns["resid"] = _whole(_text(table, 22, 26))
