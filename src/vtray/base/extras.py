@@ -7,7 +7,7 @@ from types import ModuleType
 from vtray.base.errors import VtrayError
 
 PACKAGES = {
-    "atoms": ("ase", "gsd", "MDAnalysis"),
+    "atoms": ("ase", "gemmi", "gsd", "MDAnalysis"),
     "dask": ("distributed",),
     "denoise": ("pyoidn",),
     "diff": ("flip-evaluator",),

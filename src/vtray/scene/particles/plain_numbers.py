@@ -39,3 +39,11 @@ def parsed_all(
         message = "numbers have no underscores"
         raise ValueError(message)
     return found
+
+
+def whole_or_texts(texts: "NDArray[Any]") -> "NDArray[Any]":
+    """Return texts as integers, or as they are if one is none."""
+    try:
+        return parsed_all(texts.tolist(), int)
+    except (ValueError, OverflowError):
+        return texts

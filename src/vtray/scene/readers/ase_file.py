@@ -6,7 +6,7 @@ https://wiki.fysik.dtu.dk/ase/ase/io/io.html
 """
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -35,13 +35,6 @@ _NAMES = {
 _WHOLE = {"do_not_split_by_at_sign": True}
 """A name is that of a file, @ in it or not."""
 
-_OPERATIONS = (
-    "_space_group_symop_operation_xyz",
-    "_space_group_symop.operation_xyz",
-    "_symmetry_equiv_pos_as_xyz",
-)
-"""Where a CIF file may list its symmetry operations."""
-
 
 def read(given: Given) -> Particles:
     """Read a frame of a file that ASE reads.
@@ -53,10 +46,15 @@ def read(given: Given) -> Particles:
     ExtraError
         ASE is not installed.
     """
+    return last_of(steps(given), given)
+
+
+def last_of(all_steps: Steps, given: Given) -> Particles:
+    """Read the frame that is asked for, whose number is only known when the others are met."""
     # Of the frames that were met, only those that may be asked for are kept.
     met: deque[Any] = deque(maxlen=max(-given.frame, 1))
     count = 0
-    for step in steps(given):
+    for step in all_steps:
         met.append(step)
         count += 1
         if count == given.frame + 1:
@@ -70,12 +68,16 @@ def read(given: Given) -> Particles:
 
 def steps(given: Given) -> Steps:
     """Give what makes particles of each frame, one after the other."""
+    return steps_of_atoms(given, _frames)
+
+
+def steps_of_atoms(given: Given, open_frames: Callable[[Given], Iterator[Any]]) -> Steps:
+    """Give what makes particles of atoms of ASE, as some function gives them of a file."""
     what = READERS[given.format].what
-    io: Any = need("ase.io", "atoms", f"reading {what}")
+    need("ase.io", "atoms", f"reading {what}")
     check_room(given.file, _TIMES)
-    name = _NAMES.get(given.format, given.format)
     with told("ASE", what):
-        all_atoms = _crystals(given) if name == "cif" else io.iread(given.path, ":", name, **_WHOLE)
+        all_atoms = open_frames(given)
     number = 0
     while True:
         with told("ASE", what):
@@ -86,23 +88,16 @@ def steps(given: Given) -> Steps:
         number += 1
 
 
+def _frames(given: Given) -> Iterator[Any]:
+    """Give the frames of a file."""
+    io: Any = need("ase.io", "atoms", f"reading {READERS[given.format].what}")
+    frames: Iterator[Any] = io.iread(
+        given.path, ":", _NAMES.get(given.format, given.format), **_WHOLE
+    )
+    return frames
+
+
 def _particles_of(atoms: Any, number: int, what: str) -> Particles:  # noqa: ANN401
     """Return atoms of ASE as particles."""
     with told("ASE", what):
         return replace(from_ase(atoms), frame=number)
-
-
-def _crystals(given: Given) -> Iterator[Any]:
-    """Give the structures of a CIF file.
-
-    ASE compares all sites with each other, 9 s for 1,728, which can be left out without symmetry.
-    """
-    cif: Any = need("ase.io.cif", "atoms", "reading a CIF file")
-    for block in cif.parse_cif(given.path):
-        if block.has_structure():
-            listed = next((block[key] for key in _OPERATIONS if key in block), None)
-            operations = [listed] if isinstance(listed, str) else listed or ()
-            is_alone = [text.replace(" ", "").lower() for text in operations] == ["x,y,z"]
-            atoms = block.get_unsymmetrized_structure() if is_alone else block.get_atoms()
-            atoms.pbc = atoms.cell.rank == 3
-            yield atoms

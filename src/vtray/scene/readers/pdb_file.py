@@ -5,21 +5,20 @@ References
 https://www.wwpdb.org/documentation/file-format-content/format33/sect9.html
 """
 
-import math
 import re
 from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vtray.base.errors import SceneError
-from vtray.base.exact_math import cosine, sine
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.beads import are_beads, types_of_beads
 from vtray.scene.particles.elements import symbol_of
 from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.pairs import reach_residues
 from vtray.scene.particles.particles import Particles
-from vtray.scene.particles.plain_numbers import parsed, parsed_all
+from vtray.scene.particles.plain_numbers import parsed, parsed_all, whole_or_texts
+from vtray.scene.readers.crystal_cell import edges_of
 from vtray.scene.readers.frames import Steps, frame_number
 from vtray.scene.readers.libraries import check_room
 from vtray.scene.readers.reader_table import Given
@@ -108,7 +107,7 @@ def _read_model(model: _Model, conects: list[bytes], number: int) -> Particles:
         columns = {"element": elements, **columns}
     columns["resname"] = residues
     columns["chain"] = _text(table, 21, 22)
-    columns["resid"] = _whole(_text(table, 22, 26))
+    columns["resid"] = whole_or_texts(_text(table, 22, 26))
     altloc = _text(table, 16, 17)
     if (altloc != "").any():
         columns["altloc"] = altloc
@@ -200,33 +199,13 @@ def _is_whole(line: bytes) -> bool:
 
 
 def _cell_of(line: str, number: int) -> "Cell | None":
-    """Return the edges of a cell by their lengths and angles, a along x and b in the plane x y."""
-    import numpy as np
-
+    """Return the edges of the cell that a line says."""
     starts = (6, 15, 24, 33, 40, 47, 54)
     try:
         found = [parsed(line[i:j]) for i, j in pairwise(starts)]
     except ValueError:
         found = [0.0]
-    # What files without a crystal have.
-    if len(found) == 6 and found[:3] in ([1.0, 1.0, 1.0], [0.0, 0.0, 0.0]):
-        return None
-    a, b, c, alpha, beta, gamma = found if len(found) == 6 else [-1.0] * 6
-    # Along an edge of no length, nothing repeats.
-    if not (min(a, b, c) >= 0 and all(0 < angle < 180 for angle in (alpha, beta, gamma))):
-        raise SceneError(f"line {number}: expected three lengths and three angles of a cell")
-    x = cosine(beta)
-    y = (cosine(alpha) - x * cosine(gamma)) / sine(gamma)
-    z = 1 - x * x - y * y
-    if z <= 0:
-        raise SceneError(f"line {number}: no cell has the angles {alpha}, {beta} and {gamma}")
-    return np.array(
-        [
-            (a, 0.0, 0.0),
-            (b * cosine(gamma), b * sine(gamma), 0.0),
-            (c * x, c * y, c * math.sqrt(z)),
-        ]
-    )
+    return edges_of(found, f"line {number}")
 
 
 def _text(table: "Array", start: int, end: int, strip: bool = True) -> "Array":
@@ -255,14 +234,6 @@ def _numbers(table: "Array", start: int, end: int, lines: list[int], name: str) 
                 place = f"line {line}: columns {start + 1} to {end}"
                 raise SceneError(f"{place}: {name} must be a number, got {shown!r}") from None
         raise
-
-
-def _whole(texts: "Array") -> "Array":
-    """Return texts as integers, or as they are if one is none."""
-    try:
-        return parsed_all(texts.tolist(), int)
-    except ValueError:
-        return texts
 
 
 def _elements_of(columns: "Array", names: "Array", residues: "Array") -> "Array | None":

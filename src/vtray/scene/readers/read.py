@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     AnyPath = str | os.PathLike[str]
 
-_SLOW = ("ase_file",)
+_SLOW = ("ase_file", "cif_file")
 """The readers that pass over a frame by reading it."""
 
 _BY_NAME = ("table_file", "ply_file")

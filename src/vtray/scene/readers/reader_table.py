@@ -72,7 +72,7 @@ READERS: dict[str, Reader] = {
     "parquet": Reader("a Parquet file", "table_file", (".parquet", ".pq")),
     "las": Reader("a LAS file", "las_file", (".las", ".laz")),
     "ply": Reader("a PLY file", "ply_file", (".ply",)),
-    "cif": Reader("a CIF file", "ase_file", (".cif",)),
+    "cif": Reader("a CIF file", "cif_file", (".cif", ".mmcif", ".pdbx")),
     "poscar": Reader("a POSCAR file", "ase_file", (".poscar", ".vasp", "POSCAR*", "CONTCAR*")),
     "xdatcar": Reader("an XDATCAR file", "ase_file", ("XDATCAR*",)),
     "outcar": Reader("an OUTCAR file", "ase_file", ("OUTCAR*",)),

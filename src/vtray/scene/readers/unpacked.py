@@ -12,7 +12,7 @@ from vtray.base.input_file import read_stream
 from vtray.scene.checks.json_tree import short
 from vtray.scene.readers.reader_table import Given, packing_of
 
-BY_PATH = ("ase_file", "mdanalysis_file")
+BY_PATH = ("ase_file", "cif_file", "mdanalysis_file")
 """The readers of texts that open files by their names."""
 
 BY_FILE = ("xyz_file", "pdb_file", "lammps_dump_file", "lammps_data_file", "table_file", "ply_file")
