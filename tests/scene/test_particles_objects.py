@@ -351,6 +351,21 @@ def test_ovito() -> None:
     assert found.origin.tolist() == [-1, -2, -3]
 
 
+def test_ovito_names_residues_and_structures() -> None:
+    data = ovito()
+    kinds = np.array([0, 1]).view(type(data.particles.particle_types))
+    kinds.types = [SimpleNamespace(id=1, name="FCC")]
+    data.particles["Structure Type"] = kinds
+    data.particles["Residue Type"] = data.particles.particle_types
+    data.particles["Atom Name"] = np.array(["OW", "a longer name"], np.dtypes.StringDType())
+    data.particles["Molecule Identifier"] = np.array([7, 8])
+    found = as_particles(data)
+    assert found["Structure Type"].tolist() == ["0", "FCC"]
+    assert found["resname"].tolist() == ["O", "Si"]
+    assert (found["name"].tolist(), found["mol"].tolist()) == (["OW", "a longer name"], [7, 8])
+    assert found["name"].dtype.kind == "U"
+
+
 def test_each_file_has_its_call(tmp_path: Path) -> None:
     data, scene = tmp_path / "a.xyz", tmp_path / "a.json"
     data.write_text("1\n\nO 0 0 0\n")

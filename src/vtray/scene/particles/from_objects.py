@@ -54,6 +54,9 @@ _ATTRIBUTES = {
 }
 """What MDAnalysis may know of each atom, and what the column is called."""
 
+_OVITO = {"Atom Name": "name", "Residue Type": "resname", "Molecule Identifier": "mol"}
+"""What OVITO calls columns, where its name is not that of the column in other words."""
+
 
 def from_ase(atoms: Any) -> Particles:  # noqa: ANN401
     """Return the particles of an object of ASE.
@@ -251,13 +254,11 @@ def _from_ovito(data: Any) -> Particles:  # noqa: ANN401
     columns: dict[str, Array] = {}
     for name in inner.keys():  # noqa: SIM118  it is no dictionary
         if name != "Position":
-            columns[str(name)] = np.array(inner[name])
+            columns[_OVITO.get(name, str(name))] = _values_of(inner[name])
     types = getattr(inner, "particle_types", None)
     if types is not None:
-        names = {kind.id: kind.name or str(kind.id) for kind in types.types}
-        called = [names.get(int(kind), str(kind)) for kind in np.asarray(types)]
         columns.pop("Particle Type", None)
-        columns["element"] = np.array(called, np.str_)
+        columns["element"] = _values_of(types)
     bonds = getattr(inner, "bonds", None)
     cell = getattr(data, "cell", None)
     edges = None if cell is None else np.array(cell[...], np.float64)
@@ -269,6 +270,18 @@ def _from_ovito(data: Any) -> Particles:  # noqa: ANN401
         origin=(0.0, 0.0, 0.0) if edges is None else edges[:, 3],
         periodic=None if cell is None else tuple(map(bool, cell.pbc)),
     )
+
+
+def _values_of(entries: Any) -> "Array":  # noqa: ANN401
+    """Return a property of OVITO, with the names of types instead of their numbers."""
+    import numpy as np
+
+    types = getattr(entries, "types", ())
+    if len(types):
+        names = {kind.id: kind.name or str(kind.id) for kind in types}
+        return texts_of(np.asarray(entries).tolist(), lambda kind: names.get(kind, str(kind)))
+    # Texts of any length are not given as an array.
+    return np.array(list(entries) if entries.dtype.kind == "T" else entries)
 
 
 def _is_ase(given: Any) -> bool:  # noqa: ANN401
