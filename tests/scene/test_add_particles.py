@@ -8,6 +8,8 @@ import numpy as np
 import pandas as pd
 import polars as pl
 import pytest
+from ase.data import atomic_numbers
+from ase.data.vdw_alvarez import vdw_radii
 
 import vtray
 from vtray.base.errors import SceneError
@@ -54,6 +56,28 @@ def test_styles(options: dict[str, Any], style: str, radius: Any, stick: float |
         assert np.allclose(found.spheres.radius, radius)
     assert (found.bonds is None) == (stick is None)
     assert stick is None or found.bonds.radius == pytest.approx(stick)
+
+
+@pytest.mark.parametrize(
+    ("elements", "first"),
+    [
+        ("Sr Ti O O O", 1.95),
+        ("Au", 1.36),
+        ("Si O O", 1.11),
+        ("Na Cl", 1.66),
+        ("Mg O O H H", 1.41),
+        ("Mg O O H H H", 2.51),
+        ("Zn C C C C C C C C C C N N N", 2.39),
+        ("Ar", 1.83),
+        ("N N", 1.66),
+    ],
+)
+def test_balls_of_solids_touch(elements: str, first: float) -> None:
+    names = elements.split()
+    atoms = Particles(np.arange(3.0 * len(names)).reshape(-1, 3), {"element": names})
+    assert drawn(atoms, style="spacefill").spheres.radius[0] == pytest.approx(first)
+    whole = drawn(atoms, style="spacefill", radii="vdw").spheres.radius[0]
+    assert whole == pytest.approx(float(vdw_radii[atomic_numbers[names[0]]]))
 
 
 def test_known_bonds_of_few_atoms_are_drawn() -> None:

@@ -70,7 +70,8 @@ class AddingParticles:
         particles
             What `vtray.read` returns; atoms of ASE; or positions of shape (n, 3).
         style
-            ``"spacefill"``: balls of van der Waals radii. ``"ball-and-stick"``: 0.6 of covalent
+            ``"spacefill"``: balls of van der Waals radii, or, in solids of which a fifth or more
+            are metals or semimetals, of covalent radii. ``"ball-and-stick"``: 0.6 of covalent
             radii, and thin bonds. ``"licorice"``: bonds, and balls as thick as these. ``"points"``:
             balls of one size in the picture, 1.5 pixels wide, so that none falls between pixels;
             or, with `emission`, points whose light adds up.

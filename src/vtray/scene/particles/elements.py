@@ -102,6 +102,9 @@ _NONMETALS = frozenset(
 _ANIONS = frozenset(_words("N O F S Cl Se Br Te I"))
 """Nonmetals that metals give electrons to."""
 
+_SEMIMETALS = frozenset(_words("B Si Ge As Te"))
+"""Nonmetals of which solids are made whose atoms are all bound to each other."""
+
 _PINK = "ff1493"
 """Of elements that a scheme does not know."""
 
@@ -236,6 +239,11 @@ def colors_of(symbols: "ArrayLike", scheme: str = "jmol") -> "NDArray[np.uint8]"
 def are_metals(symbols: "ArrayLike") -> "NDArray[np.bool_]":
     """Tell which symbols are those of metals, (n,)."""
     return ~_are_among(_NONMETALS)[atomic_numbers(symbols)]
+
+
+def are_of_solids(symbols: "ArrayLike") -> "NDArray[np.bool_]":
+    """Tell which symbols are those of metals and semimetals, (n,)."""
+    return ~_are_among(_NONMETALS - _SEMIMETALS)[atomic_numbers(symbols)]
 
 
 def are_anions(symbols: "ArrayLike") -> "NDArray[np.bool_]":

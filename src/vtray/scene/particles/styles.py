@@ -12,7 +12,7 @@ from vtray.base.errors import SceneError
 from vtray.scene.camera import Camera
 from vtray.scene.checks.choices import is_one_of
 from vtray.scene.checks.scene_words import either, nearest, quoted, show
-from vtray.scene.particles.elements import RADII
+from vtray.scene.particles.elements import RADII, are_of_solids
 from vtray.scene.particles.hydrogen_bonds import steps_of
 from vtray.scene.particles.radii import FILLED, mean_spacing, radii_of
 from vtray.scene.placing.directions import dot, unit
@@ -42,6 +42,10 @@ COVERED = 0.75
 lies."""
 
 
+SOLID = 0.2
+"""Share of metals and semimetals from which on atoms are those of a solid: there are fewer in
+molecules, in frameworks of these, and among molecules that ions are dissolved in."""
+
 BESIDE = 0.3
 """Radius of balls beside sticks whose size is not known, in bond lengths of the usual bond: about
 that of carbon."""
@@ -53,7 +57,7 @@ class Style(NamedTuple):
     Attributes
     ----------
     table
-        Which radii of elements it uses unless it is told otherwise.
+        Which radii of elements it uses unless it is told otherwise, but for solids of metals.
     shares
         What of these, and of others, is the radius of a ball.
     stick
@@ -137,7 +141,18 @@ def default_radii(particles: "Particles", table: str) -> "Radii":
     """Return what the radii of particles are where nothing is said."""
     if "radius" in particles.columns:
         return "radius"
-    return table if "element" in particles.columns else FILLED * mean_spacing(particles)
+    if "element" not in particles.columns:
+        return FILLED * mean_spacing(particles)
+    return "covalent" if _is_solid(particles) else table
+
+
+def _is_solid(particles: "Particles") -> bool:
+    """Tell whether particles are a solid of metals, or of semimetals, by what they are made of.
+
+    Its atoms are as near each other as covalent radii say. Balls of van der Waals radii, which tell
+    how near molecules are, would be half within each other, and hide how they stand.
+    """
+    return len(particles) > 0 and bool(are_of_solids(particles["element"]).mean() >= SOLID)
 
 
 def radius_beside(
