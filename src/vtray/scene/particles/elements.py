@@ -168,6 +168,15 @@ def symbols_or_none(names: "ArrayLike") -> "NDArray[np.str_] | None":
     return texts_of(listed, known.__getitem__) if all(known.values()) else None
 
 
+def symbols_among(names: "Array") -> "NDArray[np.str_] | None":
+    """Return the symbols for names of atoms, X where one is no element; None if none is one."""
+    listed = names.tolist()
+    known = {name: symbol_of(name) for name in set(listed)}
+    if not any(known.values()):
+        return None
+    return texts_of(listed, lambda name: known[name] or NO_ELEMENT)
+
+
 def atomic_numbers(symbols: "ArrayLike") -> "NDArray[np.int64]":
     """Return the atomic numbers of symbols; 0 for X, which stands for no element.
 

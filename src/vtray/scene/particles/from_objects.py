@@ -23,8 +23,9 @@ from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.object_column import without_objects
 from vtray.scene.particles.beads import are_beads, types_of_beads
 from vtray.scene.particles.column_names import name_columns, name_twice
-from vtray.scene.particles.elements import are_symbols, symbol_of, symbols_of
+from vtray.scene.particles.elements import are_symbols, symbols_among, symbols_of
 from vtray.scene.particles.few_names import texts_of
+from vtray.scene.particles.from_chemistry import particles_in
 from vtray.scene.particles.from_columns import from_columns
 from vtray.scene.particles.masses import elements_of_masses
 from vtray.scene.particles.pairs import reach_residues
@@ -191,9 +192,9 @@ def as_particles(given: Any, place: str = "") -> Particles:  # noqa: ANN401
     Parameters
     ----------
     given
-        `Particles`; objects of ASE, MDAnalysis or OVITO; what has ``positions`` or
-        ``get_positions()``; tables, mappings and structured arrays with the columns x, y
-        and z; or an array (n, 3).
+        `Particles`; objects of ASE, MDAnalysis, OVITO, RDKit, pymatgen, MDTraj or Biotite; what has
+        ``positions`` or ``get_positions()``; tables, mappings and structured arrays with the
+        columns x, y and z; or an array (n, 3).
     place
         What messages begin with.
 
@@ -219,6 +220,9 @@ def _particles_of(given: Any) -> Particles:  # noqa: ANN401
     inner = getattr(given, "particles", None)
     if inner is not None and hasattr(inner, "positions"):
         return _from_ovito(given)
+    found = particles_in(given)
+    if found is not None:
+        return found
     if isinstance(given, Mapping):
         return from_columns(_columns_of(given, given))
     if fields_of(given):
@@ -310,7 +314,7 @@ def _elements_of(columns: "dict[str, Array]", universe: Any) -> "Array | None": 
     """
     wanted = ("element", "mass", "name", "type")
     elements, masses, names, types = (columns.get(name) for name in wanted)
-    by_names = None if elements is None else _symbols_among(elements)
+    by_names = None if elements is None else symbols_among(elements)
     if by_names is not None and not _are_guessed(universe, "elements"):
         return by_names
     if masses is not None and not _are_guessed(universe, "masses"):
@@ -322,15 +326,8 @@ def _elements_of(columns: "dict[str, Array]", universe: Any) -> "Array | None": 
     if by_names is not None or types is None or types.dtype.kind != "U":
         return by_names
     if _are_guessed(universe, "types"):
-        return _symbols_among(types)
+        return symbols_among(types)
     return types if are_symbols(types.tolist()) else None
-
-
-def _symbols_among(names: "Array") -> "Array | None":
-    """Return the symbols for names of atoms, X where one is no element; None if none is one."""
-    listed = names.tolist()
-    known = {name: symbol_of(name) for name in set(listed)}
-    return texts_of(listed, lambda name: known[name] or "X") if any(known.values()) else None
 
 
 def _are_guessed(universe: Any, attribute: str) -> bool:  # noqa: ANN401

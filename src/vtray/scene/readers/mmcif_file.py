@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from vtray.base.errors import SceneError
 from vtray.base.extras import need
 from vtray.scene.checks.json_tree import short
-from vtray.scene.particles.elements import NO_ELEMENT, symbol_of
+from vtray.scene.particles.elements import symbols_among
 from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.plain_numbers import parsed_all, whole_or_texts
@@ -88,9 +88,9 @@ def _read_model(cif: Any, block: Any, begin: int, end: int, number: int) -> Part
 
     columns: dict[str, Array] = {}
     symbols = texts(("type_symbol",))
-    known = {} if symbols is None else {name: symbol_of(name) for name in set(symbols.tolist())}
-    if symbols is not None and any(known.values()):
-        columns["element"] = texts_of(symbols.tolist(), lambda name: known[name] or NO_ELEMENT)
+    elements = None if symbols is None else symbols_among(symbols)
+    if elements is not None:
+        columns["element"] = elements
     for name, called in _TEXTS.items():
         found = texts(called)
         if found is not None and (name != "altloc" or (found != "").any()):
