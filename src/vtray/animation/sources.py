@@ -97,7 +97,7 @@ def source_of(
         )
     if callable(scenes):
         return _of_function(scenes, frames)
-    if isinstance(scenes, Sequence):
+    if isinstance(scenes, Sequence) or _has_numbers(scenes):
         count = len(scenes)
         numbers = which_frames(frames, lambda: count) if count else []
         if len(numbers):
@@ -110,6 +110,12 @@ def source_of(
         return Source(None, lambda k: islice(scenes, k, None), None)
     words = "expected scenes, a function that makes them, or the name of a trajectory"
     raise SceneError(f"scenes: {words}, got {short(repr(scenes))}")
+
+
+def _has_numbers(scenes: Any) -> bool:  # noqa: ANN401
+    """Tell whether there are scenes by their numbers, and in no other way, as in MDTraj."""
+    is_iterable = isinstance(scenes, Iterable)
+    return not is_iterable and hasattr(scenes, "__len__") and hasattr(scenes, "__getitem__")
 
 
 def _of_file(path: str, frames: Any, reading: Mapping[str, Any]) -> Source:  # noqa: ANN401

@@ -12,15 +12,13 @@ if TYPE_CHECKING:
 
     Array = NDArray[Any]
 
-_NAMES = ("BB", "SC1", "GL1", "NC3", "PO4", "ROH", "W", "WF", "PW")
+_NAMES = frozenset({"BB", "SC1", "GL1", "NC3", "PO4", "ROH", "W", "WF", "PW"})
 """Of the backbone and side chains of proteins, of lipids and of water in Martini."""
 
 
 def are_beads(names: "Array | None") -> bool:
     """Tell whether the names of particles, if there are some, are those of beads."""
-    import numpy as np
-
-    return names is not None and bool(np.isin(names, _NAMES).any())
+    return names is not None and not _NAMES.isdisjoint(names.tolist())
 
 
 def types_of_beads(names: "Array") -> "Array":

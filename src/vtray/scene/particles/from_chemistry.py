@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     Array = NDArray[Any]
 
 _NM = 10.0
-"""In ångström."""
+"""A nanometre in ångström."""
 
 _BIOTITE = {
     "atom_name": "name",

@@ -12,8 +12,10 @@ if TYPE_CHECKING:
     Array = NDArray[Any]
     Booleans = NDArray[np.bool_]
 
-_WATER = ("M", "M1", "M2", "MW", "MW1", "MW2", "MW3", "MW4", "OM", "EP", "EPW", "VRT")
-_NAMES = (*_WATER, "EP1", "EP2", "EP3", "EP4", "LP", "LP1", "LP2", "LP3", "LP4", "LPA", "LPB")
+_CALLED = """
+    M M1 M2 MW MW1 MW2 MW3 MW4 OM EP EP1 EP2 EP3 EP4 EPW LP LP1 LP2 LP3 LP4 LPA LPB VRT
+"""
+_NAMES = frozenset(_CALLED.split())
 """What CHARMM, AMBER, GROMACS, OpenMM and Desmond call them."""
 
 
@@ -21,8 +23,7 @@ def are_called_sites(names: "Array") -> "Booleans":
     """Tell which names of atoms are those of sites, (n,)."""
     import numpy as np
 
-    found: NDArray[np.bool_] = np.isin(names, _NAMES)
-    return found
+    return np.fromiter(map(_NAMES.__contains__, names.tolist()), np.bool_, len(names))
 
 
 def are_sites(columns: "Mapping[str, Array]") -> "Booleans | None":
@@ -33,5 +34,5 @@ def are_sites(columns: "Mapping[str, Array]") -> "Booleans | None":
     found = elements == NO_ELEMENT
     if not found.any():
         return None
-    found &= are_called_sites(names)
+    found[found] = are_called_sites(names[found])
     return found if found.any() else None
