@@ -460,18 +460,6 @@ def test_numbers_of_numpy(tmp_path: Path) -> None:
     assert [len(pixels(tmp_path / name)) for name in "abcd"] == [3, 3, 3, 3]
 
 
-def test_frames_may_be_had_by_their_numbers_alone() -> None:
-    class Trajectory:
-        def __len__(self) -> int:
-            return 4
-
-        def __getitem__(self, number: int) -> list[tuple[int, int, int]]:
-            return [(number, 0, 0)]
-
-    source = source_of(Trajectory(), "1::2")
-    assert list(source.start(0)) == [[(1, 0, 0)], [(3, 0, 0)]]
-
-
 def test_numbers_of_an_array_are_those_of_frames() -> None:
     for frames in ([0, 10, 20], np.arange(0, 30, 10), range(0, 30, 10)):
         source = source_of(ball, frames)

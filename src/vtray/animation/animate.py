@@ -87,8 +87,9 @@ def animate(
     ----------
     scenes
         Scenes or particles, as a list or one by one; a function that makes one of each of `frames`;
-        one scene, for a `camera` that moves; or the name of a trajectory, as `read` takes it.
-        Particles are what `read` returns, or atoms of ASE or MDAnalysis.
+        one scene, for a `camera` that moves; the name of a trajectory, as `read` takes it; or a
+        trajectory at hand: a universe or a group of atoms of MDAnalysis, a pipeline of OVITO, a
+        trajectory of MDTraj. Particles are what `Scene.add_particles` takes.
     path
         The movie: ``.mp4`` (which needs ``pip install imageio-ffmpeg``), ``.gif`` or ``.webp``; or
         numbered pictures such as ``frames/%04d.png``, in any format of `Image.save`.

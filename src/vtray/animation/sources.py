@@ -8,6 +8,7 @@ from itertools import chain, islice, repeat
 from typing import Any
 
 from vtray.animation.frame_errors import of_frame
+from vtray.animation.numbered import numbered
 from vtray.animation.spool import Spool
 from vtray.animation.stored import Stored
 from vtray.base.errors import SceneError
@@ -97,12 +98,13 @@ def source_of(
         )
     if callable(scenes):
         return _of_function(scenes, frames)
-    if isinstance(scenes, Sequence) or _has_numbers(scenes):
-        count = len(scenes)
+    found = numbered(scenes)
+    if found is not None:
+        count = found.length
         numbers = which_frames(frames, lambda: count) if count else []
         if len(numbers):
             frame_number(max(numbers), count)  # raises an error if there is none
-        return _listed(lambda number: scenes[number], numbers)
+        return _listed(found.frame, numbers)
     if isinstance(scenes, Iterable):
         if frames is not None:
             words = "expected None where scenes come one by one; take some by itertools.islice"
@@ -110,12 +112,6 @@ def source_of(
         return Source(None, lambda k: islice(scenes, k, None), None)
     words = "expected scenes, a function that makes them, or the name of a trajectory"
     raise SceneError(f"scenes: {words}, got {short(repr(scenes))}")
-
-
-def _has_numbers(scenes: Any) -> bool:  # noqa: ANN401
-    """Tell whether there are scenes by their numbers, and in no other way, as in MDTraj."""
-    is_iterable = isinstance(scenes, Iterable)
-    return not is_iterable and hasattr(scenes, "__len__") and hasattr(scenes, "__getitem__")
 
 
 def _of_file(path: str, frames: Any, reading: Mapping[str, Any]) -> Source:  # noqa: ANN401

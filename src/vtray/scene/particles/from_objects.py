@@ -133,7 +133,7 @@ def from_mdanalysis(group: Any) -> Particles:  # noqa: ANN401
     """
     import numpy as np
 
-    if not _is_mdanalysis(group):
+    if not is_mdanalysis(group):
         problem = "expected a Universe or an AtomGroup of MDAnalysis"
         raise SceneError(f"from_mdanalysis: {problem}, got {show_array(group)}")
     universe, atoms = group.universe, group.atoms
@@ -215,7 +215,7 @@ def _particles_of(given: Any) -> Particles:  # noqa: ANN401
         return given
     if _is_ase(given):
         return from_ase(given)
-    if _is_mdanalysis(given):
+    if is_mdanalysis(given):
         return from_mdanalysis(given)
     inner = getattr(given, "particles", None)
     if inner is not None and hasattr(inner, "positions"):
@@ -292,7 +292,8 @@ def _is_ase(given: Any) -> bool:  # noqa: ANN401
     return hasattr(given, "get_atomic_numbers") and hasattr(given, "get_celldisp")
 
 
-def _is_mdanalysis(given: Any) -> bool:  # noqa: ANN401
+def is_mdanalysis(given: Any) -> bool:  # noqa: ANN401
+    """Tell whether an object is a universe of MDAnalysis, or a group of its atoms."""
     return hasattr(given, "universe") and hasattr(given, "atoms")
 
 

@@ -1,0 +1,51 @@
+"""What gives the particles or the scene of each picture by its number."""
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, NamedTuple
+
+from vtray.scene.particles.from_objects import from_mdanalysis, is_mdanalysis
+
+
+class Numbered(NamedTuple):
+    """Frames that can be had by their numbers.
+
+    Attributes
+    ----------
+    length
+        How many there are.
+    frame
+        Gives the one with a number from 0.
+    """
+
+    length: int
+    frame: Callable[[int], Any]
+
+
+def numbered(given: Any) -> Numbered | None:  # noqa: ANN401
+    """Return the frames of a sequence, or of a trajectory; None if it is neither.
+
+    Trajectories are universes and groups of atoms of MDAnalysis, pipelines of OVITO, and what has
+    frames by their numbers and in no other way, as those of MDTraj.
+    """
+    if is_mdanalysis(given):
+        return _of_mdanalysis(given)
+    source: Any = getattr(given, "source", None)
+    if hasattr(given, "compute") and hasattr(source, "num_frames"):
+        return Numbered(source.num_frames, given.compute)
+    is_listed = hasattr(given, "__len__") and hasattr(given, "__getitem__")
+    if isinstance(given, Sequence) or (is_listed and not isinstance(given, Iterable)):
+        return Numbered(len(given), given.__getitem__)
+    return None
+
+
+def _of_mdanalysis(group: Any) -> Numbered | None:  # noqa: ANN401
+    """Return the frames of the trajectory of a group of atoms; None without one."""
+    trajectory = getattr(group.universe, "trajectory", None)
+    if trajectory is None:
+        return None
+
+    def frame(number: int) -> Any:  # noqa: ANN401
+        trajectory[number]
+        return from_mdanalysis(group)
+
+    return Numbered(len(trajectory), frame)
