@@ -1,5 +1,7 @@
 """Frames of trajectories that other libraries have at hand."""
 
+import sys
+import threading
 import warnings
 from pathlib import Path
 from types import SimpleNamespace
@@ -57,6 +59,28 @@ def test_a_universe_without_places_has_no_frames() -> None:
 def test_frames_of_a_pipeline_of_ovito() -> None:
     pipeline = SimpleNamespace(source=SimpleNamespace(num_frames=3), compute=lambda k: [(k, 0, 0)])
     assert list(source_of(pipeline, "::-2").start(0)) == [[(2, 0, 0)], [(0, 0, 0)]]
+
+
+@pytest.mark.parametrize("has_ovito", [True, False])
+def test_ovito_computes_in_the_main_thread(
+    has_ovito: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "ovito", None)
+    if not has_ovito:
+        monkeypatch.delitem(sys.modules, "ovito")
+    threads = set()
+
+    def compute(k: int) -> list[tuple[int, int, int]]:
+        threads.add(threading.current_thread())
+        if k == 3:
+            raise RuntimeError("no such frame")
+        return [(k, 0, 0), (0, 1, 0)]
+
+    pipeline = SimpleNamespace(source=SimpleNamespace(num_frames=3), compute=compute)
+    vtray.animate(pipeline, tmp_path / "%d.png", size=(12, 9))
+    assert ({threading.main_thread()} == threads) == has_ovito
+    with pytest.raises(RuntimeError, match="^no such frame"):
+        vtray.animate(compute, tmp_path / "%d.png", frames=4, size=(12, 9), view="x")
 
 
 def test_frames_may_be_had_by_their_numbers_alone() -> None:

@@ -13,6 +13,7 @@ from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any
 
+from vtray.animation.coming import Coming
 from vtray.animation.done import Done
 from vtray.animation.film import Film
 from vtray.animation.script import Script, Take
@@ -157,11 +158,10 @@ class _Flight:
 
     def go(self) -> None:
         """Have all pictures taken."""
-        with ThreadPoolExecutor(1) as reader:
-            takes = self._takes()
-            following = reader.submit(next, takes, None)
-            while (take := following.result()) is not None:
-                following = reader.submit(next, takes, None)
+        with ThreadPoolExecutor(1) as maker:
+            is_bound = self._script.source.is_bound
+            coming = Coming(self._takes(), None if is_bound else maker)
+            while (take := coming.take()) is not None:
                 self._send_in_time(take)
                 del take
             while self._flying:

@@ -8,6 +8,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, Self
 
+from vtray.animation.coming import Coming
 from vtray.animation.done import PART, Done
 from vtray.animation.film import Film
 from vtray.animation.output import Output
@@ -58,15 +59,14 @@ def _take_here(
     film: Film, script: Script, done: Done, stage: Stage, check: Callable[[], None]
 ) -> None:
     """Take all pictures that are missing; `check` raises what goes wrong with the movie."""
-    with ThreadPoolExecutor(1) as reader, ThreadPoolExecutor(1) as writer:
-        coming = script.shots(max(done.count - 1, 0))
+    with ThreadPoolExecutor(1) as maker, ThreadPoolExecutor(1) as writer:
+        shots = script.shots(max(done.count - 1, 0))
         if done.count:
-            film.check_last(stage, next(coming, None))
+            film.check_last(stage, next(shots, None))
         written: Future[None] | None = None
-        following = reader.submit(next, coming, None)
+        coming = Coming(shots, None if script.source.is_bound else maker)
         k, count = done.count, len(done)
-        while (shot := following.result()) is not None:
-            following = reader.submit(next, coming, None)
+        while (shot := coming.take()) is not None:
             if k not in done:
                 film.tell(count, script.total)
                 with script.source.of_picture(k):

@@ -1,6 +1,7 @@
 """Where the pictures of a movie come from: a scene, many, a function that makes them, or a file."""
 
 import os
+import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
@@ -44,6 +45,9 @@ class Source:
         Whether there is the same scene for each picture.
     origin
         Where pictures come from, for messages about one of them.
+    is_bound
+        Whether that is only asked for in the thread that makes the movie: OVITO, which code may
+        use, computes in the main thread alone, and ends the process in another.
     """
 
     count: int | None
@@ -53,6 +57,7 @@ class Source:
     stored: Stored | None = None
     repeats: bool = False
     origin: str = "scenes"
+    is_bound: bool = False
 
     def number(self, k: int) -> int:
         """Return what is the number of a picture where it comes from."""
@@ -87,6 +92,11 @@ def source_of(
     """
     if isinstance(scenes, (str, os.PathLike)):
         return _of_file(os.fsdecode(scenes), frames, reading or {})
+    return replace(_of_code(scenes, frames, usual), is_bound="ovito" in sys.modules)
+
+
+def _of_code(scenes: Any, frames: Any, usual: int | None) -> Source:  # noqa: ANN401
+    """Return what there is in a program; the parameters are those of `source_of`."""
     if isinstance(scenes, Scene):
         count = _count_of(frames, usual)
         return Source(
