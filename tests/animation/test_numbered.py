@@ -8,6 +8,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from ase.build import molecule
+from ase.io.trajectory import Trajectory
 
 import vtray
 from vtray.animation.sources import source_of
@@ -84,14 +86,31 @@ def test_ovito_computes_in_the_main_thread(
 
 
 def test_frames_may_be_had_by_their_numbers_alone() -> None:
-    class Trajectory:
+    class Run:
         def __len__(self) -> int:
             return 4
 
         def __getitem__(self, number: int) -> list[tuple[int, int, int]]:
             return [(number, 0, 0)]
 
-    source = source_of(Trajectory(), "1::2")
+    source = source_of(Run(), "1::2")
     assert list(source.start(0)) == [[(1, 0, 0)], [(3, 0, 0)]]
     with pytest.raises(SceneError, match="^frame 4: there are 4 frames; expected -4 to 3"):
-        source_of(Trajectory(), [4])
+        source_of(Run(), [4])
+
+
+def test_arrays_have_frames_by_their_numbers() -> None:
+    places = np.arange(24.0).reshape(4, 2, 3)
+    source = source_of(places, "1::2")
+    assert [one.tolist() for one in source.start(0)] == [places[1].tolist(), places[3].tolist()]
+    assert source.some is not None
+
+
+def test_trajectories_of_ase_have_frames_by_their_numbers(tmp_path: Path) -> None:
+    atoms = molecule("H2O")
+    with Trajectory(tmp_path / "a.traj", "w") as file:
+        for k in range(3):
+            atoms.positions[0, 0] = k
+            file.write(atoms)
+    with Trajectory(tmp_path / "a.traj") as file:
+        assert [one.positions[0, 0] for one in source_of(file, "::-1").start(0)] == [2, 1, 0]

@@ -1,6 +1,6 @@
 """What gives the particles or the scene of each picture by its number."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from vtray.scene.particles.from_objects import from_mdanalysis, is_mdanalysis
@@ -22,18 +22,18 @@ class Numbered(NamedTuple):
 
 
 def numbered(given: Any) -> Numbered | None:  # noqa: ANN401
-    """Return the frames of a sequence, or of a trajectory; None if it is neither.
+    """Return the frames of a list, or of whatever else has them by numbers; None if it has not.
 
-    Trajectories are universes and groups of atoms of MDAnalysis, pipelines of OVITO, and what has
-    frames by their numbers and in no other way, as those of MDTraj.
+    These are universes and groups of atoms of MDAnalysis, pipelines of OVITO, arrays (m, n, 3),
+    trajectories of ASE and MDTraj, stacks of Biotite.
     """
     if is_mdanalysis(given):
         return _of_mdanalysis(given)
     source: Any = getattr(given, "source", None)
     if hasattr(given, "compute") and hasattr(source, "num_frames"):
         return Numbered(source.num_frames, given.compute)
-    is_listed = hasattr(given, "__len__") and hasattr(given, "__getitem__")
-    if isinstance(given, Sequence) or (is_listed and not isinstance(given, Iterable)):
+    # What has keys, such as a table, has nothing by numbers.
+    if hasattr(given, "__len__") and hasattr(given, "__getitem__") and not hasattr(given, "keys"):
         return Numbered(len(given), given.__getitem__)
     return None
 
