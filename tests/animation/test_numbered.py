@@ -58,6 +58,14 @@ def test_a_universe_without_places_has_no_frames() -> None:
         source_of(MDAnalysis.Universe.empty(2))
 
 
+@pytest.mark.parametrize("one", [vtray.Particles([(0, 0, 0)]), molecule("H2O")])
+def test_one_frame_is_no_trajectory(one: object) -> None:
+    with pytest.raises(
+        SceneError, match="^scenes: expected scenes, a function that makes them, or"
+    ):
+        source_of(one)
+
+
 def test_frames_of_a_pipeline_of_ovito() -> None:
     pipeline = SimpleNamespace(source=SimpleNamespace(num_frames=3), compute=lambda k: [(k, 0, 0)])
     assert list(source_of(pipeline, "::-2").start(0)) == [[(2, 0, 0)], [(0, 0, 0)]]

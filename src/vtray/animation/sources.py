@@ -15,6 +15,8 @@ from vtray.animation.stored import Stored
 from vtray.base.errors import SceneError
 from vtray.base.number import is_integer
 from vtray.scene.checks.json_tree import short
+from vtray.scene.particles.from_objects import is_ase
+from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.frames import frame_number
 from vtray.scene.readers.read import is_slow, numbers_of, read_frames
 from vtray.scene.readers.which_frames import which_frames
@@ -108,14 +110,15 @@ def _of_code(scenes: Any, frames: Any, usual: int | None) -> Source:  # noqa: AN
         )
     if callable(scenes):
         return _of_function(scenes, frames)
-    found = numbered(scenes)
+    is_one = isinstance(scenes, Particles) or is_ase(scenes)
+    found = None if is_one else numbered(scenes)
     if found is not None:
         count = found.length
         numbers = which_frames(frames, lambda: count) if count else []
         if len(numbers):
             frame_number(max(numbers), count)  # raises an error if there is none
         return _listed(found.frame, numbers)
-    if isinstance(scenes, Iterable):
+    if isinstance(scenes, Iterable) and not is_one:
         if frames is not None:
             words = "expected None where scenes come one by one; take some by itertools.islice"
             raise SceneError(f"frames: {words}, got {short(repr(frames))}")

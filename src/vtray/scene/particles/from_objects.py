@@ -89,7 +89,7 @@ def from_ase(atoms: Any) -> Particles:  # noqa: ANN401
     """
     import numpy as np
 
-    if not _is_ase(atoms):
+    if not is_ase(atoms):
         raise SceneError(f"from_ase: expected ase.Atoms, got {show_array(atoms)}")
     count = len(atoms)
     numbers = np.asarray(atoms.get_atomic_numbers())
@@ -213,7 +213,7 @@ def _particles_of(given: Any) -> Particles:  # noqa: ANN401
     """Return what `as_particles` does."""
     if isinstance(given, Particles):
         return given
-    if _is_ase(given):
+    if is_ase(given):
         return from_ase(given)
     if is_mdanalysis(given):
         return from_mdanalysis(given)
@@ -288,7 +288,8 @@ def _values_of(entries: Any) -> "Array":  # noqa: ANN401
     return np.array(list(entries) if entries.dtype.kind == "T" else entries)
 
 
-def _is_ase(given: Any) -> bool:  # noqa: ANN401
+def is_ase(given: Any) -> bool:  # noqa: ANN401
+    """Tell whether an object is atoms of ASE."""
     return hasattr(given, "get_atomic_numbers") and hasattr(given, "get_celldisp")
 
 
