@@ -152,7 +152,8 @@ def _is_solid(particles: "Particles") -> bool:
     Its atoms are as near each other as covalent radii say. Balls of van der Waals radii, which tell
     how near molecules are, would be half within each other, and hide how they stand.
     """
-    return len(particles) > 0 and bool(are_of_solids(particles["element"]).mean() >= SOLID)
+    count = np.count_nonzero(are_of_solids(particles["element"]))
+    return len(particles) > 0 and bool(count >= SOLID * len(particles))
 
 
 def radius_beside(
