@@ -136,6 +136,15 @@ def test_files_that_are_not_right(rows: str, message: str, tmp_path: Path) -> No
         vtray.read(path)
 
 
+def test_places_without_a_coordinate(tmp_path: Path) -> None:
+    path = tmp_path / "a.cif"
+    path.write_text("data_x\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n1 2\n")
+    with pytest.raises(
+        SceneError, match="a.cif: expected _atom_site.Cartn_z of all atoms; there i"
+    ):
+        vtray.read(path)
+
+
 def test_cells_that_there_cannot_be(tmp_path: Path) -> None:
     path = written(tmp_path, gamma="190")
     with pytest.raises(SceneError, match="a.cif: _cell: expected three lengths and three angles o"):

@@ -145,8 +145,6 @@ def from_mdanalysis(group: Any) -> Particles:  # noqa: ANN401
     for attribute, name in _ATTRIBUTES.items():
         if hasattr(atoms, attribute):
             columns[name] = without_objects(np.asarray(getattr(atoms, attribute)))
-    if "element" in columns and not any(map(str.strip, columns["element"].tolist())):
-        del columns["element"]
     elements = _elements_of(columns, universe)
     columns.pop("element", None)
     if elements is not None:

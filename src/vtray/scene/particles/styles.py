@@ -143,7 +143,7 @@ def default_radii(particles: "Particles", table: str) -> "Radii":
         return "radius"
     if "element" not in particles.columns:
         return FILLED * mean_spacing(particles)
-    return "covalent" if _is_solid(particles) else table
+    return "covalent" if table == "covalent" or _is_solid(particles) else table
 
 
 def _is_solid(particles: "Particles") -> bool:

@@ -46,10 +46,10 @@ def read(given: Given) -> Particles:
     ExtraError
         ASE is not installed.
     """
-    return last_of(steps(given), given)
+    return read_asked(steps(given), given)
 
 
-def last_of(all_steps: Steps, given: Given) -> Particles:
+def read_asked(all_steps: Steps, given: Given) -> Particles:
     """Read the frame that is asked for, whose number is only known when the others are met."""
     # Of the frames that were met, only those that may be asked for are kept.
     met: deque[Any] = deque(maxlen=max(-given.frame, 1))
@@ -74,7 +74,6 @@ def steps(given: Given) -> Steps:
 def steps_of_atoms(given: Given, open_frames: Callable[[Given], Iterator[Any]]) -> Steps:
     """Give what makes particles of atoms of ASE, as some function gives them of a file."""
     what = READERS[given.format].what
-    need("ase.io", "atoms", f"reading {what}")
     check_room(given.file, _TIMES)
     with told("ASE", what):
         all_atoms = open_frames(given)

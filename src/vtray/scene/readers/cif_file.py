@@ -11,7 +11,7 @@ from typing import Any
 from vtray.base.extras import need
 from vtray.scene.particles.particles import Particles
 from vtray.scene.readers import mmcif_file
-from vtray.scene.readers.ase_file import last_of, steps_of_atoms
+from vtray.scene.readers.ase_file import read_asked, steps_of_atoms
 from vtray.scene.readers.frames import Steps
 from vtray.scene.readers.reader_table import Given
 
@@ -37,7 +37,7 @@ def read(given: Given) -> Particles:
     ExtraError
         ASE, or gemmi, is not installed.
     """
-    return last_of(steps(given), given)
+    return read_asked(steps(given), given)
 
 
 def steps(given: Given) -> Steps:

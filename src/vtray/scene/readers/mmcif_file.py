@@ -70,21 +70,21 @@ def steps(file: "BinaryIO") -> Steps:
     number = 0
     for block in document:
         models = _entries(block, _MODEL)
-        count = len(_entries(block, _PLACES[0]))
+        count = len(block.find_values(f"{_ATOMS}{_PLACES[0]}"))
         starts = [i for i in range(1, len(models)) if models[i] != models[i - 1]]
         for begin, end in zip([0, *starts], [*starts, count], strict=True):
             if begin < end:
-                yield partial(_read_model, cif, block, begin, end, number)
+                yield partial(_read_model, cif, block, range(begin, end), number)
                 number += 1
 
 
-def _read_model(cif: Any, block: Any, begin: int, end: int, number: int) -> Particles:  # noqa: ANN401
+def _read_model(cif: Any, block: Any, rows: range, number: int) -> Particles:  # noqa: ANN401
     """Return the atoms of a model, which are in some rows."""
     import numpy as np
 
     def texts(names: tuple[str, ...]) -> "Array | None":
-        found = next((some for name in names if (some := _entries(block, name))), None)
-        return None if found is None else texts_of(found[begin:end], cif.as_string)
+        found = next((some for name in names if (some := _entries(block, name, rows))), None)
+        return None if found is None else texts_of(found, cif.as_string)
 
     columns: dict[str, Array] = {}
     symbols = texts(("type_symbol",))
@@ -96,22 +96,30 @@ def _read_model(cif: Any, block: Any, begin: int, end: int, number: int) -> Part
         if found is not None and (name != "altloc" or (found != "").any()):
             columns[name] = whole_or_texts(found) if name == "resid" else found
     for name, wanted in _NUMBERS.items():
-        entries = _entries(block, wanted)[begin:end]
+        entries = _entries(block, wanted, rows)
         if entries and not any(map(cif.is_null, entries)):
-            columns[name] = _numbers(cif, entries, begin, wanted)
-    places = [_numbers(cif, _entries(block, name)[begin:end], begin, name) for name in _PLACES]
+            columns[name] = _numbers(cif, entries, rows, wanted)
+    places = [_numbers(cif, _entries(block, name, rows), rows, name) for name in _PLACES]
     return Particles(np.stack(places, axis=1), columns, cell=_cell_of(cif, block), frame=number)
 
 
-def _entries(block: Any, name: str) -> list[str]:  # noqa: ANN401
-    """Return what all atoms have of one name, as it is written; nothing if they have none."""
-    return list(block.find_values(f"{_ATOMS}{name}"))
+def _entries(block: Any, name: str, rows: range | None = None) -> list[str]:  # noqa: ANN401
+    """Return what atoms in some rows, or all, have of one name, as it is written.
+
+    That is nothing if they have none.
+    """
+    column = block.find_values(f"{_ATOMS}{name}")
+    if rows is None or len(rows) == len(column):
+        return list(column)
+    return [column[row] for row in rows] if len(column) else []
 
 
-def _numbers(cif: Any, entries: list[str], begin: int, name: str) -> "Array":  # noqa: ANN401
+def _numbers(cif: Any, entries: list[str], rows: range, name: str) -> "Array":  # noqa: ANN401
     """Return entries as numbers; behind these may be how sure they are, in brackets."""
     import numpy as np
 
+    if not entries:
+        raise SceneError(f"expected {_ATOMS}{name} of all atoms; there is none")
     try:
         found = parsed_all(entries)
     except ValueError:
@@ -120,7 +128,7 @@ def _numbers(cif: Any, entries: list[str], begin: int, name: str) -> "Array":  #
     if len(wrong):
         first = int(wrong[0])
         problem = f"{_ATOMS}{name} must be a number, got {short(entries[first])!r}"
-        raise SceneError(f"atom {begin + first + 1}: {problem}")
+        raise SceneError(f"atom {rows[first] + 1}: {problem}")
     return found
 
 
