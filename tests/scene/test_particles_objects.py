@@ -370,7 +370,7 @@ def test_each_file_has_its_call(tmp_path: Path) -> None:
     data, scene = tmp_path / "a.xyz", tmp_path / "a.json"
     data.write_text("1\n\nO 0 0 0\n")
     scene.write_text("{}")
-    with pytest.raises(SceneError, match="a.xyz: is data by its name, which vtray.read reads; exp"):
+    with pytest.raises(SceneError, match="a.xyz: is data, which vtray.read reads; expected a scen"):
         vtray.load(data)
     with pytest.raises(SceneError, match="a.json: is a scene file by its name, which vtray.load r"):
         vtray.read(scene)
@@ -379,8 +379,8 @@ def test_each_file_has_its_call(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "more", "message"),
     [
-        ("a.foo", {}, "the ending '.foo' is not known; expected one of .xyz, .extxyz, "),
-        ("a", {}, "the name has no ending; expected one of .xyz, .extxyz, "),
+        ("b.foo", {}, "the ending '.foo' is not known; expected one of .xyz, .extxyz, "),
+        ("b", {}, "the name has no ending; expected one of .xyz, .extxyz, "),
         ("a.foo", {"format": "bar"}, "format: expected one of xyz, pdb, lammps-dump, "),
         ("a.foo", {"format": 5}, "format: expected one of xyz, pdb, lammps-dump, "),
         ("a.foo", {"format": b"xyz"}, "format: expected one of xyz, pdb, lammps-dump, "),
@@ -400,7 +400,8 @@ def test_each_file_has_its_call(tmp_path: Path) -> None:
 )
 def test_wrong_names(name: str, more: dict[str, object], message: str, tmp_path: Path) -> None:
     (tmp_path / "a.foo").write_text("1\n\nO 0 0 0\n")
-    (tmp_path / "a").write_text("1\n\nO 0 0 0\n")
+    (tmp_path / "b.foo").write_text("O 0 0 0\n")
+    (tmp_path / "b").write_text("O 0 0 0\n")
     with pytest.raises(SceneError) as caught:
         vtray.read(tmp_path / name, **more)
     assert str(caught.value).startswith(f"{tmp_path / name}: {message}")

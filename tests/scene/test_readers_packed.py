@@ -14,7 +14,8 @@ import vtray
 from vtray.base import input_file
 from vtray.base.errors import SceneError
 from vtray.scene.readers import las_file
-from vtray.scene.readers.reader_table import is_data, packing_of
+from vtray.scene.readers.packing import packing_of
+from vtray.scene.readers.reader_table import is_data
 
 XYZ = "1\n\nO 1 2 3\n1\n\nO 4 5 6\n"
 TEXTS = {

@@ -92,7 +92,7 @@ def load(path: str | os.PathLike[str], *, warn: Warn | None = None) -> Scene:
         return loads_bytes(raw, name, PatternImages(folder), folder, warn or warn_caller)
     except SceneError:
         if not begins_as_scene(raw) and _is_data(name):
-            problem = "is data by its name, which vtray.read reads; expected a scene file"
+            problem = "is data, which vtray.read reads; expected a scene file"
             raise SceneError(f"{name}: {problem}") from None
         raise
 
@@ -103,7 +103,7 @@ def begins_as_scene(raw: bytes) -> bool:
 
 
 def _is_data(name: str) -> bool:
-    """Tell whether a file is one of particles by its name."""
+    """Tell whether a file is one of particles."""
     from vtray.scene.readers.reader_table import is_data
 
     return is_data(name)

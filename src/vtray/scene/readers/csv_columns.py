@@ -1,8 +1,11 @@
-"""Texts of rows between commas, semicolons or tabs, as columns of numbers, truths or texts."""
+"""Texts of rows between commas, semicolons, tabs or blanks, as columns.
+
+They hold numbers, truths or texts. Rows without names above them have numbers for names, from 1.
+"""
 
 import csv
 import io
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from itertools import chain, islice
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -20,6 +23,9 @@ if TYPE_CHECKING:
     Blocks: TypeAlias = Iterator[Sequence[Array | Sequence[str]]]
 
 _SEPARATORS = ",;\t"
+
+_BLANK = " "
+"""What is between entries where none of these is: any number of blanks."""
 
 _COMMENT = "#"
 
@@ -52,15 +58,15 @@ def without_comments(text: str) -> str:
     if count == 0:
         return text
     separator = _separator(rest)
-    first = _first_line(rest).split(separator)
-    has_numbers = any(map(_is_number, first))
-    is_named = has_numbers and last.count(separator) == len(first) - 1
-    names = last.lstrip(_COMMENT) if is_named else ""
+    names, first = last.lstrip(_COMMENT), _first_line(rest)
+    has_numbers = any(map(_is_number, _split(first, separator)))
+    if not has_numbers or _count(names, separator) != _count(first, separator):
+        names = ""
     return "\n" * (count - 1) + names + "\n" + rest
 
 
 def csv_columns(text: str) -> "dict[str, Array]":
-    """Return columns between commas, semicolons or tabs, named in the first line.
+    """Return columns by the names in the first line, or by their numbers where these are missing.
 
     Raises
     ------
@@ -68,7 +74,7 @@ def csv_columns(text: str) -> "dict[str, Array]":
         A row does not have an entry for each name, a name is there twice or a quote has no end;
         or memory is short. The message names the line.
     """
-    entries = _first_line(text).count(_separator(text)) + 1
+    entries = _count(_first_line(text), _separator(text))
     lack = lack_of_memory(_BYTES * entries * text.count("\n"))
     if lack:
         raise SceneError(f"reading it needs about {lack}")
@@ -79,6 +85,16 @@ def csv_columns(text: str) -> "dict[str, Array]":
         # What came first were integers, for instance, and what came later other numbers.
         parts, are_alike = _parts(text, kinds)
     return {name: _joined(part) for name, part in zip(names, parts, strict=True)}
+
+
+def first_entries(text: str) -> list[str]:
+    """Return the entries of the first line of a text, as far as they are not between quotes."""
+    return _split(_first_line(text), _separator(text))
+
+
+def are_numbered(names: Iterable[str]) -> bool:
+    """Tell whether columns have the names of those that a file does not name."""
+    return all(name == str(k) for k, name in enumerate(names, 1))
 
 
 def _parts(text: str, kinds: list[int]) -> "tuple[list[list[Array]], bool]":
@@ -137,13 +153,18 @@ def _plain_blocks(text: str, kinds: list[int]) -> "Blocks":
     """
     import numpy as np
 
-    separator, below = _separator(text), text.index(_first_line(text)) + len(_first_line(text))
+    separator, first = _separator(text), _first_line(text)
+    below = text.index(first) + (len(first) if _has_names(_split(first, separator)) else 0)
     names = [str(k) for k in range(len(kinds))]
     load: Callable[..., Array] = partial(
-        np.loadtxt, delimiter=separator, comments=None, quotechar=None, ndmin=1
+        np.loadtxt,
+        delimiter=None if separator == _BLANK else separator,
+        comments=None,
+        quotechar=None,
+        ndmin=1,
     )
     for piece in _pieces(text, below):
-        if not piece.strip("\r\n"):
+        if not piece.strip("\r\n" if separator != _BLANK else None):
             continue
         texts = [(name, "O") for name in names]
         mixed = [(name, "f8" if kinds[int(name)] == _FLOAT else "O") for name in names]
@@ -168,15 +189,20 @@ def _rows(text: str) -> Iterator[list[str]]:
     lines, begin = _lines(text), 1
     try:
         for row in lines:
+            entries = row
             if row and not names:
                 names = [name.strip() for name in row]
                 _check_names(names, lines.line_num)
+                if _has_names(names):
+                    entries = []
+                else:
+                    names = [str(k) for k in range(1, len(row) + 1)]
                 yield names
-            elif row:
-                if len(row) != len(names):
-                    words = f"expected {len(names)} entries, got {len(row)}"
+            if entries:
+                if len(entries) != len(names):
+                    words = f"expected {len(names)} entries, got {len(entries)}"
                     raise SceneError(f"line {begin}: {words}")
-                yield row
+                yield entries
             begin = lines.line_num + 1
     except csv.Error as error:
         words = "a quote has no end" if lines.line_num > begin else str(error)
@@ -187,7 +213,23 @@ def _rows(text: str) -> Iterator[list[str]]:
 
 def _separator(text: str) -> str:
     """Return what is between the entries of a text."""
-    return max(_SEPARATORS, key=_first_line(text).count)
+    first = _first_line(text)
+    found = max(_SEPARATORS, key=first.count)
+    if found not in first:
+        return _BLANK
+    parts = [part.split() for part in first.split(found)]
+    is_mixed = max(map(len, parts)) > 1 and all(map(_is_number, first.split()))
+    return _BLANK if is_mixed else found  # tabs and blanks
+
+
+def _split(line: str, separator: str) -> list[str]:
+    """Return the entries of a line without quotes."""
+    return line.split(None if separator == _BLANK else separator)
+
+
+def _count(line: str, separator: str) -> int:
+    """Return how many entries a line without quotes has."""
+    return len(_split(line, separator))
 
 
 def _first_line(text: str) -> str:
@@ -200,8 +242,11 @@ def _first_line(text: str) -> str:
 def _lines(text: str) -> Any:  # noqa: ANN401
     """Return a reader of the lines of a text, entry by entry."""
     files = (io.StringIO(piece, newline="") for piece in _pieces(text))
-    lines = chain.from_iterable(files)
-    return csv.reader(lines, delimiter=_separator(text), skipinitialspace=True, strict=True)
+    lines: Iterator[str] = chain.from_iterable(files)
+    separator = _separator(text)
+    if separator == _BLANK:  # csv skips blanks before entries, and what is no blank is none
+        lines = (line.replace("\t", _BLANK).rstrip() + "\n" for line in lines)
+    return csv.reader(lines, delimiter=separator, skipinitialspace=True, strict=True)
 
 
 def _pieces(text: str, begin: int = 0) -> Iterator[str]:
@@ -216,18 +261,23 @@ def in_line(text: str, row: int, name: str) -> str:
     """Return where an entry stands, given its row below the names and the name of its column."""
     lines = _lines(text)
     rows = (lines.line_num for entries in lines if entries)
-    return f"line {next(islice(rows, row + 1, None))}: column {name!r}"
+    above = 1 if _has_names(_split(_first_line(text), _separator(text))) else 0
+    return f"line {next(islice(rows, row + above, None))}: column {name!r}"
 
 
 def _check_names(names: list[str], line: int) -> None:
     """Raise SceneError if a line does not name the columns."""
-    are_numbers = bool(names) and all(map(_is_number, names))
-    if not any(names) or are_numbers:
+    if not any(names):
         shown = short(",".join(names)) or "nothing"
         raise SceneError(f"line {line}: expected the names of the columns, got {shown}")
-    twice = name_twice(names)
+    twice = name_twice(names) if _has_names(names) else None
     if twice is not None:
         raise SceneError(f"line {line}: expected each column once, got {short(twice)!r} twice")
+
+
+def _has_names(entries: Sequence[str]) -> bool:
+    """Tell whether the first row of a text names its columns: not if all of it are numbers."""
+    return not entries or not all(map(_is_number, entries))
 
 
 def _is_number(entry: str) -> bool:

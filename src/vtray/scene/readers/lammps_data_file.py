@@ -38,16 +38,39 @@ _STYLES = {
     "angle": "id mol type x y z",
     "molecular": "id mol type x y z",
     "full": "id mol type q x y z",
+    "amoeba": "id mol type q x y z",
     "dipole": "id type q x y z mux muy muz",
     "sphere": "id type diameter density x y z",
     "ellipsoid": "id type ellipsoid density x y z",
+    "bpm/sphere": "id mol type diameter density x y z",
+    "line": "id mol type line density x y z",
+    "tri": "id mol type triangle density x y z",
+    "body": "id type body mass x y z",
+    "template": "id mol template atom type x y z",
+    "spin": "id type x y z spx spy spz sp",
+    "electron": "id type q espin eradius x y z",
+    "dielectric": "id mol type q x y z mux muy muz area ed em epsilon curvature",
+    "dpd": "id type theta x y z",
+    "edpd": "id type temperature cv x y z",
+    "mdpd": "id type rho x y z",
+    "peri": "id type volume density x y z",
+    "rheo": "id type status rho x y z",
+    "rheo/thermal": "id type status rho energy x y z",
+    "sph": "id type rho esph cv x y z",
+    "smd": "id type mol volume mass kradius cradius x0 y0 z0 x y z",
 }
 """The columns of the section Atoms, by its style; three integers, the images, may follow."""
+
+_OPEN = {"hybrid": "id type x y z", "tdpd": "id type x y z"}
+"""Likewise where others follow that are not said, so that images are not told from them."""
 
 _BY_WIDTH = {5: "atomic", 8: "atomic", 7: "full", 10: "full"}
 """The style where none is named, by the number of columns."""
 
-_INTEGERS = ("id", "mol", "type", "ellipsoid")
+_INTEGERS = (
+    *("id", "mol", "type", "ellipsoid", "line", "triangle", "body"),
+    *("template", "atom", "espin", "status"),
+)
 
 _INTEGER = re.compile("[-+]?[0-9]+")
 
@@ -259,13 +282,13 @@ def _atoms_of(lines: Lines, count: int, style: str) -> "dict[str, Array]":
     place = lines.place()
     first = (lines.next() or "").partition("#")[0].split()
     lines.go(place)
-    name = style or _BY_WIDTH.get(len(first), "")
-    if name not in _STYLES:
+    name = (style.split() or [_BY_WIDTH.get(len(first), "")])[0]  # "hybrid" names others
+    if name not in _STYLES and name not in _OPEN:
         problem = f"the style {short(style)!r} is not known" if style else "the style is not said"
-        known = ", ".join(_STYLES)
+        known = ", ".join((*_STYLES, *_OPEN))
         remedy = f"expected, as in 'Atoms # full', one of {known}"
         raise SceneError(f"line {lines.number - 1}: {problem}; {remedy}")
-    names = _STYLES[name].split()
+    names = (_STYLES | _OPEN)[name].split()
     kind_of = dict.fromkeys(names, "R") | dict.fromkeys((*_INTEGERS, *IMAGES), "I")
     entries = dict(zip(names, first, strict=False))
     if re.match("[A-Za-z]", entries.get("type", "")):

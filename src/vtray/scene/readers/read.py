@@ -48,8 +48,9 @@ def read(
     Parameters
     ----------
     path
-        The file. The ending of its name says what it is; an unknown one is an error that lists
-        those that are known. After that of a text, .gz, .bz2 or .xz may follow.
+        The file. The ending of its name says what it is, or else how it begins; where neither
+        does, the error lists the endings that are known. After that of a text, .gz, .bz2 or .xz may
+        follow.
     frame
         Which of its frames, from 0; a negative one counts from the end, so that -1 is the last.
     format

@@ -1,6 +1,6 @@
 """The table of files of data: what they are called, and the module that reads them.
 
-What a file is, is told by the ending of its name, or by ``format=``, never by a guess.
+What a file is, is told by ``format=``, the ending of its name, or else how it begins.
 """
 
 import os
@@ -11,6 +11,8 @@ from typing import BinaryIO, NamedTuple
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.scene_words import show
+from vtray.scene.readers.by_content import kind_of_content
+from vtray.scene.readers.packing import packing_of
 
 
 class Given(NamedTuple):
@@ -99,16 +101,6 @@ READERS: dict[str, Reader] = {
 """All kinds of files, by the names that ``format=`` takes."""
 
 
-PACKINGS = (".gz", ".bz2", ".xz")
-"""What follows the ending of a text that is compressed."""
-
-
-def packing_of(path: str) -> str:
-    """Return the ending that says how a file is compressed; "" if it is not."""
-    ending = os.path.splitext(path)[1].lower()
-    return ending if ending in PACKINGS else ""
-
-
 def reader_of(path: str, named: object) -> tuple[str, Reader]:
     """Return what reads a file, and the name of its kind.
 
@@ -124,21 +116,24 @@ def reader_of(path: str, named: object) -> tuple[str, Reader]:
             known = ", ".join(READERS)
             raise SceneError(f"format: expected one of {known}, got {show(named)}")
         return kind, found
-    base = os.path.basename(path)
-    base = base[: len(base) - len(packing_of(base))]
+    base, packing = os.path.basename(path), packing_of(path)
+    base = base[: len(base) - len(packing)]
     ending = os.path.splitext(base)[1].lower()
     for kind, reader in READERS.items():
         if ending in reader.names or any(fnmatchcase(base, name) for name in reader.names):
             return kind, reader
     if ending == ".json":
         raise SceneError("is a scene file by its name, which vtray.load reads; expected data")
+    told = kind_of_content(path, packing)
+    if told is not None:
+        return told, READERS[told]
     known = ", ".join(name for reader in READERS.values() for name in reader.names)
     problem = f"the ending {short(ending)!r} is not known" if ending else "the name has no ending"
     raise SceneError(f"{problem}; expected one of {known}, or format=..., such as format='xyz'")
 
 
 def is_data(path: str) -> bool:
-    """Tell whether a file is one of data by its name."""
+    """Tell whether a file is one of data."""
     try:
         reader_of(path, None)
     except SceneError:

@@ -1,5 +1,6 @@
 """Tables: .csv by Python and NumPy, .npz by NumPy, .parquet by pyarrow."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -11,8 +12,8 @@ from vtray.base.input_file import read_stream
 from vtray.base.memory import lack_of_memory
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.from_columns import from_columns
-from vtray.scene.particles.particles import Particles
-from vtray.scene.readers.csv_columns import csv_columns, in_line, without_comments
+from vtray.scene.particles.particles import POSITION, Particles
+from vtray.scene.readers.csv_columns import are_numbered, csv_columns, in_line, without_comments
 from vtray.scene.readers.frames import frame_number
 from vtray.scene.readers.libraries import check_room, told
 from vtray.scene.readers.reader_table import Given
@@ -42,7 +43,8 @@ def read(given: Given) -> Particles:
     frame_number(given.frame, 1)
     if given.format == "csv":
         text = without_comments(_read_text(given))
-        return from_columns(csv_columns(text), given.columns, partial(in_line, text))
+        columns = _placed(csv_columns(text), given.columns)
+        return from_columns(columns, given.columns, partial(in_line, text))
     columns = {"npz": _read_npz, "parquet": _read_parquet}[given.format](given)
     of_frame = _taken_out(columns) if given.format == "npz" else {}
     return replace(from_columns(columns, given.columns), **of_frame)
@@ -54,6 +56,17 @@ def _read_text(given: Given) -> str:
         return read_stream(given.file).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise SceneError(f"byte {error.start}: not UTF-8; expected text") from None
+
+
+def _placed(columns: "dict[str, Array]", called: Mapping[str, str]) -> "dict[str, Array]":
+    """Call three columns without names x, y and z; raise SceneError if there are others."""
+    if called or not columns or not are_numbered(columns):
+        return columns
+    if len(columns) != len(POSITION):
+        problem = f"expected the names of the columns, or three numbers, got {len(columns)}"
+        remedy = 'columns={"x": "1", "y": "2", "z": "3"} says which are the places'
+        raise SceneError(f"{problem}; {remedy}")
+    return dict(zip(POSITION, columns.values(), strict=True))
 
 
 def _read_npz(given: Given) -> "dict[str, Array]":

@@ -5,12 +5,11 @@ import io
 import os
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, BinaryIO
 
 from vtray.base.errors import SceneError
 from vtray.base.input_file import read_stream
-from vtray.scene.checks.json_tree import short
-from vtray.scene.readers.reader_table import Given, packing_of
+from vtray.scene.readers.packing import packing_of, unpacking
+from vtray.scene.readers.reader_table import Given
 
 BY_PATH = ("ase_file", "cif_file", "mdanalysis_file")
 """The readers of texts that open files by their names."""
@@ -48,7 +47,8 @@ def unpacked(given: Given, module: str, what: str) -> Iterator[Given]:
         return
     if given.format in BINARY or module not in (*BY_PATH, *BY_FILE):
         raise SceneError(f"is compressed, which {what} may not be; unpack it first")
-    content = _content_of(given.file, packing)
+    with unpacking(given.file, packing) as stream:
+        content = read_stream(stream)
     if module in BY_FILE:
         yield given._replace(file=io.BytesIO(content))
         return
@@ -59,23 +59,3 @@ def unpacked(given: Given, module: str, what: str) -> Iterator[Given]:
         path.write_bytes(content)
         with path.open("rb") as file:
             yield given._replace(file=file, path=str(path))
-
-
-def _content_of(file: BinaryIO, packing: str) -> bytes:
-    """Return what is in a compressed file."""
-    import bz2
-    import gzip
-    import lzma
-    import zlib
-
-    openers: dict[str, Any] = {".gz": gzip.open, ".bz2": bz2.open, ".xz": lzma.open}
-    try:
-        with openers[packing](file) as stream:
-            return read_stream(stream)
-    except (EOFError, gzip.BadGzipFile, zlib.error, lzma.LZMAError) as error:
-        words = short(str(error), 100)
-    except OSError as error:
-        if error.errno is not None:
-            raise
-        words = short(str(error), 100)  # what bz2 raises
-    raise SceneError(f"expected a {packing} file, which cannot be unpacked ({words})")

@@ -13,6 +13,8 @@ from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.column_names import canonical, name_columns, name_twice
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.plain_numbers import parsed, parsed_all
+from vtray.scene.readers import table_file
+from vtray.scene.readers.by_content import beginning_of, is_table
 from vtray.scene.readers.frames import Steps, find_frame, steps_of
 from vtray.scene.readers.lines import Lines
 from vtray.scene.readers.reader_table import Given
@@ -59,20 +61,32 @@ def read(given: Given) -> Particles:
 
     A plain file has a symbol and a place in each row, and further columns become ``column5`` and so
     on. An extended one says in its comment what the columns are (``Properties=``), and may name a
-    cell (``Lattice=``, ``pbc=``, ``Origin=``).
+    cell (``Lattice=``, ``pbc=``, ``Origin=``). Where no number of particles comes first, but rows
+    of a table, as in scans, it is one.
 
     Raises
     ------
     SceneError
         The file has no such frame, or it is not right. The message names the line.
     """
+    if _is_table(given):
+        return table_file.read(given._replace(format="csv"))
     lines = Lines(given.file)
     return _read_frame(lines, *find_frame(lines, given.frame, _read_head, "the number of atoms"))
 
 
 def steps(given: Given) -> Steps:
     """Give what reads each frame, one after the other."""
+    if _is_table(given):
+        return iter([lambda: table_file.read(given._replace(format="csv"))])
     return steps_of(Lines(given.file), _read_head, _read_frame)
+
+
+def _is_table(given: Given) -> bool:
+    """Tell whether there are rows of a table from the first line on."""
+    begin = beginning_of(given.file)
+    given.file.seek(0)
+    return begin is not None and is_table(begin)
 
 
 def _read_frame(lines: Lines, number: int, head: _Head) -> Particles:
