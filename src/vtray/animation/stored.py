@@ -7,6 +7,7 @@ from threading import Lock
 from typing import Any
 
 from vtray.base.errors import VtrayError
+from vtray.base.file_series import files_of
 from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.read import read_numbers
 
@@ -17,7 +18,7 @@ class Stored:
     Parameters
     ----------
     path
-        The file.
+        The file, or a pattern for several.
     reading
         What `vtray.read` is told of it.
     """
@@ -65,7 +66,8 @@ class Stored:
         """Return the sizes of the files and when they were written; none if they are not seen."""
         second = self._reading.get("trajectory")
         try:
-            found = [path.stat() for path in (self._path, second) if path is not None]
+            files = map(Path, files_of(str(self._path)))
+            found = [path.stat() for path in (*files, second) if path is not None]
         except OSError:
             return []
         return [(status.st_size, status.st_mtime_ns) for status in found]

@@ -112,13 +112,13 @@ def _check_output(options: argparse.Namespace, is_data: bool) -> None:
     from vtray.base.atomic_file import check_spares, check_writable
     from vtray.image.formats.image_format import check_annotated_format, check_format
 
-    scene, output = options.scene, options.output
+    output = options.output
     check_format(output, options.bits, options.aov or (), options.background)
     if annotations_of(options):
         check_annotated_format(output, options.bits)
     check_writable(output)
     what = f"is the {'data' if is_data else 'scene'} file itself"
-    check_spares(output, [scene], what, "choose another name for the image")
+    check_spares(output, data_options.inputs_of(options), what, "choose another name for the image")
     check_preview(options)
 
 
@@ -171,7 +171,7 @@ def _warn(message: str, options: argparse.Namespace) -> None:
 def _is_data(options: argparse.Namespace) -> bool:
     """Tell whether there is a file of data in place of a scene; see that the options are for it."""
     given = data_options.given(options)
-    is_data = "format" in given
+    is_data = not given.keys().isdisjoint({"format", "trajectory"})
     if options.scene.suffix != ".json" and not is_data:
         from vtray.scene.readers.reader_table import is_data as is_called_data
 

@@ -7,6 +7,7 @@ import argparse
 import math
 import re
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 from vtray.base.errors import UsageError
@@ -58,6 +59,14 @@ def _view(text: str) -> str | tuple[float, float]:
     return pair
 
 
+def _position(text: str) -> dict[str, str]:
+    """Return what a table calls the places, as `vtray.read` is told."""
+    names = [name.strip() for name in text.split(",")]
+    if not all(names) or len(names) not in (1, 3):
+        raise wrong("three names of columns such as px,py,pz, or one", text)
+    return {"position": text} if len(names) == 1 else dict(zip("xyz", names, strict=True))
+
+
 YES_OR_NO: dict[str, Any] = {"action": argparse.BooleanOptionalAction, "default": None}
 FLAG: dict[str, Any] = {"action": "store_true", "default": None}
 
@@ -66,6 +75,16 @@ WHAT: dict[str, dict[str, Any]] = {
     "format": {
         "metavar": "NAME",
         "help": "what the file is where its name does not say it: xyz, lammps-dump, csv, ...",
+    },
+    "trajectory": {
+        "metavar": "FILE",
+        "type": Path,
+        "help": "a second file with the places of all frames, such as .xtc or .dcd",
+    },
+    "position": {
+        "metavar": "NAMES",
+        "type": _position,
+        "help": "the columns of a table that are the places: px,py,pz, or one of three numbers",
     },
     "columns": {**FLAG, "help": "write no image, print what is known of the particles"},
     "select": {"metavar": "EXPR", "help": "draw those alone, such as \"element == 'O' and z > 3\""},
@@ -204,6 +223,12 @@ def given(options: argparse.Namespace) -> dict[str, Any]:
     names = [name.replace("-", "_") for name in NAMES]
     found = {name: getattr(options, name, None) for name in names}
     return {name: value for name, value in found.items() if value is not None}
+
+
+def inputs_of(options: argparse.Namespace) -> list[Path]:
+    """Return the files that a picture is made of."""
+    trajectory = getattr(options, "trajectory", None)
+    return [options.scene] if trajectory is None else [options.scene, trajectory]
 
 
 def check_kind(options: argparse.Namespace, *, is_data: bool) -> None:

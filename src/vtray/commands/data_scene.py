@@ -29,7 +29,7 @@ LOST = 0.1
 AROUND = ("colorbar", "title", "time", "scalebar")
 """What options paint around what is shown, which is left room."""
 
-UNDRAWN = ("frame", "format", "columns", "legend")
+UNDRAWN = ("frame", "format", "trajectory", "position", "columns", "legend")
 """Options that `add_particles` need not know."""
 
 
@@ -221,7 +221,9 @@ def read_particles(options: argparse.Namespace) -> "Particles":
 
 def reading_of(options: argparse.Namespace) -> dict[str, Any]:
     """Return what `vtray.read` is told of the file."""
-    return {"format": data_options.given(options).get("format")}
+    given = data_options.given(options)
+    asked = {"format": "format", "trajectory": "trajectory", "position": "columns"}
+    return {theirs: given[name] for name, theirs in asked.items() if name in given}
 
 
 def describe(options: argparse.Namespace) -> str:

@@ -11,6 +11,7 @@ from vtray.base.errors import OutputError, VtrayError, printable
 from vtray.base.signals import Postponed, end_by
 from vtray.commands.annotation_options import annotations_of
 from vtray.commands.command import print_note
+from vtray.commands.data_options import inputs_of
 
 if TYPE_CHECKING:
     from vtray.image.image import Image
@@ -36,7 +37,7 @@ def check_preview(options: argparse.Namespace) -> None:
         check_annotated_format(preview)
     check_replaceable(preview, remedy)
     check_writable(preview)
-    inputs = [path for path in (options.scene, options.replay) if path is not None]
+    inputs = [*inputs_of(options), *([options.replay] if options.replay else ())]
     check_spares(preview, inputs, "is a file that is read", remedy)
     # OUTPUT, which need not be there yet, is written only when it is whole.
     if os.path.realpath(preview) == os.path.realpath(options.output):

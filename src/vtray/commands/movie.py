@@ -56,7 +56,7 @@ def make_movie(
     fps = getattr(options, "fps", None) or FPS
     aov, annotate = tuple(options.aov or ()), check_annotate(annotations_of(options))
     output.check(fps, options.bits, aov, is_annotated=bool(annotate))
-    output.check_spares([options.scene])
+    output.check_spares(data_options.inputs_of(options))
     look = Look(settings_of(options), annotate, options.bits, aov, options.threads)
     film = Film(output, fps, look, bool(getattr(options, "resume", False)), on_warning=warn)
     progress: Any = None

@@ -1,6 +1,7 @@
 """The options of the command line, and what their values may be."""
 
 import argparse
+import os
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -12,6 +13,7 @@ from vtray.commands.command import Parser
 from vtray.commands.setting_options import add_settings, flags_of_parts, value_apart, with_parts
 from vtray.commands.values import wrong
 from vtray.image.aovs import AOVS
+from vtray.scene.checks.json_tree import short
 from vtray.scene.settings import RenderSettings
 from vtray.scene.style import PICTURE, Style
 
@@ -68,7 +70,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     joined = data_options.joined(with_values(with_parts(arguments, Style)))
     options, extra = parser.parse_known_intermixed_args(_files_after_dashes(joined))
     if extra:
-        parser.error(_why_extra(extra, joined))
+        parser.error(_why_extra(extra, joined, options.output))
     options.columns = getattr(options, "columns", None)
     if options.output is None and options.pixel is None and not options.columns:
         parser.error("OUTPUT is missing")
@@ -79,11 +81,15 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     return options
 
 
-def _why_extra(extra: Sequence[str], arguments: Sequence[str]) -> str:
+def _why_extra(extra: Sequence[str], arguments: Sequence[str], output: Path) -> str:
     """Return what is wrong with arguments of which some are left over."""
     are_files = not any(text.startswith("-") for text in extra)
     apart = value_apart(arguments, {*WITH_VALUE, *flags_of_parts(Style)}) if are_files else ""
-    return apart or f"unrecognized arguments: {' '.join(extra)}"
+    if apart:
+        return apart
+    are_frames = are_files and all(map(os.path.isfile, [output, *extra[:-1]]))  # of a shell
+    hint = "; a pattern for frames in several files needs quotes, as in 'dump.*'"
+    return f"unrecognized arguments: {short(' '.join(extra))}{hint if are_frames else ''}"
 
 
 def _files_after_dashes(arguments: Sequence[str]) -> list[str]:

@@ -60,7 +60,7 @@ def from_columns(
     else:
         known = short(", ".join(columns), 100) or "none"
         names = '{"x": "px", "y": "py", "z": "pz"}'
-        remedy = f"name them, as in columns={names}, or columns={{'position': 'r'}} for all three"
+        remedy = f"name them, as in columns={names} or --position px,py,pz"
         if called is None:  # of a table that is at hand
             remedy = 'rename them, as in table.rename(columns={"px": "x", "py": "y", "pz": "z"})'
         if "x" in places and "y" in places:

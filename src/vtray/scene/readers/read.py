@@ -3,14 +3,16 @@
 import contextlib
 import operator
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from vtray.base.errors import SceneError, why_unreadable
 from vtray.base.file_name import file_name
+from vtray.base.file_series import files_of
 from vtray.base.input_file import is_given, open_input
 from vtray.base.memory import available_memory, readable
 from vtray.scene.checks.json_tree import short
@@ -48,9 +50,10 @@ def read(
     Parameters
     ----------
     path
-        The file. The ending of its name says what it is, or else how it begins; where neither
-        does, the error lists the endings that are known. After that of a text, .gz, .bz2 or .xz may
-        follow.
+        The file; or a pattern such as "dump.*", for files whose frames follow each other, in the
+        order of the numbers in their names. The ending of a name says what a file is, or else how
+        it begins; where neither does, the error lists the endings that are known. After that of a
+        text, .gz, .bz2 or .xz may follow.
     frame
         Which of its frames, from 0; a negative one counts from the end, so that -1 is the last.
     format
@@ -81,9 +84,16 @@ def read(
     >>> last = vtray.read("run.xyz", frame=-1)  # doctest: +SKIP
     """
     name = file_name(path, SceneError)
-    with _explained(name), _opened(path, format, columns, trajectory) as (module, given):
-        found: Particles = module.read(given._replace(frame=_whole(frame)))
-        return _finished(found, given, path)
+    with _explained(name):
+        number = _whole(frame)
+    files = files_of(name)
+    if len(files) > 1:
+        reading = {"format": format, "columns": columns, "trajectory": trajectory}
+        return next(read_frames(path, [number], **reading))
+    (file,) = files
+    with _explained(file), _opened(file, format, columns, trajectory) as (module, given):
+        found: Particles = module.read(given._replace(frame=number))
+        return _finished(found, given, file)
 
 
 @explain_unknown
@@ -143,17 +153,19 @@ def read_numbers(
     name = file_name(path, SceneError)
     number = next(wanted, None)
     while number is not None:
-        with _explained(name), _opened(path, format, columns, trajectory) as (module, given):
-            at = -1
-            for at, step in enumerate(_steps(module, given)):
+        at = -1
+        with contextlib.closing(_frames_in(name, format, columns, trajectory)) as frames:
+            for at, read_frame in enumerate(frames):
                 if at == number:
-                    yield _finished(step(), given, path)
+                    found = read_frame()
+                    yield found if found.frame == at else replace(found, frame=at)
                     number = next(wanted, None)
                     # What follows the last frame that is wanted is not looked at.
                     if number is None or number <= at:
                         break
             else:
-                raise no_such_frame(number, at + 1)
+                with _explained(name):
+                    raise no_such_frame(number, at + 1)
 
 
 def numbers_of(
@@ -165,16 +177,23 @@ def numbers_of(
     trajectory: "AnyPath | None" = None,
 ) -> Sequence[int]:
     """Return the numbers of frames of a file, from 0; the arguments are those of `read_frames`."""
+    name = file_name(path, SceneError)
+    wrong: list[SceneError] = []  # what is wrong with a file, whose name it has already
 
     def count() -> int:
         if is_given(path) and not os.path.isfile(path):
             problem = "frames of a pipe cannot be counted, as it is read once"
             raise SceneError(f"{problem}; expected a file, or numbers of frames such as 0")
-        with _opened(path, format, columns, trajectory) as (module, given):
-            return sum(1 for _ in _steps(module, given))
+        try:
+            return sum(1 for _ in _frames_in(name, format, columns, trajectory))
+        except SceneError as error:
+            wrong.append(error)
+            raise
 
-    with _explained(file_name(path, SceneError)):
+    try:
         return which_frames(frames, count)
+    except SceneError as error:
+        raise error if error in wrong else SceneError(f"{name}: {error}") from None
 
 
 def is_slow(
@@ -187,8 +206,26 @@ def is_slow(
     """Tell whether a frame is only passed over by reading it; the arguments are those of `read`."""
     name = file_name(path, SceneError)
     with _explained(name):
-        _, reader = reader_of(name, format if trajectory is None else "mdanalysis")
+        _, reader = reader_of(files_of(name)[0], format if trajectory is None else "mdanalysis")
     return reader.module in _SLOW
+
+
+def _frames_in(
+    name: str,
+    format: str | None,  # noqa: A002
+    columns: Mapping[str, str] | None,
+    trajectory: "AnyPath | None",
+) -> Generator[Callable[[], Particles], None, None]:
+    """Give what reads each frame of the files that a name stands for, one after the other."""
+
+    def finished(step: Callable[[], Particles], given: Given, file: str) -> Particles:
+        with _explained(file):
+            return _finished(step(), given, file)
+
+    for file in files_of(name):
+        with _explained(file), _opened(file, format, columns, trajectory) as (module, given):
+            for step in _steps(module, given):
+                yield partial(finished, step, given, file)
 
 
 def _steps(module: Any, given: Given) -> Steps:  # noqa: ANN401
@@ -231,12 +268,12 @@ def _explained(name: str) -> Iterator[None]:
         raise SceneError(f"{name}: {why_unreadable(error, 'file of data')}") from None
 
 
-def _finished(found: Particles, given: Given, path: "AnyPath") -> Particles:
+def _finished(found: Particles, given: Given, file: str) -> Particles:
     """Return what was read with the names that were asked for, and where it comes from."""
     _, reader = reader_of(given.path, given.format)
     if given.columns and reader.module not in _BY_NAME:
         found = _with_names(found, given.columns)
-    return replace(found, source=Path(file_name(path, SceneError)))
+    return replace(found, source=Path(file))
 
 
 def _names(columns: Mapping[str, str] | None) -> Mapping[str, str]:

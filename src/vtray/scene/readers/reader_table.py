@@ -9,6 +9,7 @@ from fnmatch import fnmatchcase
 from typing import BinaryIO, NamedTuple
 
 from vtray.base.errors import SceneError
+from vtray.base.file_series import files_of, stands_for_several
 from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.scene_words import show
 from vtray.scene.readers.by_content import kind_of_content
@@ -127,15 +128,17 @@ def reader_of(path: str, named: object) -> tuple[str, Reader]:
     told = kind_of_content(path, packing)
     if told is not None:
         return told, READERS[told]
+    if stands_for_several(path) and not os.path.exists(path):
+        raise SceneError("no such file; expected one of data, or a pattern that some match")
     known = ", ".join(name for reader in READERS.values() for name in reader.names)
     problem = f"the ending {short(ending)!r} is not known" if ending else "the name has no ending"
     raise SceneError(f"{problem}; expected one of {known}, or format=..., such as format='xyz'")
 
 
 def is_data(path: str) -> bool:
-    """Tell whether a file is one of data."""
+    """Tell whether a file is one of data, or a pattern stands for some."""
     try:
-        reader_of(path, None)
+        reader_of(files_of(path)[0], None)
     except SceneError:
         return False
     return True

@@ -64,7 +64,8 @@ def _placed(columns: "dict[str, Array]", called: Mapping[str, str]) -> "dict[str
         return columns
     if len(columns) != len(POSITION):
         problem = f"expected the names of the columns, or three numbers, got {len(columns)}"
-        remedy = 'columns={"x": "1", "y": "2", "z": "3"} says which are the places'
+        names = '{"x": "1", "y": "2", "z": "3"}'
+        remedy = f"columns={names}, or --position 1,2,3, says which are the places"
         raise SceneError(f"{problem}; {remedy}")
     return dict(zip(POSITION, columns.values(), strict=True))
 
