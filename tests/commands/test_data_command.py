@@ -392,13 +392,16 @@ def test_a_topology_alone_has_no_places(tmp_path: Path, capfd: pytest.CaptureFix
     atom = "       1 W    1    SOL  OW   O     -0.800000       15.9990           0\n"
     path.write_text(f"PSF\n\n       1 !NTITLE\n REMARKS one\n\n       1 !NATOM\n{atom}")
     assert cli.run([str(path), str(tmp_path / "a.png")]) == 1
-    assert "of vtray.read in Python; the command takes one file alone\n" in capfd.readouterr().err
+    assert ", or by --trajectory run.xtc\n" in capfd.readouterr().err
 
 
 def test_a_file_may_have_any_name(water: Path, capfd: pytest.CaptureFixture[str]) -> None:
     other = water.rename(water.with_name("run.100"))
     assert cli.run(["--columns", "--format", "xyz", str(other)]) == 0
     assert capfd.readouterr().out.startswith("3 particles")
+    assert cli.run(["--columns", str(other)]) == 0  # as it begins like no other
+    assert capfd.readouterr().out.startswith("3 particles")
+    other.write_text("H\n1.0\n9 0 0\n0 9 0\n0 0 9\nH\n1\nCartesian\n4 5 6\n")
     assert cli.run([str(other), str(water.with_name("a.png"))]) == 1
     assert "if it is data, say by --format what it is" in capfd.readouterr().err
 

@@ -158,7 +158,7 @@ def test_what_a_table_calls_the_places(tmp_path: Path, vtray_command: Command) -
         assert (done.returncode, done.stderr) == (0, "")
         assert "from 3 to 7\n" in done.stdout
     done = vtray_command("--position", "px,py", "a.csv", "a.png", cwd=tmp_path)
-    assert done.stderr.startswith("Error: argument --position: expected three names of columns such as ")
+    assert done.stderr.startswith("Error: argument --position: expected three names of col")
     done = vtray_command("a.csv", "a.png", cwd=tmp_path)
     assert "or --position px,py,pz" in done.stderr
     done = vtray_command("--position", "px,py,q", "a.csv", "a.png", cwd=tmp_path)

@@ -87,7 +87,8 @@ def _why_extra(extra: Sequence[str], arguments: Sequence[str], output: Path) -> 
     apart = value_apart(arguments, {*WITH_VALUE, *flags_of_parts(Style)}) if are_files else ""
     if apart:
         return apart
-    are_frames = are_files and all(map(os.path.isfile, [output, *extra[:-1]]))  # of a shell
+    # What a shell makes of a pattern.
+    are_frames = are_files and output.is_file() and all(map(os.path.isfile, extra[:-1]))
     hint = "; a pattern for frames in several files needs quotes, as in 'dump.*'"
     return f"unrecognized arguments: {short(' '.join(extra))}{hint if are_frames else ''}"
 

@@ -74,9 +74,8 @@ def _open(given: Given) -> tuple[Any, str]:
 
     universe = _quietly(open_both)
     if not hasattr(universe, "trajectory"):
-        remedy = 'name the file that has some, as in trajectory="run.xtc"'
-        where = "of vtray.read in Python; the command takes one file alone"
-        raise SceneError(f"has no places; {remedy} {where}")
+        remedy = 'as in trajectory="run.xtc", or by --trajectory run.xtc'
+        raise SceneError(f"has no places; name the file that has some, {remedy}")
     return universe, expected
 
 

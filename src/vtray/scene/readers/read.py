@@ -88,8 +88,8 @@ def read(
         number = _whole(frame)
     files = files_of(name)
     if len(files) > 1:
-        reading = {"format": format, "columns": columns, "trajectory": trajectory}
-        return next(read_frames(path, [number], **reading))
+        chosen = read_frames(path, [number], format=format, columns=columns, trajectory=trajectory)
+        return next(chosen)
     (file,) = files
     with _explained(file), _opened(file, format, columns, trajectory) as (module, given):
         found: Particles = module.read(given._replace(frame=number))
