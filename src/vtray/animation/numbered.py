@@ -25,7 +25,7 @@ def numbered(given: Any) -> Numbered | None:  # noqa: ANN401
     """Return the frames of a list, or of whatever else has them by numbers; None if it has not.
 
     These are universes and groups of atoms of MDAnalysis, pipelines of OVITO, arrays (m, n, 3),
-    trajectories of ASE and MDTraj, stacks of Biotite.
+    trajectories of ASE, MDTraj and HOOMD-blue, stacks of Biotite.
     """
     if is_mdanalysis(given):
         return _of_mdanalysis(given)

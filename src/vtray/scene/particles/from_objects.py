@@ -27,6 +27,7 @@ from vtray.scene.particles.elements import are_symbols, symbols_among, symbols_o
 from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.from_chemistry import particles_in
 from vtray.scene.particles.from_columns import from_columns
+from vtray.scene.particles.from_simulation import particles_of_simulation
 from vtray.scene.particles.masses import elements_of_masses
 from vtray.scene.particles.pairs import reach_residues
 from vtray.scene.particles.particles import Particles
@@ -190,9 +191,9 @@ def as_particles(given: Any, place: str = "") -> Particles:  # noqa: ANN401
     Parameters
     ----------
     given
-        `Particles`; objects of ASE, MDAnalysis, OVITO, RDKit, pymatgen, MDTraj or Biotite; what has
-        ``positions`` or ``get_positions()``; tables, mappings and structured arrays with the
-        columns x, y and z; or an array (n, 3).
+        `Particles`; objects of ASE, MDAnalysis, OVITO, RDKit, pymatgen, MDTraj, Biotite, OpenMM,
+        ParmEd, HOOMD-blue or freud; what has ``positions`` or ``get_positions()``; tables, mappings
+        and structured arrays with the columns x, y and z; or an array (n, 3).
     place
         What messages begin with.
 
@@ -218,9 +219,10 @@ def _particles_of(given: Any) -> Particles:  # noqa: ANN401
     inner = getattr(given, "particles", None)
     if inner is not None and hasattr(inner, "positions"):
         return _from_ovito(given)
-    found = particles_in(given)
-    if found is not None:
-        return found
+    for find in (particles_in, particles_of_simulation):
+        found = find(given)
+        if found is not None:
+            return found
     if isinstance(given, Mapping):
         return from_columns(_columns_of(given, given))
     if fields_of(given):

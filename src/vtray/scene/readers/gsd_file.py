@@ -2,33 +2,19 @@
 
 References
 ----------
-https://gsd.readthedocs.io/en/stable/schema-hoomd.html,
-https://hoomd-blue.readthedocs.io/en/stable/hoomd/box.html
+https://gsd.readthedocs.io/en/stable/schema-hoomd.html
 """
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from vtray.base.errors import SceneError
 from vtray.base.extras import need
-from vtray.scene.particles.column_names import name_columns
+from vtray.scene.particles.from_simulation import HOOMD, of_hoomd
 from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.frames import Steps, frame_number
 from vtray.scene.readers.libraries import told
 from vtray.scene.readers.reader_table import Given
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    Array = NDArray[Any]
-    Cell = NDArray[np.float64]
-
-_COLUMNS = ("mass", "charge", "velocity", "orientation", "angmom", "body", "image")
-"""What else a file may know of each particle."""
-
-
-_ZERO: Any = (0.0, 0.0, 0.0)
 
 
 def read(given: Given) -> Particles:
@@ -70,31 +56,9 @@ def _told_frame(trajectory: Any, number: int) -> Particles:  # noqa: ANN401
 
 def _read_frame(trajectory: Any, number: int) -> Particles:  # noqa: ANN401
     """Read a frame of an open file."""
-    import numpy as np
-
-    frame = trajectory[number]
-    particles = frame.particles
-    columns: dict[str, Array] = {}
-    if particles.typeid is not None:
-        names = np.array(particles.types or ["A"], np.str_)
-        columns["type"] = names[np.asarray(particles.typeid, np.int64)]
-    if particles.diameter is not None:
-        columns["radius"] = np.asarray(particles.diameter, np.float64) / 2
-    for name in _COLUMNS:
-        if f"particles/{name}" in _chunks(trajectory, number):
-            columns[name] = np.asarray(getattr(particles, name))
-    cell = _cell_of(frame.configuration.box)
-    bonds = frame.bonds.group if frame.bonds.N else None
-    dimensions = frame.configuration.dimensions
-    return Particles(
-        np.asarray(particles.position),
-        name_columns(columns),
-        bonds=None if bonds is None else np.asarray(bonds, np.int64),
-        cell=cell,
-        origin=_ZERO if cell is None else (cell[0] + cell[1] + cell[2]) / -2,
-        periodic=None if cell is None else (True, True, dimensions == 3),
-        frame=number,
-    )
+    known = _chunks(trajectory, number)
+    names = [name for name in HOOMD if f"particles/{name}" in known]
+    return of_hoomd(trajectory[number], names, number)
 
 
 def _chunks(trajectory: Any, number: int) -> set[str]:  # noqa: ANN401
@@ -106,13 +70,3 @@ def _chunks(trajectory: Any, number: int) -> set[str]:  # noqa: ANN401
         for name in known
         if file.chunk_exists(frame=number, name=name) or file.chunk_exists(frame=0, name=name)
     }
-
-
-def _cell_of(box: Any) -> "Cell | None":  # noqa: ANN401
-    """Return the edges of a box by its lengths and tilts."""
-    import numpy as np
-
-    if box is None or not np.any(box[:3]):
-        return None
-    x, y, z, xy, xz, yz = (float(entry) for entry in box)
-    return np.array([(x, 0.0, 0.0), (xy * y, y, 0.0), (xz * z, yz * z, z)])

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 from vtray.base.errors import SceneError
 from vtray.base.extras import need
 from vtray.scene.checks.json_tree import short
+from vtray.scene.particles.crystal_cell import edges_of
 from vtray.scene.particles.elements import symbols_among
 from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.plain_numbers import parsed_all, whole_or_texts
-from vtray.scene.readers.crystal_cell import edges_of
 from vtray.scene.readers.frames import Steps
 from vtray.scene.readers.libraries import check_room, told
 

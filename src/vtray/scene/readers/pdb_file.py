@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.beads import are_beads, types_of_beads
+from vtray.scene.particles.crystal_cell import edges_of
 from vtray.scene.particles.elements import symbol_of
 from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.pairs import reach_residues
 from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.plain_numbers import parsed, parsed_all, whole_or_texts
-from vtray.scene.readers.crystal_cell import edges_of
 from vtray.scene.readers.frames import Steps, frame_number
 from vtray.scene.readers.libraries import check_room
 from vtray.scene.readers.reader_table import Given
