@@ -16,7 +16,7 @@ PACKAGES = {
     "movies": ("imageio-ffmpeg",),
     "points": ("laspy", "lazrs", "plyfile"),
     "sky": ("OpenImageIO",),
-    "tables": ("pyarrow",),
+    "tables": ("h5py", "pyarrow"),
 }
 """What the extras install."""
 

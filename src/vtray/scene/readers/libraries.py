@@ -41,7 +41,13 @@ def told(library: str, expected: str) -> Iterator[None]:
 
 def check_room(file: BinaryIO, times: int) -> None:
     """Raise SceneError if there is not so many times the memory that a file has bytes."""
-    lack = lack_of_memory(times * file.seek(0, io.SEEK_END))
+    size = file.seek(0, io.SEEK_END)
     file.seek(0)
+    check_bytes(times * size)
+
+
+def check_bytes(count: int) -> None:
+    """Raise SceneError if there are not so many bytes of memory."""
+    lack = lack_of_memory(count)
     if lack:
         raise SceneError(f"reading it needs about {lack}")

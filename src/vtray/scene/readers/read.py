@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 _SLOW = ("ase_file", "cif_file")
 """The readers that pass over a frame by reading it."""
 
-_BY_NAME = ("table_file", "ply_file")
+_BY_NAME = ("table_file", "ply_file", "hdf5_file")
 """The readers that find the places by the names of their columns."""
 
 

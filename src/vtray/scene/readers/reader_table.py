@@ -73,6 +73,7 @@ READERS: dict[str, Reader] = {
     "csv": Reader("a CSV table", "table_file", (".csv", ".tsv")),
     "npz": Reader("a file of arrays", "table_file", (".npz", ".npy")),
     "parquet": Reader("a Parquet file", "table_file", (".parquet", ".pq")),
+    "hdf5": Reader("an HDF5 file", "hdf5_file", (".h5", ".hdf5", ".h5md", ".hdf")),
     "las": Reader("a LAS file", "las_file", (".las", ".laz")),
     "ply": Reader("a PLY file", "ply_file", (".ply",)),
     "cif": Reader("a CIF file", "cif_file", (".cif", ".mmcif", ".pdbx")),
