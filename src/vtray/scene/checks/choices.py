@@ -13,8 +13,8 @@ def is_one_of(given: object, known: Container[str]) -> TypeGuard[str]:
     return isinstance(given, str) and given in known
 
 
-def yes_or_no(given: object, place: str) -> bool:
-    """Return what is true or false, NumPy's too, as Python's own.
+def yes_or_no(given: object, place: str, remedy: str = "") -> bool:
+    """Return what is true or false, NumPy's too, as Python's own; a message ends with a remedy.
 
     Raises
     ------
@@ -23,7 +23,7 @@ def yes_or_no(given: object, place: str) -> bool:
     """
     found = given.item() if getattr(given, "shape", None) == () else given  # type: ignore[attr-defined]
     if not isinstance(found, bool):
-        raise SceneError(f"{place}: expected True or False, got {show(given)}")
+        raise SceneError(f"{place}: expected True or False, got {show(given)}{remedy}")
     return found
 
 

@@ -73,6 +73,9 @@ SCALES = (1e-20, 1e20, "a number from 1e-20 to 1e20")
 
 CELL_COLOR = (70, 70, 70)
 
+_WITH_CELL = "; vtray.Particles(positions, cell=...) are particles with a cell"
+"""What helps who gives the cell of positions in place of whether it is shown."""
+
 WRITTEN_OUT = 500_000
 """Spheres and cylinders up to which all cells are written out, about 50 MB: copies of small cells,
 whose boxes overlap, are traced seven times as slowly."""
@@ -236,7 +239,7 @@ def draw(
     particles = as_particles(given, "add_particles: ")
     bonds, hydrogen_bonds, boundary = map(_plain, (bonds, hydrogen_bonds, boundary))
     size = _number(scale, "scale", *SCALES)
-    cell = None if cell is None else yes_or_no(cell, "cell")
+    cell = None if cell is None else yes_or_no(cell, "cell", _WITH_CELL)
     shines = emission is not None
     if shines and opacity is not None:
         raise SceneError("opacity: expected None with emission, as what shines hides nothing")

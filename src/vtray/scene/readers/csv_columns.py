@@ -51,12 +51,15 @@ def without_comments(text: str) -> str:
 
     The last of them stays if it names the columns, as those of NumPy do: where numbers follow.
     """
-    count, last, rest = 0, "", text
-    while rest.startswith(_COMMENT):
-        last, _, rest = rest.partition("\n")
+    count, last, begin = 0, "", 0
+    while text.startswith(_COMMENT, begin):
+        end = text.find("\n", begin)
+        end = len(text) if end < 0 else end
+        last, begin = text[begin:end], end + 1
         count += 1
     if count == 0:
         return text
+    rest = text[begin:]
     separator = _separator(rest)
     names, first = last.lstrip(_COMMENT), _first_line(rest)
     has_numbers = any(map(_is_number, _split(first, separator)))
