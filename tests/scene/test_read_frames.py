@@ -1,5 +1,6 @@
 """Frames of a trajectory, one after the other."""
 
+import io
 from collections.abc import Callable
 from pathlib import Path
 
@@ -9,6 +10,8 @@ import pytest
 import vtray
 from vtray.base.errors import SceneError
 from vtray.scene.readers import lines as lines_module
+from vtray.scene.readers import xyz_file
+from vtray.scene.readers.reader_table import Given
 from vtray.scene.readers.which_frames import which_frames
 
 COUNT = 6
@@ -163,3 +166,35 @@ def test_words_for_slices() -> None:
     assert of(range(-2, 0)) == [3, 4]
     assert of(None) == [0, 1, 2, 3, 4]
     assert of(np.array([1, 2])) == [1, 2]
+
+
+class Counted(io.BytesIO):
+    """A file that counts the bytes that are read of it."""
+
+    count = 0
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        """Read some bytes."""
+        found = super().read(size)
+        self.count += len(found)
+        return found
+
+    def readline(self, size: int | None = -1, /) -> bytes:
+        """Read a line."""
+        found = super().readline(size)
+        self.count += len(found)
+        return found
+
+
+@pytest.mark.parametrize("width", [1, 40, 3000])
+def test_small_frames_are_not_read_again_and_again(width: int) -> None:
+    row = f"O 1 2 3 {'x' * width}\n"
+    file = Counted(f"300\n\n{300 * row}".encode() * 200)
+    given = Given(file, "a.xyz", "xyz", -1, {}, None)
+    size = len(file.getvalue())
+    assert xyz_file.read(given).frame == 199
+    assert file.count < 1.5 * size
+    file.seek(0)
+    file.count = 0
+    assert sum(len(read()) for read in xyz_file.steps(given)) == 200 * 300
+    assert file.count < 3 * size  # once to read a frame, and once to pass over it

@@ -7,7 +7,13 @@ from typing import BinaryIO
 from vtray.base.errors import SceneError
 
 STEP = 1 << 22
-"""Bytes that are read at a time."""
+"""Bytes that are read at a time, at the most."""
+
+LEAST_STEP = 1 << 12
+"""Bytes that are read at a time, at the least, if so many lines are wanted."""
+
+USUAL = 48
+"""Bytes of a line, as long as none is known."""
 
 LONGEST = 1 << 20
 """Bytes of a line, at the most: what has longer ones is no text of numbers."""
@@ -29,6 +35,7 @@ class Lines:
 
     def __init__(self, file: BinaryIO) -> None:
         self._file = file
+        self._length = USUAL
         self.number = 0
 
     def next(self) -> str | None:
@@ -52,7 +59,7 @@ class Lines:
     def skip(self, count: int) -> int:
         """Skip lines; return how many there were, which are fewer at the end of the file."""
         left, last = count, b"\n"
-        while left and (block := self._file.read(STEP)):
+        while left and (block := self._read_for(left)):
             block = self._cut(block, left)
             left -= block.count(b"\n")
             last = block[-1:]
@@ -70,7 +77,7 @@ class Lines:
             A line is too long for text.
         """
         left, rest = count, b""
-        while left and (block := self._file.read(STEP)):
+        while left and (block := self._read_for(left)):
             whole, end, rest = (rest + self._cut(block, left)).rpartition(b"\n")
             if len(rest) > LONGEST:
                 raise self._too_long(self.number + whole.count(b"\n") + len(end) + 1)
@@ -91,6 +98,15 @@ class Lines:
         """Go to a place where the reader was."""
         offset, self.number = place
         self._file.seek(offset)
+
+    def _read_for(self, count: int) -> bytes:
+        """Read about as many bytes as so many lines have, by the length of those before.
+
+        Frames are often far smaller than what can be read at a time.
+        """
+        block = self._file.read(min(max(count * self._length, LEAST_STEP), STEP))
+        self._length = len(block) // (block.count(b"\n") or 1) + 2
+        return block
 
     def _cut(self, block: bytes, most: int) -> bytes:
         """Return what belongs to so many lines, and go back to the end of the last."""
