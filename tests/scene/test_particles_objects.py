@@ -11,17 +11,19 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import MDAnalysis
 import numpy as np
 import pandas as pd
 import polars as pl
 import pyarrow as pa
 import pytest
 from ase.build import molecule
+from MDAnalysisTests import datafiles
 
 import vtray
 from vtray.base.errors import SceneError
 from vtray.base.extras import ExtraError
-from vtray.scene.particles.from_objects import as_particles
+from vtray.scene.particles.from_objects import as_particles, bonds_of
 from vtray.scene.particles.particles import Particles
 
 with warnings.catch_warnings(action="ignore"):
@@ -549,3 +551,35 @@ def test_lists_of_several_lengths_are_texts(made: Any) -> None:
 def test_fractions_are_numbers() -> None:
     places = Particles([[Fraction(1, 2), 2, 3]]).positions  # type: ignore[arg-type]
     assert places.tolist() == [[0.5, 2.0, 3.0]]
+
+
+TOPOLOGIES = {
+    "psf": (datafiles.PSF, datafiles.DCD),
+    "prmtop": (datafiles.PRM, datafiles.TRJ),
+    "mol2": (datafiles.mol2_molecules,),
+    "PDB with CONECT": (datafiles.CONECT,),
+    "LAMMPS": (datafiles.LAMMPSdata,),
+}
+
+
+@pytest.mark.parametrize("files", TOPOLOGIES.values(), ids=TOPOLOGIES)
+@pytest.mark.filterwarnings("ignore")
+def test_bonds_are_those_that_mdanalysis_gives(files: tuple[str, ...]) -> None:
+    made = MDAnalysis.Universe(*files)
+    assert np.array_equal(bonds_of(made), made.bonds.indices)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_bonds_that_change_are_as_they_are() -> None:
+    made = MDAnalysis.Universe(datafiles.PSF, datafiles.DCD)
+    made.add_bonds([(0, 9)])
+    assert [0, 9] in bonds_of(made).tolist()
+    assert np.array_equal(bonds_of(made), made.bonds.indices)
+    made.delete_bonds([(0, 9)])
+    assert np.array_equal(bonds_of(made), made.bonds.indices)
+
+
+def test_bonds_of_what_keeps_them_otherwise() -> None:
+    pairs = SimpleNamespace(indices=[(0, 1), (1, 2)])
+    assert bonds_of(SimpleNamespace(bonds=pairs)).tolist() == [[0, 1], [1, 2]]
+    assert bonds_of(SimpleNamespace()) is None

@@ -34,6 +34,8 @@ def without_objects(column: "Array") -> "Array":
     if column.dtype != object:
         return column
     entries = column.ravel().tolist()
+    if set(map(type, entries)) == {str}:  # most often, and told fast
+        return np.array(entries, np.str_).reshape(column.shape)
     shapes = {entry.shape if isinstance(entry, np.ndarray) else () for entry in entries}
     if column.ndim == 1 and len(shapes) == 1 and len(next(iter(shapes))) == 1:
         return np.stack(entries)
