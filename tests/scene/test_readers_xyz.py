@@ -201,3 +201,15 @@ def test_frames_are_whole_numbers(tmp_path: Path) -> None:
     assert len(read(WATER, tmp_path, np.int64(-1))) == 3
     with pytest.raises(SceneError, match="frame: expected an integer, got 'last'$"):
         read(WATER, tmp_path, "last")
+
+
+def test_other_places_than_those_of_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "a.xyz"
+    path.write_text("1\nProperties=species:S:1:pos:R:3:next:R:3:q:R:1\nO 1 2 3 4 5 6 7\n")
+    found = vtray.read(path, columns={"position": "next"})
+    assert (found.positions.tolist(), set(found.columns)) == ([[4, 5, 6]], {"element", "charge"})
+    assert vtray.read(path, columns={"z": "charge"}).positions.tolist() == [[1, 2, 7]]
+    with pytest.raises(
+        SceneError, match=r"a.xyz: Particles.positions: must have shape \(n, 3\), g"
+    ):
+        vtray.read(path, columns={"position": "charge"})

@@ -31,7 +31,7 @@ def files_of(path: str) -> list[str]:
 
 
 def stands_for_several(path: str) -> bool:
-    """Tell whether a name is a pattern, unless a file has it."""
+    """Tell whether a name is a pattern, if no file has it."""
     return bool(_PATTERN.search(path))
 
 

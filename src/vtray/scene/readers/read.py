@@ -308,7 +308,8 @@ def _too_large(error: MemoryError) -> str:
 def _with_names(found: Particles, called: Mapping[str, str]) -> Particles:
     """Give columns the names that were asked for, those of the places too."""
     columns = renamed(found.columns, called)
-    positions = found.positions.copy()
+    whole = columns.pop("position") if "position" in called else found.positions
+    positions = whole.copy()
     for index, name in enumerate(POSITION):
         if name in columns:
             positions[:, index] = columns.pop(name)
