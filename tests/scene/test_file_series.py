@@ -51,8 +51,11 @@ def test_only_patterns_stand_for_several(tmp_path: Path) -> None:
         (tmp_path / name).touch()
     for name in ("run[1].xyz", "run*.xyz", "none.xyz", "none*.xyz", "a\0*"):
         assert files_of(str(tmp_path / name)) == [str(tmp_path / name)]
-    found = [os.path.basename(path) for path in files_of(str(tmp_path / "run[*.xyz"))]
-    assert found == ["run[1].xyz", "run[2].xyz"]
+    for pattern in ("run[[]*.xyz", "run[*.xyz"):
+        found = [os.path.basename(path) for path in files_of(str(tmp_path / pattern))]
+        assert found == ["run[1].xyz", "run[2].xyz"]
+    found = [os.path.basename(path) for path in files_of(str(tmp_path / "run[0-3].xyz"))]
+    assert found == ["run1.xyz"]
 
 
 @pytest.mark.parametrize("frame", range(-5, 5))

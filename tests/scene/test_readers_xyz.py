@@ -209,7 +209,5 @@ def test_other_places_than_those_of_the_file(tmp_path: Path) -> None:
     found = vtray.read(path, columns={"position": "next"})
     assert (found.positions.tolist(), set(found.columns)) == ([[4, 5, 6]], {"element", "charge"})
     assert vtray.read(path, columns={"z": "charge"}).positions.tolist() == [[1, 2, 7]]
-    with pytest.raises(
-        SceneError, match=r"a.xyz: Particles.positions: must have shape \(n, 3\)"
-    ):
+    with pytest.raises(SceneError, match=r"a.xyz: Particles.positions: must have shape \(n, 3\)"):
         vtray.read(path, columns={"position": "charge"})

@@ -13,6 +13,7 @@ from vtray.animation.numbered import numbered
 from vtray.animation.spool import Spool
 from vtray.animation.stored import Stored
 from vtray.base.errors import SceneError
+from vtray.base.file_series import files_of
 from vtray.base.number import is_integer
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.from_objects import is_ase
@@ -134,8 +135,8 @@ def _of_file(path: str, frames: Any, reading: Mapping[str, Any]) -> Source:  # n
         try:
             found = which_frames(frames, spool.count)
         except SceneError as error:
-            # What is wrong with the file names it.
-            name = "" if str(error).startswith(path) else f"{path}: "
+            # What is wrong with a file names it.
+            name = "" if str(error).startswith((path, *files_of(path))) else f"{path}: "
             raise SceneError(f"{name}{error}") from None
         return replace(_listed(spool.read, found), origin=path)
     numbers = numbers_of(path, frames, **reading)

@@ -4,7 +4,7 @@ import glob
 import os
 import re
 
-_PATTERN = re.compile("[*?]")
+_PATTERN = re.compile(r"[*?\[]")
 
 _NUMBER = re.compile("([0-9]+)")
 
@@ -16,7 +16,7 @@ def files_of(path: str) -> list[str]:
     ----------
     path
         A file; or, where there is none of that name, a pattern, in which ``*`` stands for any
-        letters and ``?`` for one.
+        letters, ``?`` for one, and ``[0-4]`` for one of some.
 
     Returns
     -------
@@ -26,8 +26,7 @@ def files_of(path: str) -> list[str]:
     """
     if not stands_for_several(path) or "\0" in path or os.path.lexists(path):
         return [path]
-    found = filter(os.path.isfile, glob.glob(path.replace("[", "[[]")))  # no sets of letters
-    return sorted(found, key=_place) or [path]
+    return sorted(filter(os.path.isfile, glob.glob(path)), key=_place) or [path]
 
 
 def stands_for_several(path: str) -> bool:
