@@ -177,6 +177,11 @@ def test_frames_of_hoomd_are_as_their_file(more: dict[str, Any], tmp_path: Path)
     assert vtray.Scene().add_particles(made).cell is not None
 
 
+def test_frames_of_hoomd_without_places() -> None:
+    with pytest.raises(SceneError, match="^add_particles: the frame has no places; expected partic"):
+        vtray.Scene().add_particles(gsd.hoomd.Frame())
+
+
 def test_frames_of_hoomd_make_movies(tmp_path: Path) -> None:
     frames = [frame(position=POINTS * (k + 1) / 4) for k in range(2)]
     with gsd.hoomd.open(tmp_path / "a.gsd", "w") as file:

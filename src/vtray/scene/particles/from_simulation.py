@@ -72,10 +72,17 @@ def of_hoomd(frame: Any, names: Iterable[str], number: int = 0) -> Particles:  #
         Which of `HOOMD` are columns.
     number
         That of the frame.
+
+    Raises
+    ------
+    SceneError
+        It has no places.
     """
     import numpy as np
 
     particles = frame.particles
+    if particles.position is None:
+        raise SceneError("the frame has no places; expected particles.position")
     columns: dict[str, Array] = {}
     if particles.typeid is not None:
         kinds = np.array(particles.types or ["A"], np.str_)
