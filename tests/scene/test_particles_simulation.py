@@ -178,7 +178,7 @@ def test_frames_of_hoomd_are_as_their_file(more: dict[str, Any], tmp_path: Path)
 
 
 def test_frames_of_hoomd_without_places() -> None:
-    with pytest.raises(SceneError, match="^add_particles: the frame has no places; expected partic"):
+    with pytest.raises(SceneError, match="^add_particles: the frame has no places; expected p"):
         vtray.Scene().add_particles(gsd.hoomd.Frame())
 
 

@@ -102,6 +102,16 @@ def test_boxes_of_no_size_are_none(tmp_path: Path) -> None:
     assert (found.cell, found.time) == (None, None)
 
 
+@pytest.mark.parametrize("count", [4, [4], np.uint32(4)])
+def test_a_part_of_a_snapshot_is_said_to_be_one(count: Any, tmp_path: Path) -> None:
+    path = write(tmp_path / "snap.0.hdf5", SNAPSHOT, NumFilesPerSnapshot=count)
+    with pytest.warns(UserWarning, match="^the file is one of 4 of its snapshot, and the"):
+        vtray.read(path)
+    with pytest.warns(UserWarning, match="^the file is one of 4 of its snapshot"):
+        next(vtray.read_frames(path))
+    vtray.read(write(tmp_path / "snap.1.hdf5", SNAPSHOT, NumFilesPerSnapshot=1))
+
+
 GROUPS = {"a/r": POINTS, "a/m": [1, 2, 3], "b/r": POINTS + 1, "b/q": [4, 5, 6], "u": POINTS[:, 0]}
 
 

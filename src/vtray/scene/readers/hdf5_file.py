@@ -10,6 +10,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from vtray.base.caller_warning import warn_caller
 from vtray.base.errors import SceneError
 from vtray.base.extras import need
 from vtray.scene.checks.json_tree import short
@@ -57,7 +58,9 @@ def read(given: Given) -> Particles:
     h5py: Any = need("h5py", "tables", "reading HDF5 files")
     with told("h5py", _WHAT), h5py.File(given.path, "r") as file:
         number = frame_number(given.frame, _count(file))
-        return _read_frame(file, given.columns, number)
+        found, files = _read_frame(file, given.columns, number), _files_of(file)
+    _warn_of_others(files)
+    return found
 
 
 def steps(given: Given) -> Steps:
@@ -67,7 +70,8 @@ def steps(given: Given) -> Steps:
         file = h5py.File(given.path, "r")
     with file:
         with told("h5py", _WHAT):
-            count = _count(file)
+            count, files = _count(file), _files_of(file)
+        _warn_of_others(files)
         for number in range(count):
             yield partial(_told_frame, file, given.columns, number)
 
@@ -81,6 +85,21 @@ def _told_frame(file: Any, called: Mapping[str, str], number: int) -> Particles:
 def _count(file: Any) -> int:  # noqa: ANN401
     """Return how many frames there are."""
     return h5md_file.count(file) if h5md_file.is_h5md(file) else 1
+
+
+def _files_of(file: Any) -> int:  # noqa: ANN401
+    """Return over how many files a snapshot is spread."""
+    import numpy as np
+
+    attributes = file["Header"].attrs if "Header" in file else {}
+    said = np.array(attributes.get("NumFilesPerSnapshot", 1)).ravel()
+    return int(said[0]) if said.size == 1 and said.dtype.kind in "iu" else 1
+
+
+def _warn_of_others(files: int) -> None:
+    """Warn that a file has but a part of a snapshot."""
+    if files > 1:
+        warn_caller(f"the file is one of {files} of its snapshot, and the others are not read")
 
 
 def _read_frame(file: Any, called: Mapping[str, str], number: int) -> Particles:  # noqa: ANN401
