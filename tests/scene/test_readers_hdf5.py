@@ -59,6 +59,7 @@ def test_columns(tmp_path: Path) -> None:
         "kind": ["one", "two", "two"],
         "is_gas": np.array([True, False, True]),
         "complex": np.zeros(3, complex),
+        "words": np.array([[b"a", b"b"]] * 3),
     }
     found = vtray.read(write(tmp_path / "a.hdf5", arrays))
     assert found["element"].tolist() == ["C", "N", "O"]
@@ -100,6 +101,24 @@ def test_snapshots_of_gadget(box: Any, tmp_path: Path) -> None:
 def test_boxes_of_no_size_are_none(tmp_path: Path) -> None:
     found = vtray.read(write(tmp_path / "a.h5", {"pos": POINTS}, BoxSize=0.0, Time="now"))
     assert (found.cell, found.time) == (None, None)
+
+
+def test_a_column_of_several_groups_by_another_name(tmp_path: Path) -> None:
+    path = write(tmp_path / "snap.hdf5", SNAPSHOT)
+    found = vtray.read(path, columns={"radius": "Masses"})
+    assert np.array_equal(found["radius"], [2, np.nan, 3], equal_nan=True)
+    stars = vtray.read(path, columns={"radius": "PartType4/Masses"})
+    assert (stars.positions.tolist(), stars["radius"].tolist()) == (POINTS[2:].tolist(), [3])
+
+
+def test_arrays_of_other_kinds_are_no_columns(tmp_path: Path) -> None:
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["pos"] = POINTS
+        ragged = file.create_dataset("ragged", 3, h5py.vlen_dtype(np.int64))
+        ragged[0] = [1, 2]
+        file.create_dataset("texts", data=[b"\xff", b"b", b""], dtype=h5py.string_dtype("ascii"))
+    found = vtray.read(tmp_path / "a.h5")
+    assert (list(found.columns), found["texts"].tolist()) == (["texts"], ["\ufffd", "b", ""])
 
 
 @pytest.mark.parametrize("count", [4, [4], np.uint32(4)])

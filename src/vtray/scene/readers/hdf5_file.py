@@ -14,6 +14,7 @@ from vtray.base.caller_warning import warn_caller
 from vtray.base.errors import SceneError
 from vtray.base.extras import need
 from vtray.scene.checks.json_tree import short
+from vtray.scene.checks.object_column import without_objects
 from vtray.scene.particles.column_names import canonical
 from vtray.scene.particles.from_columns import from_columns
 from vtray.scene.particles.particles import POSITION, Particles
@@ -32,8 +33,8 @@ _WHAT = "an HDF5 file"
 _HEADS = ("Header", "/")
 """The groups whose attributes may tell the size of the box, and the time."""
 
-_KINDS = "biufSO"
-"""What columns are made of: numbers, truths and texts."""
+_PLACES = {*POSITION, "position"}
+"""What the places are called here."""
 
 _COPIES = 2
 """How many copies of an array are in memory at once."""
@@ -107,7 +108,7 @@ def _read_frame(file: Any, called: Mapping[str, str], number: int) -> Particles:
     if h5md_file.is_h5md(file):
         return h5md_file.read_frame(file, number)
     tables = _tables_of(file)
-    if called:
+    if not _PLACES.isdisjoint(called) or any("/" in name for name in called.values()):
         names, path = _in_one_table(called, tables)
         found = from_columns(_columns_of(tables[path], names.values()), names)
     else:
@@ -118,7 +119,8 @@ def _read_frame(file: Any, called: Mapping[str, str], number: int) -> Particles:
             raise SceneError(f"{words}, got {_known(tables)}; {remedy}")
         if "/" in chosen:
             chosen = {"/": chosen["/"]}
-        found = from_columns(_joined({path: _columns_of(table) for path, table in chosen.items()}))
+        columns = _joined({path: _columns_of(table) for path, table in chosen.items()})
+        found = from_columns(columns, called)
     return replace(found, **_of_frame(file))
 
 
@@ -135,11 +137,19 @@ def _tables_of(file: Any) -> dict[str, dict[str, Any]]:  # noqa: ANN401
             return
         if node.dtype.names and node.ndim == 1:
             tables[path] = {field: node.fields(field) for field in node.dtype.names}
-        elif node.ndim in (1, 2) and node.dtype.kind in _KINDS:
+        elif _is_column(node):
             tables.setdefault(group or "/", {})[name] = node
 
     file.visititems(take)
     return tables
+
+
+def _is_column(array: Any) -> bool:  # noqa: ANN401
+    """Tell whether an array may be a column: numbers, truths, or texts."""
+    if array.dtype.kind in "biuf":
+        return array.ndim in (1, 2)
+    is_text = array.dtype.kind == "S" or (array.dtype.metadata or {}).get("vlen") in (str, bytes)
+    return array.ndim == 1 and is_text
 
 
 def _has_places(table: dict[str, Any]) -> bool:
@@ -198,8 +208,7 @@ def _values_of(array: Any) -> "Array":  # noqa: ANN401
     import numpy as np
 
     if array.dtype.kind in "SO":
-        texts = [text.decode() if isinstance(text, bytes) else str(text) for text in array[...]]
-        return np.array(texts, np.str_)
+        return without_objects(np.asarray(array[...]))
     values = np.asarray(array[...])
     return values.astype(values.dtype.newbyteorder("="), copy=False)
 
