@@ -148,6 +148,7 @@ def test_columns_without_names_have_numbers(tmp_path: Path) -> None:
         ("1 2 3\n1 2 3 4\n", "line 2: expected 3 entries, got 4$"),
         ("\n# one\n1 2 3\n", "line 3: expected 2 entries, got 3$"),
         ("# one\n\n1 2 3\n\n1 a 3\n", "line 5: column 'y': expected numbers, got such as 'a'$"),
+        ('"1","2","3"\n"1","a","3"\n', "line 2: column 'y': expected numbers, got such as 'a'$"),
         ("1 2 3\n1 2 nan\n", "line 2: column 'z': must be finite, got nan$"),
         ("nan 2 3\n", "line 1: column 'x': must be finite, got nan$"),
         ("x y z\n1 2 NA\n", "line 2: column 'z': must be finite, got nan$"),

@@ -30,6 +30,8 @@ from vtray.animation.sources import READING, first_of, source_of
 from vtray.animation.stage import Look, Shot, Warn
 from vtray.base.caller_warning import warn_caller
 from vtray.base.errors import SceneError
+from vtray.base.file_name import file_name
+from vtray.base.file_series import files_of
 from vtray.base.function import check_function
 from vtray.base.number import number_of
 from vtray.base.progress import ProgressBar
@@ -168,8 +170,8 @@ def animate(
     last = last_of(camera=camera, opacity=opacity, **parts)
     is_file = isinstance(scenes, (str, os.PathLike))
     if is_file:
-        inputs: list[Any] = [scenes, reading.get("trajectory")]
-        film.output.check_spares(inputs)
+        files = files_of(file_name(scenes, SceneError))
+        film.output.check_spares([*files, reading.get("trajectory")])
     elif reading:
         message = f"{next(iter(reading))}: expected the name of a trajectory beside it"
         raise SceneError(message)

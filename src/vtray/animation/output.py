@@ -3,7 +3,6 @@
 import os
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from itertools import chain
 from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
@@ -15,7 +14,6 @@ from vtray.animation.mp4_file import find_ffmpeg, write_mp4
 from vtray.animation.webp_file import write_webp
 from vtray.base.atomic_file import check_spares, check_writable
 from vtray.base.errors import OutputError
-from vtray.base.file_series import files_of
 from vtray.base.number import number_of
 from vtray.image.formats.image_format import check_annotated_format, check_format
 
@@ -162,10 +160,12 @@ class Output:
         Parameters
         ----------
         inputs
-            The files, or patterns for several; None for one that there is not.
+            The files; None for one that there is not.
         """
-        named = [os.fsdecode(given) for given in inputs if given is not None]
-        for source in map(Path, chain.from_iterable(map(files_of, named))):
+        for given in inputs:
+            if given is None:
+                continue
+            source = Path(given)
             for name in dict.fromkeys((source, Path(os.path.realpath(source)))):
                 written = self._written_as(name)
                 if written is not None:

@@ -19,14 +19,12 @@ import os
 import re
 import stat
 from collections.abc import Callable, Iterable, Iterator
-from itertools import chain
 from pathlib import Path
 from typing import BinaryIO
 
 from blake3 import blake3
 
 from vtray.base.errors import OutputError
-from vtray.base.file_series import files_of
 from vtray.base.signals import LastStep, blocked
 
 TEMPORARY_NAMES = 16
@@ -76,13 +74,13 @@ def check_spares(path: Path, inputs: Iterable[Path], what: str, remedy: str) -> 
     path
         The file to write, which need not exist.
     inputs
-        The files that are read; patterns stand for several.
+        The files that are read.
     what
         What they are, to follow the name of `path`.
     remedy
         What to do instead.
     """
-    for source in chain.from_iterable(files_of(os.fspath(given)) for given in inputs):
+    for source in inputs:
         with contextlib.suppress(OSError, ValueError):  # what is not there cannot be destroyed
             if os.path.samefile(path, source) and path.is_file():
                 message = f"{path}: {what}; {remedy}"

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from vtray.base.errors import UsageError
+from vtray.base.file_series import files_of
 from vtray.base.number import number_in
 from vtray.commands.annotation_options import labels_of
 from vtray.commands.command import Parser
@@ -226,9 +227,10 @@ def given(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def inputs_of(options: argparse.Namespace) -> list[Path]:
-    """Return the files that a picture is made of."""
+    """Return the files that a picture, or a movie, is made of."""
     trajectory = getattr(options, "trajectory", None)
-    return [options.scene] if trajectory is None else [options.scene, trajectory]
+    files = [Path(path) for path in files_of(str(options.scene))]
+    return files if trajectory is None else [*files, trajectory]
 
 
 def check_kind(options: argparse.Namespace, *, is_data: bool) -> None:

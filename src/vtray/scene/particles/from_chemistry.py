@@ -3,6 +3,7 @@
 None of the libraries is imported: what an object is, is told by its attributes.
 """
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
@@ -91,21 +92,36 @@ def _of_mdtraj(trajectory: Any) -> Particles:  # noqa: ANN401
     _check_single(trajectory.n_frames, "frame")
     topology = trajectory.topology
     atoms = list(topology.atoms)
-    symbols = [atom.element.symbol if atom.element else "" for atom in atoms]
-    elements = symbols_among(np.array(symbols, np.str_))
-    columns: dict[str, Array] = {} if elements is None else {"element": elements}
-    columns["name"] = np.array([atom.name for atom in atoms], np.str_)
-    columns["resname"] = np.array([atom.residue.name for atom in atoms], np.str_)
+    columns = columns_of_atoms(atoms)
     columns["resid"] = np.array([atom.residue.resSeq for atom in atoms])
     pairs = [(one.index, two.index) for one, two in topology.bonds]
     cell = trajectory.unitcell_vectors
     return Particles(
         np.array(trajectory.xyz[0]) * np.float32(_NM),
         columns,
-        bonds=np.array(pairs, np.int64).reshape(-1, 2) if pairs else None,
+        bonds=bonds_of_pairs(pairs),
         cell=None if cell is None else np.array(cell[0], np.float64) * _NM,
         time=float(trajectory.time[0]),
     )
+
+
+def columns_of_atoms(atoms: Sequence[Any]) -> "dict[str, Array]":
+    """Return the elements, if they are known, names and residues of atoms of MDTraj or OpenMM."""
+    import numpy as np
+
+    symbols = [atom.element.symbol if atom.element else "" for atom in atoms]
+    elements = symbols_among(np.array(symbols, np.str_))
+    columns: dict[str, Array] = {} if elements is None else {"element": elements}
+    columns["name"] = np.array([atom.name for atom in atoms], np.str_)
+    columns["resname"] = np.array([atom.residue.name for atom in atoms], np.str_)
+    return columns
+
+
+def bonds_of_pairs(pairs: Sequence[tuple[int, int]]) -> "Array | None":
+    """Return pairs of atoms as bonds; None where a topology has none."""
+    import numpy as np
+
+    return np.array(pairs, np.int64).reshape(-1, 2) if pairs else None
 
 
 def _of_biotite(atoms: Any) -> Particles:  # noqa: ANN401

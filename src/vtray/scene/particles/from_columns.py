@@ -1,6 +1,6 @@
 """Particles of named columns: those of tables, data frames and mappings."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
@@ -19,6 +19,18 @@ if TYPE_CHECKING:
 def in_column(row: int, name: str) -> str:
     """Return the place of an entry in a column, for messages."""
     return f"column {name!r}[{row}]"
+
+
+def places_among(names: Iterable[str]) -> list[str]:
+    """Return which columns are the places: x, y and z in any case, or else those called position.
+
+    They are in that order; none where there are no places.
+    """
+    known = list(names)
+    places = {name.lower(): name for name in reversed(known)}
+    if all(name in places for name in POSITION):
+        return [places[name] for name in POSITION]
+    return [name for name in known if canonical(name) == "position"]
 
 
 def from_columns(
@@ -46,24 +58,23 @@ def from_columns(
 
     positions: Any
     left = {name: without_objects(of) for name, of in renamed(columns, called or {}).items()}
-    places = {name.lower(): name for name in reversed(left)}
-    whole = [name for name in left if canonical(name) == "position"]
-    if all(name in places for name in POSITION):
-        for name in POSITION:
-            _check_numbers(left[places[name]], places[name], place_of)
-        parts = [left.pop(places[name]) for name in POSITION]
-        _check_lengths(parts, [places[name] for name in POSITION])
+    places = places_among(left)
+    if places and places[0].lower() == "x":
+        for name in places:
+            _check_numbers(left[name], name, place_of)
+        parts = [left.pop(name) for name in places]
+        _check_lengths(parts, places)
         kind = np.float32 if all(part.dtype == np.float32 for part in parts) else np.float64
         positions = np.stack(parts, axis=1).astype(kind, copy=False)
-    elif whole:
-        positions = left.pop(min(whole, key=lambda name: left[name].ndim != 2))
+    elif places:
+        positions = left.pop(min(places, key=lambda name: left[name].ndim != 2))
     else:
         known = short(", ".join(columns), 100) or "none"
         names = '{"x": "px", "y": "py", "z": "pz"}'
         remedy = f"name them, as in columns={names} or --position px,py,pz"
         if called is None:  # of a table that is at hand
             remedy = 'rename them, as in table.rename(columns={"px": "x", "py": "y", "pz": "z"})'
-        if "x" in places and "y" in places:
+        if {"x", "y"} <= {name.lower() for name in left}:
             remedy = "places in a plane need a column z of zeros"
         raise SceneError(f"expected the columns x, y and z, got {known}; {remedy}")
     return Particles(positions, name_columns(left))

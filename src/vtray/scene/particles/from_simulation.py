@@ -18,7 +18,8 @@ from typing import TYPE_CHECKING, Any
 from vtray.base.errors import SceneError
 from vtray.scene.particles.column_names import name_columns
 from vtray.scene.particles.crystal_cell import edges_of
-from vtray.scene.particles.elements import symbols_among, symbols_of
+from vtray.scene.particles.elements import symbols_of
+from vtray.scene.particles.from_chemistry import bonds_of_pairs, columns_of_atoms
 from vtray.scene.particles.particles import Particles
 
 if TYPE_CHECKING:
@@ -160,7 +161,7 @@ def _of_parmed(structure: Any) -> Particles:  # noqa: ANN401
     return Particles(
         np.array(structure.coordinates),
         columns,
-        bonds=_bonds(pairs),
+        bonds=bonds_of_pairs(pairs),
         cell=None if sizes is None else edges_of([float(size) for size in sizes], "box"),
     )
 
@@ -178,26 +179,15 @@ def _of_openmm(given: Any) -> Particles:  # noqa: ANN401
     if places is None:
         raise SceneError("expected places beside the topology, got none")
     atoms = list(topology.atoms())
-    symbols = [atom.element.symbol if atom.element else "" for atom in atoms]
-    elements = symbols_among(np.array(symbols, np.str_))
-    columns: dict[str, Array] = {} if elements is None else {"element": elements}
-    columns["name"] = np.array([atom.name for atom in atoms], np.str_)
-    columns["resname"] = np.array([atom.residue.name for atom in atoms], np.str_)
+    columns = columns_of_atoms(atoms)
     columns["chain"] = np.array([atom.residue.chain.id for atom in atoms], np.str_)
     pairs = [(one.index, two.index) for one, two in topology.bonds()]
     return Particles(
         _in_angstrom(places),
         columns,
-        bonds=_bonds(pairs),
+        bonds=bonds_of_pairs(pairs),
         cell=None if box is None else _in_angstrom(box),
     )
-
-
-def _bonds(pairs: list[tuple[int, int]]) -> "Array | None":
-    """Return pairs of atoms as bonds; None where a topology has none."""
-    import numpy as np
-
-    return np.array(pairs, np.int64).reshape(-1, 2) if pairs else None
 
 
 def _in_angstrom(quantity: Any) -> "Array":  # noqa: ANN401

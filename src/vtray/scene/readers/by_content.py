@@ -11,13 +11,12 @@ from typing import BinaryIO
 
 from vtray.base.errors import SceneError
 from vtray.base.input_file import is_given, open_input
+from vtray.scene.particles.particles import POSITION
 from vtray.scene.readers.csv_columns import first_entries, without_comments
 from vtray.scene.readers.packing import unpacking
 
 _BEGINNING = 1 << 14
 """Bytes that are looked at."""
-
-_PLACES = {"x", "y", "z"}
 
 _DUMP = re.compile(r"ITEM: ")
 
@@ -53,9 +52,9 @@ def kind_of_content(path: str, packing: str) -> str | None:
 def is_table(begin: str) -> bool:
     """Tell whether a text begins with three numbers or more, or with the names x, y and z."""
     entries = first_entries(without_comments(begin))
-    if {entry.strip().lower() for entry in entries} >= _PLACES:
+    if {entry.strip().lower() for entry in entries} >= {*POSITION}:
         return True
-    return len(entries) >= len(_PLACES) and all(
+    return len(entries) >= len(POSITION) and all(
         re.fullmatch(_NUMBER, entry.strip()) for entry in entries
     )
 

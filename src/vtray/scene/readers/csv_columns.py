@@ -63,7 +63,7 @@ def without_comments(text: str) -> str:
     separator = _separator(rest)
     names, first = last.lstrip(_COMMENT), _first_line(rest)
     has_numbers = any(map(_is_number, _split(first, separator)))
-    if not has_numbers or _count(names, separator) != _count(first, separator):
+    if not has_numbers or len(_split(names, separator)) != len(_split(first, separator)):
         names = ""
     return "\n" * (count - 1) + names + "\n" + rest
 
@@ -77,8 +77,7 @@ def csv_columns(text: str) -> "dict[str, Array]":
         A row does not have an entry for each name, a name is there twice or a quote has no end;
         or memory is short. The message names the line.
     """
-    entries = _count(_first_line(text), _separator(text))
-    lack = lack_of_memory(_BYTES * entries * text.count("\n"))
+    lack = lack_of_memory(_BYTES * len(first_entries(text)) * text.count("\n"))
     if lack:
         raise SceneError(f"reading it needs about {lack}")
     names = next(_rows(text))
@@ -195,8 +194,8 @@ def _rows(text: str) -> Iterator[list[str]]:
             entries = row
             if row and not names:
                 names = [name.strip() for name in row]
-                _check_names(names, lines.line_num)
                 if _has_names(names):
+                    _check_names(names, lines.line_num)
                     entries = []
                 else:
                     names = [str(k) for k in range(1, len(row) + 1)]
@@ -230,11 +229,6 @@ def _split(line: str, separator: str) -> list[str]:
     return line.split(None if separator == _BLANK else separator)
 
 
-def _count(line: str, separator: str) -> int:
-    """Return how many entries a line without quotes has."""
-    return len(_split(line, separator))
-
-
 def _first_line(text: str) -> str:
     """Return the first line of a text that is not empty."""
     begun = text.lstrip("\r\n")
@@ -264,7 +258,7 @@ def in_line(text: str, row: int, name: str) -> str:
     """Return where an entry stands, given its row below the names and the name of its column."""
     lines = _lines(text)
     rows = (lines.line_num for entries in lines if entries)
-    above = 1 if _has_names(_split(_first_line(text), _separator(text))) else 0
+    above = 0 if are_numbered(next(_rows(text))) else 1
     return f"line {next(islice(rows, row + above, None))}: column {name!r}"
 
 
@@ -273,14 +267,14 @@ def _check_names(names: list[str], line: int) -> None:
     if not any(names):
         shown = short(",".join(names)) or "nothing"
         raise SceneError(f"line {line}: expected the names of the columns, got {shown}")
-    twice = name_twice(names) if _has_names(names) else None
+    twice = name_twice(names)
     if twice is not None:
         raise SceneError(f"line {line}: expected each column once, got {short(twice)!r} twice")
 
 
 def _has_names(entries: Sequence[str]) -> bool:
-    """Tell whether the first row of a text names its columns: not if all of it are numbers."""
-    return not entries or not all(map(_is_number, entries))
+    """Tell whether the first row of a text names its columns, or is to: if not all are numbers."""
+    return not any(entries) or not all(map(_is_number, entries))
 
 
 def _is_number(entry: str) -> bool:

@@ -8,7 +8,9 @@ https://www.nongnu.org/h5md/h5md.html
 from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
+from vtray.scene.checks.object_column import without_objects
 from vtray.scene.particles.column_names import name_columns
+from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.particles import Particles
 from vtray.scene.readers.libraries import check_bytes
 
@@ -110,7 +112,7 @@ def _names_of(element: Any, values: "Array") -> "Array":  # noqa: ANN401
     names = (stored.dtype.metadata or {}).get("enum")
     if isinstance(names, dict):
         texts = {number: name for name, number in names.items()}
-        return np.array([texts.get(number, str(number)) for number in values.tolist()], np.str_)
+        return texts_of(values.tolist(), lambda number: texts.get(number, str(number)))
     if element.name.endswith("/species") and values.dtype.kind == "f":
         whole = values.astype(np.int64)
         return whole if np.array_equal(whole, values) else values
@@ -130,6 +132,5 @@ def _box_of(group: Any, number: int) -> "tuple[Cell | None, tuple[bool, ...] | N
     cell = np.diag(cell) if cell.ndim == 1 else cell
     if cell.shape != (3, 3) or not cell.any():
         return None, None
-    said = np.array(box.attrs.get("boundary", ())).ravel().tolist()
-    words = [word.decode() if isinstance(word, bytes) else str(word) for word in said]
+    words = without_objects(np.array(box.attrs.get("boundary", ()))).ravel().tolist()
     return cell, tuple(word == "periodic" for word in words) if len(words) == 3 else None

@@ -15,8 +15,7 @@ from vtray.base.errors import SceneError
 from vtray.base.extras import need
 from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.object_column import without_objects
-from vtray.scene.particles.column_names import canonical
-from vtray.scene.particles.from_columns import from_columns
+from vtray.scene.particles.from_columns import from_columns, places_among
 from vtray.scene.particles.particles import POSITION, Particles
 from vtray.scene.readers import h5md_file
 from vtray.scene.readers.frames import Steps, frame_number
@@ -112,7 +111,7 @@ def _read_frame(file: Any, called: Mapping[str, str], number: int) -> Particles:
         names, path = _in_one_table(called, tables)
         found = from_columns(_columns_of(tables[path], names.values()), names)
     else:
-        chosen = {path: table for path, table in tables.items() if _has_places(table)}
+        chosen = {path: table for path, table in tables.items() if places_among(table)}
         if not chosen:
             remedy = "columns={'position': 'stars/r'}, or --position stars/r, says which they are"
             words = "expected arrays x, y and z, or position, in the file or a group of it"
@@ -152,14 +151,6 @@ def _is_column(array: Any) -> bool:  # noqa: ANN401
     return array.ndim == 1 and is_text
 
 
-def _has_places(table: dict[str, Any]) -> bool:
-    """Tell whether arrays have places among them."""
-    names = {name.lower() for name in table}
-    return all(name in names for name in POSITION) or any(
-        canonical(name) == "position" for name in table
-    )
-
-
 def _in_one_table(
     called: Mapping[str, str], tables: dict[str, dict[str, Any]]
 ) -> tuple[dict[str, str], str]:
@@ -193,9 +184,7 @@ def _known(tables: dict[str, dict[str, Any]]) -> str:
 
 def _columns_of(table: dict[str, Any], wanted: Any = ()) -> "dict[str, Array]":  # noqa: ANN401
     """Read the arrays of a group that are as long as its places, or as what is wanted."""
-    places = [*wanted] or [
-        name for name in table if canonical(name) == "position" or name.lower() in POSITION
-    ]
+    places = [*wanted] or places_among(table)
     count = len(table[places[0]])
     chosen = {name: of for name, of in table.items() if name in places or len(of) == count}
     row = sum((*of.shape, 1)[1] * of.dtype.itemsize for of in chosen.values())

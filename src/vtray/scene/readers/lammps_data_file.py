@@ -68,8 +68,17 @@ _BY_WIDTH = {5: "atomic", 8: "atomic", 7: "full", 10: "full"}
 """The style where none is named, by the number of columns."""
 
 _INTEGERS = (
-    *("id", "mol", "type", "ellipsoid", "line", "triangle", "body"),
-    *("template", "atom", "espin", "status"),
+    "id",
+    "mol",
+    "type",
+    "ellipsoid",
+    "line",
+    "triangle",
+    "body",
+    "template",
+    "atom",
+    "espin",
+    "status",
 )
 
 _INTEGER = re.compile("[-+]?[0-9]+")
