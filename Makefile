@@ -2,7 +2,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help run test coverage memtest arm lint format schema scenes gallery docs peers cycles bench check clean fuzz
+.PHONY: help run test oldest coverage memtest arm lint format schema scenes gallery docs peers cycles bench check clean fuzz
 
 help: ## list what can be made
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -17,6 +17,13 @@ run: .venv/ready ## render an example scene to room.png
 
 test: .venv/ready ## run all tests, kernels compiled
 	$(BIN)/pytest -n 2
+
+oldest: ## run all tests with the oldest releases that pyproject.toml allows
+	$(PYTHON) -m venv build/oldest
+	build/oldest/bin/pip install --quiet uv
+	build/oldest/bin/uv pip install --quiet --python build/oldest --resolution lowest-direct \
+		--editable '.[test]' 'pyparsing<3.3'  # newer ones warn of what Matplotlib calls
+	build/oldest/bin/pytest -n 2
 
 coverage: .venv/ready ## run the tests without the compiler, and see that they reach 95 % of lines
 	NUMBA_DISABLE_JIT=1 $(BIN)/pytest -n 2 -q --cov --cov-report=

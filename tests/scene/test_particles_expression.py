@@ -39,7 +39,7 @@ def plain(expression: str) -> list[bool]:
     """Work an expression out in Python, particle by particle."""
     found = []
     for index in range(COUNT):
-        position = PARTICLES.positions[index].tolist()
+        position = list(PARTICLES.positions[index])  # NumPy's, as ~ of Python's bool goes away
         velocity = PARTICLES["velocity"][index].tolist()
         names = {
             **dict(zip("xyz", position, strict=True)),

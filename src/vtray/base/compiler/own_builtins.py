@@ -15,9 +15,13 @@ from typing import Any
 import numba
 from numba.core.imputils import builtin_registry
 from numba.core.typing.templates import AbstractTemplate, signature
-from numba.cpython.builtins import cast_int, do_minmax
+from numba.cpython import builtins
+from numba.cpython.builtins import do_minmax
 
 types: Any = numba.types
+
+_CAST_INT = getattr(builtins, "cast_int", int)
+"""What Numba's function for ``int`` calls; before 0.66, it has none."""
 
 
 class _Least(AbstractTemplate):
@@ -66,4 +70,4 @@ def own_templates(function: Callable[..., object]) -> tuple[type, ...]:
 
 def written_for(function: Callable[..., object]) -> Callable[..., object]:
     """Return what is called in the end where a function of Python is called."""
-    return cast_int if function is int else function
+    return _CAST_INT if function is int else function
