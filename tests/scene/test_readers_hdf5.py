@@ -11,6 +11,7 @@ from MDAnalysisTests import datafiles
 
 import vtray
 from vtray.base.errors import SceneError
+from vtray.scene.readers import hdf5_file
 
 POINTS = np.array([(1.0, 2.0, 3.0), (4.0, 5.0, 6.0), (7.0, 8.0, 9.0)])
 
@@ -131,6 +132,126 @@ def test_a_part_of_a_snapshot_is_said_to_be_one(count: Any, tmp_path: Path) -> N
     vtray.read(write(tmp_path / "snap.1.hdf5", SNAPSHOT, NumFilesPerSnapshot=1))
 
 
+STARS = {
+    "PartType1/Coordinates": POINTS[:1] + 10,
+    "PartType1/ParticleIDs": np.array([6], np.uint64),
+    "PartType4/Coordinates": POINTS[:2] + 20,
+    "PartType4/Masses": [4.0, 5.0],
+    "PartType4/ParticleIDs": np.array([5, 4], np.uint64),
+}
+
+
+def write_parts(folder: Path, name: str = "snap", **attributes: Any) -> list[Path]:
+    """Write a snapshot in three files, of which the second has no particles."""
+    parts: list[dict[str, Any]] = [SNAPSHOT, {}, STARS]
+    return [
+        write(folder / f"{name}.{k}.hdf5", part, NumFilesPerSnapshot=3, **attributes)
+        for k, part in enumerate(parts)
+    ]
+
+
+@pytest.mark.parametrize("named", range(3))
+def test_snapshots_in_several_files(named: int, tmp_path: Path) -> None:
+    found = vtray.read(write_parts(tmp_path, BoxSize=90.0, Time=2.0)[named])
+    whole = np.concatenate([POINTS[:2], POINTS[:1] + 10, POINTS[2:], POINTS[:2] + 20])
+    assert found.positions.tolist() == whole.tolist()
+    assert found["type"].tolist() == ["PartType0"] + ["PartType1"] * 2 + ["PartType4"] * 3
+    assert np.array_equal(found["mass"], [2, np.nan, np.nan, 3, 4, 5], equal_nan=True)
+    assert (found["ParticleIDs"].tolist(), found["ParticleIDs"].dtype) == (
+        [9, 8, 6, 7, 5, 4],
+        np.uint64,
+    )
+    assert (found.cell[0, 0], found.time) == (90, 2)
+
+
+def test_a_group_of_several_files(tmp_path: Path) -> None:
+    path = write_parts(tmp_path)[0]
+    stars = vtray.read(path, columns=NAMES_OF_STARS)
+    assert stars.positions.tolist() == [*POINTS[2:].tolist(), *(POINTS[:2] + 20).tolist()]
+    assert stars["radius"].tolist() == [3, 4, 5]
+    assert "type" not in stars.columns
+    with pytest.raises(SceneError, match=r"snap.0.hdf5: columns\['x'\]: no array 'PartType7/x'"):
+        vtray.read(path, columns={"x": "PartType7/x"})
+    lacking = {"position": "PartType1/Coordinates", "radius": "PartType1/Masses"}
+    with pytest.raises(SceneError, match=r"columns\['radius'\]: no array 'PartType1/Masses'; the"):
+        vtray.read(path, columns=lacking)
+
+
+@pytest.mark.parametrize("pattern", ["*.hdf5", "*.0.hdf5", "*.[12].hdf5"])
+@pytest.mark.parametrize("slash", ["/", "//"])
+def test_a_snapshot_in_several_files_is_one_frame(pattern: str, slash: str, tmp_path: Path) -> None:
+    for step in range(2):
+        write_parts(tmp_path, f"snap_{step}", Time=float(step))
+    frames = [*vtray.read_frames(f"{tmp_path}{slash}{pattern}")]
+    assert [(len(frame), frame.time, frame.frame) for frame in frames] == [(6, 0, 0), (6, 1, 1)]
+    assert vtray.read(f"{tmp_path}{slash}{pattern}", -1).time == 1
+
+
+def test_files_of_one_snapshot_each_are_frames(tmp_path: Path) -> None:
+    for step in range(3):
+        path = tmp_path / f"snap.{step}.hdf5"
+        write(path, SNAPSHOT, NumFilesPerSnapshot=1, Time=float(step))
+    assert [frame.time for frame in vtray.read_frames(tmp_path / "snap.*.hdf5")] == [0, 1, 2]
+
+
+@pytest.mark.parametrize(
+    ("name", "count"), [("snap.7.hdf5", 4), ("snap.01.hdf5", 4), ("snap.hdf5", 4), ("a.0.h5", 4)]
+)
+def test_files_that_are_no_part_of_those_beside_them(name: str, count: int, tmp_path: Path) -> None:
+    for number in range(2):
+        write(tmp_path / f"snap.{number}.hdf5", SNAPSHOT, NumFilesPerSnapshot=count)
+    path = write(tmp_path / name, SNAPSHOT, NumFilesPerSnapshot=count)
+    with pytest.warns(UserWarning, match="^the file is one of 4 of its snapshot, and the"):
+        assert len(vtray.read(path)) == 3
+
+
+@pytest.mark.parametrize(
+    ("count", "words"),
+    [
+        (4, "is one of the 4 files of its snapshot, of which snap.3.hdf5 is not beside it"),
+        (5, "is one of the 5 files of its snapshot, of which snap.3.hdf5 is not beside it, nor is"),
+        (2**31 - 1, "is one of the 2147483647 files of its snapshot, of which snap.3.hdf5 is not"),
+    ],
+)
+def test_a_file_of_a_snapshot_is_missing(count: int, words: str, tmp_path: Path) -> None:
+    for number in range(3):
+        write(tmp_path / f"snap.{number}.hdf5", SNAPSHOT, NumFilesPerSnapshot=count)
+    for read in (vtray.read, lambda path: next(vtray.read_frames(path))):
+        with pytest.raises(SceneError) as caught:
+            read(tmp_path / "snap.1.hdf5")
+        assert str(caught.value).startswith(f"{tmp_path / 'snap.1.hdf5'}: {words}")
+
+
+def test_a_file_of_a_snapshot_is_broken(tmp_path: Path) -> None:
+    paths = write_parts(tmp_path)
+    write(paths[2], STARS, NumFilesPerSnapshot=8)
+    with pytest.raises(SceneError, match="snap.2.hdf5 beside it is one of 8 files; expected one o"):
+        vtray.read(paths[0])
+    paths[2].write_bytes(b"words")
+    with pytest.raises(SceneError, match=r"0.hdf5: expected an HDF5 file in snap.2.hdf5, which h5"):
+        vtray.read(paths[0])
+
+
+def test_no_file_of_a_snapshot_has_places(tmp_path: Path) -> None:
+    for number in range(2):
+        write(tmp_path / f"snap.{number}.hdf5", {"u": [1.0]}, NumFilesPerSnapshot=2)
+    with pytest.raises(SceneError, match="expected arrays x, y and z, or position, in the file or"):
+        vtray.read(tmp_path / "snap.0.hdf5")
+
+
+def test_memory_for_all_files_of_a_snapshot(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[int] = []
+    monkeypatch.setattr(hdf5_file, "check_bytes", asked.append)
+    vtray.read(write_parts(tmp_path)[0])
+    # All at first, before the first is read: 6 places and numbers, and what some have.
+    assert asked[0] == 2 * 8 * (6 * 3 + 6 + 1 + 1 + 3 + 2)
+    assert asked[0] == sum(asked[1:])
+
+
+NAMES_OF_STARS = {"position": "PartType4/Coordinates", "radius": "Masses"}
+
 GROUPS = {"a/r": POINTS, "a/m": [1, 2, 3], "b/r": POINTS + 1, "b/q": [4, 5, 6], "u": POINTS[:, 0]}
 
 
@@ -143,6 +264,8 @@ def test_names_of_columns(tmp_path: Path) -> None:
     )
     assert list(vtray.read(path, columns={"position": "/a/r"}).columns) == ["m"]
     assert vtray.read(path, columns={"position": "r"}).positions.tolist() == POINTS.tolist()
+    second = vtray.read(write(tmp_path / "b.h5", SNAPSHOT), columns=NAMES_OF_STARS)
+    assert second["radius"].tolist() == [3]
 
 
 @pytest.mark.parametrize(

@@ -5,10 +5,13 @@ References
 https://docs.h5py.org, https://wwwmpa.mpa-garching.mpg.de/gadget4/gadget4_manual.pdf (section 8)
 """
 
-from collections.abc import Mapping
+import contextlib
+import math
+import os
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from vtray.base.caller_warning import warn_caller
 from vtray.base.errors import SceneError
@@ -21,11 +24,14 @@ from vtray.scene.readers import h5md_file
 from vtray.scene.readers.frames import Steps, frame_number
 from vtray.scene.readers.libraries import check_bytes, told
 from vtray.scene.readers.reader_table import Given
+from vtray.scene.readers.snapshot_files import files_of_snapshot
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array = NDArray[Any]
+    Part: TypeAlias = tuple[str, dict[str, Array]]
+    """The name of a group, and its columns."""
 
 _WHAT = "an HDF5 file"
 
@@ -46,20 +52,21 @@ def read(given: Given) -> Particles:
     ``y`` and ``z``, or ``position`` and what else that may be called. Where several groups have
     some, as ``PartType0`` and ``PartType4``, all are read: ``type`` is the name of the group, and
     what is not known in one is NaN there. The attributes ``BoxSize`` and ``Time`` of ``Header`` are
-    the cell, with its corner at the origin, and the time.
+    the cell, with its corner at the origin, and the time. With one of several files of a snapshot,
+    those beside it are read.
 
     Raises
     ------
     SceneError
-        The file is not right, or has no such frame.
+        The file is not right, or has no such frame; or one of its snapshot is missing.
     ExtraError
         h5py is not installed.
     """
-    h5py: Any = need("h5py", "tables", "reading HDF5 files")
-    with told("h5py", _WHAT), h5py.File(given.path, "r") as file:
+    with _opened(given.path) as file:
         number = frame_number(given.frame, _count(file))
-        found, files = _read_frame(file, given.columns, number), _files_of(file)
-    _warn_of_others(files)
+        files, said = _files_of(file, given.path), _count_of_files(file)
+        found = _read_frame(file, files, given.columns, number)
+    _warn_of_others(files, said)
     return found
 
 
@@ -70,16 +77,36 @@ def steps(given: Given) -> Steps:
         file = h5py.File(given.path, "r")
     with file:
         with told("h5py", _WHAT):
-            count, files = _count(file), _files_of(file)
-        _warn_of_others(files)
+            count = _count(file)
+            files, said = _files_of(file, given.path), _count_of_files(file)
+        _warn_of_others(files, said)
         for number in range(count):
-            yield partial(_told_frame, file, given.columns, number)
+            yield partial(_told_frame, file, files, given.columns, number)
 
 
-def _told_frame(file: Any, called: Mapping[str, str], number: int) -> Particles:  # noqa: ANN401
+def read_as_one(given: Given) -> list[str]:
+    """Return the files that are read as one with another, itself among them."""
+    with _opened(given.path) as file:
+        return _files_of(file, given.path)
+
+
+@contextlib.contextmanager
+def _opened(path: str, what: str = _WHAT) -> Iterator[Any]:
+    """Open a file; what h5py raises of it becomes a SceneError."""
+    h5py: Any = need("h5py", "tables", "reading HDF5 files")
+    with told("h5py", what), h5py.File(path, "r") as file:
+        yield file
+
+
+def _told_frame(
+    file: Any,  # noqa: ANN401
+    files: Sequence[str],
+    called: Mapping[str, str],
+    number: int,
+) -> Particles:
     """Read a frame; what h5py raises becomes a SceneError."""
     with told("h5py", f"frame {number} of {_WHAT}"):
-        return _read_frame(file, called, number)
+        return _read_frame(file, files, called, number)
 
 
 def _count(file: Any) -> int:  # noqa: ANN401
@@ -87,7 +114,7 @@ def _count(file: Any) -> int:  # noqa: ANN401
     return h5md_file.count(file) if h5md_file.is_h5md(file) else 1
 
 
-def _files_of(file: Any) -> int:  # noqa: ANN401
+def _count_of_files(file: Any) -> int:  # noqa: ANN401
     """Return over how many files a snapshot is spread."""
     import numpy as np
 
@@ -96,31 +123,122 @@ def _files_of(file: Any) -> int:  # noqa: ANN401
     return int(said[0]) if said.size == 1 and said.dtype.kind in "iu" else 1
 
 
-def _warn_of_others(files: int) -> None:
-    """Warn that a file has but a part of a snapshot."""
-    if files > 1:
-        warn_caller(f"the file is one of {files} of its snapshot, and the others are not read")
+def _files_of(file: Any, path: str) -> list[str]:  # noqa: ANN401
+    """Return the names of the files of a snapshot, by an open one and its name."""
+    return files_of_snapshot(path, _count_of_files(file))
 
 
-def _read_frame(file: Any, called: Mapping[str, str], number: int) -> Particles:  # noqa: ANN401
-    """Read a frame of an open file."""
+def _warn_of_others(files: Sequence[str], said: int) -> None:
+    """Warn that a file has but a part of a snapshot, which `said` files have as a whole."""
+    if len(files) < said:
+        warn_caller(f"the file is one of {said} of its snapshot, and the others are not read")
+
+
+def _read_frame(
+    file: Any,  # noqa: ANN401
+    files: Sequence[str],
+    called: Mapping[str, str],
+    number: int,
+) -> Particles:
+    """Read a frame of an open file, and what others have of it, whose names are `files`."""
     if h5md_file.is_h5md(file):
         return h5md_file.read_frame(file, number)
-    tables = _tables_of(file)
-    if not _PLACES.isdisjoint(called) or any("/" in name for name in called.values()):
+    names, parts = _read_groups(file, called) if len(files) == 1 else _read_files(files, called)
+    return replace(from_columns(_joined(parts), names), **_of_frame(file))
+
+
+def _read_files(
+    files: Sequence[str], called: Mapping[str, str]
+) -> "tuple[Mapping[str, str], list[Part]]":
+    """Read the groups of several files, as `_read_groups` does: group by group.
+
+    Raises
+    ------
+    SceneError
+        One is no such file; or none has what was asked for.
+    """
+    wanted, needed = [], 0
+    for path in files:
+        with _opened_part(path, len(files)) as file:
+            tables = _tables_of(file)
+            if _has_some(tables, called):
+                _, groups = _chosen(tables, called)
+                needed += sum(map(_bytes_of, groups.values()))
+                wanted.append(path)
+    check_bytes(needed)
+    names, parts = called, []
+    for path in wanted or files[:1]:  # which says what is not there
+        with _opened_part(path, len(files)) as file:
+            names, found = _read_groups(file, called)
+            parts += found
+    return names, sorted(parts, key=lambda part: part[0])
+
+
+@contextlib.contextmanager
+def _opened_part(path: str, count: int) -> Iterator[Any]:
+    """Open one of the files of a snapshot; what is wrong with it names it."""
+    name = os.path.basename(path)
+    with _opened(path, f"an HDF5 file in {name}") as file:
+        said = _count_of_files(file)
+        if said != count:
+            raise SceneError(f"{name} beside it is one of {said} files; expected one of {count}")
+        yield file
+
+
+def _read_groups(
+    file: Any,  # noqa: ANN401
+    called: Mapping[str, str],
+) -> "tuple[Mapping[str, str], list[Part]]":
+    """Read the groups of a file that have places.
+
+    Returns
+    -------
+    names : mapping of str to str
+        What columns are called, without the names of groups.
+    parts : list of Part
+        The groups.
+    """
+    names, groups = _chosen(_tables_of(file), called)
+    check_bytes(sum(map(_bytes_of, groups.values())))
+    read = {path: {k: _values_of(of) for k, of in group.items()} for path, group in groups.items()}
+    return names, [*read.items()]
+
+
+def _chosen(
+    tables: dict[str, dict[str, Any]], called: Mapping[str, str]
+) -> tuple[Mapping[str, str], dict[str, dict[str, Any]]]:
+    """Return what columns are called, without the names of groups, and the arrays to read.
+
+    Raises
+    ------
+    SceneError
+        No group has places, or what was asked for.
+    """
+    if _names_places(called):
         names, path = _in_one_table(called, tables)
-        found = from_columns(_columns_of(tables[path], names.values()), names)
-    else:
-        chosen = {path: table for path, table in tables.items() if places_among(table)}
-        if not chosen:
-            remedy = "columns={'position': 'stars/r'}, or --position stars/r, says which they are"
-            words = "expected arrays x, y and z, or position, in the file or a group of it"
-            raise SceneError(f"{words}, got {_known(tables)}; {remedy}")
-        if "/" in chosen:
-            chosen = {"/": chosen["/"]}
-        columns = _joined({path: _columns_of(table) for path, table in chosen.items()})
-        found = from_columns(columns, called)
-    return replace(found, **_of_frame(file))
+        return names, {path: _columns_of(tables[path], names.values())}
+    chosen = {path: table for path, table in tables.items() if places_among(table)}
+    if not chosen:
+        remedy = "columns={'position': 'stars/r'}, or --position stars/r, says which they are"
+        words = "expected arrays x, y and z, or position, in the file or a group of it"
+        raise SceneError(f"{words}, got {_known(tables)}; {remedy}")
+    if "/" in chosen:
+        chosen = {"/": chosen["/"]}
+    return called, {path: _columns_of(table) for path, table in chosen.items()}
+
+
+def _names_places(called: Mapping[str, str]) -> bool:
+    """Tell whether names of columns say which are the places, or in which group these are."""
+    return not _PLACES.isdisjoint(called) or any("/" in name for name in called.values())
+
+
+def _has_some(tables: dict[str, dict[str, Any]], called: Mapping[str, str]) -> bool:
+    """Tell whether a file has something of what is asked for; one without stars has none."""
+    if not _names_places(called):
+        return any(map(places_among, tables.values()))
+    names = [*called.values()]
+    names = [name for name in names if "/" in name] or names
+    return any(_paths_with(name, tables) for name in names)
 
 
 def _tables_of(file: Any) -> dict[str, dict[str, Any]]:  # noqa: ANN401
@@ -161,19 +279,24 @@ def _in_one_table(
     SceneError
         A column is not there, or they are in several groups.
     """
-    found: dict[str, str] = {}
-    paths: set[str] = set()
-    for name, theirs in called.items():
-        group, _, last = theirs.strip("/").rpartition("/")
-        where = [path for path in tables if last in tables[path] and group in ("", path)]
-        if not where:
-            raise SceneError(f"columns[{name!r}]: no array {theirs!r}; there are {_known(tables)}")
-        found[name] = last
-        paths.add(where[0])
-    if len(paths) > 1:
-        listed = ", ".join(sorted(paths))
+    found = {name: theirs.strip("/").rpartition("/")[2] for name, theirs in called.items()}
+    paths = {name: _paths_with(theirs, tables) for name, theirs in called.items()}
+    lacking = next((name for name in called if not paths[name]), None)
+    if lacking is not None:
+        words = f"no array {called[lacking]!r}; there are {_known(tables)}"
+        raise SceneError(f"columns[{lacking!r}]: {words}")
+    first, *others = paths.values()
+    common = [path for path in first if all(path in other for other in others)]
+    if not common:
+        listed = ", ".join(sorted({each[0] for each in paths.values()}))
         raise SceneError(f"columns: expected arrays of one group, got some of {listed}")
-    return found, paths.pop()
+    return found, common[0]
+
+
+def _paths_with(name: str, tables: dict[str, dict[str, Any]]) -> list[str]:
+    """Return which groups have an array of a name, before which that of its group may stand."""
+    group, _, last = name.strip("/").rpartition("/")
+    return [path for path in tables if last in tables[path] and group in ("", path)]
 
 
 def _known(tables: dict[str, dict[str, Any]]) -> str:
@@ -182,14 +305,17 @@ def _known(tables: dict[str, dict[str, Any]]) -> str:
     return short(", ".join(names), 100) or "none"
 
 
-def _columns_of(table: dict[str, Any], wanted: Any = ()) -> "dict[str, Array]":  # noqa: ANN401
-    """Read the arrays of a group that are as long as its places, or as what is wanted."""
+def _columns_of(table: dict[str, Any], wanted: Any = ()) -> dict[str, Any]:  # noqa: ANN401
+    """Return the arrays of a group that are as long as its places, or as what is wanted."""
     places = [*wanted] or places_among(table)
     count = len(table[places[0]])
-    chosen = {name: of for name, of in table.items() if name in places or len(of) == count}
-    row = sum((*of.shape, 1)[1] * of.dtype.itemsize for of in chosen.values())
-    check_bytes(_COPIES * count * row)
-    return {name: _values_of(of) for name, of in chosen.items()}
+    return {name: of for name, of in table.items() if name in places or len(of) == count}
+
+
+def _bytes_of(arrays: dict[str, Any]) -> int:
+    """Return how much memory it takes to read arrays."""
+    sizes: list[int] = [math.prod(of.shape) * of.dtype.itemsize for of in arrays.values()]
+    return _COPIES * sum(sizes)
 
 
 def _values_of(array: Any) -> "Array":  # noqa: ANN401
@@ -202,24 +328,27 @@ def _values_of(array: Any) -> "Array":  # noqa: ANN401
     return values.astype(values.dtype.newbyteorder("="), copy=False)
 
 
-def _joined(parts: "dict[str, dict[str, Array]]") -> "dict[str, Array]":
+def _joined(parts: "Sequence[Part]") -> "dict[str, Array]":
     """Return the columns of several groups as one, with the name of the group as their type."""
     import numpy as np
 
     if len(parts) == 1:
-        return next(iter(parts.values()))
-    counts = {path: len(next(iter(part.values()))) for path, part in parts.items()}
-    found: dict[str, Array] = {"type": np.repeat([*counts], [*counts.values()]).astype(np.str_)}
-    for name in dict.fromkeys(name for part in parts.values() for name in part):
-        known = [part[name] for part in parts.values() if name in part]
+        return parts[0][1]
+    counts = [len(next(iter(part.values()))) for _, part in parts]
+    groups = [path for path, _ in parts]
+    found: dict[str, Array] = {}
+    if len(set(groups)) > 1:
+        found["type"] = np.repeat(groups, counts).astype(np.str_)
+    for name in dict.fromkeys(name for _, part in parts for name in part):
+        known = [part[name] for _, part in parts if name in part]
         if len({(of.ndim, of.shape[1:], of.dtype.kind == "U") for of in known}) > 1:
             continue  # not the same thing
         lacking = np.str_("") if known[0].dtype.kind == "U" else np.nan
         columns = [
-            part[name] if name in part else np.full((counts[path], *known[0].shape[1:]), lacking)
-            for path, part in parts.items()
+            part[name] if name in part else np.full((count, *known[0].shape[1:]), lacking)
+            for (_, part), count in zip(parts, counts, strict=True)
         ]
-        found[name if name != "type" else "type2"] = np.concatenate(columns)
+        found["type2" if name == "type" and "type" in found else name] = np.concatenate(columns)
     return found
 
 

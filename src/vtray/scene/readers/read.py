@@ -222,8 +222,14 @@ def _frames_in(
         with _explained(file):
             return _finished(step(), given, file)
 
-    for file in files_of(name):
+    files = files_of(name)
+    read: set[str] = set()
+    for file in files:
+        if file in read:  # with another, as a part of its frame
+            continue
         with _explained(file), _opened(file, format, columns, trajectory) as (module, given):
+            if len(files) > 1 and hasattr(module, "read_as_one"):
+                read.update(module.read_as_one(given))
             for step in _steps(module, given):
                 yield partial(finished, step, given, file)
 
