@@ -35,6 +35,7 @@ CONTENTS = {
     "named.dat": "# by a program\n# x y z q\n4 5 6 0.5\n",
     "named.txt": "q;X;y;z\n0.5;4;5;6\n",
     "marked.txt": "\ufeff4,5,6\n",
+    "fortran.dat": "  4.0D+00  5.0D+00  0.6D+01\n",
     "long.txt": "4 5 6\n" + "1 2 3\n" * 9999,
 }
 
@@ -55,6 +56,7 @@ OTHERS = {
     "a list": "1\n2\n3\n",
     "two numbers": "1 2\n3 4\n",
     "columns in a plane": "x y\n1 2\n",
+    "no number": "nan inf nan\n** ** **\n",
     "an hour": "12:30 1 2 3\n",
     "nothing": "",
     "a picture": "\x89PNG\r\n\x1a\n\x00\x00\x001 2 3",
@@ -69,6 +71,14 @@ def test_what_is_not_told(text: str, tmp_path: Path) -> None:
     path.write_bytes(text.encode("latin-1"))
     assert not is_data(str(path))
     with pytest.raises(SceneError, match="a.foo: the ending '.foo' is not known; expected one of"):
+        vtray.read(path)
+
+
+@pytest.mark.parametrize("first", ["nan 2 3", "1 -Infinity 3", "1 2 *****"])
+def test_tables_whose_first_numbers_are_none(first: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.dat"
+    path.write_text(f"{first}\n4 5 6\n")
+    with pytest.raises(SceneError, match=r"a.dat: line 1: column '\w'"):
         vtray.read(path)
 
 
@@ -111,6 +121,8 @@ def test_xyz_files_without_a_count(text: str, tmp_path: Path) -> None:
     assert found.positions[0].tolist() == [4, 5, 6]
 
 
+NO_NUMBER = float("nan")
+
 BLANKS = {
     "names": ("  x   y  z  name\n 4 5\t 6   a \n  1 2 3 b\n\n", {"name": ["a", "b"]}),
     "quotes": ('x y z name\n4 5 6 "a b"\n', {"name": ["a b"]}),
@@ -119,6 +131,19 @@ BLANKS = {
     "no names": ("4 5 6\n\n \t\n1 2 3\n", {}),
     "commas": ("4,5,6\n1,2,3\n", {}),
     "the same twice": ("4 5 6\n4 5 6\n", {}),
+    "Fortran": (
+        "x y z a b\n 4.0D+00 .5d+1 6.0D0 -1.5D-003 1.234-101\n 1.0D0 2 3.0 NaN 1.0\n",
+        {"a": [-0.0015, NO_NUMBER], "b": [1.234e-101, 1.0]},
+    ),
+    "no names, Fortran": ("  4.0D+00  5.0D+00  0.600D+01\n", {}),
+    "labels": (
+        "x y z at bin\n4 5 6 1D1 1.5-100\n1 2 3 2D1 0.1-100\n",
+        {"at": ["1D1", "2D1"], "bin": ["1.5-100", "0.1-100"]},
+    ),
+    "marks": (
+        "x,y,z,mark,sure\n4,5,6,***,**\n1,2,3,,yes\n",
+        {"mark": ["***", ""], "sure": ["**", "yes"]},
+    ),
     "Windows": ("# x y z charge\r\n4 5 6 7\r\n", {"charge": [7]}),
 }
 
@@ -129,7 +154,7 @@ def test_tables(text: str, columns: dict[str, list[object]], tmp_path: Path) -> 
     path.write_text(text, newline="")
     found = vtray.read(path)
     assert found.positions[0].tolist() == [4, 5, 6]
-    assert {name: values.tolist() for name, values in found.columns.items()} == columns
+    assert repr({name: values.tolist() for name, values in found.columns.items()}) == repr(columns)
 
 
 def test_columns_without_names_have_numbers(tmp_path: Path) -> None:
@@ -152,6 +177,16 @@ def test_columns_without_names_have_numbers(tmp_path: Path) -> None:
         ("1 2 3\n1 2 nan\n", "line 2: column 'z': must be finite, got nan$"),
         ("nan 2 3\n", "line 1: column 'x': must be finite, got nan$"),
         ("x y z\n1 2 NA\n", "line 2: column 'z': must be finite, got nan$"),
+        (
+            "1 2 3\n1 **** 3\n",
+            "line 2: column '2': expected a number, got '[*]{4}'; Fortran writes ",
+        ),
+        (
+            "** 2 3\n1 2 3\n",
+            "line 1: column '1': expected a number, got '[*][*]'; Fortran writes stars whe",
+        ),
+        ("x y z m\n1 2 3 4\n1 2 3 ***\n", "line 3: column 'm': expected a number, got '[*]{3}';"),
+        ("x y z\n1.0D0 2 3\nD 2 3\n", "line 3: column 'x': expected numbers, got such as 'D'$"),
         ('x y z\n1 2 "3\n', "line 2: (a quote has no end|unexpected end of data)$"),
     ],
 )

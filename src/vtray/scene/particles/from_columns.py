@@ -8,7 +8,7 @@ from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.object_column import without_objects
 from vtray.scene.particles.column_names import canonical, name_columns
 from vtray.scene.particles.particles import POSITION, Particles
-from vtray.scene.particles.plain_numbers import parsed
+from vtray.scene.particles.plain_numbers import of_fortran
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -126,7 +126,7 @@ def _check_lengths(parts: "list[Array]", names: list[str]) -> None:
 def _is_number(entry: object) -> bool:
     """Tell whether an entry of a column that holds others may be a number."""
     try:
-        parsed(str(entry))
+        of_fortran(str(entry))
     except ValueError:
         return False
     return True

@@ -1,10 +1,18 @@
 """Numbers of texts, as files of data have them: labels such as 1_2 are none."""
 
+import re
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+
+_DOUBLE = re.compile(r"[-+]?(?:[0-9]+\.[0-9]*|\.[0-9]+)[dD][-+]?[0-9]{1,3}")
+"""Numbers that Fortran alone writes; without a point, they may be labels."""
+
+_SHORT = re.compile(r"([-+]?[0-9]?\.[0-9]{3,})([-+][0-9]{3})")
+"""Others: an exponent of three digits leaves no room for its letter."""
 
 
 def parsed(text: str) -> float:
@@ -39,6 +47,40 @@ def parsed_all(
         message = "numbers have no underscores"
         raise ValueError(message)
     return found
+
+
+def of_fortran(text: str) -> float:
+    """Return the number that a text is, also as Fortran writes it: 1.0D-03, or 0.123-100.
+
+    Raises
+    ------
+    ValueError
+        It is none.
+    """
+    if _DOUBLE.fullmatch(text):
+        return float(_with_e(text))
+    match = _SHORT.fullmatch(text)
+    return parsed(text) if match is None else float(f"{match[1]}e{match[2]}")
+
+
+def doubles(entries: Sequence[str]) -> "NDArray[Any] | None":
+    """Return the numbers that entries are, (n,), if all are as 1.0D-03; None otherwise.
+
+    That is three times as fast as one by one.
+    """
+    if not all(map(_DOUBLE.fullmatch, entries)):
+        return None
+    return parsed_all([*map(_with_e, entries)])
+
+
+def _with_e(text: str) -> str:
+    """Return a number of Fortran with the letter that others have before the exponent."""
+    return text.replace("D", "E").replace("d", "e")
+
+
+def is_overflow(text: str) -> bool:
+    """Tell whether a text is the stars that Fortran writes where a number has no room."""
+    return len(text) > 1 and not text.strip("*")
 
 
 def whole_or_texts(texts: "NDArray[Any]") -> "NDArray[Any]":

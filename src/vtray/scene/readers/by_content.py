@@ -12,6 +12,7 @@ from typing import BinaryIO
 from vtray.base.errors import SceneError
 from vtray.base.input_file import is_given, open_input
 from vtray.scene.particles.particles import POSITION
+from vtray.scene.particles.plain_numbers import is_overflow
 from vtray.scene.readers.csv_columns import first_entries, without_comments
 from vtray.scene.readers.packing import unpacking
 
@@ -29,6 +30,8 @@ _ATOMS = re.compile(r"^\s*[0-9]+\s+atoms\s*(?:#.*)?$", re.MULTILINE)
 _BOX = re.compile(r"^.*\s(?:xlo\s+xhi|avec)\s*(?:#.*)?$", re.MULTILINE)
 
 _NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?"
+
+_NONE = re.compile(r"nan|[-+]?inf(?:inity)?", re.IGNORECASE)
 
 _XYZ = re.compile(rf"\s*[0-9]+[ \t]*\n.*\n[ \t]*\S+(?:[ \t]+{_NUMBER}){{3}}(?!\S)")
 
@@ -50,12 +53,19 @@ def kind_of_content(path: str, packing: str) -> str | None:
 
 
 def is_table(begin: str) -> bool:
-    """Tell whether a text begins with three numbers or more, or with the names x, y and z."""
-    entries = first_entries(without_comments(begin))
-    if {entry.strip().lower() for entry in entries} >= {*POSITION}:
+    """Tell whether a text begins with three numbers or more, or with the names x, y and z.
+
+    Of the numbers, some may be none, infinite, or the stars of Fortran.
+    """
+    entries = [entry.strip() for entry in first_entries(without_comments(begin))]
+    if {entry.lower() for entry in entries} >= {*POSITION}:
         return True
-    return len(entries) >= len(POSITION) and all(
-        re.fullmatch(_NUMBER, entry.strip()) for entry in entries
+    are_numbers = [bool(re.fullmatch(_NUMBER, entry)) for entry in entries]
+    others = [e for e, is_one in zip(entries, are_numbers, strict=True) if not is_one]
+    return (
+        len(entries) >= len(POSITION)
+        and any(are_numbers)
+        and all(_NONE.fullmatch(entry) or is_overflow(entry) for entry in others)
     )
 
 

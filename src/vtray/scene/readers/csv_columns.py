@@ -14,7 +14,7 @@ from vtray.base.errors import SceneError
 from vtray.base.memory import lack_of_memory
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.column_names import name_twice
-from vtray.scene.particles.plain_numbers import parsed_all
+from vtray.scene.particles.plain_numbers import doubles, is_overflow, of_fortran, parsed_all
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -74,8 +74,7 @@ def csv_columns(text: str) -> "dict[str, Array]":
     Raises
     ------
     SceneError
-        A row does not have an entry for each name, a name is there twice or a quote has no end;
-        or memory is short. The message names the line.
+    XX
     """
     lack = lack_of_memory(_BYTES * len(first_entries(text)) * text.count("\n"))
     if lack:
@@ -86,7 +85,10 @@ def csv_columns(text: str) -> "dict[str, Array]":
     while not are_alike:
         # What came first were integers, for instance, and what came later other numbers.
         parts, are_alike = _parts(text, kinds)
-    return {name: _joined(part) for name, part in zip(names, parts, strict=True)}
+    columns = {name: _joined(part) for name, part in zip(names, parts, strict=True)}
+    for name, column in columns.items():
+        _check_overflow(text, name, column)
+    return columns
 
 
 def first_entries(text: str) -> list[str]:
@@ -262,6 +264,20 @@ def in_line(text: str, row: int, name: str) -> str:
     return f"line {next(islice(rows, row + above, None))}: column {name!r}"
 
 
+def _check_overflow(text: str, name: str, column: "Array") -> None:
+    """Raise SceneError if entries of a column are stars, and all others are numbers."""
+    if column.dtype.kind != "U":
+        return
+    entries = column.tolist()
+    row = next((k for k, entry in enumerate(entries) if is_overflow(entry)), None)
+    others = {entry for entry in entries if not is_overflow(entry)}
+    # Stars beside nothing are marks.
+    if row is not None and others - {""} and all(map(_is_number, others)):
+        words = f"expected a number, got {short(repr(entries[row]))}"
+        remedy = "Fortran writes stars where a number has no room"
+        raise SceneError(f"{in_line(text, row, name)}: {words}; {remedy}")
+
+
 def _check_names(names: list[str], line: int) -> None:
     """Raise SceneError if a line does not name the columns."""
     if not any(names):
@@ -274,7 +290,7 @@ def _check_names(names: list[str], line: int) -> None:
 
 def _has_names(entries: Sequence[str]) -> bool:
     """Tell whether the first row of a text names its columns, or is to: if not all are numbers."""
-    return not any(entries) or not all(map(_is_number, entries))
+    return not any(entries) or not all(_is_number(e) or is_overflow(e) for e in entries)
 
 
 def _is_number(entry: str) -> bool:
@@ -293,9 +309,21 @@ def _parsed(entries: "Array | Sequence[str]", kind: int = 0) -> "tuple[int, Arra
             kind += 1
 
 
+def _numbers_or_nan(entries: Sequence[str]) -> "Array":
+    """Return entries as numbers, NaN where one says that there is none."""
+    found = doubles(entries)
+    return parsed_all(entries, _number_or_nan) if found is None else found
+
+
 def _number_or_nan(entry: str) -> float:
     """Return an entry as a number, NaN where it says that there is none."""
-    return float("nan") if entry.strip().lower() in _MISSING else float(entry)
+    word = entry.strip()
+    if word.lower() in _MISSING:
+        return float("nan")
+    try:
+        return float(word)
+    except ValueError:
+        return of_fortran(word)
 
 
 def _truths(entries: Sequence[str]) -> "Array":
@@ -327,7 +355,7 @@ def _texts(entries: Sequence[str]) -> "Array":
 _KINDS: "tuple[Callable[[Sequence[str]], Array], ...]" = (
     partial(parsed_all, parse=int),
     partial(parsed_all, parse=float),
-    partial(parsed_all, parse=_number_or_nan),
+    _numbers_or_nan,
     _truths,
     _texts,
 )
