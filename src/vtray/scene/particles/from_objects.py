@@ -25,6 +25,7 @@ from vtray.scene.particles.beads import are_beads, types_of_beads
 from vtray.scene.particles.column_names import name_columns, name_twice
 from vtray.scene.particles.elements import are_symbols, symbols_among, symbols_of
 from vtray.scene.particles.few_names import texts_of
+from vtray.scene.particles.from_astronomy import particles_of_astronomy
 from vtray.scene.particles.from_chemistry import particles_in
 from vtray.scene.particles.from_columns import from_columns
 from vtray.scene.particles.from_simulation import particles_of_simulation
@@ -192,8 +193,8 @@ def as_particles(given: Any, place: str = "") -> Particles:  # noqa: ANN401
     ----------
     given
         `Particles`; objects of ASE, MDAnalysis, OVITO, RDKit, pymatgen, MDTraj, Biotite, OpenMM,
-        ParmEd, HOOMD-blue or freud; what has ``positions`` or ``get_positions()``; tables, mappings
-        and structured arrays with the columns x, y and z; or an array (n, 3).
+        ParmEd, HOOMD-blue, freud, yt or pynbody; what has ``positions`` or ``get_positions()``;
+        tables, mappings and structured arrays with the columns x, y and z; or an array (n, 3).
     place
         What messages begin with.
 
@@ -219,7 +220,7 @@ def _particles_of(given: Any) -> Particles:  # noqa: ANN401
     inner = getattr(given, "particles", None)
     if inner is not None and hasattr(inner, "positions"):
         return _from_ovito(given)
-    for find in (particles_in, particles_of_simulation):
+    for find in (particles_in, particles_of_simulation, particles_of_astronomy):
         found = find(given)
         if found is not None:
             return found

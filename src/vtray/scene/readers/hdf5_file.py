@@ -11,7 +11,7 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 from vtray.base.caller_warning import warn_caller
 from vtray.base.errors import SceneError
@@ -19,6 +19,7 @@ from vtray.base.extras import need
 from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.object_column import without_objects
 from vtray.scene.particles.from_columns import from_columns, places_among
+from vtray.scene.particles.joined_groups import joined_groups
 from vtray.scene.particles.particles import POSITION, Particles
 from vtray.scene.readers import h5md_file
 from vtray.scene.readers.frames import Steps, frame_number
@@ -29,9 +30,9 @@ from vtray.scene.readers.snapshot_files import files_of_snapshot
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from vtray.scene.particles.joined_groups import Group
+
     Array = NDArray[Any]
-    Part: TypeAlias = tuple[str, dict[str, Array]]
-    """The name of a group, and its columns."""
 
 _WHAT = "an HDF5 file"
 
@@ -144,12 +145,12 @@ def _read_frame(
     if h5md_file.is_h5md(file):
         return h5md_file.read_frame(file, number)
     names, parts = _read_groups(file, called) if len(files) == 1 else _read_files(files, called)
-    return replace(from_columns(_joined(parts), names), **_of_frame(file))
+    return replace(from_columns(joined_groups(parts), names), **_of_frame(file))
 
 
 def _read_files(
     files: Sequence[str], called: Mapping[str, str]
-) -> "tuple[Mapping[str, str], list[Part]]":
+) -> "tuple[Mapping[str, str], list[Group]]":
     """Read the groups of several files, as `_read_groups` does: group by group.
 
     Raises
@@ -188,14 +189,14 @@ def _opened_part(path: str, count: int) -> Iterator[Any]:
 def _read_groups(
     file: Any,  # noqa: ANN401
     called: Mapping[str, str],
-) -> "tuple[Mapping[str, str], list[Part]]":
+) -> "tuple[Mapping[str, str], list[Group]]":
     """Read the groups of a file that have places.
 
     Returns
     -------
     names : mapping of str to str
         What columns are called, without the names of groups.
-    parts : list of Part
+    parts : list of Group
         The groups.
     """
     names, groups = _chosen(_tables_of(file), called)
@@ -326,30 +327,6 @@ def _values_of(array: Any) -> "Array":  # noqa: ANN401
         return without_objects(np.asarray(array[...]))
     values = np.asarray(array[...])
     return values.astype(values.dtype.newbyteorder("="), copy=False)
-
-
-def _joined(parts: "Sequence[Part]") -> "dict[str, Array]":
-    """Return the columns of several groups as one, with the name of the group as their type."""
-    import numpy as np
-
-    if len(parts) == 1:
-        return parts[0][1]
-    counts = [len(next(iter(part.values()))) for _, part in parts]
-    groups = [path for path, _ in parts]
-    found: dict[str, Array] = {}
-    if len(set(groups)) > 1:
-        found["type"] = np.repeat(groups, counts).astype(np.str_)
-    for name in dict.fromkeys(name for _, part in parts for name in part):
-        known = [part[name] for _, part in parts if name in part]
-        if len({(of.ndim, of.shape[1:], of.dtype.kind == "U") for of in known}) > 1:
-            continue  # not the same thing
-        lacking = np.str_("") if known[0].dtype.kind == "U" else np.nan
-        columns = [
-            part[name] if name in part else np.full((count, *known[0].shape[1:]), lacking)
-            for (_, part), count in zip(parts, counts, strict=True)
-        ]
-        found["type2" if name == "type" and "type" in found else name] = np.concatenate(columns)
-    return found
 
 
 def _of_frame(file: Any) -> dict[str, Any]:  # noqa: ANN401

@@ -1,0 +1,47 @@
+"""Groups of particles, such as gas and stars, as one."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+    Group: TypeAlias = tuple[str, dict[str, Array]]
+    """The name of a group, and its columns."""
+
+
+def joined_groups(groups: "Sequence[Group]") -> "dict[str, Array]":
+    """Return the columns of several groups as one.
+
+    Parameters
+    ----------
+    groups
+        At least one; what has the same name is one group. Each has at least one column.
+
+    Returns
+    -------
+    columns : dict of str to ndarray
+        With the name of the group as ``type``, if there are several. What is not known in one is
+        NaN there, or a text without letters; what is not the same thing in all is left out.
+    """
+    import numpy as np
+
+    if len(groups) == 1:
+        return groups[0][1]
+    counts = [len(next(iter(columns.values()))) for _, columns in groups]
+    names = [name for name, _ in groups]
+    found: dict[str, Array] = {}
+    if len(set(names)) > 1:
+        found["type"] = np.repeat(names, counts).astype(np.str_)
+    for name in dict.fromkeys(name for _, columns in groups for name in columns):
+        known = [columns[name] for _, columns in groups if name in columns]
+        if len({(of.ndim, of.shape[1:], of.dtype.kind == "U") for of in known}) > 1:
+            continue
+        lacking = np.str_("") if known[0].dtype.kind == "U" else np.nan
+        parts = [
+            columns[name] if name in columns else np.full((count, *known[0].shape[1:]), lacking)
+            for (_, columns), count in zip(groups, counts, strict=True)
+        ]
+        found["type2" if name == "type" and "type" in found else name] = np.concatenate(parts)
+    return found
