@@ -51,6 +51,15 @@ def test_a_movie_of_mdanalysis_is_that_of_its_frames(tmp_path: Path) -> None:
         assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
 
 
+@pytest.mark.parametrize("chosen", [slice(None), slice(0, 3), [0, 2]])
+def test_trajectories_of_mdanalysis_do_not_know_their_universe(chosen: object) -> None:
+    trajectory = universe().trajectory
+    given = trajectory if chosen == slice(None) else trajectory[chosen]
+    with pytest.warns(UserWarning, match="^the trajectory of a universe of MDAnalysis knows no el"):
+        source = source_of(given)
+    assert source.count == len(given)
+
+
 def test_a_universe_without_places_has_no_frames() -> None:
     with pytest.raises(
         SceneError, match="^scenes: expected scenes, a function that makes them, or"

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from vtray.base.caller_warning import warn_caller
 from vtray.scene.particles.from_objects import from_mdanalysis, is_mdanalysis
 
 
@@ -29,6 +30,9 @@ def numbered(given: Any) -> Numbered | None:  # noqa: ANN401
     """
     if is_mdanalysis(given):
         return _of_mdanalysis(given)
+    if hasattr(getattr(given, "trajectory", given), "ts"):
+        problem = "the trajectory of a universe of MDAnalysis knows no elements, bonds or cell"
+        warn_caller(f"{problem}; give the universe, and frames='0:100:5' for some of them")
     source: Any = getattr(given, "source", None)
     if hasattr(given, "compute") and hasattr(source, "num_frames"):
         return Numbered(source.num_frames, given.compute)
