@@ -99,6 +99,19 @@ def test_snapshots_of_gadget(box: Any, tmp_path: Path) -> None:
     assert drawn.indices.tolist() == [2]
 
 
+def test_masses_in_the_head_of_a_snapshot(tmp_path: Path) -> None:
+    table = np.array([9.0, 5.0, 0.0, 0.0, 7.0, 0.0])
+    others = {"PartType2/Coordinates": POINTS[:1], "PartTypes/Coordinates": POINTS[:1]}
+    path = write(tmp_path / "snap.hdf5", {**SNAPSHOT, **others}, MassTable=table)
+    found = vtray.read(path)
+    assert np.array_equal(found["mass"], [2, 5, np.nan, 3, np.nan], equal_nan=True)
+    found = vtray.read(path, columns={"radius": "Masses"})
+    assert np.array_equal(found["radius"], [2, 5, np.nan, 3, np.nan], equal_nan=True)
+    for wrong in ([9.0], "many", 5.0):
+        found = vtray.read(write(path, SNAPSHOT, MassTable=wrong))
+        assert np.array_equal(found["mass"], [2, np.nan, 3], equal_nan=True)
+
+
 def test_boxes_of_no_size_are_none(tmp_path: Path) -> None:
     found = vtray.read(write(tmp_path / "a.h5", {"pos": POINTS}, BoxSize=0.0, Time="now"))
     assert (found.cell, found.time) == (None, None)

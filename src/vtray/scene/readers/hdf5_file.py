@@ -18,6 +18,7 @@ from vtray.base.errors import SceneError
 from vtray.base.extras import need
 from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.object_column import without_objects
+from vtray.scene.particles.column_names import canonical
 from vtray.scene.particles.from_columns import from_columns, places_among
 from vtray.scene.particles.joined_groups import joined_groups
 from vtray.scene.particles.particles import POSITION, Particles
@@ -42,6 +43,9 @@ _HEADS = ("Header", "/")
 _PLACES = {*POSITION, "position"}
 """What the places are called here."""
 
+_KIND, _MASSES = "PartType", "Masses"
+"""What snapshots call a group, before its number, and the masses in it."""
+
 _COPIES = 2
 """How many copies of an array are in memory at once."""
 
@@ -53,7 +57,8 @@ def read(given: Given) -> Particles:
     ``y`` and ``z``, or ``position`` and what else that may be called. Where several groups have
     some, as ``PartType0`` and ``PartType4``, all are read: ``type`` is the name of the group, and
     what is not known in one is NaN there. The attributes ``BoxSize`` and ``Time`` of ``Header`` are
-    the cell, with its corner at the origin, and the time. With one of several files of a snapshot,
+    the cell, with its corner at the origin, and the time; ``MassTable`` has the masses of groups
+    whose particles all have one. With one of several files of a snapshot,
     those beside it are read.
 
     Raises
@@ -199,10 +204,30 @@ def _read_groups(
     parts : list of Group
         The groups.
     """
+    import numpy as np
+
     names, groups = _chosen(_tables_of(file), called)
     check_bytes(sum(map(_bytes_of, groups.values())))
     read = {path: {k: _values_of(of) for k, of in group.items()} for path, group in groups.items()}
+    for path, columns in read.items():
+        mass = _mass_of(file, path)
+        if mass > 0 and "mass" not in map(canonical, columns):
+            columns[_MASSES] = np.full(len(next(iter(columns.values()))), mass)
     return names, [*read.items()]
+
+
+def _mass_of(file: Any, path: str) -> float:  # noqa: ANN401
+    """Return the mass of all particles of a group, which a snapshot may have in its head; else 0.
+
+    As it has there, by the number of the group: 2 for PartType2.
+    """
+    import numpy as np
+
+    number = path.removeprefix(_KIND)
+    known = np.array(file["Header"].attrs.get("MassTable", ()) if "Header" in file else ())
+    if not path.startswith(_KIND) or not number.isdecimal() or known.dtype.kind not in "iuf":
+        return 0.0
+    return float(known[int(number)]) if known.ndim == 1 and int(number) < len(known) else 0.0
 
 
 def _chosen(
