@@ -1,8 +1,10 @@
 """Columns are what people mean by them, or there is a word about it."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import pyarrow as pa
 import pytest
 
 import vtray
@@ -63,6 +65,19 @@ def test_names_of_files_in_expressions(tmp_path: Path) -> None:
     assert particles.select("q > 0")["charge"].tolist() == [2]
     assert particles.select("charges > 0")["charge"].tolist() == [2]
     assert Scene().add_particles(particles, color="0.5 * q").color_scale is not None
+
+
+def test_what_is_missing_in_categories_of_arrow() -> None:
+    kinds = pa.array(["a", "b", None, "a", None]).dictionary_encode()
+    table = pa.table({**dict(zip("xyz", POSITIONS.T, strict=True)), "kind": kinds})
+    drawn = Scene().add_particles(table, color="kind")
+    assert [name for name, _ in drawn.legend] == ["(none)", "a", "b"]
+    drawn = Scene().add_particles(POSITIONS, color=table["kind"], categories=["a", "b", ""])
+    colors: Any = drawn.spheres.color
+    assert colors[2].tolist() == colors[4].tolist() != colors[1].tolist()
+    numbers = pa.chunked_array([pa.array([5, 7, None, 5, 7]).dictionary_encode()])
+    spheres = Scene().add_spheres(POSITIONS, 0.1, color=numbers, cmap="viridis", nan_color="red")
+    assert np.asarray(spheres.color)[2].tolist() == [255, 0, 0]
 
 
 def test_statistics_leave_out_what_is_missing() -> None:

@@ -91,9 +91,20 @@ def converted(given: Any, names: Sequence[str] = ()) -> "NDArray[Any]":  # noqa:
     if names and len(_columns(given)) == len(names):
         given = _chosen(given, names)
 
+    given = without_categories(given)
     only_dlpack = hasattr(given, "__dlpack__") and not hasattr(given, "__array__")
     found: NDArray[Any] = np.from_dlpack(given) if only_dlpack else np.asarray(given)
     return found
+
+
+def without_categories(column: Any) -> Any:  # noqa: ANN401
+    """Return a column of Arrow's categories as what they stand for; all else as it is.
+
+    What is missing in such a column becomes its last category in NumPy.
+    """
+    kind: Any = getattr(column, "type", None)
+    is_one = hasattr(kind, "value_type") and hasattr(kind, "index_type")
+    return column.cast(kind.value_type) if is_one else column
 
 
 def show_unconverted(given: Any, error: Exception) -> str:  # noqa: ANN401

@@ -10,6 +10,7 @@ from vtray.base.errors import SceneError
 from vtray.base.extras import need
 from vtray.base.input_file import read_stream
 from vtray.base.memory import lack_of_memory
+from vtray.scene.checks.given_array import without_categories
 from vtray.scene.checks.json_tree import short
 from vtray.scene.particles.from_columns import from_columns
 from vtray.scene.particles.particles import POSITION, Particles
@@ -132,10 +133,4 @@ def _read_parquet(given: Given) -> "dict[str, Array]":
     with told("pyarrow", "a Parquet file"):
         # A thread that still holds the file when Python ends would end it by SIGABRT.
         table = parquet.ParquetFile(given.file, pre_buffer=False).read(use_threads=False)
-        columns = {}
-        for name in table.column_names:
-            column = table[name]
-            if hasattr(column.type, "value_type") and hasattr(column.type, "index_type"):
-                column = column.cast(column.type.value_type)  # categories as what they stand for
-            columns[name] = column.to_numpy()
-        return columns
+        return {name: without_categories(table[name]).to_numpy() for name in table.column_names}
