@@ -41,6 +41,18 @@ def test_names_have_no_norm(asked: dict[str, object], words: str) -> None:
         Scene().add_particles(counted(kind=list("abcab")), color="kind", **asked)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("kind", ["M8[D]", "m8[s]"])
+def test_dates_are_no_values_but_their_days_are(kind: str) -> None:
+    dates = np.arange(5).astype(kind)
+    words = "^color: column 't' holds dates, which no colour map is for; give numbers, such as of d"
+    with pytest.raises(SceneError, match=words):
+        Scene().add_particles(Particles(POSITIONS, {"t": dates}), color="t", cmap="viridis")
+    days = (dates - dates[0]) / np.timedelta64(1, "D")
+    scale = Scene().add_particles(POSITIONS, color=days, cmap="viridis").color_scale
+    assert scale is not None
+    assert scale.high == (4 if kind == "M8[D]" else 4 / 86400)
+
+
 def test_logarithms_of_what_is_not_above_0() -> None:
     values = [-0.0, -3.0, -6.0, np.nan, -12.0]
     with pytest.warns(UserWarning, match="norm: no value is above 0, as logarithms need"):

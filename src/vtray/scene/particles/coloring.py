@@ -216,7 +216,8 @@ def _of_column(
     categories: Sequence[Any] | None,
 ) -> Coloring:
     """Return the colours of what a column holds, or an array without a name: one for each."""
-    if values.dtype.kind in "mM":
+    are_dates = values.dtype.kind in "mM"
+    if are_dates:
         values = values.astype(np.str_)  # dates and times stand for themselves, as names do
     may_be_colors = name == "color" or (not name and categories is None)
     if may_be_colors and (values.ndim == 2 or _has_colors(values)):
@@ -232,8 +233,11 @@ def _of_column(
         return _of_categories(values, rows, categories)
     if is_text:
         what = f"column {show(name)}" if name else "the array"
-        words = f"{what} holds names, which no colour map is for"
-        raise SceneError(f"color: {words}; leave {' and '.join(asked)} out")
+        words = f"{what} holds {'dates' if are_dates else 'names'}, which no colour map is for"
+        remedy = f"leave {' and '.join(asked)} out"
+        if are_dates:
+            remedy = 'give numbers, such as of days: (dates - dates[0]) / np.timedelta64(1, "D")'
+        raise SceneError(f"color: {words}; {remedy}")
     return _of_values(values, len(values), rows, scaled)
 
 
