@@ -10,6 +10,7 @@ import pytest
 import vtray
 from vtray import Particles, Scene
 from vtray.base.errors import SceneError
+from vtray.scene.particles.from_objects import as_particles
 
 POSITIONS = np.arange(15.0).reshape(5, 3)
 
@@ -77,6 +78,16 @@ def test_names_of_files_in_expressions(tmp_path: Path) -> None:
     assert particles.select("q > 0")["charge"].tolist() == [2]
     assert particles.select("charges > 0")["charge"].tolist() == [2]
     assert Scene().add_particles(particles, color="0.5 * q").color_scale is not None
+
+
+def test_an_element_that_is_missing_among_others() -> None:
+    table = dict(zip("xyz", POSITIONS.T, strict=True))
+    drawn = Scene().add_particles({**table, "element": ["C", None, "H", "O", "C"]})
+    assert [name for name, _ in drawn.legend] == ["X", "H", "C", "O"]
+    assert set(as_particles({**table, "element": ["C", "H", "O", "", "N"]}).columns) == {"element"}
+    found = as_particles({**table, "element": ["FE", None, "H", "O", "C"]})
+    assert found["name"].tolist() == ["FE", "", "H", "O", "C"]
+    assert found["element"].tolist() == ["Fe", "X", "H", "O", "C"]
 
 
 def test_what_is_missing_in_categories_of_arrow() -> None:

@@ -63,6 +63,9 @@ def test_symbols_as_people_write_them(name: str, symbol: str | None) -> None:
 def test_names_that_are_no_elements() -> None:
     assert symbols_or_none(["A", "B"]) is None
     assert symbols_or_none([1, 2]) is None
+    assert symbols_or_none(["", ""]) is None
+    assert symbols_or_none(["", "A", "C"]) is None
+    assert symbols_or_none(["fe", "", "O"]).tolist() == ["Fe", "X", "O"]
     assert symbols_or_none(np.array([b"FE", b"o"])).tolist() == ["Fe", "O"]
 
 

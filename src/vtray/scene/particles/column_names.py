@@ -72,6 +72,7 @@ def name_columns(columns: "Mapping[str, Array]") -> "dict[str, Array]":
     """
     import numpy as np
 
+    from vtray.scene.checks.object_column import MISSING_NAME
     from vtray.scene.particles.elements import symbols_of, symbols_or_none
 
     named: dict[str, Array] = {}
@@ -85,7 +86,7 @@ def name_columns(columns: "Mapping[str, Array]") -> "dict[str, Array]":
         elif new == "element":
             known = symbols_or_none(values)
             new, found = ("type", values) if known is None else ("element", known)
-            if known is not None and not np.array_equal(known, values):
+            if known is not None and not np.isin(values[known != values], MISSING_NAME).all():
                 named.setdefault("name", values)
         if new in named:
             new = name if name not in named else f"{name}2"

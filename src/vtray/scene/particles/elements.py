@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
+from vtray.scene.checks.object_column import MISSING_NAME
 from vtray.scene.particles.few_names import texts_of
 
 if TYPE_CHECKING:
@@ -157,7 +158,10 @@ def symbols_of(numbers: "ArrayLike") -> "NDArray[np.str_]":
 
 
 def symbols_or_none(names: "ArrayLike") -> "NDArray[np.str_] | None":
-    """Return the symbols for names of atoms as people may write them; None if one is no element."""
+    """Return the symbols for names of atoms as people may write them; None if one is no element.
+
+    Where a name is missing among others, that is X.
+    """
     import numpy as np
 
     given = np.asarray(names)
@@ -165,6 +169,8 @@ def symbols_or_none(names: "ArrayLike") -> "NDArray[np.str_] | None":
         return None
     listed = given.astype(np.str_).tolist()
     known = {name: symbol_of(name) or "" for name in set(listed)}
+    if known.keys() - {MISSING_NAME}:
+        known[MISSING_NAME] = NO_ELEMENT
     return texts_of(listed, known.__getitem__) if all(known.values()) else None
 
 
