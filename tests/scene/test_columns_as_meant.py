@@ -1,5 +1,6 @@
 """Columns are what people mean by them, or there is a word about it."""
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -78,6 +79,15 @@ def test_names_of_files_in_expressions(tmp_path: Path) -> None:
     assert particles.select("q > 0")["charge"].tolist() == [2]
     assert particles.select("charges > 0")["charge"].tolist() == [2]
     assert Scene().add_particles(particles, color="0.5 * q").color_scale is not None
+
+
+@pytest.mark.parametrize(
+    ("given", "hint"), [(POSITIONS.T, " (transpose it)"), (POSITIONS.T[:2], "")]
+)
+def test_places_that_lie(given: Any, hint: str) -> None:
+    words = f"an array of dtype float64 and shape {given.shape}{hint}"
+    with pytest.raises(SceneError, match=f"got {re.escape(words)}$"):
+        Scene().add_particles(given)
 
 
 def test_an_element_that_is_missing_among_others() -> None:

@@ -246,6 +246,8 @@ def _from_positions(given: Any) -> Particles:  # noqa: ANN401
         if positions.ndim == 2 and positions.shape[1] == 3 and positions.dtype.kind in "iuf":
             return Particles(positions)
         got = show_array(given)
+        if positions.ndim == 2 and positions.shape[0] == 3 != positions.shape[1]:
+            got += " (transpose it)"
     problem = "expected vtray.Particles, an object of ASE, MDAnalysis or OVITO, a table with the"
     got = f"{got}{remedy_for(places, ())}"
     raise SceneError(f"{problem} columns x, y and z, or an array (n, 3), got {got}")
