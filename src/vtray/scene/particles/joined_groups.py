@@ -1,6 +1,6 @@
 """Groups of particles, such as gas and stars, as one."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
@@ -34,14 +34,37 @@ def joined_groups(groups: "Sequence[Group]") -> "dict[str, Array]":
     found: dict[str, Array] = {}
     if len(set(names)) > 1:
         found["type"] = np.repeat(names, counts).astype(np.str_)
-    for name in dict.fromkeys(name for _, columns in groups for name in columns):
-        known = [columns[name] for _, columns in groups if name in columns]
+    for name, values in joined_columns([columns for _, columns in groups], counts).items():
+        found["type2" if name == "type" and "type" in found else name] = values
+    return found
+
+
+def joined_columns(
+    parts: "Sequence[Mapping[str, Array]]", counts: Sequence[int]
+) -> "dict[str, Array]":
+    """Return the columns of several parts as those of one, one part after the other.
+
+    What is not known in a part is NaN there, or a text without letters; what is not the same thing
+    in all that know it, as a vector and a number, is left out.
+
+    Parameters
+    ----------
+    parts
+        The columns of each, by their names.
+    counts
+        How many rows each has.
+    """
+    import numpy as np
+
+    found: dict[str, Array] = {}
+    for name in dict.fromkeys(name for part in parts for name in part):
+        known = [part[name] for part in parts if name in part]
         if len({(of.ndim, of.shape[1:], of.dtype.kind == "U") for of in known}) > 1:
             continue
         lacking = np.str_("") if known[0].dtype.kind == "U" else np.nan
-        parts = [
-            columns[name] if name in columns else np.full((count, *known[0].shape[1:]), lacking)
-            for (_, columns), count in zip(groups, counts, strict=True)
+        columns = [
+            part[name] if name in part else np.full((count, *known[0].shape[1:]), lacking)
+            for part, count in zip(parts, counts, strict=True)
         ]
-        found["type2" if name == "type" and "type" in found else name] = np.concatenate(parts)
+        found[name] = np.concatenate(columns)
     return found
