@@ -14,7 +14,7 @@ PACKAGES = {
     "figure": ("matplotlib",),
     "formats": ("OpenEXR", "tifffile"),
     "movies": ("imageio-ffmpeg",),
-    "points": ("laspy", "lazrs", "plyfile"),
+    "points": ("laspy", "lazrs", "lz4", "plyfile"),
     "sky": ("OpenImageIO",),
     "tables": ("h5py", "pyarrow"),
 }

@@ -1,4 +1,4 @@
-"""What a text of particles is by how it begins, where its name does not say it.
+"""What a file of particles is by how it begins, where its name does not say it.
 
 Only what begins like nothing else is told. The rows of a table are, as three numbers or the names
 x, y and z.
@@ -18,6 +18,8 @@ from vtray.scene.readers.packing import unpacking
 
 _BEGINNING = 1 << 14
 """Bytes that are looked at."""
+
+_VTK = re.compile(rb"# vtk DataFile|\s*(?:<\?xml[^>]*>\s*)?(?:<!--.*?-->\s*)*<VTKFile\b", re.DOTALL)
 
 _DUMP = re.compile(r"ITEM: ")
 
@@ -46,7 +48,10 @@ def kind_of_content(path: str, packing: str) -> str | None:
     packing
         The ending of its name that says how it is compressed; "" if it is not.
     """
-    begin = _beginning(path, packing)
+    content = _beginning(path, packing)
+    if _VTK.match(content):  # which need be no text
+        return "vtk"
+    begin = _text_of(content)
     if begin is None or begin.lstrip().startswith("{"):  # a scene file
         return None
     return next((kind for kind, is_so in _KINDS.items() if is_so(begin)), None)
@@ -71,7 +76,11 @@ def is_table(begin: str) -> bool:
 
 def beginning_of(file: BinaryIO) -> str | None:
     """Return the first lines of a file; None if it is no text."""
-    begin = file.read(_BEGINNING)
+    return _text_of(file.read(_BEGINNING))
+
+
+def _text_of(begin: bytes) -> str | None:
+    """Return the whole lines of what a file begins with; None if it is no text."""
     if len(begin) == _BEGINNING:
         begin = begin[: begin.rfind(b"\n") + 1]
     try:
@@ -80,17 +89,17 @@ def beginning_of(file: BinaryIO) -> str | None:
         return None
 
 
-def _beginning(path: str, packing: str) -> str | None:
-    """Return the first lines of a file; None if it cannot be read, or is no text."""
+def _beginning(path: str, packing: str) -> bytes:
+    """Return what a file begins with; nothing if it cannot be read."""
     if is_given(path):
-        return None
+        return b""
     with (
         contextlib.suppress(OSError, ValueError, SceneError),
         open_input(path) as file,
         unpacking(file, packing) as content,
     ):
-        return beginning_of(content)
-    return None
+        return content.read(_BEGINNING)
+    return b""
 
 
 def _is_data_of_lammps(begin: str) -> bool:

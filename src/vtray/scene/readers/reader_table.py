@@ -76,6 +76,11 @@ READERS: dict[str, Reader] = {
     "hdf5": Reader("an HDF5 file", "hdf5_file", (".h5", ".hdf5", ".h5md", ".hdf")),
     "las": Reader("a LAS file", "las_file", (".las", ".laz")),
     "ply": Reader("a PLY file", "ply_file", (".ply",)),
+    "vtk": Reader(
+        "a file of VTK",
+        "vtk_file",
+        (".vtk", ".vtu", ".vtp", ".pvtu", ".pvtp", ".vtm", ".vtmb", ".pvd"),
+    ),
     "cif": Reader("a CIF file", "cif_file", (".cif", ".mmcif", ".pdbx")),
     "poscar": Reader("a POSCAR file", "ase_file", (".poscar", ".vasp", "POSCAR*", "CONTCAR*")),
     "xdatcar": Reader("an XDATCAR file", "ase_file", ("XDATCAR*",)),

@@ -14,7 +14,15 @@ from vtray.scene.readers.reader_table import Given
 BY_PATH = ("ase_file", "cif_file", "mdanalysis_file")
 """The readers of texts that open files by their names."""
 
-BY_FILE = ("xyz_file", "pdb_file", "lammps_dump_file", "lammps_data_file", "table_file", "ply_file")
+BY_FILE = (
+    "xyz_file",
+    "pdb_file",
+    "lammps_dump_file",
+    "lammps_data_file",
+    "table_file",
+    "ply_file",
+    "vtk_file",
+)
 """The readers of texts that take files which are open."""
 
 BINARY = ("npz", "parquet", "traj", "tpr")
