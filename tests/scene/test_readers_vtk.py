@@ -1,9 +1,11 @@
 """Files of VTK, written by VTK itself, and by hand as programs write them."""
 
+import base64
 import gzip
 import itertools
 import re
 import sys
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 from subprocess import CompletedProcess
@@ -175,12 +177,14 @@ def test_attributes_of_older_files_as_vtk_writes_them(tmp_path: Path) -> None:
             }.items():
                 add(attributes, kind, values)
                 getattr(attributes, f"SetActive{kind}")(kind)
+        add(data.GetCellData(), "TIME", np.arange(8))
         writer = vtkIOLegacy.vtkPolyDataWriter()
         writer.SetInputData(data)
         (writer.SetFileTypeToASCII if text else writer.SetFileTypeToBinary)()
         writer.SetFileName(str(tmp_path / "a.vtk"))
         assert writer.Write()
         found = vtray.read(tmp_path / "a.vtk")
+        assert found.time is None
         assert found["Scalars"].tolist() == [0, 255] * 4
         assert np.allclose(found["Vectors"], PLACES[:8], rtol=1e-5)
         assert np.allclose(found["Normals"], PLACES[8:16], rtol=1e-5)
@@ -209,8 +213,8 @@ VECTORS v float
 SCALARS radius float 1
 LOOKUP_TABLE default
 0.5
-inf
-nan
+Inf
+NaN
 FIELD FieldData 3
 name%20of%20it 1 3 string
 a 1
@@ -293,9 +297,33 @@ def test_pieces_of_one_file(tmp_path: Path) -> None:
     (tmp_path / "a.vtu").write_text(f'{head}<VTKFile type="UnstructuredGrid">{grid}</VTKFile>')
     found = vtray.read(tmp_path / "a.vtu")
     assert found.positions.tolist() == [[1, 2, 3], [5, 6, 7], [8, 9, 1]]
-    assert found["a"].tolist() == [4, 2, 3]
+    assert (found["a"].tolist(), found["a"].dtype) == ([4, 2, 3], np.int8)
     assert np.array_equal(found["b"], [np.nan, -1, 1], equal_nan=True)
     assert set(found.columns) == {"a", "b"}
+
+
+@pytest.mark.parametrize("apart", [True, False])
+def test_sizes_in_base64_apart_or_not(apart: bool, tmp_path: Path) -> None:
+    size, numbers = np.uint32(12).tobytes(), np.array([1, 2, 3], np.float32).tobytes()
+    parts = [size, numbers] if apart else [size + numbers]
+    text = "".join(base64.b64encode(part).decode() for part in parts)
+    for binary in (text, f"\n  {text[:9]}\n{text[9:]}\n"):
+        (tmp_path / "a.vtp").write_text(xml(binary, "binary"))
+        assert vtray.read(tmp_path / "a.vtp").positions.tolist() == [[1, 2, 3]]
+
+
+def test_bits(tmp_path: Path) -> None:
+    lines = "POINTS 9 bit", "POINT_DATA 9", "SCALARS on bit", "SCALARS next char"
+    bits = [np.packbits([1, 0, 0] * 9).tobytes(), b"", np.packbits([0, 1] * 4 + [1]).tobytes()]
+    parts = [*bits, bytes(range(9))]
+    content = b"# vtk DataFile\n\nBINARY\nDATASET POLYDATA\n"
+    for line, part in zip(lines, parts, strict=True):
+        content += line.encode() + b"\n" + part + b"\n"
+    (tmp_path / "a.vtk").write_bytes(content)
+    found = vtray.read(tmp_path / "a.vtk")
+    assert found.positions.tolist() == [[1, 0, 0]] * 9
+    assert found["on"].tolist() == [0, 1] * 4 + [1]
+    assert found["next"].tolist() == list(range(9))
 
 
 def test_files_of_parallel_runs(tmp_path: Path) -> None:
@@ -465,6 +493,15 @@ WRONG = {
             "/////wwAAAAAAAAABAAAAA==AAAAAA==", "binary", root='compressor="vtkZLibDataCompressor"'
         ),
         "array 'Points': claims 4294967295 blocks for 12 bytes; write it again",
+    ),
+    "short blocks": (
+        xml(
+            base64.b64encode(np.array([1, 8, 0, 16], np.uint32).tobytes()).decode()
+            + base64.b64encode(zlib.compress(bytes(8))).decode(),
+            "binary",
+            root='compressor="vtkZLibDataCompressor"',
+        ),
+        "array 'Points': expected 12 bytes, got 8",
     ),
     "no blocks": (
         xml(
