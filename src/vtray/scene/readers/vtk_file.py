@@ -115,7 +115,9 @@ def _particles_of(parts: Sequence[Part], number: int, time: float | None) -> Par
 
     some = [part for part in parts if len(part.positions)] or [*parts[:1]]
     positions = np.concatenate([part.positions for part in some] or [np.zeros((0, 3))])
-    columns = joined_columns([part.columns for part in some], [len(part.positions) for part in some])
+    columns = joined_columns(
+        [part.columns for part in some], [len(part.positions) for part in some]
+    )
     known = [part.time for part in some if part.time is not None]
     if time is None and known:
         time = known[0]
