@@ -11,6 +11,7 @@ import pages
 import pytest
 from PIL import Image
 from shown_pictures import assert_same_picture, size_of
+from strict import STRICT
 
 import vtray
 from conftest import compiled_only, once
@@ -35,7 +36,7 @@ helpers.MOST = 0  # the other worker keeps the other core busy
 pages.run_page(pathlib.Path({str(page)!r}), {smaller})
 """
     done = subprocess.run(
-        [sys.executable, "-W", "error", "-c", code],
+        [sys.executable, *STRICT, "-c", code],
         cwd=tmp_path,
         env={
             **os.environ,

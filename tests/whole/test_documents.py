@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from PIL import Image
+from strict import STRICT
 
 import vtray
 from conftest import compiled_only
@@ -46,7 +47,7 @@ FRESH = f"import sys; sys.modules.update(dict.fromkeys({sorted(NOT_INSTALLED)}))
 @pytest.mark.parametrize(("name", "code"), blocks("example").items())
 def test_examples_run(name: str, code: str, tmp_path: Path) -> None:
     (tmp_path / "scenes").symlink_to(ROOT / "scenes")
-    command = [sys.executable, "-W", "error", "-c", FRESH + code]
+    command = [sys.executable, *STRICT, "-c", FRESH + code]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     pictures = list(tmp_path.glob("*.png"))
@@ -73,7 +74,7 @@ def test_outputs_are_what_the_commands_print(command: str, output: str) -> None:
 
 @pytest.mark.parametrize(("name", "code"), blocks("arrays").items())
 def test_arrays_are_those_of_the_object(name: str, code: str, tmp_path: Path) -> None:
-    command = [sys.executable, "-W", "error", "-c", code]
+    command = [sys.executable, *STRICT, "-c", code]
     subprocess.run(command, cwd=tmp_path, capture_output=True, check=True)
     scene = json.loads((ROOT / "scenes" / "first.json").read_text())
     scene["objects"] = [json.loads(blocks("object")[name])]

@@ -10,6 +10,7 @@ import pages
 import pytest
 from PIL import Image
 from shown_pictures import assert_same_picture
+from strict import STRICT
 
 from conftest import compiled_only
 
@@ -33,7 +34,7 @@ def picture_of(script: Path) -> Path:
 def run_script(script: Path, *arguments: object) -> None:
     """Run a script as its users do; a warning is an error."""
     done = subprocess.run(
-        [sys.executable, "-W", "error", str(script), *map(str, arguments)],
+        [sys.executable, *STRICT, str(script), *map(str, arguments)],
         env={**os.environ, "PYTHONPATH": os.pathsep.join([str(EXAMPLES), *sys.path])},
         capture_output=True,
         text=True,
