@@ -74,7 +74,8 @@ def csv_columns(text: str) -> "dict[str, Array]":
     Raises
     ------
     SceneError
-    XX
+        A row does not have an entry for each name, a name is there twice, a quote has no end, or
+        numbers are stars; or memory is short. The message names the line.
     """
     lack = lack_of_memory(_BYTES * len(first_entries(text)) * text.count("\n"))
     if lack:

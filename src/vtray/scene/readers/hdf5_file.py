@@ -58,8 +58,7 @@ def read(given: Given) -> Particles:
     some, as ``PartType0`` and ``PartType4``, all are read: ``type`` is the name of the group, and
     what is not known in one is NaN there. The attributes ``BoxSize`` and ``Time`` of ``Header`` are
     the cell, with its corner at the origin, and the time; ``MassTable`` has the masses of groups
-    whose particles all have one. With one of several files of a snapshot,
-    those beside it are read.
+    whose particles all have one. With one of several files of a snapshot, those beside it are read.
 
     Raises
     ------
