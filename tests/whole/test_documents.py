@@ -17,19 +17,21 @@ from conftest import compiled_only
 from vtray.base.extras import PACKAGES
 
 ROOT = Path(__file__).parents[2]
-README = (ROOT / "README.md").read_text()
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 DOCUMENTS = [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")]
 
 
 def blocks(kind: str) -> dict[str, str]:
     """Return the code blocks behind a comment `kind: name`, in all documents, by name."""
     pattern = rf"<!-- {kind}: (.*) -->\n```\w*\n((?:.*\n)*?)```"
-    found = [pair for path in DOCUMENTS for pair in re.findall(pattern, path.read_text())]
+    found = [
+        pair for path in DOCUMENTS for pair in re.findall(pattern, path.read_text(encoding="utf-8"))
+    ]
     assert len(dict(found)) == len(found), f"two blocks have one name: {found}"
     return dict(found)
 
 
-PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 
 
 def modules(requirements: list[str]) -> set[str]:
@@ -76,7 +78,7 @@ def test_outputs_are_what_the_commands_print(command: str, output: str) -> None:
 def test_arrays_are_those_of_the_object(name: str, code: str, tmp_path: Path) -> None:
     command = [sys.executable, *STRICT, "-c", code]
     subprocess.run(command, cwd=tmp_path, capture_output=True, check=True)
-    scene = json.loads((ROOT / "scenes" / "first.json").read_text())
+    scene = json.loads((ROOT / "scenes" / "first.json").read_text(encoding="utf-8"))
     scene["objects"] = [json.loads(blocks("object")[name])]
     (tmp_path / "scene.json").write_text(json.dumps(scene))
     (spheres,) = vtray.load(tmp_path / "scene.json").objects
@@ -104,7 +106,7 @@ def test_blocks_are_found() -> None:
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
 def test_links_lead_somewhere(document: Path) -> None:
-    for link in re.findall(r"\]\(([^)#\s]+)", document.read_text()):
+    for link in re.findall(r"\]\(([^)#\s]+)", document.read_text(encoding="utf-8")):
         if "://" not in link:
             assert (document.parent / link).exists(), link
 
@@ -114,17 +116,17 @@ def test_options_of_the_command_are_on_its_page() -> None:
     text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     options = set(re.findall(r"--[a-z]+", text))
     assert len(options) >= 6
-    page = (ROOT / "docs" / "command.md").read_text()
+    page = (ROOT / "docs" / "command.md").read_text(encoding="utf-8")
     table = page[page.index("## Options") : page.index("## Success")]
     assert options <= set(re.findall(r"--[a-z]+", table))
 
 
 def test_format_table_names_all_keys() -> None:
-    schema = json.loads((ROOT / "docs" / "scene.schema.json").read_text())
+    schema = json.loads((ROOT / "docs" / "scene.schema.json").read_text(encoding="utf-8"))
     keys = set(schema["properties"])
     for part in schema["$defs"].values():
         keys |= set(part["properties"])
-    page = (ROOT / "docs" / "scene-file.md").read_text()
+    page = (ROOT / "docs" / "scene-file.md").read_text(encoding="utf-8")
     words = set(re.findall(r"\w+", page[page.index("## Keys") :]))
     assert keys <= words
 
@@ -134,6 +136,6 @@ def test_readme_is_short() -> None:
 
 
 def test_architecture_names_all_modules() -> None:
-    text = (ROOT / "docs" / "architecture.md").read_text()
+    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
     for module in (ROOT / "src" / "vtray").rglob("[a-z]*.py"):
         assert f"`{module.stem}`" in text, module.stem
