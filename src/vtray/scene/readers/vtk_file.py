@@ -62,19 +62,17 @@ def _readers(given: Given) -> list[Callable[[], Particles]]:
     """Return what reads each frame: one for each time of a collection."""
     content = _content_of(given.file)
     document = _document_of(content)
-    times: dict[float | None, list[Link]] = {}
+    times: dict[float | None, dict[str, Link]] = {}
     for link in document.links:
-        times.setdefault(_time_of(link), []).append(link)
-    if len(times) < 2:
-        return [
-            lambda: _particles_of(_parts_of(document, given.path, 0), 0, next(iter(times), None))
-        ]
+        # A run that was started again may have named a file twice.
+        times.setdefault(_time_of(link), {}).setdefault(link.path, link)
 
-    def read_frame(number: int, time: float | None, links: list[Link]) -> Particles:
-        return _particles_of(_parts_of(Document([], links), given.path, 0), number, time)
+    def read_frame(number: int, time: float | None, links: dict[str, Link]) -> Particles:
+        whole = Document(document.parts, [*links.values()])
+        return _particles_of(_parts_of(whole, given.path, 0), number, time)
 
     ordered = sorted(times.items(), key=lambda one: (one[0] is not None, one[0] or 0.0))
-    return [partial(read_frame, number, *one) for number, one in enumerate(ordered)]
+    return [partial(read_frame, number, *one) for number, one in enumerate(ordered or [(None, {})])]
 
 
 def _content_of(file: Any) -> bytes:  # noqa: ANN401
