@@ -69,8 +69,8 @@ class AddingParticles:
         ----------
         particles
             What `vtray.read` returns; objects of ASE, MDAnalysis, OVITO, RDKit, pymatgen, MDTraj,
-            Biotite, OpenMM or ParmEd, in ångström; of HOOMD-blue, freud, yt or pynbody; or
-            positions of shape (n, 3).
+            Biotite, OpenMM or ParmEd, in ångström; of HOOMD-blue, freud, yt, pynbody, PyVista or
+            meshio; or positions of shape (n, 3).
         style
             ``"spacefill"``: balls of van der Waals radii, or, in solids of which a fifth or more
             are metals or semimetals, of covalent radii. ``"ball-and-stick"``: 0.6 of covalent

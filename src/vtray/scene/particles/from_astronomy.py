@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from vtray.base.errors import SceneError
 from vtray.scene.particles.column_names import name_columns
+from vtray.scene.particles.from_columns import columns_among
 from vtray.scene.particles.joined_groups import joined_groups
 from vtray.scene.particles.particles import Particles
 
@@ -73,7 +74,7 @@ def _of_yt(data: Any, whole: Any, *, is_whole: bool) -> Particles:  # noqa: ANN4
         }
         read = {name: of for (held, name), of in [*data.field_data.items()] if held == kind}
         others = {name: np.array(of) for name, of in read.items() if name not in _YT}
-        groups.append((kind, _columns_among({**others, **columns}, len(places))))
+        groups.append((kind, columns_among({**others, **columns}, len(places))))
     if not groups:
         remedy = "give places and columns, as in {'position': places, 'density': density}"
         raise SceneError(f"the data set of yt has no particles; {remedy}")
@@ -107,19 +108,10 @@ def _of_pynbody(snapshot: Any) -> Particles:  # noqa: ANN401
         }
         if "pos" not in columns:
             raise SceneError("the snapshot of pynbody has no places; expected its array 'pos'")
-        groups.append((family.name, _columns_among(columns, len(part))))
+        groups.append((family.name, columns_among(columns, len(part))))
         rows.append(np.asarray(part.get_index_list(snapshot)))
     if not groups:
         raise SceneError("the snapshot of pynbody has no particles")
     order = np.argsort(np.concatenate(rows))
     columns = {name: of[order] for name, of in joined_groups(groups).items()}
     return Particles(columns.pop("pos"), name_columns(columns))
-
-
-def _columns_among(arrays: "dict[str, Array]", count: int) -> "dict[str, Array]":
-    """Return the arrays that have numbers for each of so many particles."""
-    return {
-        name: of
-        for name, of in arrays.items()
-        if of.dtype.kind in "biuf" and of.ndim in (1, 2) and len(of) == count
-    }

@@ -123,6 +123,15 @@ def _check_lengths(parts: "list[Array]", names: list[str]) -> None:
             raise SceneError(f"column {name!r}: {words}")
 
 
+def columns_among(arrays: "Mapping[str, Array]", count: int) -> "dict[str, Array]":
+    """Return those of some arrays that have numbers, or a text, for each of so many particles."""
+    return {
+        name: of
+        for name, of in arrays.items()
+        if of.dtype.kind in "biufU" and of.ndim in (1, 2) and len(of) == count
+    }
+
+
 def _is_number(entry: object) -> bool:
     """Tell whether an entry of a column that holds others may be a number."""
     try:

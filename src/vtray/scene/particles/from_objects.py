@@ -28,6 +28,7 @@ from vtray.scene.particles.few_names import texts_of
 from vtray.scene.particles.from_astronomy import particles_of_astronomy
 from vtray.scene.particles.from_chemistry import particles_in
 from vtray.scene.particles.from_columns import from_columns
+from vtray.scene.particles.from_meshes import particles_of_mesh
 from vtray.scene.particles.from_simulation import particles_of_simulation
 from vtray.scene.particles.masses import elements_of_masses
 from vtray.scene.particles.pairs import reach_residues
@@ -193,8 +194,9 @@ def as_particles(given: Any, place: str = "") -> Particles:  # noqa: ANN401
     ----------
     given
         `Particles`; objects of ASE, MDAnalysis, OVITO, RDKit, pymatgen, MDTraj, Biotite, OpenMM,
-        ParmEd, HOOMD-blue, freud, yt or pynbody; what has ``positions`` or ``get_positions()``;
-        tables, mappings and structured arrays with the columns x, y and z; or an array (n, 3).
+        ParmEd, HOOMD-blue, freud, yt, pynbody, PyVista or meshio; what has ``positions`` or
+        ``get_positions()``; tables, mappings and structured arrays with the columns x, y and z; or
+        an array (n, 3).
     place
         What messages begin with.
 
@@ -220,7 +222,12 @@ def _particles_of(given: Any) -> Particles:  # noqa: ANN401
     inner = getattr(given, "particles", None)
     if inner is not None and hasattr(inner, "positions"):
         return _from_ovito(given)
-    for find in (particles_in, particles_of_simulation, particles_of_astronomy):
+    for find in (
+        particles_in,
+        particles_of_simulation,
+        particles_of_astronomy,
+        particles_of_mesh,
+    ):
         found = find(given)
         if found is not None:
             return found
