@@ -211,3 +211,71 @@ def test_many_categories_that_are_known() -> None:
     particles = Particles(np.zeros((4000, 3)), {"name": np.array(names)})
     drawn = Scene().add_particles(particles, color="name", categories=names)
     assert [name for name, _ in drawn.legend] == names
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        "x [nm],y [nm],z [nm]",
+        "X (mm),Y (mm),Z (mm)",
+        "Points:0,Points:1,Points:2",
+        "Points_0,Points_1,Points_2",
+        "pos_x,pos_y,pos_z",
+        "Pos.x [m],Pos.y [m],Pos.z [m]",
+        "Position X,Position Y,Position Z",
+        "xpos,ypos,zpos",
+        "x-coordinate,y-coordinate,z-coordinate",
+    ],
+)
+def test_places_as_programs_call_them(names: str, tmp_path: Path) -> None:
+    x, y, z = names.split(",")
+    # In any order, and beside others.
+    (tmp_path / "a.csv").write_text(f"id,{z},{x},speed [m/s],{y}\n7,3,1,0.5,2\n")
+    found = vtray.read(tmp_path / "a.csv")
+    assert found.positions.tolist() == [[1, 2, 3]]
+    assert [*found.columns] == ["id", "speed [m/s]"]
+
+
+def test_lengths_in_the_unit_of_the_places(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("x [nm],y [nm],z [nm],Diameter [nm],Mass [g]\n1,2,3,5,4\n")
+    found = vtray.read(tmp_path / "a.csv")
+    assert [*found.columns] == ["radius", "diameter", "Mass [g]"]
+    assert found["radius"].tolist() == [2.5]
+    (tmp_path / "a.csv").write_text("x [nm],y [nm],z [nm],radius [um]\n1,2,3,5\n")
+    assert [*vtray.read(tmp_path / "a.csv").columns] == ["radius [um]"]
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        "x [nm],y [nm],z [um]",
+        "x [nm],y [nm],z",
+        "pos_x,pos_y,pos_z,x [nm],y [nm],z [nm]",
+        "x[1],y[1],z[1]",
+        "Points:0,Points:1,Points:3",
+        "v_0,v_1,v_2",
+        "max,may,maz",
+    ],
+)
+def test_places_that_are_not_clear(names: str, tmp_path: Path) -> None:
+    row = ",".join("1" for _ in names.split(","))
+    (tmp_path / "a.csv").write_text(f"{names}\n{row}\n")
+    with pytest.raises(SceneError, match="expected the columns x, y and z, got"):
+        vtray.read(tmp_path / "a.csv")
+
+
+def test_x_y_and_z_go_before_others(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("pos_x,pos_y,pos_z,x,y,z\n7,8,9,1,2,3\n")
+    found = vtray.read(tmp_path / "a.csv")
+    assert found.positions.tolist() == [[1, 2, 3]]
+    assert [*found.columns] == ["pos_x", "pos_y", "pos_z"]
+
+
+def test_comments_of_matlab_and_comsol(tmp_path: Path) -> None:
+    path = tmp_path / "a.txt"
+    path.write_text("% Model:  a.mph\n% Date: May 1\n% x  y  z  T (K)\n1 2 3 300\n4 5 6 301\n")
+    found = vtray.read(path)
+    assert found.positions.tolist() == [[1, 2, 3], [4, 5, 6]]
+    assert found["T"].tolist() == [300, 301]
+    path.write_text("%x [mm]\ty [mm]\tz [mm]\n1\t2\t3\n")
+    assert vtray.read(path).positions.tolist() == [[1, 2, 3]]

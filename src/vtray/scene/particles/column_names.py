@@ -1,6 +1,7 @@
 """What columns are called: the same thing has the same name, whatever a file calls it."""
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -41,6 +42,18 @@ VECTORS = {
 """Columns that are one vector where all three are there."""
 
 
+_UNIT = re.compile(r"(.*\S)\s+([\[(][^\[\]()]*[\])])")
+"""A name with its unit: ``x [nm]``; ``c_pe[1]`` is none."""
+
+_AXES = tuple(
+    re.compile(
+        rf"{axis}|(?:points?|pos(?:ition)?s?|coord(?:inate)?s?)[ ._:-]?[{axis}{number}]"
+        rf"|{axis}[ ._-]?(?:pos(?:ition)?|coord(?:inate)?)"
+    )
+    for number, axis in enumerate("xyz")
+)
+"""How programs write x, y and z: ``Points:0``, ``x-coordinate``, ``Pos.x``, ``Position X``."""
+
 IMAGES = ("ix", "iy", "iz")
 """Columns that say how many cells away a particle is from where it stands."""
 
@@ -51,6 +64,28 @@ IMAGE = "image"
 def canonical(name: str) -> str:
     """Return what a column is called here; its own name if that is not known."""
     return _CANONICAL.get(name.strip().lower().replace(" ", "_"), name)
+
+
+def without_unit(name: str) -> tuple[str, str]:
+    """Return a name without its unit, and this as it is written; "" if there is none."""
+    match = _UNIT.fullmatch(name)
+    return (match[1], match[2]) if match else (name, "")
+
+
+def components_among(names: Iterable[str]) -> list[str]:
+    """Return which columns are x, y and z, in that order; none if that is not clear.
+
+    Those called so go before others that are clear alone: all with the same unit, or none.
+    """
+    known = list(names)
+    called = {name.lower(): name for name in reversed(known)}
+    if all(name in called for name in "xyz"):
+        return [called[name] for name in "xyz"]
+    bare = {name: without_unit(name.strip().lower()) for name in known}
+    found = [[name for name in known if axis.fullmatch(bare[name][0])] for axis in _AXES]
+    are_clear = all(len(of_axis) == 1 for of_axis in found)
+    chosen = [name for of_axis in found for name in of_axis]
+    return chosen if are_clear and len({bare[name][1] for name in chosen}) == 1 else []
 
 
 def column_called(name: str, columns: "Mapping[str, Array]") -> str:

@@ -6,8 +6,13 @@ from typing import TYPE_CHECKING, Any
 from vtray.base.errors import SceneError
 from vtray.scene.checks.json_tree import short
 from vtray.scene.checks.object_column import without_objects
-from vtray.scene.particles.column_names import canonical, name_columns
-from vtray.scene.particles.particles import POSITION, Particles
+from vtray.scene.particles.column_names import (
+    canonical,
+    components_among,
+    name_columns,
+    without_unit,
+)
+from vtray.scene.particles.particles import Particles
 from vtray.scene.particles.plain_numbers import of_fortran
 
 if TYPE_CHECKING:
@@ -22,15 +27,12 @@ def in_column(row: int, name: str) -> str:
 
 
 def places_among(names: Iterable[str]) -> list[str]:
-    """Return which columns are the places: x, y and z in any case, or else those called position.
+    """Return which columns are the places: x, y and z, or else those called position.
 
     They are in that order; none where there are no places.
     """
     known = list(names)
-    places = {name.lower(): name for name in reversed(known)}
-    if all(name in places for name in POSITION):
-        return [places[name] for name in POSITION]
-    return [name for name in known if canonical(name) == "position"]
+    return components_among(known) or [name for name in known if canonical(name) == "position"]
 
 
 def from_columns(
@@ -59,13 +61,14 @@ def from_columns(
     positions: Any
     left = {name: without_objects(of) for name, of in renamed(columns, called or {}).items()}
     places = places_among(left)
-    if places and places[0].lower() == "x":
+    if components_among(left):
         for name in places:
             _check_numbers(left[name], name, place_of)
         parts = [left.pop(name) for name in places]
         _check_lengths(parts, places)
         kind = np.float32 if all(part.dtype == np.float32 for part in parts) else np.float64
         positions = np.stack(parts, axis=1).astype(kind, copy=False)
+        left = _in_unit(left, without_unit(places[0])[1])
     elif places:
         positions = left.pop(min(places, key=lambda name: left[name].ndim != 2))
     else:
@@ -78,6 +81,16 @@ def from_columns(
             remedy = "places in a plane need a column z of zeros"
         raise SceneError(f"expected the columns x, y and z, got {known}; {remedy}")
     return Particles(positions, name_columns(left))
+
+
+def _in_unit(columns: "dict[str, Array]", unit: str) -> "dict[str, Array]":
+    """Leave the unit of the places out of the names of lengths that have the same."""
+    found = {}
+    for name, values in columns.items():
+        bare, own = without_unit(name)
+        is_length = own == unit and canonical(bare) in ("radius", "diameter")
+        found[bare if is_length and bare not in columns else name] = values
+    return found
 
 
 def renamed(columns: "Mapping[str, Array]", called: Mapping[str, str]) -> "dict[str, Array]":

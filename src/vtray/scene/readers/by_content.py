@@ -11,6 +11,7 @@ from typing import BinaryIO
 
 from vtray.base.errors import SceneError
 from vtray.base.input_file import is_given, open_input
+from vtray.scene.particles.column_names import components_among
 from vtray.scene.particles.particles import POSITION
 from vtray.scene.particles.plain_numbers import is_overflow
 from vtray.scene.readers.csv_columns import first_entries, without_comments
@@ -63,7 +64,7 @@ def is_table(begin: str) -> bool:
     Of the numbers, some may be none, infinite, or the stars of Fortran.
     """
     entries = [entry.strip() for entry in first_entries(without_comments(begin))]
-    if {entry.lower() for entry in entries} >= {*POSITION}:
+    if components_among(entries):
         return True
     are_numbers = [bool(re.fullmatch(_NUMBER, entry)) for entry in entries]
     others = [e for e, is_one in zip(entries, are_numbers, strict=True) if not is_one]

@@ -5,6 +5,7 @@ They hold numbers, truths or texts. Rows without names above them have numbers f
 
 import csv
 import io
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from itertools import chain, islice
@@ -27,7 +28,11 @@ _SEPARATORS = ",;\t"
 _BLANK = " "
 """What is between entries where none of these is: any number of blanks."""
 
-_COMMENT = "#"
+_COMMENTS = "#", "%"
+"""What comments begin with: those of NumPy and gnuplot, and those of MATLAB and COMSOL."""
+
+_UNITS = re.compile(r"\s+[\[(][^\[\]()]*[\])]")
+"""Units after names, which may have blanks before them where these are between names, too."""
 
 _MISSING = {"", "na", "n/a", "nan", "null", "none", "<na>", "-nan"}
 """What such texts have in the place of a number that is missing, in any case."""
@@ -52,7 +57,7 @@ def without_comments(text: str) -> str:
     The last of them stays if it names the columns, as those of NumPy do: where numbers follow.
     """
     count, last, begin = 0, "", 0
-    while text.startswith(_COMMENT, begin):
+    while text.startswith(_COMMENTS, begin):
         end = text.find("\n", begin)
         end = len(text) if end < 0 else end
         last, begin = text[begin:end], end + 1
@@ -61,10 +66,10 @@ def without_comments(text: str) -> str:
         return text
     rest = text[begin:]
     separator = _separator(rest)
-    names, first = last.lstrip(_COMMENT), _first_line(rest)
-    has_numbers = any(map(_is_number, _split(first, separator)))
-    if not has_numbers or len(_split(names, separator)) != len(_split(first, separator)):
-        names = ""
+    names, first = last.lstrip("".join(_COMMENTS)), _split(_first_line(rest), separator)
+    ways = names, _UNITS.sub("", names)
+    fitting = (way for way in ways if len(_split(way, separator)) == len(first))
+    names = next(fitting, "") if any(map(_is_number, first)) else ""
     return "\n" * (count - 1) + names + "\n" + rest
 
 
