@@ -272,7 +272,7 @@ def in_line(text: str, row: int, name: str) -> str:
 
 def _check_overflow(text: str, name: str, column: "Array") -> None:
     """Raise SceneError if entries of a column are stars, and all others are numbers."""
-    if column.dtype.kind != "U":
+    if "**" not in text or column.dtype.kind != "U":
         return
     entries = column.tolist()
     row = next((k for k, entry in enumerate(entries) if is_overflow(entry)), None)
