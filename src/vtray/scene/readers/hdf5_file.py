@@ -1,4 +1,4 @@
-"""HDF5 files, by h5py: tables, snapshots of Gadget and its kin, and H5MD.
+"""HDF5 files, by h5py: tables, snapshots of Gadget and its kin, H5MD and openPMD.
 
 References
 ----------
@@ -22,7 +22,7 @@ from vtray.scene.particles.column_names import canonical
 from vtray.scene.particles.from_columns import from_columns, places_among
 from vtray.scene.particles.joined_groups import joined_groups
 from vtray.scene.particles.particles import POSITION, Particles
-from vtray.scene.readers import h5md_file
+from vtray.scene.readers import h5md_file, openpmd_file
 from vtray.scene.readers.frames import Steps, frame_number
 from vtray.scene.readers.libraries import check_bytes, told
 from vtray.scene.readers.reader_table import Given
@@ -53,12 +53,13 @@ _COPIES = 2
 def read(given: Given) -> Particles:
     """Read a frame of an HDF5 file.
 
-    H5MD has frames. In all others, the places are arrays of the file or of a group in it: ``x``,
-    ``y`` and ``z``, or ``position`` and what else that may be called. Where several groups have
-    some, as ``PartType0`` and ``PartType4``, all are read: ``type`` is the name of the group, and
-    what is not known in one is NaN there. The attributes ``BoxSize`` and ``Time`` of ``Header`` are
-    the cell, with its corner at the origin, and the time; ``MassTable`` has the masses of groups
-    whose particles all have one. With one of several files of a snapshot, those beside it are read.
+    H5MD and openPMD have frames. In all others, the places are arrays of the file or of a group in
+    it: ``x``, ``y`` and ``z``, or ``position`` and what else that may be called. Where several
+    groups have some, as ``PartType0`` and ``PartType4``, all are read: ``type`` is the name of the
+    group, and what is not known in one is NaN there. The attributes ``BoxSize`` and ``Time`` of
+    ``Header`` are the cell, with its corner at the origin, and the time; ``MassTable`` has the
+    masses of groups whose particles all have one. With one of several files of a snapshot, those
+    beside it are read.
 
     Raises
     ------
@@ -116,7 +117,15 @@ def _told_frame(
 
 def _count(file: Any) -> int:  # noqa: ANN401
     """Return how many frames there are."""
-    return h5md_file.count(file) if h5md_file.is_h5md(file) else 1
+    module = _with_frames(file)
+    return module.count(file) if module else 1
+
+
+def _with_frames(file: Any) -> Any:  # noqa: ANN401
+    """Return the module that reads a file of a standard with frames; None for all others."""
+    if h5md_file.is_h5md(file):
+        return h5md_file
+    return openpmd_file if openpmd_file.is_openpmd(file) else None
 
 
 def _count_of_files(file: Any) -> int:  # noqa: ANN401
@@ -146,8 +155,10 @@ def _read_frame(
     number: int,
 ) -> Particles:
     """Read a frame of an open file, and what others have of it, whose names are `files`."""
-    if h5md_file.is_h5md(file):
-        return h5md_file.read_frame(file, number)
+    module = _with_frames(file)
+    if module:
+        found: Particles = module.read_frame(file, number)
+        return found
     names, parts = _read_groups(file, called) if len(files) == 1 else _read_files(files, called)
     return replace(from_columns(joined_groups(parts), names), **_of_frame(file))
 
