@@ -307,6 +307,13 @@ def test_broken_files(content: bytes, tmp_path: Path) -> None:
         next(vtray.read_frames(tmp_path / "a.h5"))
 
 
+def test_groups_of_components(tmp_path: Path) -> None:
+    columns = {f"{name}/{axis}": [1.0, 2.0] for name in ("Position", "velocity") for axis in "xyz"}
+    found = vtray.read(write(tmp_path / "a.h5", columns))
+    assert found.positions.tolist() == [[1] * 3, [2] * 3]
+    assert not found.columns
+
+
 def test_nothing_in_it(tmp_path: Path) -> None:
     path = write(tmp_path / "a.h5", {})
     with pytest.raises(SceneError, match="in the file or a group of it, got none; columns="):

@@ -254,6 +254,9 @@ def _chosen(
         names, path = _in_one_table(called, tables)
         return names, {path: _columns_of(tables[path], names.values())}
     chosen = {path: table for path, table in tables.items() if places_among(table)}
+    # Where a group is called position, x, y and z of others are velocities, for instance.
+    called_so = [path for path in chosen if canonical(path.rpartition("/")[2]) == "position"]
+    chosen = {path: chosen[path] for path in called_so or chosen}
     if not chosen:
         remedy = "columns={'position': 'stars/r'}, or --position stars/r, says which they are"
         words = "expected arrays x, y and z, or position, in the file or a group of it"
