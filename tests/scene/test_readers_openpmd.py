@@ -9,6 +9,7 @@ import pytest
 
 import vtray
 from vtray.base.errors import SceneError
+from vtray.scene.readers import openpmd_file
 
 RANDOM = np.random.default_rng(3)
 
@@ -110,4 +111,27 @@ def test_constants_that_claim_to_be_many(tmp_path: Path) -> None:
         for axis in "xyz":
             component(group, f"position/{axis}", 1.0, rows=2**42)
     with pytest.raises(SceneError, match="a.h5: reading it needs about 316,659.3 GB of memory"):
+        vtray.read(tmp_path / "a.h5")
+
+
+def test_iterations_are_looked_for_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        for number in range(20):
+            species(iteration(file, number), "beam", {axis: [1.0] for axis in "xyz"})
+    calls, look = [0], openpmd_file._species_of
+
+    def counted(given: Any) -> dict[str, Any]:
+        calls[0] += 1
+        return look(given)
+
+    monkeypatch.setattr(openpmd_file, "_species_of", counted)
+    assert len(list(vtray.read_frames(tmp_path / "a.h5"))) == 20
+    assert calls[0] <= 60  # frames are counted, then found, then read
+
+
+@pytest.mark.parametrize("name", ["data", "data/0", "data/0/particles", "data/0/particles/beam"])
+def test_arrays_in_the_place_of_groups(name: str, tmp_path: Path) -> None:
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file.attrs["openPMD"], file[name] = b"1.1.0", [1.0]
+    with pytest.raises(SceneError, match="expected arrays x, y and z, or position, in the file"):
         vtray.read(tmp_path / "a.h5")

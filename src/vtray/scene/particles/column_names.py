@@ -42,8 +42,10 @@ VECTORS = {
 """Columns that are one vector where all three are there."""
 
 
-_UNIT = re.compile(r"(.*\S)\s+([\[(][^\[\]()]*[\])])")
-"""A name with its unit: ``x [nm]``; ``c_pe[1]`` is none."""
+UNIT = r"\s+([\[(][^\[\]()]*[\])])"
+"""A pattern for what follows a name: `` [nm]``; ``c_pe[1]`` has no unit."""
+
+_WITH_UNIT = re.compile(rf"(.*\S){UNIT}")
 
 _AXES = tuple(
     re.compile(
@@ -68,7 +70,7 @@ def canonical(name: str) -> str:
 
 def without_unit(name: str) -> tuple[str, str]:
     """Return a name without its unit, and this as it is written; "" if there is none."""
-    match = _UNIT.fullmatch(name)
+    match = _WITH_UNIT.fullmatch(name)
     return (match[1], match[2]) if match else (name, "")
 
 

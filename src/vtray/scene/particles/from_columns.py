@@ -32,7 +32,12 @@ def places_among(names: Iterable[str]) -> list[str]:
     They are in that order; none where there are no places.
     """
     known = list(names)
-    return components_among(known) or [name for name in known if canonical(name) == "position"]
+    return components_among(known) or _positions_among(known)
+
+
+def _positions_among(names: Iterable[str]) -> list[str]:
+    """Return which columns are called position."""
+    return [name for name in names if canonical(name) == "position"]
 
 
 def from_columns(
@@ -60,8 +65,8 @@ def from_columns(
 
     positions: Any
     left = {name: without_objects(of) for name, of in renamed(columns, called or {}).items()}
-    places = places_among(left)
-    if components_among(left):
+    places = components_among(left)
+    if places:
         for name in places:
             _check_numbers(left[name], name, place_of)
         parts = [left.pop(name) for name in places]
@@ -69,8 +74,8 @@ def from_columns(
         kind = np.float32 if all(part.dtype == np.float32 for part in parts) else np.float64
         positions = np.stack(parts, axis=1).astype(kind, copy=False)
         left = _in_unit(left, without_unit(places[0])[1])
-    elif places:
-        positions = left.pop(min(places, key=lambda name: left[name].ndim != 2))
+    elif called_so := _positions_among(left):
+        positions = left.pop(min(called_so, key=lambda name: left[name].ndim != 2))
     else:
         known = short(", ".join(columns), 100) or "none"
         names = '{"x": "px", "y": "py", "z": "pz"}'

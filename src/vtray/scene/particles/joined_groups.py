@@ -27,8 +27,6 @@ def joined_groups(groups: "Sequence[Group]") -> "dict[str, Array]":
     """
     import numpy as np
 
-    if len(groups) == 1:
-        return groups[0][1]
     counts = [len(next(iter(columns.values()))) for _, columns in groups]
     names = [name for name, _ in groups]
     found: dict[str, Array] = {}
@@ -56,6 +54,8 @@ def joined_columns(
     """
     import numpy as np
 
+    if len(parts) == 1:
+        return dict(parts[0])
     found: dict[str, Array] = {}
     for name in dict.fromkeys(name for part in parts for name in part):
         known = [part[name] for part in parts if name in part]

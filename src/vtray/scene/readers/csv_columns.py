@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from vtray.base.errors import SceneError
 from vtray.base.memory import lack_of_memory
 from vtray.scene.checks.json_tree import short
-from vtray.scene.particles.column_names import name_twice
+from vtray.scene.particles.column_names import UNIT, name_twice
 from vtray.scene.particles.plain_numbers import doubles, is_overflow, of_fortran, parsed_all
 
 if TYPE_CHECKING:
@@ -30,9 +30,6 @@ _BLANK = " "
 
 _COMMENTS = "#", "%"
 """What comments begin with: those of NumPy and gnuplot, and those of MATLAB and COMSOL."""
-
-_UNITS = re.compile(r"\s+[\[(][^\[\]()]*[\])]")
-"""Units after names, which may have blanks before them where these are between names, too."""
 
 _MISSING = {"", "na", "n/a", "nan", "null", "none", "<na>", "-nan"}
 """What such texts have in the place of a number that is missing, in any case."""
@@ -67,7 +64,7 @@ def without_comments(text: str) -> str:
     rest = text[begin:]
     separator = _separator(rest)
     names, first = last.lstrip("".join(_COMMENTS)), _split(_first_line(rest), separator)
-    ways = names, _UNITS.sub("", names)
+    ways = names, re.sub(UNIT, "", names)  # before which blanks are that divide no names
     fitting = (way for way in ways if len(_split(way, separator)) == len(first))
     names = next(fitting, "") if any(map(_is_number, first)) else ""
     return "\n" * (count - 1) + names + "\n" + rest

@@ -8,7 +8,7 @@ https://docs.h5py.org, https://wwwmpa.mpa-garching.mpg.de/gadget4/gadget4_manual
 import contextlib
 import math
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -69,9 +69,9 @@ def read(given: Given) -> Particles:
         h5py is not installed.
     """
     with _opened(given.path) as file:
-        number = frame_number(given.frame, _count(file))
         files, said = _files_of(file, given.path), _count_of_files(file)
-        found = _read_frame(file, files, given.columns, number)
+        frames = _frames_of(file, files, given.columns)
+        found = frames[frame_number(given.frame, len(frames))]()
     _warn_of_others(files, said)
     return found
 
@@ -83,11 +83,11 @@ def steps(given: Given) -> Steps:
         file = h5py.File(given.path, "r")
     with file:
         with told("h5py", _WHAT):
-            count = _count(file)
             files, said = _files_of(file, given.path), _count_of_files(file)
+            frames = _frames_of(file, files, given.columns)
         _warn_of_others(files, said)
-        for number in range(count):
-            yield partial(_told_frame, file, files, given.columns, number)
+        for number, read_frame in enumerate(frames):
+            yield partial(_told_frame, read_frame, number)
 
 
 def read_as_one(given: Given) -> list[str]:
@@ -104,28 +104,24 @@ def _opened(path: str, what: str = _WHAT) -> Iterator[Any]:
         yield file
 
 
-def _told_frame(
+def _told_frame(read_frame: Callable[[], Particles], number: int) -> Particles:
+    """Read a frame; what h5py raises becomes a SceneError."""
+    with told("h5py", f"frame {number} of {_WHAT}"):
+        return read_frame()
+
+
+def _frames_of(
     file: Any,  # noqa: ANN401
     files: Sequence[str],
     called: Mapping[str, str],
-    number: int,
-) -> Particles:
-    """Read a frame; what h5py raises becomes a SceneError."""
-    with told("h5py", f"frame {number} of {_WHAT}"):
-        return _read_frame(file, files, called, number)
-
-
-def _count(file: Any) -> int:  # noqa: ANN401
-    """Return how many frames there are."""
-    module = _with_frames(file)
-    return module.count(file) if module else 1
-
-
-def _with_frames(file: Any) -> Any:  # noqa: ANN401
-    """Return the module that reads a file of a standard with frames; None for all others."""
+) -> list[Callable[[], Particles]]:
+    """Return what reads each frame of an open file, of whose snapshot `files` are all files."""
     if h5md_file.is_h5md(file):
-        return h5md_file
-    return openpmd_file if openpmd_file.is_openpmd(file) else None
+        return [partial(h5md_file.read_frame, file, k) for k in range(h5md_file.count(file))]
+    iterations = openpmd_file.iterations_of(file)
+    if iterations:
+        return [partial(openpmd_file.read_iteration, of, k) for k, of in enumerate(iterations)]
+    return [partial(_read_snapshot, file, files, called)]
 
 
 def _count_of_files(file: Any) -> int:  # noqa: ANN401
@@ -148,17 +144,12 @@ def _warn_of_others(files: Sequence[str], said: int) -> None:
         warn_caller(f"the file is one of {said} of its snapshot, and the others are not read")
 
 
-def _read_frame(
+def _read_snapshot(
     file: Any,  # noqa: ANN401
     files: Sequence[str],
     called: Mapping[str, str],
-    number: int,
 ) -> Particles:
-    """Read a frame of an open file, and what others have of it, whose names are `files`."""
-    module = _with_frames(file)
-    if module:
-        found: Particles = module.read_frame(file, number)
-        return found
+    """Read what a file without frames has, and what others have of its snapshot, by their names."""
     names, parts = _read_groups(file, called) if len(files) == 1 else _read_files(files, called)
     return replace(from_columns(joined_groups(parts), names), **_of_frame(file))
 

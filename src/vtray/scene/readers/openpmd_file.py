@@ -35,28 +35,28 @@ _COPIES = 3
 """How many copies of an array are in memory at once."""
 
 
-def is_openpmd(file: Any) -> bool:  # noqa: ANN401
-    """Tell whether an HDF5 file is one of openPMD with particles."""
-    return "openPMD" in file.attrs and _BASE in file and any(map(_species_of, _iterations(file)))
+def iterations_of(file: Any) -> list[Any]:  # noqa: ANN401
+    """Return the groups of the iterations with particles, in the order of their numbers.
+
+    There are none in an HDF5 file that is not one of openPMD.
+    """
+    groups = _groups_in(file.get(_BASE)) if "openPMD" in file.attrs else {}
+    numbers = sorted(filter(str.isdecimal, groups), key=int)
+    return [groups[number] for number in numbers if _species_of(groups[number])]
 
 
-def count(file: Any) -> int:  # noqa: ANN401
-    """Return how many frames there are: iterations with particles."""
-    return len(_with_particles(file))
+def read_iteration(iteration: Any, number: int) -> Particles:  # noqa: ANN401
+    """Read an iteration, which is a frame of this number, given its group.
 
-
-def read_frame(file: Any, number: int) -> Particles:  # noqa: ANN401
-    """Read a frame, from 0, of all species, whose names are the ``type`` if there are several.
-
-    Places are in metres, the time is in seconds, and all else is in units of the SI, as the file
-    says what they are. Where places have two coordinates, the third is 0.
+    All species are read, whose names are the ``type`` if there are several. Places are in metres,
+    the time is in seconds, and all else is in units of the SI, as the file says what they are.
+    Where places have two coordinates, the third is 0.
 
     Raises
     ------
     SceneError
         There are no places, or they are not for each particle.
     """
-    iteration = _with_particles(file)[number]
     species = _species_of(iteration).items()
     groups: list[Group] = [(name, _columns_of(group)) for name, group in species]
     columns = joined_groups(groups)
@@ -66,23 +66,16 @@ def read_frame(file: Any, number: int) -> Particles:  # noqa: ANN401
     return Particles(positions, name_columns(columns), frame=number, time=seconds)
 
 
-def _iterations(file: Any) -> list[Any]:  # noqa: ANN401
-    """Return the groups of all iterations, in the order of their numbers."""
-    base = file[_BASE]
-    names = [name for name in base if name.isdecimal() and hasattr(base[name], "keys")]
-    return [base[name] for name in sorted(names, key=int)]
-
-
-def _with_particles(file: Any) -> list[Any]:  # noqa: ANN401
-    """Return the groups of those iterations that have particles."""
-    return [iteration for iteration in _iterations(file) if _species_of(iteration)]
-
-
 def _species_of(iteration: Any) -> dict[str, Any]:  # noqa: ANN401
     """Return the groups of the species of an iteration, by their names; those with places."""
-    found = iteration.get(_PARTICLES, {})
-    groups = {name: found[name] for name in found if hasattr(found[name], "keys")}
+    groups = _groups_in(iteration.get(_PARTICLES))
     return {name: species for name, species in groups.items() if _PLACES[0] in species}
+
+
+def _groups_in(node: Any) -> dict[str, Any]:  # noqa: ANN401
+    """Return the groups in a group, by their names; none in an array, or in what is not there."""
+    inner = node.items() if hasattr(node, "keys") else ()
+    return {name: group for name, group in inner if hasattr(group, "keys")}
 
 
 def _columns_of(species: Any) -> "dict[str, Array]":  # noqa: ANN401
